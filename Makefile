@@ -1,0 +1,28 @@
+# The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
+
+.PHONY: demo test lint bench train prepare
+
+# The main job: the shipped policies and all rules on 100 unseen days of the paper's network.
+demo: prepare
+	cargo build --release --locked -p vertifleet-cli
+	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,mlp,gcaps --days 100 --seed 1 --report out/report
+
+test: prepare
+	cargo test --workspace --locked
+
+# What CI adds to the tests.
+lint: prepare
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+
+bench: prepare
+	cargo bench --workspace --locked
+
+# How the shipped weights were made (about 15 minutes each on 2 cores).
+train: prepare
+	cargo build --release --locked -p vertifleet-cli
+	./target/release/vertifleet train --network paper --policy gcaps --seed 1 --out models/paper
+	./target/release/vertifleet train --network paper --policy mlp --seed 1 --out models/paper
+
+prepare:
+	@scripts/prepare

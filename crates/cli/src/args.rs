@@ -1,0 +1,155 @@
+//! The command line as typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Decides where every electric air taxi of an urban fleet flies next.
+#[derive(Debug, Parser)]
+#[command(name = "vertifleet", version, propagate_version = true)]
+pub(crate) struct Arguments {
+    /// Threads to use at most [default: RAYON_NUM_THREADS or the number of cores]
+    #[arg(long, global = true, value_parser = parse_threads)]
+    pub(crate) threads: Option<usize>,
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Draw days of a network as scenario files
+    Scenario(ScenarioArguments),
+    /// Play a day with one policy
+    Simulate(SimulateArguments),
+    /// Judge a schedule by the rules, independently of the simulator
+    Check(CheckArguments),
+    /// Train a policy by proximal policy optimisation
+    Train(TrainArguments),
+    /// Play many days with many policies and report who earns what
+    Compare(CompareArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ScenarioArguments {
+    /// Network file, or the name of a shipped network (paper)
+    pub(crate) network: String,
+    /// Seed of the first day; the following days take the following seeds
+    #[arg(long)]
+    pub(crate) seed: u64,
+    /// Number of days
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) days: Option<u32>,
+    /// File for one day, folder for several (with --days) [default: the day goes to stdout]
+    #[arg(short, long, value_name = "FILE|DIR")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SimulateArguments {
+    /// Scenario file
+    pub(crate) scenario: PathBuf,
+    /// random, greedy, lookahead, gcaps, mlp, or replay:TRACE
+    #[arg(long)]
+    pub(crate) policy: String,
+    /// Seed of the random policy
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Weights of a learned policy [default: the shipped ones of the scenario's network]
+    #[arg(long, value_name = "PATH")]
+    pub(crate) model: Option<PathBuf>,
+    /// Write every decision to this CSV file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trace: Option<PathBuf>,
+    /// Print the day's numbers as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArguments {
+    /// Scenario file
+    pub(crate) scenario: PathBuf,
+    /// Trace of the whole day, as simulate --trace writes it
+    pub(crate) trace: PathBuf,
+    /// Print the verdict as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// The kinds of policy that can be trained.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Trainable {
+    /// Graph capsules and attention (§IV)
+    Gcaps,
+    /// The paper's baseline: plain layers
+    Mlp,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct TrainArguments {
+    /// Network file, or the name of a shipped network (paper)
+    #[arg(long)]
+    pub(crate) network: String,
+    /// Kind of policy
+    #[arg(long)]
+    pub(crate) policy: Trainable,
+    /// Settings to start from: default, or paper (Table 2)
+    #[arg(long, default_value = "default")]
+    pub(crate) preset: String,
+    /// Decisions to learn from, in place of the preset's
+    #[arg(long)]
+    pub(crate) steps: Option<u64>,
+    /// Seed of the run: first weights, training days and choices follow from it
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u32,
+    /// Folder for weights, learning curve and checkpoint
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Go on from the checkpoint in the folder
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Change one setting; may be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_pair)]
+    pub(crate) set: Vec<(String, String)>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArguments {
+    /// Network file, or the name of a shipped network (paper)
+    #[arg(long)]
+    pub(crate) network: String,
+    /// Policies, separated by commas: random, greedy, lookahead, gcaps, mlp, and names given by --model
+    #[arg(long, value_delimiter = ',', required = true)]
+    pub(crate) policies: Vec<String>,
+    /// Number of days
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) days: u32,
+    /// Seed of the first day; also the seed of the random policy
+    #[arg(long)]
+    pub(crate) seed: u64,
+    /// Weights for a policy name; may be given several times
+    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_pair)]
+    pub(crate) models: Vec<(String, String)>,
+    /// Print the results as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Write table, figures and a report page into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) report: Option<PathBuf>,
+}
+
+fn parse_pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() && !value.is_empty() => {
+            Ok((name.to_owned(), value.to_owned()))
+        }
+        _ => Err("expected a name, an equals sign and a value".to_owned()),
+    }
+}
+
+fn parse_threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads @ 1..=1024) => Ok(threads),
+        _ => Err("expected a number from 1 to 1024".to_owned()),
+    }
+}

@@ -1,0 +1,98 @@
+//! `vertifleet compare`: many days, many policies, one table and one report.
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use anstream::{eprintln, println};
+use vertifleet_core::{DaySeed, Network, Scenario};
+use vertifleet_study::run::{Contender, run as play_all};
+use vertifleet_study::{Curve, Study, Summary, report, table};
+
+use crate::args::CompareArguments;
+use crate::failure::Failure;
+use crate::policies::Recipe;
+use crate::progress::Progress;
+
+pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
+    let network = Network::find(&arguments.network)?;
+    let recipes = recipes(arguments, network.name())?;
+    let days = draw(&network, arguments)?;
+    for (_, recipe) in &recipes {
+        recipe.check_fits(&days[0])?;
+    }
+    let study = Study {
+        network: network.name().to_owned(),
+        seed: arguments.seed,
+        days: days.len(),
+        command: std::env::args().collect::<Vec<_>>().join(" "),
+        policies: play(&days, &recipes)?,
+        curves: curves(&recipes),
+    };
+    let summary = Summary::of(&study)?;
+    if arguments.json {
+        println!("{}", summary.to_json());
+    } else {
+        println!("{}", table::text(&summary));
+    }
+    if let Some(folder) = &arguments.report {
+        let paths = report::write(&study, folder)?;
+        eprintln!("report: {}", paths.report.display());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The policies by name: weights given by --model first, then rules, then the network's shipped weights.
+fn recipes(arguments: &CompareArguments, network: &str) -> Result<Vec<(String, Recipe)>, Failure> {
+    if let Some((unused, _)) = arguments.models.iter().find(|(name, _)| !arguments.policies.contains(name)) {
+        return Err(Failure::usage(
+            format!("--model names {unused:?}, which is not among --policies"),
+            "add the name to --policies",
+        ));
+    }
+    let recipe = |name: &String| {
+        let given = arguments.models.iter().find(|(given, _)| given == name);
+        let recipe = match (given, Recipe::rule(name, arguments.seed)) {
+            (Some((_, path)), _) => Recipe::of_file(Path::new(path))?,
+            (None, Some(rule)) => rule,
+            (None, None) => Recipe::shipped(name, network)?,
+        };
+        Ok((name.clone(), recipe))
+    };
+    arguments.policies.iter().map(recipe).collect()
+}
+
+fn draw(network: &Network, arguments: &CompareArguments) -> Result<Vec<Arc<Scenario>>, Failure> {
+    let day = |day: u32| {
+        let seed = DaySeed::comparison(arguments.seed.saturating_add(u64::from(day)))?;
+        Ok(Arc::new(network.draw(seed)))
+    };
+    (0..arguments.days).map(day).collect()
+}
+
+fn play(
+    days: &[Arc<Scenario>],
+    recipes: &[(String, Recipe)],
+) -> Result<Vec<vertifleet_study::PolicyRecord>, Failure> {
+    let contenders: Vec<Contender<'_>> = recipes
+        .iter()
+        .map(|(name, recipe)| Contender {
+            name: name.clone(),
+            description: recipe.description(),
+            make: Box::new(|| recipe.make()),
+        })
+        .collect();
+    let progress = Progress::new((days.len() * recipes.len()) as u64, "days");
+    let records = play_all(days, &contenders, &|| progress.advance(1));
+    progress.finish();
+    Ok(records?)
+}
+
+/// The learning curves of the learned policies that have one.
+fn curves(recipes: &[(String, Recipe)]) -> Vec<Curve> {
+    let curve = |(name, recipe): &(String, Recipe)| {
+        let points = recipe.curve();
+        (!points.is_empty()).then(|| Curve { name: name.clone(), points })
+    };
+    recipes.iter().filter_map(curve).collect()
+}

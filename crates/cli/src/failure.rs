@@ -1,0 +1,57 @@
+//! How the program fails: a coded message and a hint on stderr, and an exit code.
+
+use std::fmt;
+use std::process::ExitCode;
+
+use anstream::eprintln;
+use vertifleet_core::Code;
+
+/// Exit code 2: wrong usage or bad input. Exit code 1: anything else that went wrong.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    code: Option<Code>,
+    message: String,
+    hint: Option<String>,
+}
+
+impl Failure {
+    /// Something that the user can put right.
+    pub(crate) fn expected(code: Code, message: String, hint: Option<&str>) -> Self {
+        Self { code: Some(code), message, hint: hint.map(str::to_owned) }
+    }
+
+    /// V450: arguments that do not go together. Cause and fix are in the message and its hint.
+    pub(crate) fn usage(message: String, hint: &str) -> Self {
+        Self::expected(Code(450), message, Some(hint))
+    }
+
+    /// Something that the user cannot put right.
+    pub(crate) fn internal(cause: &dyn fmt::Display) -> Self {
+        Self { code: None, message: cause.to_string(), hint: None }
+    }
+
+    /// Tells the user; gives the exit code.
+    pub(crate) fn report(&self) -> ExitCode {
+        let (bold, red, reset) = ("\u{1b}[1m", "\u{1b}[1;31m", "\u{1b}[0m");
+        match self.code {
+            Some(code) => eprintln!("{red}error[{code}]{reset}: {}", self.message),
+            None => eprintln!("{red}error{reset}: {}", self.message),
+        }
+        if let Some(hint) = &self.hint {
+            eprintln!("{bold}hint{reset}: {hint}");
+        }
+        ExitCode::from(if self.code.is_some() { 2 } else { 1 })
+    }
+}
+
+macro_rules! from_coded {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                Self::expected(error.code(), error.to_string(), error.hint())
+            }
+        })*
+    };
+}
+
+from_coded!(vertifleet_core::Error, vertifleet_sim::TraceError, vertifleet_learn::Error, vertifleet_study::Error);

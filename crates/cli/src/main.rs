@@ -1,0 +1,44 @@
+//! The `vertifleet` program: arguments and glue, no logic of its own.
+//!
+//! Numbers go to stdout, everything for people to stderr. Exit code 0: done; 1: failed, or `check` found a broken
+//! rule; 2: wrong usage or bad input.
+
+mod args;
+mod commands;
+mod failure;
+mod policies;
+mod progress;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::args::{Arguments, Command};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = limit_threads(arguments.threads).and_then(|()| run(arguments.command));
+    match outcome {
+        Ok(code) => code,
+        Err(failure) => failure.report(),
+    }
+}
+
+fn run(command: Command) -> Result<ExitCode, failure::Failure> {
+    match command {
+        Command::Scenario(arguments) => commands::scenario::run(&arguments),
+        Command::Simulate(arguments) => commands::simulate::run(&arguments),
+        Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Train(arguments) => commands::train::run(&arguments),
+        Command::Compare(arguments) => commands::compare::run(&arguments),
+    }
+}
+
+/// Bounds the threads of everything that follows. Without `--threads`, `RAYON_NUM_THREADS` or the number of cores.
+fn limit_threads(threads: Option<usize>) -> Result<(), failure::Failure> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global()
+        .map_err(|error| failure::Failure::internal(&error))
+}

@@ -1,0 +1,137 @@
+//! Policies by their names.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use vertifleet_core::{Code, Scenario};
+use vertifleet_learn::{CurveRow, Learned, Model, Trained, shipped};
+use vertifleet_policy::{Greedy, Lookahead, PlayError, Policy, Random, Replay};
+use vertifleet_sim::Trace;
+
+use crate::failure::Failure;
+
+/// No learning curve of ours comes near; longer files are not read.
+const LONGEST_CURVE: u64 = 64 << 20;
+
+/// A policy as the command line names it.
+pub(crate) struct Choice<'a> {
+    pub(crate) name: &'a str,
+    /// Seed of the random policy.
+    pub(crate) seed: u64,
+    /// Weights in place of the shipped ones.
+    pub(crate) model: Option<&'a Path>,
+}
+
+/// A policy that may be made as often as there are threads that need one.
+#[derive(Clone)]
+pub(crate) enum Recipe {
+    Random(u64),
+    Greedy,
+    Lookahead,
+    Replay(Arc<Trace>),
+    Learned { model: Arc<Model>, curve: Vec<CurveRow> },
+}
+
+impl Recipe {
+    pub(crate) fn make(&self) -> Box<dyn Policy> {
+        match self {
+            Self::Random(seed) => Box::new(Random::new(*seed)),
+            Self::Greedy => Box::new(Greedy),
+            Self::Lookahead => Box::new(Lookahead),
+            Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
+            Self::Learned { model, .. } => Box::new(Learned::new(Arc::clone(model))),
+        }
+    }
+
+    /// What the policy does, in one short sentence.
+    pub(crate) fn description(&self) -> String {
+        match self {
+            Self::Random(_) => "draws evenly among the feasible vertiports (Feas-RND)".to_owned(),
+            Self::Greedy => "takes the flight with the highest profit per hour".to_owned(),
+            Self::Lookahead => "takes the first of the best two flights in a row".to_owned(),
+            Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
+            Self::Learned { model, .. } => {
+                let header = model.header();
+                format!("learned on {} from {} decisions", header.network, header.steps)
+            }
+        }
+    }
+
+    /// A rule that needs no file, by its name.
+    pub(crate) fn rule(name: &str, seed: u64) -> Option<Self> {
+        match name {
+            "random" => Some(Self::Random(seed)),
+            "greedy" => Some(Self::Greedy),
+            "lookahead" => Some(Self::Lookahead),
+            _ => None,
+        }
+    }
+
+    /// The policy of a weight file, with the learning curve that `train` left beside it.
+    pub(crate) fn of_file(path: &Path) -> Result<Self, Failure> {
+        let model = Arc::new(Model::read(path)?);
+        let curve = curve_beside(path);
+        let curve = if curve.exists() { read_curve(&curve)? } else { Vec::new() };
+        Ok(Self::Learned { model, curve })
+    }
+
+    /// The shipped policy of a network.
+    pub(crate) fn shipped(name: &str, network: &str) -> Result<Self, Failure> {
+        let Trained { model, curve } = shipped(network, name)?;
+        Ok(Self::Learned { model: Arc::new(model), curve })
+    }
+
+    /// Whether the policy can play this day.
+    pub(crate) fn check_fits(&self, scenario: &Scenario) -> Result<(), Failure> {
+        match self {
+            Self::Learned { model, .. } => Ok(model.check_fits(scenario)?),
+            _ => Ok(()),
+        }
+    }
+
+    /// Steps and mean episode reward over the training of a learned policy; nothing for the others.
+    pub(crate) fn curve(&self) -> Vec<(u64, f64)> {
+        match self {
+            Self::Learned { curve, .. } => curve.iter().map(|row| (row.steps, row.mean_reward)).collect(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Where `train` leaves the learning curve of these weights: `gcaps-curve.csv` beside `gcaps.safetensors`.
+pub(crate) fn curve_beside(weights: &Path) -> PathBuf {
+    let name = weights.file_stem().unwrap_or_default().to_string_lossy();
+    weights.with_file_name(format!("{name}-curve.csv"))
+}
+
+fn read_curve(path: &Path) -> Result<Vec<CurveRow>, Failure> {
+    let bytes = vertifleet_core::read_at_most(path, LONGEST_CURVE)?;
+    let text = String::from_utf8_lossy(&bytes);
+    Ok(vertifleet_learn::from_csv(&text, &path.display().to_string())?)
+}
+
+/// The policy that is asked for on one day.
+pub(crate) fn for_scenario(choice: &Choice<'_>, scenario: &Scenario) -> Result<Box<dyn Policy>, Failure> {
+    let recipe = if let Some(path) = choice.model {
+        Recipe::of_file(path)?
+    } else if let Some(rule) = Recipe::rule(choice.name, choice.seed) {
+        rule
+    } else if let Some(path) = choice.name.strip_prefix("replay:") {
+        Recipe::Replay(Arc::new(Trace::read(Path::new(path), scenario)?))
+    } else {
+        Recipe::shipped(choice.name, network_of(scenario))?
+    };
+    recipe.check_fits(scenario)?;
+    Ok(recipe.make())
+}
+
+/// The network a day was drawn from, by its name: `paper` of `paper-7`.
+fn network_of(scenario: &Scenario) -> &str {
+    scenario.name.strip_suffix(&format!("-{}", scenario.seed)).unwrap_or(&scenario.name)
+}
+
+/// V451: a policy got stuck on a day. Cause: the trace replayed is another day's. Fix: replay it on its own day.
+pub(crate) fn cannot_play(policy: &str, day: &str, error: &PlayError) -> Failure {
+    let hint = "replay needs the trace of the very scenario that is played";
+    Failure::expected(Code(451), format!("policy {policy:?} cannot play {day}: {error}"), Some(hint))
+}

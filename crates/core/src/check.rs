@@ -1,0 +1,320 @@
+//! The rules that every day obeys, checked once: whoever holds a [`Scenario`] may rely on them.
+//!
+//! Bounds of single numbers are in `limits.rs`; here is what must agree with what.
+
+use std::collections::HashSet;
+
+use crate::limits::{self, Limits, entries};
+use crate::{Day, Error, Matrix, Scenario, Time};
+
+impl Day {
+    /// Checks every rule; `origin` names the file (or whatever else the day comes from) in messages.
+    ///
+    /// # Errors
+    /// The first rule that is broken, with its member and value.
+    pub fn check(self, origin: &str) -> Result<Scenario, Error> {
+        Check { origin, day: &self }.everything()?;
+        Ok(Scenario::checked(self))
+    }
+}
+
+/// Refuses an empty list and one longer than `most`.
+pub(crate) fn entry_count(
+    origin: &str,
+    member: &str,
+    found: usize,
+    most: usize,
+) -> Result<(), Error> {
+    if (1..=most).contains(&found) {
+        return Ok(());
+    }
+    Err(Error::EntryCount { origin: origin.to_owned(), member: member.to_owned(), most, found })
+}
+
+/// Refuses more cells of demand than a day may have.
+pub(crate) fn demand_cells(origin: &str, vertiports: usize, periods: usize) -> Result<(), Error> {
+    let cells = vertiports * vertiports * periods;
+    entry_count(origin, "demand (vertiports x vertiports x periods)", cells, entries::DEMAND)
+}
+
+/// Refuses a name that is empty, endless, or cannot be printed on one line.
+pub(crate) fn id(origin: &str, member: impl FnOnce() -> String, id: &str) -> Result<(), Error> {
+    const RULE: &str = "1 to 64 characters without control characters";
+    if (1..=64).contains(&id.chars().count()) && !id.chars().any(char::is_control) {
+        return Ok(());
+    }
+    let found = id.chars().take(64).collect();
+    Err(Error::BadId { origin: origin.to_owned(), member: member(), rule: RULE, found })
+}
+
+/// Refuses ids that are not well formed or not unique; `list` and `entry` are what the file and people call them.
+pub(crate) fn ids<'a>(
+    origin: &str,
+    list: &str,
+    entry: &str,
+    ids: impl Iterator<Item = &'a String>,
+) -> Result<(), Error> {
+    let mut seen = HashSet::new();
+    for (at, one) in ids.enumerate() {
+        id(origin, || format!("{list}[{at}]: id"), one)?;
+        if !seen.insert(one) {
+            let member = format!("{list}[{at}]: {entry} {one:?}");
+            return Err(Error::DuplicateId { origin: origin.to_owned(), member });
+        }
+    }
+    Ok(())
+}
+
+/// A day under examination; each function is one family of rules.
+struct Check<'a> {
+    origin: &'a str,
+    day: &'a Day,
+}
+
+impl Check<'_> {
+    fn everything(&self) -> Result<(), Error> {
+        id(self.origin, || "name".to_owned(), &self.day.name)?;
+        self.seed()?;
+        self.operations()?;
+        self.periods()?;
+        self.vertiports()?;
+        self.aircraft_types()?;
+        self.aircraft()?;
+        self.distances()?;
+        self.money()?;
+        self.demand()
+    }
+
+    fn seed(&self) -> Result<(), Error> {
+        if self.day.seed < limits::SEED_LIMIT {
+            return Ok(());
+        }
+        Err(Error::SeedOutOfRange {
+            member: format!("{}: seed", self.origin),
+            limit: limits::SEED_LIMIT,
+            found: self.day.seed.to_string(),
+        })
+    }
+
+    fn operations(&self) -> Result<(), Error> {
+        let operations = &self.day.operations;
+        let number = |value: u32, limits: &Limits, member: &str| {
+            limits.check(f64::from(value), self.origin, || format!("operations: {member}"))
+        };
+        if operations.start > operations.end {
+            return Err(Error::StartAfterEnd {
+                origin: self.origin.to_owned(),
+                start: operations.start.to_string(),
+                end: operations.end.to_string(),
+            });
+        }
+        self.not_too_late(operations.end, || "operations: end".to_owned())?;
+        number(operations.takeoff_s, &limits::PHASE_S, "takeoff_s")?;
+        number(operations.landing_s, &limits::PHASE_S, "landing_s")?;
+        number(
+            operations.takeoff_s + operations.landing_s,
+            &limits::JOURNEY_S,
+            "takeoff_s + landing_s",
+        )?;
+        number(operations.hold_s, &limits::HOLD_S, "hold_s")
+    }
+
+    fn periods(&self) -> Result<(), Error> {
+        let periods = &self.day.periods;
+        entry_count(self.origin, "periods", periods.len(), entries::PERIODS)?;
+        let start = self.day.operations.start;
+        let order = |at: usize, rule: String| Error::PeriodOrder {
+            origin: self.origin.to_owned(),
+            member: format!("periods[{at}]"),
+            rule,
+            found: periods[at].to_string(),
+        };
+        if periods[0] > start {
+            return Err(order(0, format!("no later than the start of operations {start}")));
+        }
+        if let Some(at) = periods.windows(2).position(|pair| pair[1] <= pair[0]) {
+            return Err(order(at + 1, format!("after the period before it, {}", periods[at])));
+        }
+        self.not_too_late(periods[periods.len() - 1], || format!("periods[{}]", periods.len() - 1))
+    }
+
+    fn not_too_late(&self, time: Time, member: impl FnOnce() -> String) -> Result<(), Error> {
+        if time <= limits::LATEST {
+            return Ok(());
+        }
+        Err(Error::OutOfRange {
+            origin: self.origin.to_owned(),
+            member: member(),
+            rule: format!("at most {}", limits::LATEST),
+            found: time.to_string(),
+            hint: None,
+        })
+    }
+
+    fn vertiports(&self) -> Result<(), Error> {
+        let vertiports = &self.day.vertiports;
+        entry_count(self.origin, "vertiports", vertiports.len(), entries::VERTIPORTS)?;
+        ids(
+            self.origin,
+            "vertiports",
+            "vertiport",
+            vertiports.iter().map(|vertiport| &vertiport.id),
+        )?;
+        for vertiport in vertiports {
+            let number = |value: f64, limits: &Limits, member: &str| {
+                limits
+                    .check(value, self.origin, || format!("vertiport {:?}: {member}", vertiport.id))
+            };
+            number(vertiport.x_mi, &limits::POSITION_MI, "x_mi")?;
+            number(vertiport.y_mi, &limits::POSITION_MI, "y_mi")?;
+            number(vertiport.stands.into(), &limits::STANDS, "stands")?;
+        }
+        Ok(())
+    }
+
+    fn aircraft_types(&self) -> Result<(), Error> {
+        let kinds = &self.day.aircraft_types;
+        entry_count(self.origin, "aircraft_types", kinds.len(), entries::AIRCRAFT_TYPES)?;
+        ids(self.origin, "aircraft_types", "aircraft type", kinds.iter().map(|kind| &kind.id))?;
+        for kind in kinds {
+            let number = |value: f64, limits: &Limits, member: &str| {
+                limits
+                    .check(value, self.origin, || format!("aircraft type {:?}: {member}", kind.id))
+            };
+            number(kind.seats.into(), &limits::SEATS, "seats")?;
+            number(kind.speed_mph, &limits::SPEED_MPH, "speed_mph")?;
+            number(kind.battery_kwh, &limits::BATTERY_KWH, "battery_kwh")?;
+            number(kind.energy_kwh_per_mi, &limits::ENERGY_KWH_PER_MI, "energy_kwh_per_mi")?;
+            number(kind.charge_kw, &limits::CHARGE_KW, "charge_kw")?;
+            number(
+                kind.self_discharge_per_h,
+                &limits::SELF_DISCHARGE_PER_H,
+                "self_discharge_per_h",
+            )?;
+        }
+        Ok(())
+    }
+
+    fn aircraft(&self) -> Result<(), Error> {
+        let day = self.day;
+        entry_count(self.origin, "aircraft", day.aircraft.len(), entries::AIRCRAFT)?;
+        ids(self.origin, "aircraft", "aircraft", day.aircraft.iter().map(|aircraft| &aircraft.id))?;
+        let mut standing = vec![0; day.vertiports.len()];
+        for aircraft in &day.aircraft {
+            let unknown = |member: &str, index: usize, list| Error::UnknownId {
+                origin: self.origin.to_owned(),
+                member: format!("aircraft {:?}: {member}", aircraft.id),
+                found: format!("#{index}"),
+                list,
+            };
+            if aircraft.kind.at() >= day.aircraft_types.len() {
+                return Err(unknown("type", aircraft.kind.at(), "aircraft types"));
+            }
+            let Some(count) = standing.get_mut(aircraft.at.at()) else {
+                return Err(unknown("at", aircraft.at.at(), "vertiports"));
+            };
+            *count += 1;
+        }
+        for (vertiport, &aircraft) in day.vertiports.iter().zip(&standing) {
+            if aircraft > usize::from(vertiport.stands) {
+                return Err(Error::StandsExceeded {
+                    origin: self.origin.to_owned(),
+                    vertiport: vertiport.id.clone(),
+                    stands: vertiport.stands,
+                    aircraft,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn distances(&self) -> Result<(), Error> {
+        let distances = &self.day.distance_mi;
+        self.square(distances, || "distance_mi".to_owned())?;
+        self.cells(distances, &limits::DISTANCE_MI, "distance_mi")?;
+        for (at, row) in distances.rows().enumerate() {
+            if row[at] != 0.0 {
+                return Err(Error::OutOfRange {
+                    origin: self.origin.to_owned(),
+                    member: format!("distance_mi[{at}][{at}]"),
+                    rule: "0".to_owned(),
+                    found: limits::number(row[at]),
+                    hint: Some("the diagonal is the distance from a vertiport to itself"),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn money(&self) -> Result<(), Error> {
+        let day = self.day;
+        for (table, member) in
+            [(&day.fare_usd, "fare"), (&day.passenger_cost_usd, "passenger_cost")]
+        {
+            self.square(table, || member.to_owned())?;
+            self.cells(table, &limits::MONEY_USD, member)?;
+        }
+        self.per_period("energy_price", day.energy_price_usd.len())?;
+        for (at, &price) in day.energy_price_usd.iter().enumerate() {
+            limits::ENERGY_PRICE_USD.check(price, self.origin, || format!("energy_price[{at}]"))?;
+        }
+        Ok(())
+    }
+
+    fn demand(&self) -> Result<(), Error> {
+        self.per_period("demand", self.day.demand.len())?;
+        demand_cells(self.origin, self.day.vertiports.len(), self.day.periods.len())?;
+        for (period, table) in self.day.demand.iter().enumerate() {
+            self.square(table, || format!("demand[{period}]"))?;
+            for (from, row) in table.rows().enumerate() {
+                for (to, &passengers) in row.iter().enumerate() {
+                    let member = || format!("demand[{period}][{from}][{to}]");
+                    limits::PASSENGERS.check(passengers.into(), self.origin, member)?;
+                    if from == to && passengers != 0 {
+                        return Err(Error::SelfDemand {
+                            origin: self.origin.to_owned(),
+                            member: member(),
+                            found: passengers,
+                        });
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn square<T>(&self, table: &Matrix<T>, member: impl FnOnce() -> String) -> Result<(), Error> {
+        let size = self.day.vertiports.len();
+        if table.size() == size {
+            return Ok(());
+        }
+        Err(Error::WrongShape {
+            origin: self.origin.to_owned(),
+            member: member(),
+            expected: format!("a row and a column for each of {size} vertiports"),
+            found: table.size(),
+        })
+    }
+
+    fn per_period(&self, member: &str, found: usize) -> Result<(), Error> {
+        let periods = self.day.periods.len();
+        if found == periods {
+            return Ok(());
+        }
+        Err(Error::WrongShape {
+            origin: self.origin.to_owned(),
+            member: member.to_owned(),
+            expected: format!("an entry for each of {periods} periods"),
+            found,
+        })
+    }
+
+    fn cells(&self, table: &Matrix<f64>, limits: &Limits, member: &str) -> Result<(), Error> {
+        for (from, row) in table.rows().enumerate() {
+            for (to, &value) in row.iter().enumerate() {
+                limits.check(value, self.origin, || format!("{member}[{from}][{to}]"))?;
+            }
+        }
+        Ok(())
+    }
+}

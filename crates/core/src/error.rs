@@ -1,0 +1,331 @@
+//! Expected errors of reading, checking, writing and drawing: what is wrong in the user's files, and what to do.
+//!
+//! Messages are lower-case fragments that name file, member, value and rule; `docs/src/reference/errors.md` is written
+//! from the comments here, cause first, then fix.
+
+use std::io;
+
+use crate::Code;
+use crate::limits::SEED_LIMIT;
+
+/// What is wrong with a file, a network, a scenario or a seed.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// V101. The operating system does not let the file be read: it does not exist, is a folder, or belongs to
+    /// somebody else. Fix: correct the path or the file's permissions.
+    #[error("{origin}: cannot be read: {cause}")]
+    CannotRead {
+        /// The path.
+        origin: String,
+        /// What the operating system says.
+        cause: io::Error,
+    },
+
+    /// V102. The operating system does not let the file be written. Fix: create the folder, free some space, or
+    /// choose a path that may be written. What was there before is still there.
+    #[error("{origin}: cannot be written: {cause}")]
+    CannotWrite {
+        /// The path.
+        origin: String,
+        /// What the operating system says.
+        cause: io::Error,
+    },
+
+    /// V103. The file is longer than any file of its kind has reason to be (64 MiB for a scenario, 1 MiB for a
+    /// network). Fix: check that it is the right file; describe fewer or longer demand periods.
+    #[error("{origin}: the file is longer than {limit} bytes")]
+    FileTooLarge {
+        /// The path.
+        origin: String,
+        /// The longest that is read, bytes.
+        limit: u64,
+    },
+
+    /// V104. A number is negative, not finite, not whole where it counts something, or outside the bounds that the
+    /// message states. Fix: correct the member that the message names.
+    #[error("{origin}: {member} must be {rule}, found {found}")]
+    OutOfRange {
+        /// The file.
+        origin: String,
+        /// Path of the member inside the file.
+        member: String,
+        /// What is asked of the number.
+        rule: String,
+        /// The number.
+        found: String,
+        /// What the member means, where that is easily mistaken.
+        hint: Option<&'static str>,
+    },
+
+    /// V105. The text is not JSON (a scenario) or TOML (a network). Fix: look at the line and column in the message,
+    /// often a comma or a quote is missing just before.
+    #[error("{origin}: line {line}, column {column}: {problem}")]
+    NotParsed {
+        /// The file.
+        origin: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What the parser says.
+        problem: String,
+    },
+
+    /// V106. A member is unknown, missing, given twice, or of another kind than its format asks for (a text for a
+    /// number, a time that is not `HH:MM:SS`). Fix: compare the member that the message names with the format's page.
+    #[error("{origin}: line {line}, column {column}: {member}{problem}")]
+    WrongMember {
+        /// The file.
+        origin: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// Path of the member and a colon, or nothing for the file as a whole.
+        member: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+
+    /// V107. The file says that it has another format or version than this program reads. Fix: give the right file,
+    /// or write it again with this version of the program.
+    #[error("{origin}: format must be {expected:?}, found {found:?}")]
+    UnknownFormat {
+        /// The file.
+        origin: String,
+        /// What this program reads.
+        expected: &'static str,
+        /// What the file says.
+        found: String,
+    },
+
+    /// V108. A list is empty or has more entries than this program takes. Fix: add or remove entries.
+    #[error("{origin}: {member} must have 1 to {most} entries, found {found}")]
+    EntryCount {
+        /// The file.
+        origin: String,
+        /// The list.
+        member: String,
+        /// The most entries it may have.
+        most: usize,
+        /// The entries it has.
+        found: usize,
+    },
+
+    /// V109. A table does not have one row and one column a vertiport, or a list does not have one entry a demand
+    /// period. Fix: add or remove entries in the member that the message names.
+    #[error("{origin}: {member} must have {expected}, found {found}")]
+    WrongShape {
+        /// The file.
+        origin: String,
+        /// The table or list.
+        member: String,
+        /// The entries it needs.
+        expected: String,
+        /// The entries it has.
+        found: usize,
+    },
+
+    /// V110. Two entries of one list have the same id. Fix: rename one of them.
+    #[error("{origin}: {member} has the same id as an entry before it")]
+    DuplicateId {
+        /// The file.
+        origin: String,
+        /// The second of the two entries.
+        member: String,
+    },
+
+    /// V111. A member refers to an entry that does not exist. Fix: correct the id, or add the entry.
+    #[error("{origin}: {member} names {found:?}, which is not among the {list}")]
+    UnknownId {
+        /// The file.
+        origin: String,
+        /// The member that refers.
+        member: String,
+        /// What it says.
+        found: String,
+        /// The list that has no such entry.
+        list: &'static str,
+    },
+
+    /// V112. An id or name is empty, too long, or has characters that cannot be printed or used in a file's name.
+    /// Fix: choose a short plain name.
+    #[error("{origin}: {member} must be {rule}, found {found:?}")]
+    BadId {
+        /// The file.
+        origin: String,
+        /// The id or name.
+        member: String,
+        /// What is asked of it.
+        rule: &'static str,
+        /// What it is, cut short where it is long.
+        found: String,
+    },
+
+    /// V113. More aircraft start the day at a vertiport than it has stands. Fix: move aircraft elsewhere, or add
+    /// stands.
+    #[error(
+        "{origin}: vertiport {vertiport:?} has stands for {stands} aircraft, and {aircraft} start there"
+    )]
+    StandsExceeded {
+        /// The file.
+        origin: String,
+        /// The vertiport.
+        vertiport: String,
+        /// Stands it has.
+        stands: u16,
+        /// Aircraft that start there.
+        aircraft: usize,
+    },
+
+    /// V114. Operations start after they end. Fix: exchange the two; an end after midnight is written `25:30:00`.
+    #[error("{origin}: operations: start must not be after end {end}, found {start}")]
+    StartAfterEnd {
+        /// The file.
+        origin: String,
+        /// First instant of operations.
+        start: String,
+        /// Last instant of operations.
+        end: String,
+    },
+
+    /// V115. A demand period starts no later than the one before it, or the first one starts after operations do.
+    /// Fix: list the periods in the order of the day, the first no later than the start of operations.
+    #[error("{origin}: {member} must be {rule}, found {found}")]
+    PeriodOrder {
+        /// The file.
+        origin: String,
+        /// The period.
+        member: String,
+        /// What is asked of it.
+        rule: String,
+        /// When it starts.
+        found: String,
+    },
+
+    /// V116. Passengers want to fly from a vertiport to itself. Fix: set the diagonal of the demand tables to 0.
+    #[error("{origin}: {member} must be 0, found {found}: nobody flies from a vertiport to itself")]
+    SelfDemand {
+        /// The file.
+        origin: String,
+        /// The cell.
+        member: String,
+        /// Passengers in it.
+        found: u32,
+    },
+
+    /// V117. A network has more aircraft than all its stands together, so that no day of it can be drawn. Fix: add
+    /// stands or vertiports, or remove aircraft.
+    #[error(
+        "{origin}: the fleet has {aircraft} aircraft, and the vertiports have {stands} stands together"
+    )]
+    FleetTooLarge {
+        /// The file.
+        origin: String,
+        /// Aircraft in the fleet.
+        aircraft: usize,
+        /// Stands of all vertiports.
+        stands: usize,
+    },
+
+    /// V118. A seed, or the number of a day of training or validation, is outside the range that keeps the days of
+    /// different purposes apart. Fix: choose a smaller one.
+    #[error("{member} must be a whole number below {limit}, found {found}")]
+    SeedOutOfRange {
+        /// Which number, with its file if it has one.
+        member: String,
+        /// The first number that is too large.
+        limit: u64,
+        /// The number.
+        found: String,
+    },
+
+    /// V119. A name is neither a shipped network nor a file. Fix: give one of the names that the message lists, or
+    /// the path of a network file.
+    #[error("there is no network {name:?}: shipped are {shipped}, and no file has that path")]
+    UnknownNetwork {
+        /// What was asked for.
+        name: String,
+        /// The names that are shipped.
+        shipped: String,
+    },
+}
+
+/// Every code of this crate with a title, in order: the index that the documentation is checked against.
+pub const ALL: &[(Code, &str)] = &[
+    (Code(101), "file cannot be read"),
+    (Code(102), "file cannot be written"),
+    (Code(103), "file too large"),
+    (Code(104), "number out of range"),
+    (Code(105), "not JSON or TOML"),
+    (Code(106), "unknown, missing or wrong member"),
+    (Code(107), "unknown format"),
+    (Code(108), "empty or endless list"),
+    (Code(109), "wrong shape"),
+    (Code(110), "duplicate id"),
+    (Code(111), "unknown id"),
+    (Code(112), "bad id"),
+    (Code(113), "more aircraft than stands at a vertiport"),
+    (Code(114), "start after end"),
+    (Code(115), "demand periods out of order"),
+    (Code(116), "demand from a vertiport to itself"),
+    (Code(117), "fleet larger than all stands"),
+    (Code(118), "seed out of range"),
+    (Code(119), "unknown network"),
+    (Code(120), "aircraft without a destination (warning)"),
+];
+
+impl Error {
+    /// The stable number, printed as `V104`.
+    pub fn code(&self) -> Code {
+        Code(match self {
+            Self::CannotRead { .. } => 101,
+            Self::CannotWrite { .. } => 102,
+            Self::FileTooLarge { .. } => 103,
+            Self::OutOfRange { .. } => 104,
+            Self::NotParsed { .. } => 105,
+            Self::WrongMember { .. } => 106,
+            Self::UnknownFormat { .. } => 107,
+            Self::EntryCount { .. } => 108,
+            Self::WrongShape { .. } => 109,
+            Self::DuplicateId { .. } => 110,
+            Self::UnknownId { .. } => 111,
+            Self::BadId { .. } => 112,
+            Self::StandsExceeded { .. } => 113,
+            Self::StartAfterEnd { .. } => 114,
+            Self::PeriodOrder { .. } => 115,
+            Self::SelfDemand { .. } => 116,
+            Self::FleetTooLarge { .. } => 117,
+            Self::SeedOutOfRange { .. } => 118,
+            Self::UnknownNetwork { .. } => 119,
+        })
+    }
+
+    /// What helps beside the message, where there is more to say.
+    pub fn hint(&self) -> Option<&str> {
+        match self {
+            Self::OutOfRange { hint, .. } => *hint,
+            Self::CannotWrite { .. } => {
+                Some("nothing was changed: what was there before is still there")
+            }
+            Self::StartAfterEnd { .. } => {
+                Some("times go on past midnight: half past one at night is 25:30:00")
+            }
+            Self::UnknownId { .. } => Some("ids are compared letter by letter, capitals matter"),
+            Self::StandsExceeded { .. } | Self::FleetTooLarge { .. } => {
+                Some("an aircraft needs a stand wherever it is, also on its way there")
+            }
+            Self::PeriodOrder { .. } => Some(
+                "a period lasts until the next one starts, the last one for the rest of the day",
+            ),
+            Self::SeedOutOfRange { limit: SEED_LIMIT, .. } => {
+                Some("the limit is 2^53: every JSON reader holds whole numbers below it exactly")
+            }
+            Self::SeedOutOfRange { .. } => {
+                Some("seeds for comparison, validation and training are kept apart by their size")
+            }
+            Self::UnknownNetwork { .. } => Some("a network file is TOML, see networks/paper.toml"),
+            _ => None,
+        }
+    }
+}

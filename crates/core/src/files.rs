@@ -1,0 +1,92 @@
+//! Whole files in and out: never more than a bound of them in, never a half of them out.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+use crate::Error;
+
+/// The longest scenario file that is read. Every scenario that obeys the rules is shorter when written.
+pub(crate) const LONGEST_SCENARIO: u64 = 64 << 20;
+
+/// The longest network file that is read; people write them.
+pub(crate) const LONGEST_NETWORK: u64 = 1 << 20;
+
+/// What a path is called in messages.
+pub(crate) fn origin(path: &Path) -> String {
+    path.display().to_string()
+}
+
+/// Reads a whole file of at most `longest` bytes.
+///
+/// # Errors
+/// [`Error::CannotRead`] or [`Error::FileTooLarge`].
+pub fn read_at_most(path: &Path, longest: u64) -> Result<Vec<u8>, Error> {
+    let cannot = |cause| Error::CannotRead { origin: origin(path), cause };
+    let mut text = Vec::new();
+    // One byte more than allowed tells a file that is too long from one that just fits, also where no length is known
+    // beforehand (a pipe).
+    File::open(path).map_err(cannot)?.take(longest + 1).read_to_end(&mut text).map_err(cannot)?;
+    check_length(&text, longest, &origin(path))?;
+    Ok(text)
+}
+
+/// Refuses a text of more than `longest` bytes.
+pub(crate) fn check_length(text: &[u8], longest: u64, origin: &str) -> Result<(), Error> {
+    if text.len() as u64 > longest {
+        return Err(Error::FileTooLarge { origin: origin.to_owned(), limit: longest });
+    }
+    Ok(())
+}
+
+/// Makes a folder and those it lies in, where they are not there yet.
+///
+/// # Errors
+/// [`Error::CannotWrite`].
+pub fn create_folder(path: &Path) -> Result<(), Error> {
+    fs::create_dir_all(path).map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
+}
+
+/// Writes a whole file, so that whoever opens `path`, whenever the program ends, finds either what was there before or
+/// all of `contents`.
+///
+/// A link is followed. Where `path` is no plain file (a pipe, `/dev/stdout`), `contents` is simply written to it.
+///
+/// # Errors
+/// [`Error::CannotWrite`]; then `path` is as before.
+pub fn write_atomically(path: &Path, contents: &[u8]) -> Result<(), Error> {
+    write(path, contents).map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
+}
+
+fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let former = fs::metadata(&target).ok();
+    if former.as_ref().is_some_and(|former| !former.is_file()) {
+        return fs::write(&target, contents);
+    }
+    let folder = match target.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    fs::metadata(folder)?;
+    // The name of the file in between would only confuse a message, so the kind of error must do.
+    let mut file = new_file_in(folder).map_err(|error| io::Error::from(error.kind()))?;
+    file.write_all(contents)?;
+    if let Some(former) = former {
+        fs::set_permissions(file.path(), former.permissions())?;
+    }
+    file.persist(&target).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// An unnamed-to-be file with the permissions of any other new file; by default it would be its owner's alone.
+fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".vertifleet-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}

@@ -1,0 +1,38 @@
+//! The world as data: networks, scenarios, and days drawn from a seed.
+//!
+//! A [`Scenario`] is one operating day with everything exogenous in it, nothing left to be drawn; a [`Network`] is
+//! what days are drawn from. Both are read in two stages: raw text, then checked types that cannot hold nonsense.
+//! This crate knows no clock, no policy and no motion; its only randomness is the one that draws a day.
+
+mod check;
+mod code;
+mod demand_model;
+mod draw;
+pub mod error;
+mod feature_scales;
+mod files;
+mod ix;
+mod limits;
+mod matrix;
+mod network;
+mod network_file;
+mod parse;
+mod raw;
+mod read;
+mod scenario;
+mod seeds;
+mod time;
+mod warning;
+mod write;
+
+pub use code::Code;
+pub use error::Error;
+pub use feature_scales::FeatureScales;
+pub use files::{create_folder, read_at_most, write_atomically};
+pub use ix::{AircraftIx, TypeIx, VertiportIx};
+pub use matrix::Matrix;
+pub use network::Network;
+pub use scenario::{Aircraft, AircraftType, Day, Operations, Scenario, Vertiport};
+pub use seeds::{DaySeed, Purpose};
+pub use time::Time;
+pub use warning::Warning;

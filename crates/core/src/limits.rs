@@ -1,0 +1,151 @@
+//! Bounds of every number in a network or scenario, in one place, and how a message states them.
+//!
+//! They are wide: their purpose is that no sum of durations, seats or dollars leaves the range of its type, and that a
+//! slipped decimal point is found when the file is read and not as a strange result.
+
+use std::fmt::Debug;
+
+use crate::{Error, Time};
+
+/// The values that a number may take.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Limits {
+    least: f64,
+    most: f64,
+    /// Whether `least` itself is refused.
+    above: bool,
+    whole: bool,
+    hint: Option<&'static str>,
+}
+
+impl Limits {
+    const fn between(least: f64, most: f64) -> Self {
+        Self { least, most, above: false, whole: false, hint: None }
+    }
+
+    const fn above_zero(most: f64) -> Self {
+        Self { least: 0.0, most, above: true, whole: false, hint: None }
+    }
+
+    const fn whole(least: u32, most: u32) -> Self {
+        Self { least: least as f64, most: most as f64, above: false, whole: true, hint: None }
+    }
+
+    const fn hint(self, hint: &'static str) -> Self {
+        Self { hint: Some(hint), ..self }
+    }
+
+    /// Refuses a `value` that does not obey; `member` is asked for its name only then.
+    pub(crate) fn check(
+        &self,
+        value: f64,
+        origin: &str,
+        member: impl FnOnce() -> String,
+    ) -> Result<(), Error> {
+        let Some(rule) = self.broken(value) else { return Ok(()) };
+        Err(Error::OutOfRange {
+            origin: origin.to_owned(),
+            member: member(),
+            rule,
+            found: number(value),
+            hint: self.hint,
+        })
+    }
+
+    /// Checks a number and gives it the type that holds every whole number within these limits.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "checked: whole and within u32"
+    )]
+    pub(crate) fn whole_number<T: TryFrom<u32, Error: Debug>>(
+        &self,
+        value: f64,
+        origin: &str,
+        member: impl FnOnce() -> String,
+    ) -> Result<T, Error> {
+        debug_assert!(self.whole, "limits of a whole number");
+        self.check(value, origin, member)?;
+        Ok(T::try_from(value as u32).expect("the type holds every number within the limits"))
+    }
+
+    /// What the rule that `value` breaks asks for, if it breaks one.
+    fn broken(&self, value: f64) -> Option<String> {
+        if !value.is_finite() {
+            return Some("a finite number".to_owned());
+        }
+        if self.whole && value.fract() != 0.0 {
+            return Some("a whole number".to_owned());
+        }
+        if self.above && value <= self.least {
+            return Some(format!("more than {}", number(self.least)));
+        }
+        if value < self.least {
+            return Some(format!("at least {}", number(self.least)));
+        }
+        (value > self.most).then(|| format!("at most {}", number(self.most)))
+    }
+}
+
+/// A number as short as it can be without becoming another one: `110`, `0.64`, `1e300`.
+pub(crate) fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude != 0.0 && !(1e-5..1e16).contains(&magnitude) {
+        format!("{value:e}")
+    } else {
+        format!("{value}")
+    }
+}
+
+/// The most entries of each list.
+pub(crate) mod entries {
+    pub(crate) const VERTIPORTS: usize = 256;
+    pub(crate) const AIRCRAFT: usize = 10_000;
+    pub(crate) const AIRCRAFT_TYPES: usize = 64;
+    pub(crate) const PERIODS: usize = 1_440;
+    /// Cells of all demand tables together, so that a day fits in memory many times and in the longest file.
+    pub(crate) const DEMAND: usize = 4_000_000;
+}
+
+/// Seeds are below this, 2^53: every JSON reader holds such a whole number exactly.
+pub(crate) const SEED_LIMIT: u64 = 1 << 53;
+
+/// The latest time of day that operations and periods may name.
+pub(crate) const LATEST: Time = Time::from_seconds(36 * 3600);
+
+/// The shortest take-off and landing together. A journey over no distance lasts this long, which bounds the number of
+/// decisions of a day.
+pub(crate) const JOURNEY_S: Limits = Limits::between(60.0, f64::INFINITY)
+    .hint("journeys that take no time would let a day go on for ever");
+pub(crate) const PHASE_S: Limits = Limits::whole(0, 86_400);
+pub(crate) const HOLD_S: Limits =
+    Limits::whole(60, 86_400).hint("an aircraft that holds is asked again after hold_s seconds");
+
+pub(crate) const POSITION_MI: Limits = Limits::between(-1e6, 1e6);
+pub(crate) const STANDS: Limits = Limits::whole(1, 10_000)
+    .hint("stands counts the aircraft that are at the vertiport or on their way to it");
+
+pub(crate) const SEATS: Limits =
+    Limits::whole(1, 1_000).hint("seats counts passengers, not the pilot");
+// The least speed and charging power bound a journey to 1,000 hours and a charge to 5,000, so that every time of a day
+// can be written in the four digits for hours that `Time` reads.
+pub(crate) const SPEED_MPH: Limits = Limits::between(10.0, 1_000.0);
+pub(crate) const BATTERY_KWH: Limits = Limits::above_zero(5_000.0);
+pub(crate) const ENERGY_KWH_PER_MI: Limits = Limits::above_zero(1e3);
+pub(crate) const CHARGE_KW: Limits = Limits::between(1.0, 1e5);
+pub(crate) const SELF_DISCHARGE_PER_H: Limits = Limits::between(0.0, 1.0)
+    .hint("self-discharge is a share of the battery's capacity, 0.01 is 1 %");
+
+pub(crate) const DISTANCE_MI: Limits = Limits::between(0.0, 1e4);
+pub(crate) const MONEY_USD: Limits = Limits::between(0.0, 1e6);
+pub(crate) const ENERGY_PRICE_USD: Limits =
+    Limits::between(0.0, 1e3).hint("the price is in dollars per kWh");
+/// Dollars a passenger-mile, and what a fare is made from beside it; fares have bounds of their own.
+pub(crate) const TARIFF: Limits = Limits::between(0.0, 1e3);
+pub(crate) const FEATURE_SCALE: Limits =
+    Limits::above_zero(1e9).hint("a learned policy sees each quantity divided by its scale");
+pub(crate) const FLEET_COUNT: Limits = Limits::whole(1, 10_000);
+/// Mean and standard deviation of a period's demand; far enough below `PASSENGERS` for any draw to stay within it.
+pub(crate) const DEMAND_MEAN: Limits = Limits::between(0.0, 1e5);
+pub(crate) const DEMAND_SD: Limits = Limits::between(0.0, 1e4);
+pub(crate) const PASSENGERS: Limits = Limits::whole(0, 1_000_000);

@@ -1,0 +1,111 @@
+//! A network: what days are drawn from, all that is the same every day and how the rest is distributed.
+
+use std::path::Path;
+
+use crate::demand_model::DemandModel;
+use crate::{
+    AircraftType, Error, FeatureScales, Matrix, Operations, Scenario, Vertiport, files,
+    network_file, parse,
+};
+
+/// The networks inside the program, by name.
+const SHIPPED: &[(&str, &str)] = &[("paper", include_str!("../../../networks/paper.toml"))];
+
+/// A checked network: every day drawn from it is a valid [`Scenario`].
+#[derive(Debug, Clone)]
+pub struct Network {
+    pub(crate) name: String,
+    /// All that is the same every day. Its aircraft stand anywhere that is allowed, and nobody wants to fly.
+    pub(crate) idle_day: Scenario,
+    pub(crate) demand: DemandModel,
+    pub(crate) feature_scales: FeatureScales,
+}
+
+impl Network {
+    /// Reads and checks a network file.
+    ///
+    /// # Errors
+    /// The file cannot be read, is longer than 1 MiB, or breaks a rule of the format; the message names the member.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let origin = files::origin(path);
+        let text = files::read_at_most(path, files::LONGEST_NETWORK)?;
+        Self::from_toml(parse::utf8(&text, &origin)?, &origin)
+    }
+
+    /// Reads and checks the text of a network file; `origin` stands for the file in messages.
+    ///
+    /// # Errors
+    /// The text is longer than 1 MiB or breaks a rule of the format; the message names the member.
+    pub fn from_toml(text: &str, origin: &str) -> Result<Self, Error> {
+        files::check_length(text.as_bytes(), files::LONGEST_NETWORK, origin)?;
+        network_file::network(text, origin)
+    }
+
+    /// The shipped network of this name.
+    #[expect(clippy::missing_panics_doc, reason = "a test reads every shipped network")]
+    pub fn shipped(name: &str) -> Option<Self> {
+        let (name, text) = SHIPPED.iter().find(|(shipped, _)| *shipped == name)?;
+        let network = Self::from_toml(text, &format!("networks/{name}.toml"));
+        Some(network.expect("a test reads every shipped network"))
+    }
+
+    /// The names of the shipped networks.
+    pub fn shipped_names() -> impl ExactSizeIterator<Item = &'static str> {
+        SHIPPED.iter().map(|(name, _)| *name)
+    }
+
+    /// The shipped network of this name, or else the network file at this path.
+    ///
+    /// # Errors
+    /// [`Error::UnknownNetwork`] if it is neither, else as [`Network::read`].
+    pub fn find(name_or_path: &str) -> Result<Self, Error> {
+        if let Some(network) = Self::shipped(name_or_path) {
+            return Ok(network);
+        }
+        let path = Path::new(name_or_path);
+        let looks_like_a_path = path.components().count() > 1 || path.extension().is_some();
+        if looks_like_a_path || path.exists() {
+            return Self::read(path);
+        }
+        Err(Error::UnknownNetwork {
+            name: parse::shortened(name_or_path, 64),
+            shipped: Self::shipped_names().collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// Its name; the days drawn from it are called `{name}-{seed}`.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The vertiports, in file order.
+    pub fn vertiports(&self) -> &[Vertiport] {
+        &self.idle_day.vertiports
+    }
+
+    /// The aircraft types, in file order.
+    pub fn aircraft_types(&self) -> &[AircraftType] {
+        &self.idle_day.aircraft_types
+    }
+
+    /// Aircraft of all types together.
+    pub fn fleet_size(&self) -> usize {
+        self.idle_day.aircraft.len()
+    }
+
+    /// Clock of every day.
+    pub fn operations(&self) -> &Operations {
+        &self.idle_day.operations
+    }
+
+    /// What learned policies divide their features by.
+    pub fn feature_scales(&self) -> FeatureScales {
+        self.feature_scales
+    }
+
+    /// The means of Eq. 1 by period, passengers: the demand that the days' draws scatter around.
+    pub fn mean_demand(&self) -> Vec<Matrix<f64>> {
+        (0..self.demand.periods.len()).map(|period| self.demand.means(period)).collect()
+    }
+}

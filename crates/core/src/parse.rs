@@ -1,0 +1,129 @@
+//! Text to raw structs: JSON and TOML, with one shape of error that names member, line and column.
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::Error;
+
+/// The first line of every file of ours; other members may be anything until the format is known.
+#[derive(Deserialize)]
+#[serde(expecting = "an object with a member `format`")]
+struct Header {
+    format: String,
+}
+
+/// Reads JSON that says it has this format.
+pub(crate) fn json<T: DeserializeOwned>(
+    text: &[u8],
+    format: &'static str,
+    origin: &str,
+) -> Result<T, Error> {
+    let header: Header = json_value(text, origin)?;
+    check_format(&header, format, origin)?;
+    json_value(text, origin)
+}
+
+/// Reads TOML that says it has this format.
+pub(crate) fn toml<T: DeserializeOwned>(
+    text: &str,
+    format: &'static str,
+    origin: &str,
+) -> Result<T, Error> {
+    let header: Header = toml_value(text, origin)?;
+    check_format(&header, format, origin)?;
+    toml_value(text, origin)
+}
+
+/// The text of a TOML file, which must be UTF-8.
+pub(crate) fn utf8<'a>(text: &'a [u8], origin: &str) -> Result<&'a str, Error> {
+    str::from_utf8(text).map_err(|error| {
+        let (line, column) = line_and_column(text, error.valid_up_to());
+        let problem = "the text is not UTF-8".to_owned();
+        Error::NotParsed { origin: origin.to_owned(), line, column, problem }
+    })
+}
+
+/// At most the first `most` characters of a text from outside, for messages.
+pub(crate) fn shortened(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+fn check_format(header: &Header, expected: &'static str, origin: &str) -> Result<(), Error> {
+    if header.format == expected {
+        return Ok(());
+    }
+    let found = shortened(&header.format, 64);
+    Err(Error::UnknownFormat { origin: origin.to_owned(), expected, found })
+}
+
+fn json_value<T: DeserializeOwned>(text: &[u8], origin: &str) -> Result<T, Error> {
+    let refuse = |error: &serde_json::Error, path: &str| {
+        let (line, column) = (error.line(), error.column().max(1));
+        let message = error.to_string();
+        let position = format!(" at line {line} column {}", error.column());
+        let problem = message.strip_suffix(&position).unwrap_or(&message);
+        let place = Place { origin, line, column };
+        if error.is_data() { place.wrong_member(path, problem) } else { place.not_parsed(problem) }
+    };
+    let mut deserializer = serde_json::Deserializer::from_slice(text);
+    let value = serde_path_to_error::deserialize(&mut deserializer)
+        .map_err(|error| refuse(error.inner(), &error.path().to_string()))?;
+    deserializer.end().map_err(|error| refuse(&error, "."))?;
+    Ok(value)
+}
+
+fn toml_value<T: DeserializeOwned>(text: &str, origin: &str) -> Result<T, Error> {
+    let place = |error: &toml::de::Error| {
+        let start = error.span().map_or(0, |span| span.start);
+        let (line, column) = line_and_column(text.as_bytes(), start);
+        Place { origin, line, column }
+    };
+    let deserializer = toml::Deserializer::parse(text)
+        .map_err(|error| place(&error).not_parsed(error.message()))?;
+    serde_path_to_error::deserialize(deserializer).map_err(|error| {
+        place(error.inner()).wrong_member(&error.path().to_string(), error.inner().message())
+    })
+}
+
+/// Where in a file something is wrong.
+struct Place<'a> {
+    origin: &'a str,
+    line: usize,
+    column: usize,
+}
+
+impl Place<'_> {
+    fn not_parsed(&self, problem: &str) -> Error {
+        let Self { origin, line, column } = *self;
+        Error::NotParsed {
+            origin: origin.to_owned(),
+            line,
+            column,
+            problem: shortened(problem.lines().next().unwrap_or_default(), 300),
+        }
+    }
+
+    /// `path` as `serde_path_to_error` prints it: a dot alone is the file as a whole.
+    fn wrong_member(&self, path: &str, problem: &str) -> Error {
+        let Self { origin, line, column } = *self;
+        Error::WrongMember {
+            origin: origin.to_owned(),
+            line,
+            column,
+            member: if path == "." { String::new() } else { format!("{}: ", shortened(path, 100)) },
+            // The parsers' own word for a number; nobody writes files in terms of our types.
+            problem: shortened(&problem.replace("expected f64", "expected a number"), 300),
+        }
+    }
+}
+
+/// Line and column of a byte, both from 1; columns count characters.
+fn line_and_column(text: &[u8], at: usize) -> (usize, usize) {
+    let before = &text[..at.min(text.len())];
+    let line = before.split(|&byte| byte == b'\n').count();
+    let start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
+    (line, String::from_utf8_lossy(&before[start..]).chars().count() + 1)
+}

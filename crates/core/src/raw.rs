@@ -1,0 +1,135 @@
+//! What scenario and network files have in common, as it is written: any number is allowed here, the next stage checks.
+//!
+//! Whole numbers are read as `f64` on purpose, so that `-1` or `2.5` stands is refused with the rule it breaks and not
+//! with a remark about types.
+
+use std::collections::HashMap;
+
+use serde::Deserialize;
+
+use crate::limits::{self, Limits};
+use crate::parse::shortened;
+use crate::{AircraftType, Error, Operations, Time, Vertiport, check};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of operations")]
+pub(crate) struct RawOperations {
+    start: Time,
+    end: Time,
+    takeoff_s: f64,
+    landing_s: f64,
+    hold_s: f64,
+}
+
+impl RawOperations {
+    pub(crate) fn check(&self, origin: &str) -> Result<Operations, Error> {
+        let seconds = |value: f64, limits: &Limits, member: &str| {
+            limits.whole_number(value, origin, || format!("operations: {member}"))
+        };
+        Ok(Operations {
+            start: self.start,
+            end: self.end,
+            takeoff_s: seconds(self.takeoff_s, &limits::PHASE_S, "takeoff_s")?,
+            landing_s: seconds(self.landing_s, &limits::PHASE_S, "landing_s")?,
+            hold_s: seconds(self.hold_s, &limits::HOLD_S, "hold_s")?,
+        })
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of a vertiport")]
+pub(crate) struct RawVertiport {
+    id: String,
+    x_mi: f64,
+    y_mi: f64,
+    stands: f64,
+    busy: bool,
+}
+
+impl RawVertiport {
+    pub(crate) fn check(self, at: usize, origin: &str) -> Result<Vertiport, Error> {
+        check::id(origin, || format!("vertiports[{at}]: id"), &self.id)?;
+        let member = || format!("vertiport {:?}: stands", self.id);
+        let stands = limits::STANDS.whole_number(self.stands, origin, member)?;
+        let Self { id, x_mi, y_mi, busy, .. } = self;
+        Ok(Vertiport { id, x_mi, y_mi, stands, busy })
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of an aircraft type")]
+pub(crate) struct RawAircraftType {
+    id: String,
+    seats: f64,
+    speed_mph: f64,
+    battery_kwh: f64,
+    energy_kwh_per_mi: f64,
+    charge_kw: f64,
+    self_discharge_per_h: f64,
+}
+
+impl RawAircraftType {
+    pub(crate) fn check(self, at: usize, origin: &str) -> Result<AircraftType, Error> {
+        check::id(origin, || format!("aircraft_types[{at}]: id"), &self.id)?;
+        let member = || format!("aircraft type {:?}: seats", self.id);
+        let seats = limits::SEATS.whole_number(self.seats, origin, member)?;
+        Ok(AircraftType {
+            id: self.id,
+            seats,
+            speed_mph: self.speed_mph,
+            battery_kwh: self.battery_kwh,
+            energy_kwh_per_mi: self.energy_kwh_per_mi,
+            charge_kw: self.charge_kw,
+            self_discharge_per_h: self.self_discharge_per_h,
+        })
+    }
+}
+
+/// Checks the entries of a list one by one, `check` getting each with its position.
+pub(crate) fn each<Raw, Checked>(
+    entries: Vec<Raw>,
+    mut check: impl FnMut(Raw, usize) -> Result<Checked, Error>,
+) -> Result<Vec<Checked>, Error> {
+    entries.into_iter().enumerate().map(|(at, raw)| check(raw, at)).collect()
+}
+
+/// Where in a list each id is.
+pub(crate) struct Positions<'a> {
+    list: &'static str,
+    by_id: HashMap<&'a str, usize>,
+}
+
+impl<'a> Positions<'a> {
+    /// The positions of the vertiports, whose ids must differ.
+    pub(crate) fn of_vertiports(vertiports: &'a [Vertiport], origin: &str) -> Result<Self, Error> {
+        let ids = vertiports.iter().map(|vertiport| &vertiport.id);
+        check::ids(origin, "vertiports", "vertiport", ids.clone())?;
+        Ok(Self::of("vertiports", ids))
+    }
+
+    /// The positions of the aircraft types, whose ids must differ.
+    pub(crate) fn of_types(kinds: &'a [AircraftType], origin: &str) -> Result<Self, Error> {
+        let ids = kinds.iter().map(|kind| &kind.id);
+        check::ids(origin, "aircraft_types", "aircraft type", ids.clone())?;
+        Ok(Self::of("aircraft types", ids))
+    }
+
+    fn of(list: &'static str, ids: impl Iterator<Item = &'a String>) -> Self {
+        Self { list, by_id: ids.enumerate().map(|(at, id)| (id.as_str(), at)).collect() }
+    }
+
+    /// The position of the entry that `member` refers to.
+    pub(crate) fn position(
+        &self,
+        id: &str,
+        origin: &str,
+        member: impl FnOnce() -> String,
+    ) -> Result<usize, Error> {
+        self.by_id.get(id).copied().ok_or_else(|| Error::UnknownId {
+            origin: origin.to_owned(),
+            member: member(),
+            found: shortened(id, 64),
+            list: self.list,
+        })
+    }
+}

@@ -1,0 +1,172 @@
+//! The scenario file, read: JSON of format `vertifleet-scenario/1` to a checked [`Scenario`].
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::limits::{self, entries};
+use crate::raw::{Positions, RawAircraftType, RawOperations, RawVertiport, each};
+use crate::{
+    Aircraft, Day, Error, Matrix, Scenario, Time, TypeIx, VertiportIx, check, files, parse,
+};
+
+/// The format and version that the file's `format` member names.
+pub(crate) const FORMAT: &str = "vertifleet-scenario/1";
+
+impl Scenario {
+    /// Reads and checks a scenario file.
+    ///
+    /// # Errors
+    /// The file cannot be read, is longer than 64 MiB, or breaks a rule of the format; the message names the member.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let text = files::read_at_most(path, files::LONGEST_SCENARIO)?;
+        Self::from_json(&text, &files::origin(path))
+    }
+
+    /// Reads and checks the text of a scenario file; `origin` stands for the file in messages.
+    ///
+    /// # Errors
+    /// The text is longer than 64 MiB or breaks a rule of the format; the message names the member.
+    pub fn from_json(text: &[u8], origin: &str) -> Result<Self, Error> {
+        files::check_length(text, files::LONGEST_SCENARIO, origin)?;
+        let raw: RawScenario = parse::json(text, FORMAT, origin)?;
+        raw.day(origin)?.check(origin)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of a scenario")]
+struct RawScenario {
+    #[serde(rename = "format")]
+    _format: String,
+    name: String,
+    seed: f64,
+    operations: RawOperations,
+    vertiports: Vec<RawVertiport>,
+    aircraft_types: Vec<RawAircraftType>,
+    aircraft: Vec<RawAircraft>,
+    distance_mi: Vec<Vec<f64>>,
+    fare: Vec<Vec<f64>>,
+    passenger_cost: Vec<Vec<f64>>,
+    periods: Vec<Time>,
+    demand: Vec<Vec<Vec<f64>>>,
+    energy_price: Vec<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of an aircraft")]
+struct RawAircraft {
+    id: String,
+    #[serde(rename = "type")]
+    kind: String,
+    at: String,
+}
+
+impl RawScenario {
+    /// The open form: ids become positions, rows become tables, counts become whole numbers.
+    fn day(self, origin: &str) -> Result<Day, Error> {
+        // Positions are 16 bits wide, so lengths are checked before any is made.
+        let list = |member, found, most| check::entry_count(origin, member, found, most);
+        list("vertiports", self.vertiports.len(), entries::VERTIPORTS)?;
+        list("aircraft_types", self.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
+        list("aircraft", self.aircraft.len(), entries::AIRCRAFT)?;
+
+        let size = self.vertiports.len();
+        let table = |rows, member: &str| table(rows, size, member, origin);
+        let distance_mi = table(self.distance_mi, "distance_mi")?;
+        let fare_usd = table(self.fare, "fare")?;
+        let passenger_cost_usd = table(self.passenger_cost, "passenger_cost")?;
+        let demand = each(self.demand, |rows, period| {
+            passengers(&table(rows, &format!("demand[{period}]"))?, period, origin)
+        })?;
+
+        let vertiports = each(self.vertiports, |raw, at| raw.check(at, origin))?;
+        let aircraft_types = each(self.aircraft_types, |raw, at| raw.check(at, origin))?;
+        let places = Positions::of_vertiports(&vertiports, origin)?;
+        let kinds = Positions::of_types(&aircraft_types, origin)?;
+        let aircraft = each(self.aircraft, |raw, at| raw.check(at, &kinds, &places, origin))?;
+
+        Ok(Day {
+            name: self.name,
+            seed: seed(self.seed, origin)?,
+            operations: self.operations.check(origin)?,
+            vertiports,
+            aircraft_types,
+            aircraft,
+            distance_mi,
+            fare_usd,
+            passenger_cost_usd,
+            periods: self.periods,
+            demand,
+            energy_price_usd: self.energy_price,
+        })
+    }
+}
+
+impl RawAircraft {
+    fn check(
+        self,
+        at: usize,
+        kinds: &Positions,
+        places: &Positions,
+        origin: &str,
+    ) -> Result<Aircraft, Error> {
+        check::id(origin, || format!("aircraft[{at}]: id"), &self.id)?;
+        let member = |member: &str| format!("aircraft {:?}: {member}", self.id);
+        let kind = TypeIx::new(kinds.position(&self.kind, origin, || member("type"))?);
+        let at = VertiportIx::new(places.position(&self.at, origin, || member("at"))?);
+        Ok(Aircraft { id: self.id, kind, at })
+    }
+}
+
+/// Rows to a square table.
+fn table(
+    rows: Vec<Vec<f64>>,
+    size: usize,
+    member: &str,
+    origin: &str,
+) -> Result<Matrix<f64>, Error> {
+    let wrong = |member: String, part: &str, found| Error::WrongShape {
+        origin: origin.to_owned(),
+        member,
+        expected: format!("a {part} for each of {size} vertiports"),
+        found,
+    };
+    if rows.len() != size {
+        return Err(wrong(member.to_owned(), "row", rows.len()));
+    }
+    if let Some(at) = rows.iter().position(|row| row.len() != size) {
+        return Err(wrong(format!("{member}[{at}]"), "column", rows[at].len()));
+    }
+    Ok(Matrix::from_rows(size, rows).expect("as many rows as columns, just checked"))
+}
+
+/// A table of one period's demand, in whole passengers.
+fn passengers(table: &Matrix<f64>, period: usize, origin: &str) -> Result<Matrix<u32>, Error> {
+    let mut rows = Vec::with_capacity(table.size());
+    for (from, row) in table.rows().enumerate() {
+        let count = |(to, &cell): (usize, &f64)| {
+            let member = || format!("demand[{period}][{from}][{to}]");
+            limits::PASSENGERS.whole_number(cell, origin, member)
+        };
+        rows.push(row.iter().enumerate().map(count).collect::<Result<Vec<u32>, Error>>()?);
+    }
+    Ok(Matrix::from_rows(table.size(), rows).expect("rows of a square table"))
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked: whole and below 2^53"
+)]
+fn seed(value: f64, origin: &str) -> Result<u64, Error> {
+    if value >= 0.0 && value.fract() == 0.0 && value < limits::SEED_LIMIT as f64 {
+        return Ok(value as u64);
+    }
+    Err(Error::SeedOutOfRange {
+        member: format!("{origin}: seed"),
+        limit: limits::SEED_LIMIT,
+        found: limits::number(value),
+    })
+}

@@ -1,0 +1,150 @@
+//! One operating day: everything exogenous, nothing left to be drawn.
+//!
+//! [`Day`] is the open form that readers and draws fill in; [`Scenario`] is a day that passed [`Day::check`] and can
+//! no longer be changed, so whoever holds one may trust every rule that `check.rs` states.
+
+use std::ops::Deref;
+
+use crate::{Matrix, Time, TypeIx, VertiportIx};
+
+/// When decisions are taken and how long each part of a journey takes beside cruise and charging.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Operations {
+    /// First instant at which an aircraft may decide.
+    pub start: Time,
+    /// Last instant at which an aircraft may decide, inclusive.
+    pub end: Time,
+    /// Seconds from the decision to cruise (δT_TO).
+    pub takeoff_s: u32,
+    /// Seconds from the end of cruise to arrival (δT_L).
+    pub landing_s: u32,
+    /// Seconds until an aircraft that holds is asked again (t_wait).
+    pub hold_s: u32,
+}
+
+/// A place where aircraft land, charge and stand.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vertiport {
+    /// Unique name.
+    pub id: String,
+    /// Position east, miles.
+    pub x_mi: f64,
+    /// Position north, miles.
+    pub y_mi: f64,
+    /// U_max: aircraft that may stand here or be on their way here (Eq. 16).
+    pub stands: u16,
+    /// Whether it belongs to V_B, the vertiports with high demand (Eq. 1).
+    pub busy: bool,
+}
+
+/// What aircraft of one kind can do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AircraftType {
+    /// Unique name.
+    pub id: String,
+    /// C: passengers a flight may carry.
+    pub seats: u16,
+    /// Cruise speed, miles per hour.
+    pub speed_mph: f64,
+    /// B_max: battery capacity, kWh.
+    pub battery_kwh: f64,
+    /// e: energy a mile flown takes, kWh.
+    pub energy_kwh_per_mi: f64,
+    /// P_max: charging power, kW.
+    pub charge_kw: f64,
+    /// γ: share of the battery's capacity lost in an hour of flight, beside what flying takes. On a stand the
+    /// charger makes up for it.
+    pub self_discharge_per_h: f64,
+}
+
+impl AircraftType {
+    /// Whether a full battery lasts for a flight of this energy (Eq. 12).
+    ///
+    /// A pair exactly at the end of the range can be flown: the slack is far above the rounding of `e d_ij` and far
+    /// below anyone's numbers.
+    pub fn lasts_for(&self, energy_kwh: f64) -> bool {
+        energy_kwh <= self.battery_kwh * (1.0 + 1e-9)
+    }
+}
+
+/// One aircraft of the fleet.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Aircraft {
+    /// Unique name.
+    pub id: String,
+    /// Its type.
+    pub kind: TypeIx,
+    /// Where it stands, fully charged, when operations start.
+    pub at: VertiportIx,
+}
+
+/// One operating day in its open form; see [`Scenario`] for the checked one. Members are those of the scenario file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Day {
+    /// What people call the day, `paper-7`.
+    pub name: String,
+    /// The seed it was drawn with; policies that draw at random mix it into their own.
+    pub seed: u64,
+    /// Clock of the day.
+    pub operations: Operations,
+    /// The vertiports, in file order.
+    pub vertiports: Vec<Vertiport>,
+    /// The aircraft types, in file order.
+    pub aircraft_types: Vec<AircraftType>,
+    /// The fleet, in file order, which also breaks ties in time.
+    pub aircraft: Vec<Aircraft>,
+    /// d_ij, miles.
+    pub distance_mi: Matrix<f64>,
+    /// P_ij, dollars a passenger.
+    pub fare_usd: Matrix<f64>,
+    /// R_ij, dollars a passenger.
+    pub passenger_cost_usd: Matrix<f64>,
+    /// Start of each demand period; the last one lasts for the rest of the day.
+    pub periods: Vec<Time>,
+    /// Q(i, j, t): passengers who want to fly, per period.
+    pub demand: Vec<Matrix<u32>>,
+    /// E: price of electricity per period, dollars per kWh.
+    pub energy_price_usd: Vec<f64>,
+}
+
+/// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, nobody stands on a full vertiport.
+///
+/// Reads like a [`Day`]; to change one, take it apart with [`Scenario::into_day`] and check it again.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario(Day);
+
+impl Scenario {
+    /// Wraps a day that [`Day::check`] has just passed.
+    pub(crate) fn checked(day: Day) -> Self {
+        Self(day)
+    }
+
+    /// The open form again, to change it.
+    pub fn into_day(self) -> Day {
+        self.0
+    }
+
+    /// The demand period that contains `time`: the last one that has started.
+    #[inline]
+    pub fn period_at(&self, time: Time) -> usize {
+        // A check guarantees that the first period starts no later than operations.
+        self.periods.iter().rposition(|&start| start <= time).unwrap_or(0)
+    }
+
+    /// The reward's denominator (§III.H): every passenger of the day at full fare, dollars.
+    pub fn potential_usd(&self) -> f64 {
+        self.demand
+            .iter()
+            .flat_map(|table| table.cells().iter().zip(self.fare_usd.cells()))
+            .map(|(&passengers, &fare)| f64::from(passengers) * fare)
+            .sum()
+    }
+}
+
+impl Deref for Scenario {
+    type Target = Day;
+
+    fn deref(&self) -> &Day {
+        &self.0
+    }
+}

@@ -1,0 +1,108 @@
+//! Seeds of days, so that training, validation and comparison never meet the same day: each has a range of its own.
+//!
+//! | purpose | seeds | made from |
+//! |---|---|---|
+//! | comparison | 0 .. 2^40 | the user's `--seed`, counted up for each further day |
+//! | validation | 2^40 .. 2^41 | the number of the validation day |
+//! | training | 2^41 .. 2^53 | the seed of the training run and the number of the day in it |
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::{Error, limits};
+
+const VALIDATION: u64 = 1 << 40;
+const TRAINING: u64 = 1 << 41;
+/// Days of a training run; each run has this many seeds in a row.
+const RUN_DAYS: u64 = 1 << 28;
+/// Training runs that find room between `TRAINING` and 2^53.
+const RUNS: u64 = 1 << 24;
+
+const _: () = assert!(TRAINING + RUNS * RUN_DAYS <= limits::SEED_LIMIT, "all runs fit below 2^53");
+
+/// What a day is drawn for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Purpose {
+    /// Days that results are reported on, chosen by the user's `--seed`.
+    Comparison,
+    /// Days on which models and settings are chosen.
+    Validation,
+    /// Days that models learn from.
+    Training,
+}
+
+impl Purpose {
+    /// All purposes.
+    pub const ALL: [Self; 3] = [Self::Comparison, Self::Validation, Self::Training];
+
+    /// The seeds that belong to this purpose and to no other.
+    pub const fn seeds(self) -> Range<u64> {
+        match self {
+            Self::Comparison => 0..VALIDATION,
+            Self::Validation => VALIDATION..TRAINING,
+            Self::Training => TRAINING..limits::SEED_LIMIT,
+        }
+    }
+}
+
+/// The seed of one day, below 2^53; it alone decides what [`Network::draw`](crate::Network::draw) gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct DaySeed(u64);
+
+impl DaySeed {
+    /// The day that the user's `--seed` names.
+    ///
+    /// # Errors
+    /// [`Error::SeedOutOfRange`] from 2^40 on.
+    pub fn comparison(seed: u64) -> Result<Self, Error> {
+        within("the seed", seed, VALIDATION)?;
+        Ok(Self(seed))
+    }
+
+    /// Validation day number `index`.
+    ///
+    /// # Errors
+    /// [`Error::SeedOutOfRange`] from 2^40 on.
+    pub fn validation(index: u64) -> Result<Self, Error> {
+        within("the number of the validation day", index, TRAINING - VALIDATION)?;
+        Ok(Self(VALIDATION + index))
+    }
+
+    /// Day number `day` of the training run with this seed.
+    ///
+    /// # Errors
+    /// [`Error::SeedOutOfRange`] for a run's seed from 2^24 on and a day from 2^28 on.
+    pub fn training(run_seed: u32, day: u64) -> Result<Self, Error> {
+        within("the training run's seed", run_seed.into(), RUNS)?;
+        within("the number of the training day", day, RUN_DAYS)?;
+        Ok(Self(TRAINING + u64::from(run_seed) * RUN_DAYS + day))
+    }
+
+    /// The seed as a number, as it stands in the scenario file.
+    #[inline]
+    pub const fn get(self) -> u64 {
+        self.0
+    }
+
+    /// What the day is drawn for.
+    pub fn purpose(self) -> Purpose {
+        match self.0 {
+            ..VALIDATION => Purpose::Comparison,
+            VALIDATION..TRAINING => Purpose::Validation,
+            TRAINING.. => Purpose::Training,
+        }
+    }
+}
+
+impl fmt::Display for DaySeed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+fn within(member: &str, value: u64, limit: u64) -> Result<(), Error> {
+    if value < limit {
+        return Ok(());
+    }
+    Err(Error::SeedOutOfRange { member: member.to_owned(), limit, found: value.to_string() })
+}

@@ -1,0 +1,175 @@
+//! The readers on input that nobody meant: nothing panics, and whatever is accepted obeys every rule.
+
+use proptest::prelude::{Just, Strategy, any, prop, prop_oneof, proptest};
+use proptest::test_runner::Config;
+use vertifleet_core::{DaySeed, Network, Scenario};
+
+const SCENARIO: &str = include_str!("data/small.json");
+const NETWORK: &str = include_str!("data/small.toml");
+
+/// Numbers and other words that readers stumble over.
+const WORDS: &[&str] = &[
+    "-1",
+    "-0",
+    "0",
+    "0.0",
+    "1",
+    "0.5",
+    "1e-320",
+    "1e308",
+    "1e999",
+    "-1e999",
+    "255",
+    "256",
+    "65535",
+    "65536",
+    "4294967295",
+    "4294967296",
+    "9007199254740991",
+    "9007199254740993",
+    "18446744073709551616",
+    "nan",
+    "inf",
+    "NaN",
+    "null",
+    "true",
+    "\"\"",
+    "\"A\"",
+    "\"25:61:00\"",
+    "\"9999:59:59\"",
+    "[]",
+    "{}",
+    "[[]]",
+    "1e5",
+    "1e6",
+];
+
+/// A change to a text, by position.
+#[derive(Debug, Clone)]
+enum Mutation {
+    Flip { at: prop::sample::Index, byte: u8 },
+    Delete { at: prop::sample::Index, len: usize },
+    Repeat { at: prop::sample::Index, len: usize },
+    Number { which: prop::sample::Index, word: &'static str },
+    CutOff { at: prop::sample::Index },
+}
+
+fn mutation() -> impl Strategy<Value = Mutation> {
+    let at = any::<prop::sample::Index>;
+    let number = (at(), prop::sample::select(WORDS));
+    prop_oneof![
+        1 => (at(), any::<u8>()).prop_map(|(at, byte)| Mutation::Flip { at, byte }),
+        1 => (at(), 1..60_usize).prop_map(|(at, len)| Mutation::Delete { at, len }),
+        1 => (at(), 1..200_usize).prop_map(|(at, len)| Mutation::Repeat { at, len }),
+        6 => number.prop_map(|(which, word)| Mutation::Number { which, word }),
+        1 => at().prop_map(|at| Mutation::CutOff { at }),
+    ]
+}
+
+/// Where in a text there are runs of digits, dots and signs.
+fn numbers(text: &[u8]) -> Vec<std::ops::Range<usize>> {
+    let part = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-');
+    let mut found: Vec<std::ops::Range<usize>> = Vec::new();
+    for at in (0..text.len()).filter(|&at| part(text[at])) {
+        match found.last_mut() {
+            Some(last) if last.end == at => last.end = at + 1,
+            _ => found.push(at..at + 1),
+        }
+    }
+    found
+}
+
+fn mutated(text: &str, mutations: &[Mutation]) -> Vec<u8> {
+    let mut text = text.as_bytes().to_vec();
+    for mutation in mutations {
+        if text.is_empty() {
+            break;
+        }
+        let span = |at: &prop::sample::Index, len: usize| {
+            let start = at.index(text.len());
+            start..(start + len).min(text.len())
+        };
+        match mutation {
+            Mutation::Flip { at, byte } => {
+                let at = at.index(text.len());
+                text[at] = *byte;
+            }
+            Mutation::Delete { at, len } => {
+                let span = span(at, *len);
+                text.drain(span);
+            }
+            Mutation::Repeat { at, len } => {
+                let copy = text[span(at, *len)].to_vec();
+                let at = at.index(text.len());
+                text.splice(at..at, copy);
+            }
+            Mutation::Number { which, word } => {
+                let numbers = numbers(&text);
+                if !numbers.is_empty() {
+                    text.splice(numbers[which.index(numbers.len())].clone(), word.bytes());
+                }
+            }
+            Mutation::CutOff { at } => text.truncate(at.index(text.len())),
+        }
+    }
+    text
+}
+
+/// Whatever was accepted passes the checks again and reads back as written.
+fn obeys_every_rule(scenario: &Scenario) {
+    let checked = scenario.clone().into_day().check("again").expect("it was accepted before");
+    let text = checked.to_json();
+    let again = Scenario::from_json(text.as_bytes(), "again").expect("our own text");
+    assert_eq!(&again, scenario);
+    assert_eq!(again.to_json(), text, "to the last bit");
+    let _ = scenario.warnings();
+}
+
+fn read_scenario(text: &[u8]) {
+    match Scenario::from_json(text, "any.json") {
+        Ok(scenario) => obeys_every_rule(&scenario),
+        Err(error) => assert!(error.to_string().len() < 2_000, "messages stay short: {error}"),
+    }
+}
+
+fn read_network(text: &[u8]) {
+    let Ok(text) = str::from_utf8(text) else { return };
+    match Network::from_toml(text, "any.toml") {
+        Ok(network) => obeys_every_rule(&network.draw(DaySeed::comparison(1).expect("small"))),
+        Err(error) => assert!(error.to_string().len() < 2_000, "messages stay short: {error}"),
+    }
+}
+
+proptest! {
+    #![proptest_config(Config { failure_persistence: None, ..Config::with_cases(2_000) })]
+
+    #[test]
+    fn no_bytes_make_a_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        read_scenario(&bytes);
+        read_network(&bytes);
+    }
+
+    #[test]
+    fn no_changed_scenario_makes_the_reader_panic(
+        mutations in prop::collection::vec(mutation(), 1..4),
+    ) {
+        read_scenario(&mutated(SCENARIO, &mutations));
+    }
+
+    #[test]
+    fn no_changed_network_makes_the_reader_panic(
+        mutations in prop::collection::vec(mutation(), 1..4),
+    ) {
+        read_network(&mutated(NETWORK, &mutations));
+    }
+
+    #[test]
+    fn no_list_of_brackets_overflows_the_stack(
+        open in prop_oneof![Just("["), Just("{\"format\":"), Just("a=["), Just("a={b=")],
+        depth in 1..50_000_usize,
+    ) {
+        let text = open.repeat(depth);
+        read_scenario(text.as_bytes());
+        read_network(text.as_bytes());
+    }
+}

@@ -1,0 +1,191 @@
+//! Every expected error, provoked by the smallest change to a good file: its code, its message, its hint.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use vertifleet_core::{Code, Day, DaySeed, Error, Network, Scenario, error};
+
+const SCENARIO: &str = include_str!("data/small.json");
+const NETWORK: &str = include_str!("data/small.toml");
+
+/// A change to one of the good files: the first occurrence of one text becomes another.
+type Change = (&'static str, &'static str);
+
+const SCENARIO_CHANGES: &[Change] = &[
+    // Numbers.
+    (r#""stands": 1"#, r#""stands": 0"#),
+    (r#""stands": 1"#, r#""stands": 1.5"#),
+    (r#""stands": 1"#, r#""stands": -1"#),
+    (r#""stands": 1"#, r#""stands": 70000"#),
+    (r#""x_mi": 30"#, r#""x_mi": 1e300"#),
+    (r#""seats": 4"#, r#""seats": 0"#),
+    (r#""speed_mph": 74.5"#, r#""speed_mph": 0.5"#),
+    (r#""battery_kwh": 110"#, r#""battery_kwh": 0"#),
+    (r#""energy_kwh_per_mi": 2.2"#, r#""energy_kwh_per_mi": -2.2"#),
+    (r#""charge_kw": 150"#, r#""charge_kw": 0"#),
+    (r#""self_discharge_per_h": 0"#, r#""self_discharge_per_h": 1.01"#),
+    (r#""takeoff_s": 900"#, r#""takeoff_s": -900"#),
+    (r#""takeoff_s": 900, "landing_s": 600"#, r#""takeoff_s": 30, "landing_s": 29"#),
+    (r#""hold_s": 900"#, r#""hold_s": 0"#),
+    (r#""end": "09:30:00""#, r#""end": "36:00:01""#),
+    ("[0, 30, 40]", "[0, -30, 40]"),
+    ("[0, 30, 40]", "[1, 30, 40]"),
+    ("[0, 48.1, 60]", "[0, 48.1, 6e6]"),
+    ("[25.6, 32, 0]", "[25.6, 32, -1]"),
+    ("[0, 7, 3]", "[0, -7, 3]"),
+    ("[0, 7, 3]", "[0, 7.5, 3]"),
+    ("[0.2, 0.31]", "[0.2, -0.31]"),
+    (r#""seed": 1"#, r#""seed": 9007199254740992"#),
+    (r#""seed": 1"#, r#""seed": -1"#),
+    // Text that is no JSON, and members.
+    ("[0, 7, 3]", "[0, 7, 3"),
+    ("[0, 7, 3]", "[0, 7, 1e999]"),
+    ("[0.2, 0.31]\n}", "[0.2, 0.31]\n} again"),
+    (r#""busy": false"#, r#""busy": false, "colour": "red""#),
+    (r#", "busy": false"#, ""),
+    (r#""stands": 1"#, r#""stands": "one""#),
+    (r#""seed": 1"#, r#""seed": 1, "seed": 1"#),
+    (r#""start": "06:00:00""#, r#""start": "6 o'clock""#),
+    ("vertifleet-scenario/1", "vertifleet-scenario/2"),
+    (r#""format": "vertifleet-scenario/1","#, ""),
+    // Shapes.
+    (r#""periods": ["06:00:00", "08:00:00"]"#, r#""periods": []"#),
+    (",\n    [40, 50, 0]", ""),
+    ("[48.1, 0, 80.5]", "[48.1, 0]"),
+    ("[4, 0, 6]", "[4, 0, 6, 0]"),
+    ("[0.2, 0.31]", "[0.2]"),
+    // Ids and what must agree.
+    (r#""id": "B""#, r#""id": "A""#),
+    (r#""id": "A02""#, r#""id": "A01""#),
+    (r#""at": "B""#, r#""at": "D""#),
+    (r#""type": "glider""#, r#""type": "Glider""#),
+    (r#""id": "B""#, r#""id": """#),
+    (r#""name": "small-1""#, r#""name": "small\n1""#),
+    (r#""at": "A""#, r#""at": "B""#),
+    (r#""end": "09:30:00""#, r#""end": "05:30:00""#),
+    (r#"["06:00:00", "08:00:00"]"#, r#"["06:00:01", "08:00:00"]"#),
+    (r#"["06:00:00", "08:00:00"]"#, r#"["06:00:00", "06:00:00"]"#),
+    ("[8, 0, 0]", "[8, 0, 1]"),
+];
+
+const NETWORK_CHANGES: &[Change] = &[
+    ("stands = 1", "stands = 0"),
+    ("stands = 1", "stands = nan"),
+    ("count = 2", "count = 0"),
+    ("count = 2", "count = 10000\n[[fleet]]\ntype = \"cityairbus\"\ncount = 1"),
+    ("fare_base = 2", "fare_base = -2"),
+    ("x_mi = 30.5", "x_mi = 20000"),
+    ("sd = 1 ", "sd = inf "),
+    ("power_kw = 65", "power_kw = 0"),
+    ("name = \"small\"", "name = small"),
+    ("fare_base = 2", "fare_bases = 2"),
+    ("count = 2", "count = \"two\""),
+    ("\"random\"", "\"alphabetical\""),
+    ("vertifleet-network/1", "vertifleet-scenario/1"),
+    ("\"06:00:00\", \"08:00:00\"", ""),
+    ("type = \"cityairbus\"", "type = \"volocity\""),
+    ("evening_peak = \"08:00:00\"", "evening_peak = \"08:30:00\""),
+    ("name = \"small\"", "name = \"../small\""),
+    ("id = \"B\"", "id = \"A\""),
+    ("count = 2", "count = 4"),
+    ("start = \"06:00:00\"", "start = \"05:59:59\""),
+];
+
+fn changed(text: &str, (from, to): Change) -> String {
+    assert!(text.contains(from), "the good file has {from}");
+    text.replacen(from, to, 1)
+}
+
+/// Every provoked error with what provoked it.
+fn provoked() -> Vec<(String, Error)> {
+    let mut errors = Vec::new();
+    let mut add = |how: String, error: Option<Error>| {
+        let error = error.unwrap_or_else(|| panic!("accepted: {how}"));
+        errors.push((how, error));
+    };
+    for &change in SCENARIO_CHANGES {
+        let text = changed(SCENARIO, change);
+        let error = Scenario::from_json(text.as_bytes(), "day.json").err();
+        add(format!("scenario: {} -> {}", change.0, change.1), error);
+    }
+    for &change in NETWORK_CHANGES {
+        let error = Network::from_toml(&changed(NETWORK, change), "net.toml").err();
+        add(format!("network: {} -> {}", change.0, change.1), error);
+    }
+    add("a scenario that is a list".into(), Scenario::from_json(b"[]", "day.json").err());
+    add("an empty scenario".into(), Scenario::from_json(b"", "day.json").err());
+    let long = " ".repeat((1 << 20) + 1);
+    add("a network of 1 MiB and a byte".into(), Network::from_toml(&long, "net.toml").err());
+    add("no such file".into(), Scenario::read("no/such/day.json").err());
+    add("no such folder".into(), small().write("no/such/folder/day.json").err());
+    add("no such network".into(), Network::find("paepr").err());
+    add("no such network file".into(), Network::find("paepr.toml").err());
+    add("bytes that are no text".into(), Scenario::from_json(b"\"\xff\"", "day.json").err());
+    add("a seed of 2^40".into(), DaySeed::comparison(1 << 40).err());
+    add("a training seed of 2^24".into(), DaySeed::training(1 << 24, 0).err());
+    errors
+}
+
+fn small() -> Scenario {
+    Scenario::from_json(SCENARIO.as_bytes(), "day.json").expect("the good scenario")
+}
+
+#[test]
+fn every_error_names_file_member_value_and_rule() {
+    let mut list = String::new();
+    for (how, error) in provoked() {
+        let how = how.replace('\n', "\\n");
+        writeln!(list, "{how}\n    error[{}]: {error}", error.code()).expect("a String");
+        if let Some(hint) = error.hint() {
+            writeln!(list, "    hint: {hint}").expect("a String");
+        }
+    }
+    insta::assert_snapshot!(list);
+}
+
+#[test]
+fn every_code_can_be_provoked() {
+    let mut codes: BTreeSet<Code> = provoked().iter().map(|(_, error)| error.code()).collect();
+    let mut stranded = small().into_day();
+    stranded.aircraft_types[1].battery_kwh = 10.0;
+    let warnings = stranded.check("day.json").expect("a valid day").warnings();
+    codes.extend(warnings.iter().map(vertifleet_core::Warning::code));
+    let listed: BTreeSet<Code> = error::ALL.iter().map(|&(code, _)| code).collect();
+    assert_eq!(codes, listed);
+    assert_eq!(listed.len(), error::ALL.len(), "each code is listed once");
+}
+
+#[test]
+fn messages_are_one_line_without_a_full_stop() {
+    for (how, error) in provoked() {
+        let message = error.to_string();
+        assert!(!message.contains('\n'), "{how}: {message}");
+        assert!(!message.ends_with('.'), "{how}: {message}");
+    }
+}
+
+#[test]
+fn a_day_with_an_index_outside_its_lists_is_refused() {
+    let with = |change: fn(&mut Day)| {
+        let mut day = small().into_day();
+        change(&mut day);
+        day.check("day").expect_err("an unknown index").to_string()
+    };
+    insta::assert_snapshot!(
+        with(|day| day.aircraft[0].kind.0 = 2),
+        @r##"day: aircraft "A01": type names "#2", which is not among the aircraft types"##
+    );
+    insta::assert_snapshot!(
+        with(|day| day.aircraft[0].at.0 = 3),
+        @r##"day: aircraft "A01": at names "#3", which is not among the vertiports"##
+    );
+}
+
+#[test]
+fn numbers_that_no_file_can_hold_are_refused_in_a_day() {
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut day = small().into_day();
+        day.fare_usd.cells_mut()[1] = value;
+        assert_eq!(day.check("day").expect_err("not finite").code(), Code(104));
+    }
+}

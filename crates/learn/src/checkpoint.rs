@@ -1,0 +1,198 @@
+//! Checkpoints: everything a run needs to go on bit for bit, in one safetensors file.
+//!
+//! Randomness is a function of seed, day and decision, so there is no generator to store; a day in progress is its
+//! number and the choices made on it.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+use serde::{Deserialize, Serialize};
+
+use crate::adam::Adam;
+use crate::curve::CurveRow;
+use crate::error::Error;
+use crate::nn::Architecture;
+use crate::rollout::DayInProgress;
+use crate::settings::Settings;
+use crate::train::Plan;
+
+const FORMAT: &str = "vertifleet-checkpoint/1";
+const HEADER: &str = "vertifleet";
+/// No checkpoint of ours comes near; larger files are not read.
+const LIMIT_BYTES: u64 = 4 << 30;
+
+/// How far a run has come.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Progress {
+    pub(crate) updates: u64,
+    pub(crate) days_finished: u64,
+    pub(crate) recent_rewards: Vec<f64>,
+    /// Filled in when a checkpoint is taken; while a run is under way the roll-out knows.
+    pub(crate) days: Vec<DayInProgress>,
+    pub(crate) latest_reward: f64,
+    pub(crate) best_reward: Option<f64>,
+    pub(crate) best_steps: u64,
+    #[serde(skip)]
+    pub(crate) best_params: Vec<f32>,
+    pub(crate) curve: Vec<CurveRow>,
+}
+
+impl Progress {
+    pub(crate) fn new(params: Vec<f32>) -> Self {
+        Self {
+            updates: 0,
+            days_finished: 0,
+            recent_rewards: Vec::new(),
+            days: Vec::new(),
+            latest_reward: 0.0,
+            best_reward: None,
+            best_steps: 0,
+            best_params: params,
+            curve: Vec::new(),
+        }
+    }
+
+    pub(crate) fn remember_days(&mut self, rewards: &[f64], at_most: usize) {
+        self.days_finished += rewards.len() as u64;
+        self.recent_rewards.extend(rewards);
+        let surplus = self.recent_rewards.len().saturating_sub(at_most);
+        self.recent_rewards.drain(..surplus);
+    }
+
+    pub(crate) fn mean_recent_reward(&self) -> f64 {
+        let days = self.recent_rewards.len().max(1) as f64;
+        self.recent_rewards.iter().sum::<f64>() / days
+    }
+
+    pub(crate) fn keep_if_best(&mut self, reward: f64, params: &[f32], steps: u64) {
+        self.latest_reward = reward;
+        if self.best_reward.is_none_or(|best| reward > best) {
+            self.best_reward = Some(reward);
+            self.best_steps = steps;
+            self.best_params.copy_from_slice(params);
+        }
+    }
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Header {
+    format: String,
+    network: String,
+    policy: Architecture,
+    settings: Settings,
+    seed: u32,
+    adam_steps: u64,
+    progress: Progress,
+}
+
+/// A run set aside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Checkpoint {
+    header: Header,
+    /// Parameters, Adam's first and second moments, best parameters.
+    tensors: [Vec<f32>; 4],
+}
+
+const NAMES: [&str; 4] = ["params", "adam_first", "adam_second", "best_params"];
+
+impl Checkpoint {
+    pub(crate) fn pack(plan: &Plan, params: &[f32], adam: &Adam, mut progress: Progress) -> Self {
+        let best = std::mem::take(&mut progress.best_params);
+        let header = Header {
+            format: FORMAT.to_owned(),
+            network: plan.network.name().to_owned(),
+            policy: plan.policy.clone(),
+            settings: plan.settings.clone(),
+            seed: plan.seed,
+            adam_steps: adam.steps,
+            progress,
+        };
+        Self { header, tensors: [params.to_vec(), adam.first.clone(), adam.second.clone(), best] }
+    }
+
+    pub(crate) fn unpack(self, plan: &Plan, parameters: usize) -> Result<(Vec<f32>, Adam, Progress), Error> {
+        let Header { network, policy, settings, seed, adam_steps, mut progress, .. } = self.header;
+        let of_another = |what: &str, found: String, asked: String| {
+            let rule = format!("it is of a run with {what} {found}, but {asked} is asked for");
+            Err(Error::BadCheckpoint { rule })
+        };
+        if network != plan.network.name() {
+            return of_another("network", network, plan.network.name().to_owned());
+        }
+        if policy != plan.policy {
+            return of_another("policy", format!("{policy:?}"), format!("{:?}", plan.policy));
+        }
+        if seed != plan.seed {
+            return of_another("seed", seed.to_string(), plan.seed.to_string());
+        }
+        if settings != plan.settings {
+            return of_another("settings", format!("{settings:?}"), format!("{:?}", plan.settings));
+        }
+        if self.tensors.iter().any(|tensor| tensor.len() != parameters) {
+            let rule = format!("every tensor must have {parameters} entries");
+            return Err(Error::BadCheckpoint { rule });
+        }
+        let [params, first, second, best_params] = self.tensors;
+        progress.best_params = best_params;
+        Ok((params, Adam { first, second, steps: adam_steps }, progress))
+    }
+
+    /// The seed and settings of the run, to go on with the same.
+    pub fn settings(&self) -> (&Architecture, &Settings, u32) {
+        (&self.header.policy, &self.header.settings, self.header.seed)
+    }
+
+    /// Name of the network that the run learns on.
+    pub fn network(&self) -> &str {
+        &self.header.network
+    }
+
+    /// Writes the file, whole or not at all.
+    ///
+    /// # Errors
+    /// If the folder cannot be written to.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        let header = serde_json::to_string(&self.header).expect("a header is plain data");
+        let tensors = NAMES.iter().zip(&self.tensors).map(|(name, values)| {
+            let bytes = bytemuck::cast_slice(values);
+            let view = TensorView::new(Dtype::F32, vec![values.len()], bytes)
+                .expect("a flat tensor's shape is its length");
+            (*name, view)
+        });
+        let info = HashMap::from([(HEADER.to_owned(), header)]);
+        let bytes = safetensors::serialize(tensors, Some(info)).expect("four flat tensors are valid");
+        Ok(vertifleet_core::write_atomically(path, &bytes)?)
+    }
+
+    /// Reads a checkpoint.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is no checkpoint.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let bytes = vertifleet_core::read_at_most(path, LIMIT_BYTES)?;
+        Self::from_bytes(&bytes).map_err(|rule| Error::BadCheckpoint { rule })
+    }
+
+    fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+        let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|error| error.to_string())?;
+        let text = metadata.metadata().as_ref().and_then(|info| info.get(HEADER));
+        let text = text.ok_or_else(|| format!("the file has no {HEADER:?} header"))?;
+        let header: Header = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        if header.format != FORMAT {
+            return Err(format!("format must be {FORMAT:?}, found {:?}", header.format));
+        }
+        header.settings.check().map_err(|error| error.to_string())?;
+        let file = SafeTensors::deserialize(bytes).map_err(|error| error.to_string())?;
+        let mut tensors: [Vec<f32>; 4] = Default::default();
+        for (name, values) in NAMES.iter().zip(&mut tensors) {
+            let view = file.tensor(name).map_err(|error| error.to_string())?;
+            if view.dtype() != Dtype::F32 {
+                return Err(format!("tensor {name:?} must be F32"));
+            }
+            let entries = view.data().chunks_exact(4);
+            *values = entries.map(|b| f32::from_le_bytes(b.try_into().expect("chunks of four"))).collect();
+        }
+        Ok(Self { header, tensors })
+    }
+}

@@ -1,0 +1,154 @@
+//! The learning curve: one row an update, as CSV for people and as TensorBoard events for those who watch.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+
+/// One update of a training run.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct CurveRow {
+    /// Updates done.
+    pub update: u64,
+    /// Decisions learned from.
+    pub steps: u64,
+    /// Days finished.
+    pub days: u64,
+    /// Mean reward of the last 100 days finished, choices drawn from the policy.
+    pub mean_reward: f64,
+    /// Mean reward on the validation days, best choices only; repeated until it is measured again.
+    pub validation_reward: f64,
+    /// Mean clipped surrogate loss of the last epoch.
+    pub policy_loss: f64,
+    /// Mean squared error of the values in the last epoch, in scaled rewards.
+    pub value_loss: f64,
+    /// Mean entropy of the policy in the last epoch, nats.
+    pub entropy: f64,
+    /// Mean of the divergence estimate in the last epoch.
+    pub approx_kl: f64,
+    /// Share of clipped decisions in the last epoch.
+    pub clip_fraction: f64,
+    /// Adam's step size.
+    pub learning_rate: f64,
+}
+
+/// The curve as a CSV text, one column a member of [`CurveRow`].
+pub fn to_csv(rows: &[CurveRow]) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row).expect("rows of numbers go into memory");
+    }
+    let bytes = writer.into_inner().expect("memory takes everything");
+    String::from_utf8(bytes).expect("numbers are text")
+}
+
+/// Reads a curve's CSV text; `origin` names it in errors.
+///
+/// # Errors
+/// [`Error::BadCurve`] for the first row that is not one.
+pub fn from_csv(text: &str, origin: &str) -> Result<Vec<CurveRow>, Error> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let rows = reader.deserialize().collect::<Result<_, csv::Error>>();
+    rows.map_err(|error| Error::BadCurve {
+        origin: origin.to_owned(),
+        line: error.position().map_or(1, csv::Position::line),
+        rule: error.to_string(),
+    })
+}
+
+/// A TensorBoard event file: records of protocol-buffer messages, each framed by its length and two checksums.
+///
+/// The format is small and fixed, and the crates that write it bring a whole protocol-buffer compiler along, so the
+/// three messages that are needed are written here by hand.
+#[derive(Debug)]
+pub struct EventFile {
+    file: File,
+}
+
+impl EventFile {
+    /// A new event file in `folder`, named after the time it was begun.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn create(folder: &Path, unix_seconds: u64) -> io::Result<Self> {
+        let path = folder.join(format!("events.out.tfevents.{unix_seconds}.vertifleet"));
+        let mut events = Self { file: File::create(path)? };
+        // file_version (field 3) marks the second version of the format.
+        let mut event = wall_time(unix_seconds as f64);
+        bytes_field(&mut event, 3, b"brain.Event:2");
+        events.record(&event)?;
+        Ok(events)
+    }
+
+    /// Appends one update.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn append(&mut self, unix_seconds: f64, row: &CurveRow, steps_per_second: f64) -> io::Result<()> {
+        let scalars = [
+            ("rollout/ep_rew_mean", row.mean_reward),
+            ("eval/mean_reward", row.validation_reward),
+            ("train/policy_gradient_loss", row.policy_loss),
+            ("train/value_loss", row.value_loss),
+            ("train/entropy", row.entropy),
+            ("train/approx_kl", row.approx_kl),
+            ("train/clip_fraction", row.clip_fraction),
+            ("train/learning_rate", row.learning_rate),
+            ("time/fps", steps_per_second),
+        ];
+        let mut summary = Vec::new();
+        for (tag, value) in scalars {
+            // Summary.Value: tag (1), simple_value (2, 32-bit).
+            let mut scalar = Vec::new();
+            bytes_field(&mut scalar, 1, tag.as_bytes());
+            scalar.push(2 << 3 | 5);
+            scalar.extend((value as f32).to_le_bytes());
+            bytes_field(&mut summary, 1, &scalar);
+        }
+        let mut event = wall_time(unix_seconds);
+        event.push(2 << 3);
+        varint(&mut event, row.steps);
+        bytes_field(&mut event, 5, &summary);
+        self.record(&event)
+    }
+
+    fn record(&mut self, event: &[u8]) -> io::Result<()> {
+        let length = (event.len() as u64).to_le_bytes();
+        let mut record = Vec::with_capacity(event.len() + 16);
+        record.extend(length);
+        record.extend(masked_checksum(&length).to_le_bytes());
+        record.extend(event);
+        record.extend(masked_checksum(event).to_le_bytes());
+        self.file.write_all(&record)?;
+        self.file.flush()
+    }
+}
+
+/// An Event with its wall_time (field 1, 64-bit).
+fn wall_time(unix_seconds: f64) -> Vec<u8> {
+    let mut event = vec![1 << 3 | 1];
+    event.extend(unix_seconds.to_le_bytes());
+    event
+}
+
+fn bytes_field(message: &mut Vec<u8>, field: u8, bytes: &[u8]) {
+    message.push(field << 3 | 2);
+    varint(message, bytes.len() as u64);
+    message.extend(bytes);
+}
+
+fn varint(message: &mut Vec<u8>, mut value: u64) {
+    while value >= 0x80 {
+        message.push((value & 0x7f) as u8 | 0x80);
+        value >>= 7;
+    }
+    message.push(value as u8);
+}
+
+/// CRC-32C, rotated and offset so that checksums of checksums stay useful.
+fn masked_checksum(bytes: &[u8]) -> u32 {
+    crc32c::crc32c(bytes).rotate_right(15).wrapping_add(0xa282_ead8)
+}

@@ -1,0 +1,111 @@
+//! What can go wrong with settings, weights and checkpoints: codes V301 and on.
+
+use vertifleet_core::Code;
+
+/// An expected failure of training or of loading what training left.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// V301: there is no preset of that name.
+    #[error("there is no preset {name:?}: presets are \"default\" and \"paper\"")]
+    UnknownPreset {
+        /// The name asked for.
+        name: String,
+    },
+    /// V302: there is no setting of that name.
+    #[error("there is no setting {name:?}: settings are {known}")]
+    UnknownSetting {
+        /// The name asked for.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// V303: a setting's value does not fit it.
+    #[error("setting {name:?}: {rule}")]
+    BadSetting {
+        /// The setting.
+        name: String,
+        /// What its value breaks.
+        rule: String,
+    },
+    /// V304: a weight file is damaged or of another kind.
+    #[error("{origin}: no usable weights: {rule}")]
+    BadWeights {
+        /// The file.
+        origin: String,
+        /// What differs.
+        rule: String,
+    },
+    /// V305: weights and day are of different networks.
+    #[error(
+        "the weights were trained on network {network:?} with {trained} vertiports, but {scenario:?} has {found}"
+    )]
+    WrongNetwork {
+        /// Network of the weights.
+        network: String,
+        /// Its number of vertiports.
+        trained: usize,
+        /// The day.
+        scenario: String,
+        /// The day's number of vertiports.
+        found: usize,
+    },
+    /// V306: a checkpoint is damaged or of another run.
+    #[error("the checkpoint does not fit: {rule}")]
+    BadCheckpoint {
+        /// What differs.
+        rule: String,
+    },
+    /// V307: no trained policy of that name comes with the program for that network.
+    #[error("no policy {policy:?} is shipped for network {network:?}: shipped are {known}")]
+    NotShipped {
+        /// The policy asked for.
+        policy: String,
+        /// The network.
+        network: String,
+        /// All that are shipped.
+        known: String,
+    },
+    /// V308: a learning curve is damaged.
+    #[error("{origin}: line {line}: no row of a learning curve: {rule}")]
+    BadCurve {
+        /// The file.
+        origin: String,
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong.
+        rule: String,
+    },
+    /// A file, a network or a seed.
+    #[error(transparent)]
+    Core(#[from] vertifleet_core::Error),
+}
+
+impl Error {
+    /// The stable code.
+    pub fn code(&self) -> Code {
+        match self {
+            Self::UnknownPreset { .. } => Code(301),
+            Self::UnknownSetting { .. } => Code(302),
+            Self::BadSetting { .. } => Code(303),
+            Self::BadWeights { .. } => Code(304),
+            Self::WrongNetwork { .. } => Code(305),
+            Self::BadCheckpoint { .. } => Code(306),
+            Self::NotShipped { .. } => Code(307),
+            Self::BadCurve { .. } => Code(308),
+            Self::Core(error) => error.code(),
+        }
+    }
+
+    /// What to do about it.
+    pub fn hint(&self) -> Option<&str> {
+        match self {
+            Self::UnknownPreset { .. } | Self::UnknownSetting { .. } | Self::BadSetting { .. } => None,
+            Self::BadWeights { .. } => Some("`vertifleet train` writes weights that load; a file of another policy needs that policy's name"),
+            Self::WrongNetwork { .. } => Some("this policy's weights fit one network only; train it on this one"),
+            Self::BadCheckpoint { .. } => Some("resume with the settings the run was started with, or start anew in another folder"),
+            Self::NotShipped { .. } => Some("name a rule (random, greedy, lookahead) or give weights with --model"),
+            Self::BadCurve { .. } => Some("`vertifleet train` writes the curve beside the weights; remove the file to go without"),
+            Self::Core(error) => error.hint(),
+        }
+    }
+}

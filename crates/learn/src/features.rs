@@ -1,0 +1,167 @@
+//! What a learned policy sees (§IV.A): node features, aircraft state, mask; and the share of the day left, for the
+//! value head alone.
+//!
+//! A node i shows U_i, U_max, d_i, r_i, P_i1..P_iN, R_i1..R_iN; d_i and r_i are what is left of the current period's
+//! demand from and to i. The aircraft shows E, its vertiport (one-hot), its battery, and g_x1..g_xN. Every number is
+//! divided by a fixed scale of the network file.
+
+use vertifleet_core::{FeatureScales, VertiportIx};
+use vertifleet_sim::{Decision, View};
+
+use crate::nn::{Inputs, Shape};
+
+/// The shape of the features of a network with `vertiports` vertiports.
+pub fn shape(vertiports: usize) -> Shape {
+    Shape {
+        vertiports,
+        node_features: 2 * vertiports + 4,
+        aircraft_features: 2 * vertiports + 2,
+    }
+}
+
+/// The features of a batch of decisions, rows side by side.
+#[derive(Debug, Clone)]
+pub struct Observations {
+    shape: Shape,
+    rows: usize,
+    nodes: Vec<f32>,
+    aircraft: Vec<f32>,
+    mask: Vec<u8>,
+    clock: Vec<f32>,
+}
+
+impl Observations {
+    /// Room for `rows` decisions.
+    pub fn new(shape: Shape, rows: usize) -> Self {
+        Self {
+            shape,
+            rows,
+            nodes: vec![0.0; rows * shape.vertiports * shape.node_features],
+            aircraft: vec![0.0; rows * shape.aircraft_features],
+            mask: vec![0; rows * shape.vertiports],
+            clock: vec![0.0; rows],
+        }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The first `batch` rows, as the networks take them.
+    ///
+    /// # Panics
+    /// If there are fewer rows.
+    pub fn inputs(&self, batch: usize) -> Inputs<'_> {
+        let Shape { vertiports, node_features, aircraft_features } = self.shape;
+        Inputs {
+            batch,
+            nodes: &self.nodes[..batch * vertiports * node_features],
+            aircraft: &self.aircraft[..batch * aircraft_features],
+            mask: &self.mask[..batch * vertiports],
+            clock: &self.clock[..batch],
+        }
+    }
+
+    /// Copies one row of `source` into row `row` of this.
+    pub fn copy_row(&mut self, row: usize, source: &Self, source_row: usize) {
+        fn copy<T: Copy>(to: &mut [T], row: usize, from: &[T], source_row: usize, width: usize) {
+            to[row * width..][..width].copy_from_slice(&from[source_row * width..][..width]);
+        }
+        let Shape { vertiports, node_features, aircraft_features } = self.shape;
+        copy(&mut self.nodes, row, &source.nodes, source_row, vertiports * node_features);
+        copy(&mut self.aircraft, row, &source.aircraft, source_row, aircraft_features);
+        copy(&mut self.mask, row, &source.mask, source_row, vertiports);
+        self.clock[row] = source.clock[source_row];
+    }
+
+    /// Writes the features of a decision into row `row`.
+    ///
+    /// # Panics
+    /// If the view is of a network with another number of vertiports, or there is no such row.
+    pub fn write(&mut self, row: usize, decision: &Decision, view: &View<'_>, scales: &Scales) {
+        let Shape { vertiports, node_features, aircraft_features } = self.shape;
+        assert_eq!(view.vertiports(), vertiports, "features are of one shape");
+        let nodes = &mut self.nodes[row * vertiports * node_features..][..vertiports * node_features];
+        write_nodes(nodes, view, scales);
+        let aircraft = &mut self.aircraft[row * aircraft_features..][..aircraft_features];
+        write_aircraft(aircraft, decision, view, scales);
+
+        let mask = &mut self.mask[row * vertiports..][..vertiports];
+        mask.fill(0);
+        for feasible in view.feasible(decision).iter() {
+            mask[feasible.at()] = 1;
+        }
+        let day_s = view.day_end().since(view.day_start()).max(1);
+        self.clock[row] = view.day_end().since(decision.time) as f32 / day_s as f32;
+    }
+}
+
+/// The factors by which features are multiplied: one over the network file's scales.
+#[derive(Debug, Clone, Copy)]
+pub struct Scales {
+    stands: f32,
+    passengers: f32,
+    fare_usd: f64,
+    cost_usd: f64,
+    energy_price_usd: f64,
+    battery_kwh: f64,
+    power_kw: f64,
+}
+
+impl From<FeatureScales> for Scales {
+    fn from(scales: FeatureScales) -> Self {
+        Self {
+            stands: (1.0 / scales.stands) as f32,
+            passengers: (1.0 / scales.passengers) as f32,
+            fare_usd: 1.0 / scales.fare_usd,
+            cost_usd: 1.0 / scales.passenger_cost_usd,
+            energy_price_usd: 1.0 / scales.energy_price_usd,
+            battery_kwh: 1.0 / scales.battery_kwh,
+            power_kw: 1.0 / scales.power_kw,
+        }
+    }
+}
+
+/// δ_i of every node.
+fn write_nodes(nodes: &mut [f32], view: &View<'_>, scales: &Scales) {
+    let vertiports = view.vertiports();
+    let left = view.demand_left_in(view.period());
+    let width = 2 * vertiports + 4;
+    for (i, node) in nodes.chunks_exact_mut(width).enumerate() {
+        let from = VertiportIx::new(i);
+        let departing: u32 = left[i * vertiports..][..vertiports].iter().sum();
+        node[0] = f32::from(view.stands_taken()[i]) * scales.stands;
+        node[1] = f32::from(view.stands(from)) * scales.stands;
+        node[2] = departing as f32 * scales.passengers;
+        let (fares, costs) = node[4..].split_at_mut(vertiports);
+        scale_into(fares, view.fares_usd(from), scales.fare_usd);
+        scale_into(costs, view.passenger_costs_usd(from), scales.cost_usd);
+    }
+    for j in 0..vertiports {
+        let arriving: u32 = left.iter().skip(j).step_by(vertiports).sum();
+        nodes[j * width + 3] = arriving as f32 * scales.passengers;
+    }
+}
+
+/// ψ_k. Every take-off is with a full battery (Eq. 14), so the charge shown is the capacity.
+fn write_aircraft(aircraft: &mut [f32], decision: &Decision, view: &View<'_>, scales: &Scales) {
+    let vertiports = view.vertiports();
+    let kind = view.kind(decision.aircraft);
+    let (price, rest) = aircraft.split_at_mut(1);
+    let (place, rest) = rest.split_at_mut(vertiports);
+    let (battery, powers) = rest.split_at_mut(1);
+    price[0] = (view.energy_price_usd() * scales.energy_price_usd) as f32;
+    place.fill(0.0);
+    place[decision.at.at()] = 1.0;
+    battery[0] = (view.aircraft_type(kind).battery_kwh * scales.battery_kwh) as f32;
+    for (power, leg) in powers.iter_mut().zip(view.legs_from(kind, decision.at)) {
+        *power = (leg.mean_power_kw * scales.power_kw) as f32;
+    }
+}
+
+fn scale_into(to: &mut [f32], from: &[f64], factor: f64) {
+    for (to, &from) in to.iter_mut().zip(from) {
+        *to = (from * factor) as f32;
+    }
+}

@@ -1,0 +1,26 @@
+//! Learned policies (§IV): features, the GCAPS and MLP networks, proximal policy optimisation, weights, checkpoints.
+
+mod adam;
+mod advantage;
+mod checkpoint;
+mod curve;
+mod error;
+mod features;
+mod learned;
+pub mod nn;
+mod ppo;
+mod rollout;
+mod settings;
+mod shipped;
+mod train;
+mod weights;
+
+pub use checkpoint::Checkpoint;
+pub use curve::{CurveRow, EventFile, from_csv, to_csv};
+pub use error::Error;
+pub use features::{Observations, Scales, shape};
+pub use learned::Learned;
+pub use settings::{Reward, Schedule, Settings};
+pub use shipped::{Trained, shipped};
+pub use train::{Plan, Training};
+pub use weights::{Header, Model, Origin};

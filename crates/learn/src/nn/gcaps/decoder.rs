@@ -1,0 +1,279 @@
+//! The decoder (§IV.B, Eq. 20 and 21), the logits and the value.
+//!
+//! ```text
+//! q = psi W_Q + b_Q
+//! z = LayerNorm(q + MHA(q, E))
+//! y = LayerNorm(z + ReLU(z W_1 + b_1))
+//! logit_i = (y W_L) . E_i / sqrt(h)
+//! v = head of [mean E, y, clock]
+//! ```
+
+use crate::nn::gcaps::reads::{Reads, ReadsSpace};
+use crate::nn::layer_norm::{LayerNorm, Normalised};
+use crate::nn::layout::{Slot, Tensors};
+use crate::nn::linear::{Linear, add, add_rows, add_weight_slopes, repeat};
+use crate::nn::network::{Inputs, Outputs};
+use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
+use crate::nn::relu;
+use crate::nn::value_head::ValueHead;
+
+/// Sizes and weights of the decoder.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Decoder {
+    pub(crate) reads: Reads,
+    pub(crate) query: Linear,
+    /// W_K, W_V.
+    pub(crate) key: Slot,
+    pub(crate) value: Slot,
+    /// W_O.
+    pub(crate) output: Slot,
+    pub(crate) first_norm: LayerNorm,
+    pub(crate) feed_forward: Linear,
+    pub(crate) second_norm: LayerNorm,
+    /// W_L.
+    pub(crate) pointer: Slot,
+    /// The value head's rows for the mean of the embeddings.
+    pub(crate) means: Slot,
+    pub(crate) head: ValueHead,
+}
+
+/// What the decoder needs while it works: rows of h entries, one per sample, and the reads.
+#[derive(Debug)]
+pub(crate) struct DecoderSpace {
+    pub(crate) reads: ReadsSpace,
+    query: Vec<f32>,
+    heads: Vec<f32>,
+    sum: Vec<f32>,
+    first_norm: Normalised,
+    z: Vec<f32>,
+    lifted: Vec<f32>,
+    second_norm: Normalised,
+    y: Vec<f32>,
+    hidden: Vec<f32>,
+    /// Slopes of y, and what they become on the way down.
+    slopes: Vec<f32>,
+    branch_slopes: Vec<f32>,
+}
+
+impl DecoderSpace {
+    pub(crate) fn new(decoder: &Decoder, batch: usize) -> Self {
+        let width = decoder.output.columns;
+        let rows = || vec![0.0; batch * width];
+        Self {
+            reads: decoder.reads.space(batch),
+            query: rows(),
+            heads: rows(),
+            sum: rows(),
+            first_norm: Normalised::new(batch, width),
+            z: rows(),
+            lifted: rows(),
+            second_norm: Normalised::new(batch, width),
+            y: rows(),
+            hidden: rows(),
+            slopes: rows(),
+            branch_slopes: rows(),
+        }
+    }
+
+    /// Cuts the rows to a batch.
+    fn rows(&mut self, len: usize) -> Rows<'_> {
+        Rows {
+            query: &mut self.query[..len],
+            heads: &mut self.heads[..len],
+            sum: &mut self.sum[..len],
+            z: &mut self.z[..len],
+            lifted: &mut self.lifted[..len],
+            y: &mut self.y[..len],
+            hidden: &mut self.hidden[..len],
+            slopes: &mut self.slopes[..len],
+            branch_slopes: &mut self.branch_slopes[..len],
+            reads: &mut self.reads,
+            first_norm: &mut self.first_norm,
+            second_norm: &mut self.second_norm,
+        }
+    }
+}
+
+/// The space of one batch.
+struct Rows<'a> {
+    query: &'a mut [f32],
+    heads: &'a mut [f32],
+    sum: &'a mut [f32],
+    z: &'a mut [f32],
+    lifted: &'a mut [f32],
+    y: &'a mut [f32],
+    hidden: &'a mut [f32],
+    slopes: &'a mut [f32],
+    branch_slopes: &'a mut [f32],
+    reads: &'a mut ReadsSpace,
+    first_norm: &'a mut Normalised,
+    second_norm: &'a mut Normalised,
+}
+
+impl Decoder {
+    fn width(&self) -> usize {
+        self.output.columns
+    }
+
+    /// Columns of a head in a row of all heads.
+    fn head_width(&self) -> usize {
+        self.width() / self.reads.heads
+    }
+
+    /// Logits and values from node embeddings.
+    pub(crate) fn forward(
+        &self,
+        tensors: Tensors<'_>,
+        inputs: Inputs<'_>,
+        embeddings: &[f32],
+        space: &mut DecoderSpace,
+        outputs: &mut Outputs,
+    ) {
+        let (batch, width) = (inputs.batch, self.width());
+        let rows = space.rows(batch * width);
+        self.query.forward(tensors, inputs.aircraft, rows.query);
+        self.attend(tensors, batch, embeddings, rows.query, rows.reads, rows.heads);
+
+        rows.sum.copy_from_slice(rows.query);
+        let heads = Matrix::new(rows.heads, batch, width);
+        multiply(MatrixMut::new(rows.sum, batch, width), Write::Add, heads, tensors.matrix(self.output));
+        self.first_norm.forward(tensors, rows.sum, rows.first_norm, rows.z);
+        self.feed_forward.forward(tensors, rows.z, rows.lifted);
+        relu::forward(rows.lifted);
+        rows.sum.copy_from_slice(rows.z);
+        add(rows.lifted, rows.sum);
+        self.second_norm.forward(tensors, rows.sum, rows.second_norm, rows.y);
+
+        let y = Matrix::new(rows.y, batch, width);
+        multiply(self.reads.pointer(rows.reads, batch), Write::Set, y, tensors.matrix(self.pointer));
+        let logits = &mut outputs.logits[..batch * self.reads.vertiports];
+        self.reads.point(embeddings, inputs.mask, rows.reads, logits);
+
+        repeat(tensors.part(self.head.hidden_bias), rows.hidden);
+        let hidden = MatrixMut::new(rows.hidden, batch, width);
+        multiply(hidden, Write::Add, y, tensors.matrix(self.head.features()));
+        let means = Matrix::new(&rows.reads.means[..batch * self.means.rows], batch, self.means.rows);
+        let hidden = MatrixMut::new(rows.hidden, batch, width);
+        multiply(hidden, Write::Add, means, tensors.matrix(self.means));
+        self.head.forward(tensors, inputs.clock, rows.hidden, &mut outputs.values[..batch]);
+    }
+
+    /// Eq. 20 for all heads, side by side in a row.
+    fn attend(
+        &self,
+        tensors: Tensors<'_>,
+        batch: usize,
+        embeddings: &[f32],
+        query: &[f32],
+        reads: &mut ReadsSpace,
+        heads: &mut [f32],
+    ) {
+        let (width, each) = (self.width(), self.head_width());
+        let (key, value) = (tensors.matrix(self.key), tensors.matrix(self.value));
+        let query = Matrix::new(query, batch, width);
+        for head in 0..self.reads.heads {
+            let key = key.columns(head * each, each).transposed();
+            let to = self.reads.query(reads, batch, head);
+            multiply(to, Write::Set, query.columns(head * each, each), key);
+        }
+        self.reads.attend(embeddings, reads);
+        for head in 0..self.reads.heads {
+            let to = MatrixMut::new(heads, batch, width).columns(head * each, each);
+            let collected = self.reads.collected(reads, batch, head);
+            multiply(to, Write::Set, collected, value.columns(head * each, each));
+        }
+    }
+
+    /// Adds the slopes of the decoder's weights; writes the embeddings' slopes.
+    pub(crate) fn backward(
+        &self,
+        tensors: Tensors<'_>,
+        inputs: Inputs<'_>,
+        embeddings: &[f32],
+        (logit_slopes, value_slopes): (&[f32], &[f32]),
+        space: &mut DecoderSpace,
+        (embedding_slopes, gradient): (&mut [f32], &mut [f32]),
+    ) {
+        let (batch, width) = (inputs.batch, self.width());
+        let rows = &mut space.rows(batch * width);
+        self.read_out_backward(tensors, inputs, embeddings, (logit_slopes, value_slopes), rows, gradient);
+
+        self.second_norm.backward(tensors, rows.second_norm, rows.slopes, gradient);
+        rows.branch_slopes.copy_from_slice(rows.slopes);
+        relu::backward(rows.lifted, rows.branch_slopes);
+        self.feed_forward.backward(rows.z, rows.branch_slopes, gradient);
+        self.feed_forward.input_slopes(tensors, rows.branch_slopes, Write::Add, rows.slopes);
+        self.first_norm.backward(tensors, rows.first_norm, rows.slopes, gradient);
+
+        add_weight_slopes(self.output, rows.heads, rows.slopes, gradient);
+        let slopes = Matrix::new(rows.slopes, batch, width);
+        let to = MatrixMut::new(rows.branch_slopes, batch, width);
+        multiply(to, Write::Set, slopes, tensors.matrix(self.output).transposed());
+        self.attend_backward(tensors, batch, embeddings, rows, (embedding_slopes, gradient));
+
+        self.query.backward(inputs.aircraft, rows.slopes, gradient);
+    }
+
+    /// From the slopes of logits and values to those of y.
+    fn read_out_backward(
+        &self,
+        tensors: Tensors<'_>,
+        inputs: Inputs<'_>,
+        embeddings: &[f32],
+        (logit_slopes, value_slopes): (&[f32], &[f32]),
+        rows: &mut Rows<'_>,
+        gradient: &mut [f32],
+    ) {
+        let (batch, width) = (inputs.batch, self.width());
+        let hidden_slopes = &mut *rows.branch_slopes;
+        let kept = (inputs.clock, &*rows.hidden);
+        self.head.backward(tensors, kept, value_slopes, hidden_slopes, gradient);
+        add_rows(hidden_slopes, self.head.hidden_bias.part_mut(gradient));
+        add_weight_slopes(self.head.features(), rows.y, hidden_slopes, gradient);
+        let means = &rows.reads.means[..batch * self.means.rows];
+        add_weight_slopes(self.means, means, hidden_slopes, gradient);
+        let hidden_slopes = Matrix::new(hidden_slopes, batch, width);
+        let to = self.reads.mean_slopes(rows.reads, batch);
+        multiply(to, Write::Set, hidden_slopes, tensors.matrix(self.means).transposed());
+        let to = MatrixMut::new(rows.slopes, batch, width);
+        multiply(to, Write::Set, hidden_slopes, tensors.matrix(self.head.features()).transposed());
+
+        self.reads.point_backward(embeddings, inputs.mask, logit_slopes, rows.reads);
+        let pointer_slopes = self.reads.query_slopes(rows.reads, batch, self.reads.heads);
+        let y = Matrix::new(rows.y, batch, width);
+        multiply(self.pointer.matrix_mut(gradient), Write::Add, y.transposed(), pointer_slopes);
+        let to = MatrixMut::new(rows.slopes, batch, width);
+        multiply(to, Write::Add, pointer_slopes, tensors.matrix(self.pointer).transposed());
+    }
+
+    /// From the heads' slopes (in the branch's place) to the embeddings' and, added, the query's.
+    fn attend_backward(
+        &self,
+        tensors: Tensors<'_>,
+        batch: usize,
+        embeddings: &[f32],
+        rows: &mut Rows<'_>,
+        (embedding_slopes, gradient): (&mut [f32], &mut [f32]),
+    ) {
+        let (width, each) = (self.width(), self.head_width());
+        let (key, value) = (tensors.matrix(self.key), tensors.matrix(self.value));
+        let slopes = Matrix::new(rows.branch_slopes, batch, width);
+        for head in 0..self.reads.heads {
+            let slopes = slopes.columns(head * each, each);
+            let collected = self.reads.collected(rows.reads, batch, head).transposed();
+            let to = self.value.matrix_mut(gradient).columns(head * each, each);
+            multiply(to, Write::Add, collected, slopes);
+            let to = self.reads.collected_slopes(rows.reads, batch, head);
+            multiply(to, Write::Set, slopes, value.columns(head * each, each).transposed());
+        }
+        self.reads.attend_backward(embeddings, rows.reads, embedding_slopes);
+        let query = Matrix::new(rows.query, batch, width);
+        for head in 0..self.reads.heads {
+            let slopes = self.reads.query_slopes(rows.reads, batch, head);
+            let to = self.key.matrix_mut(gradient).columns(head * each, each);
+            multiply(to, Write::Add, slopes.transposed(), query.columns(head * each, each));
+            let to = MatrixMut::new(rows.slopes, batch, width).columns(head * each, each);
+            multiply(to, Write::Add, slopes, key.columns(head * each, each));
+        }
+    }
+}

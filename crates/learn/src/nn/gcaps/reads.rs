@@ -1,0 +1,199 @@
+//! How the decoder reads a sample's node embeddings: attention over them, their mean, and each one's own logit.
+//!
+//! A sample has one query, so keys and values of all nodes are never formed. A head's query is brought to the nodes'
+//! side (u = W_K q), its scores are E . u, and what its attention collects, a E, goes through W_V afterwards. All of a
+//! sample's reads are rows of the nodes' width, so they are kept together, and going back the slopes of the node
+//! embeddings are one product, `factors^T rows`:
+//!
+//! | rows | factors |
+//! |---|---|
+//! | slopes of what each head collected | attention |
+//! | queries | slopes of the scores |
+//! | pointer | slopes of the logits |
+//! | slopes of the mean | 1 / N |
+
+use crate::nn::linear::sum_groups;
+use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
+
+/// Sizes of the reads.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reads {
+    pub(crate) vertiports: usize,
+    pub(crate) heads: usize,
+    /// Width of the embeddings read.
+    pub(crate) width: usize,
+    /// What scores are multiplied by, 1 / sqrt(d).
+    pub(crate) score_scale: f32,
+    /// What logits are multiplied by, 1 / sqrt(h).
+    pub(crate) logit_scale: f32,
+}
+
+/// Rows and factors as above, and what the attention collected; sizes for one sample in brackets.
+#[derive(Debug)]
+pub(crate) struct ReadsSpace {
+    /// [(2 heads + 2) x width].
+    rows: Vec<f32>,
+    /// [(2 heads + 2) x N].
+    factors: Vec<f32>,
+    /// [heads x width].
+    pub(crate) collected: Vec<f32>,
+    /// [width].
+    pub(crate) means: Vec<f32>,
+    /// Slopes of queries and pointer [(heads + 1) x width].
+    query_slopes: Vec<f32>,
+}
+
+impl Reads {
+    fn block(self) -> usize {
+        2 * self.heads + 2
+    }
+
+    pub(crate) fn space(self, batch: usize) -> ReadsSpace {
+        ReadsSpace {
+            rows: vec![0.0; batch * self.block() * self.width],
+            factors: vec![1.0 / self.vertiports as f32; batch * self.block() * self.vertiports],
+            collected: vec![0.0; batch * self.heads * self.width],
+            means: vec![0.0; batch * self.width],
+            query_slopes: vec![0.0; batch * (self.heads + 1) * self.width],
+        }
+    }
+
+    /// One row of every sample's block.
+    fn row(self, space: &mut ReadsSpace, batch: usize, row: usize) -> MatrixMut<'_> {
+        let rows = &mut space.rows[..batch * self.block() * self.width];
+        MatrixMut::new(rows, batch, self.block() * self.width).columns(row * self.width, self.width)
+    }
+
+    /// Where a head's query, on the nodes' side, is to be written.
+    pub(crate) fn query(self, space: &mut ReadsSpace, batch: usize, head: usize) -> MatrixMut<'_> {
+        self.row(space, batch, self.heads + head)
+    }
+
+    /// Where the pointer is to be written.
+    pub(crate) fn pointer(self, space: &mut ReadsSpace, batch: usize) -> MatrixMut<'_> {
+        self.row(space, batch, 2 * self.heads)
+    }
+
+    /// Where the slopes of what a head collected are to be written.
+    pub(crate) fn collected_slopes(self, space: &mut ReadsSpace, batch: usize, head: usize) -> MatrixMut<'_> {
+        self.row(space, batch, head)
+    }
+
+    /// Where the slopes of the means are to be written.
+    pub(crate) fn mean_slopes(self, space: &mut ReadsSpace, batch: usize) -> MatrixMut<'_> {
+        self.row(space, batch, 2 * self.heads + 1)
+    }
+
+    /// What a head collected, of every sample.
+    pub(crate) fn collected(self, space: &ReadsSpace, batch: usize, head: usize) -> Matrix<'_> {
+        let collected = &space.collected[..batch * self.heads * self.width];
+        Matrix::new(collected, batch, self.heads * self.width).columns(head * self.width, self.width)
+    }
+
+    /// The slopes of a head's query; of the pointer for the head behind the last.
+    pub(crate) fn query_slopes(self, space: &ReadsSpace, batch: usize, head: usize) -> Matrix<'_> {
+        let slopes = &space.query_slopes[..batch * (self.heads + 1) * self.width];
+        Matrix::new(slopes, batch, (self.heads + 1) * self.width).columns(head * self.width, self.width)
+    }
+
+    /// Eq. 20 for all heads, once the queries are there; and the means.
+    pub(crate) fn attend(self, embeddings: &[f32], space: &mut ReadsSpace) {
+        let Self { vertiports, heads, width, .. } = self;
+        let nodes = embeddings.chunks_exact(vertiports * width);
+        let rows = space.rows.chunks_exact(self.block() * width);
+        let factors = space.factors.chunks_exact_mut(self.block() * vertiports);
+        let collected = space.collected.chunks_exact_mut(heads * width);
+        for (((nodes, rows), factors), collected) in nodes.zip(rows).zip(factors).zip(collected) {
+            let nodes = Matrix::new(nodes, vertiports, width);
+            let queries = Matrix::new(&rows[heads * width..][..heads * width], heads, width);
+            let attention = &mut factors[..heads * vertiports];
+            let scores = MatrixMut::new(attention, heads, vertiports);
+            multiply(scores, Write::Set, queries, nodes.transposed());
+            attention.chunks_exact_mut(vertiports).for_each(|scores| softmax(scores, self.score_scale));
+            let attention = Matrix::new(attention, heads, vertiports);
+            multiply(MatrixMut::new(collected, heads, width), Write::Set, attention, nodes);
+        }
+        let batch = embeddings.len() / (vertiports * width);
+        let means = &mut space.means[..batch * width];
+        sum_groups(embeddings, (vertiports, width), 1.0 / vertiports as f32, means);
+    }
+
+    /// Logits of every node, once the pointers are there; minus infinity where the mask is 0.
+    pub(crate) fn point(self, embeddings: &[f32], mask: &[u8], space: &ReadsSpace, logits: &mut [f32]) {
+        let Self { vertiports, heads, width, .. } = self;
+        let nodes = embeddings.chunks_exact(vertiports * width);
+        let rows = space.rows.chunks_exact(self.block() * width);
+        for ((nodes, rows), logits) in nodes.zip(rows).zip(logits.chunks_exact_mut(vertiports)) {
+            let pointer = Matrix::new(&rows[2 * heads * width..][..width], 1, width);
+            let nodes = Matrix::new(nodes, vertiports, width).transposed();
+            multiply(MatrixMut::new(logits, 1, vertiports), Write::Set, pointer, nodes);
+        }
+        for (logit, &open) in logits.iter_mut().zip(mask) {
+            *logit = if open == 0 { f32::NEG_INFINITY } else { *logit * self.logit_scale };
+        }
+    }
+
+    /// From the logits' slopes to the pointers' slopes.
+    pub(crate) fn point_backward(self, embeddings: &[f32], mask: &[u8], slopes: &[f32], space: &mut ReadsSpace) {
+        let Self { vertiports, heads, width, .. } = self;
+        let factors = space.factors.chunks_exact_mut(self.block() * vertiports);
+        let of_logits = mask.chunks_exact(vertiports).zip(slopes.chunks_exact(vertiports));
+        let nodes = embeddings.chunks_exact(vertiports * width);
+        let to = space.query_slopes.chunks_exact_mut((heads + 1) * width);
+        for (((mask, slopes), nodes), (factors, to)) in of_logits.zip(nodes).zip(factors.zip(to)) {
+            let factors = &mut factors[2 * heads * vertiports..][..vertiports];
+            for ((factor, slope), &open) in factors.iter_mut().zip(slopes).zip(mask) {
+                *factor = if open == 0 { 0.0 } else { slope * self.logit_scale };
+            }
+            let to = MatrixMut::new(&mut to[heads * width..], 1, width);
+            let nodes = Matrix::new(nodes, vertiports, width);
+            multiply(to, Write::Set, Matrix::new(factors, 1, vertiports), nodes);
+        }
+    }
+
+    /// From the slopes of what was collected to the queries' slopes and, all reads together, the embeddings'.
+    pub(crate) fn attend_backward(self, embeddings: &[f32], space: &mut ReadsSpace, slopes: &mut [f32]) {
+        let Self { vertiports, heads, width, .. } = self;
+        let nodes = embeddings.chunks_exact(vertiports * width);
+        let rows = space.rows.chunks_exact(self.block() * width);
+        let factors = space.factors.chunks_exact_mut(self.block() * vertiports);
+        let to = space.query_slopes.chunks_exact_mut((heads + 1) * width);
+        let slopes = slopes.chunks_exact_mut(vertiports * width);
+        for ((((nodes, rows), factors), to), slopes) in nodes.zip(rows).zip(factors).zip(to).zip(slopes) {
+            let nodes = Matrix::new(nodes, vertiports, width);
+            let collected = Matrix::new(&rows[..heads * width], heads, width);
+            let (attention, rest) = factors.split_at_mut(heads * vertiports);
+            let scores = &mut rest[..heads * vertiports];
+            multiply(MatrixMut::new(scores, heads, vertiports), Write::Set, collected, nodes.transposed());
+            let of_heads = attention.chunks_exact(vertiports).zip(scores.chunks_exact_mut(vertiports));
+            of_heads.for_each(|(attention, slopes)| softmax_backward(attention, slopes, self.score_scale));
+            let to = MatrixMut::new(&mut to[..heads * width], heads, width);
+            multiply(to, Write::Set, Matrix::new(scores, heads, vertiports), nodes);
+
+            let factors = Matrix::new(factors, self.block(), vertiports).transposed();
+            let rows = Matrix::new(rows, self.block(), width);
+            multiply(MatrixMut::new(slopes, vertiports, width), Write::Set, factors, rows);
+        }
+    }
+}
+
+/// The softmax of `scale` times the scores, in place.
+fn softmax(scores: &mut [f32], scale: f32) {
+    let highest = scores.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let mut total = 0.0;
+    for score in &mut *scores {
+        *score = ((*score - highest) * scale).exp();
+        total += *score;
+    }
+    for score in scores {
+        *score /= total;
+    }
+}
+
+/// From the slopes of the softmax to the slopes of its scores, in place.
+fn softmax_backward(softmax: &[f32], slopes: &mut [f32], scale: f32) {
+    let mean: f32 = softmax.iter().zip(&*slopes).map(|(weight, slope)| weight * slope).sum();
+    for (slope, weight) in slopes.iter_mut().zip(softmax) {
+        *slope = scale * weight * (*slope - mean);
+    }
+}

@@ -1,0 +1,147 @@
+//! Where each of a network's tensors lies in its flat vector of weights.
+
+use crate::nn::init::Init;
+use crate::nn::product::{Matrix, MatrixMut};
+
+/// A named tensor of a network's weights.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tensor {
+    /// Its name in weight files.
+    pub name: String,
+    /// Its sizes, the slowest index first. A matrix W is [inputs, outputs] and used as `x W`.
+    pub shape: Vec<usize>,
+    /// Index of its first entry in the flat vector.
+    pub offset: usize,
+    pub(crate) init: Init,
+}
+
+impl Tensor {
+    /// Number of entries.
+    pub fn len(&self) -> usize {
+        self.shape.iter().product()
+    }
+
+    /// Whether it has no entries, which no tensor of a network has.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// The tensors of a network, one after the other in one flat vector.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layout {
+    tensors: Vec<Tensor>,
+    start: usize,
+    end: usize,
+}
+
+/// Where one tensor lies: what the layers keep of the layout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Slot {
+    pub(crate) offset: usize,
+    /// 1 for vectors.
+    pub(crate) rows: usize,
+    pub(crate) columns: usize,
+}
+
+/// The numbers behind slots: weights, and behind their end what is derived from them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tensors<'a> {
+    pub(crate) params: &'a [f32],
+    pub(crate) derived: &'a [f32],
+}
+
+impl Layout {
+    /// No tensors yet; the first will lie at `start`.
+    pub(crate) fn starting_at(start: usize) -> Self {
+        Self { tensors: Vec::new(), start, end: start }
+    }
+
+    /// The tensors in their order.
+    pub fn tensors(&self) -> &[Tensor] {
+        &self.tensors
+    }
+
+    /// Number of entries of all tensors.
+    pub fn len(&self) -> usize {
+        self.end - self.start
+    }
+
+    /// Whether there are no tensors.
+    pub fn is_empty(&self) -> bool {
+        self.tensors.is_empty()
+    }
+
+    /// Index behind the last entry.
+    pub(crate) fn end(&self) -> usize {
+        self.end
+    }
+
+    /// Adds a matrix behind what is there.
+    pub(crate) fn matrix(&mut self, name: &str, (rows, columns): (usize, usize), init: Init) -> Slot {
+        self.push(name, vec![rows, columns], init);
+        Slot { offset: self.end - rows * columns, rows, columns }
+    }
+
+    /// Adds a vector behind what is there.
+    pub(crate) fn vector(&mut self, name: &str, len: usize, init: Init) -> Slot {
+        self.push(name, vec![len], init);
+        Slot { offset: self.end - len, rows: 1, columns: len }
+    }
+
+    fn push(&mut self, name: &str, shape: Vec<usize>, init: Init) {
+        let tensor = Tensor { name: name.to_owned(), shape, offset: self.end, init };
+        self.end += tensor.len();
+        self.tensors.push(tensor);
+    }
+}
+
+impl Slot {
+    fn len(self) -> usize {
+        self.rows * self.columns
+    }
+
+    /// The block of `count` rows from `first` on.
+    pub(crate) fn rows(self, first: usize, count: usize) -> Self {
+        assert!(first + count <= self.rows, "rows of a tensor with {}", self.rows);
+        Self { offset: self.offset + first * self.columns, rows: count, ..self }
+    }
+
+    /// The same tensor in a vector without the first `skipped` entries.
+    pub(crate) fn counted_from(self, skipped: usize) -> Self {
+        Self { offset: self.offset - skipped, ..self }
+    }
+
+    /// The tensor's part of a flat vector.
+    pub(crate) fn part(self, flat: &[f32]) -> &[f32] {
+        &flat[self.offset..][..self.len()]
+    }
+
+    /// The tensor's part of a flat vector.
+    pub(crate) fn part_mut(self, flat: &mut [f32]) -> &mut [f32] {
+        &mut flat[self.offset..][..self.len()]
+    }
+
+    /// The tensor's part of a flat vector.
+    pub(crate) fn matrix(self, flat: &[f32]) -> Matrix<'_> {
+        Matrix::new(self.part(flat), self.rows, self.columns)
+    }
+
+    /// The tensor's part of a flat vector.
+    pub(crate) fn matrix_mut(self, flat: &mut [f32]) -> MatrixMut<'_> {
+        MatrixMut::new(self.part_mut(flat), self.rows, self.columns)
+    }
+}
+
+impl<'a> Tensors<'a> {
+    /// A tensor's entries.
+    pub(crate) fn part(self, slot: Slot) -> &'a [f32] {
+        let weights = self.params.len();
+        if slot.offset < weights { slot.part(self.params) } else { slot.counted_from(weights).part(self.derived) }
+    }
+
+    /// A tensor as a matrix.
+    pub(crate) fn matrix(self, slot: Slot) -> Matrix<'a> {
+        Matrix::new(self.part(slot), slot.rows, slot.columns)
+    }
+}

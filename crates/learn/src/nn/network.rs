@@ -1,0 +1,273 @@
+//! A network of either kind behind one interface: forward, backward, and the weights between.
+
+use crate::nn::architecture::{Architecture, Shape, check_size};
+use crate::nn::gcaps::{Gcaps, GcapsSpace};
+use crate::nn::init;
+use crate::nn::layout::{Layout, Tensors};
+use crate::nn::mlp::{Mlp, MlpSpace};
+
+/// A policy's network: sizes and the layout of its weights, not the weights themselves.
+#[derive(Debug, Clone)]
+pub struct Network {
+    architecture: Architecture,
+    shape: Shape,
+    layout: Layout,
+    /// The weights in front are worked with only through products; nobody sums their slopes.
+    folded: usize,
+    /// Length of the products.
+    derived: usize,
+    body: Body,
+}
+
+#[derive(Debug, Clone)]
+enum Body {
+    Gcaps(Box<Gcaps>),
+    Mlp(Mlp),
+}
+
+/// A batch of observations, rows side by side. F are a node's features, G the aircraft's.
+#[derive(Debug, Clone, Copy)]
+pub struct Inputs<'a> {
+    /// B, the number of decisions.
+    pub batch: usize,
+    /// Node features [B x N x F].
+    pub nodes: &'a [f32],
+    /// Aircraft features [B x G].
+    pub aircraft: &'a [f32],
+    /// [B x N]: 0 where the vertiport may not be chosen. At least one of each row may.
+    pub mask: &'a [u8],
+    /// Share of the day left [B]; the value head alone sees it.
+    pub clock: &'a [f32],
+}
+
+/// What is derived from the weights once per change of them.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    products: Vec<f32>,
+}
+
+/// Room for the passes of batches up to a largest one. Only a pass that follows another reads what that one left.
+#[derive(Debug)]
+pub struct Workspace {
+    most: usize,
+    batch: usize,
+    vertiports: usize,
+    outputs: Outputs,
+    body: BodySpace,
+}
+
+#[derive(Debug)]
+enum BodySpace {
+    Gcaps(Box<GcapsSpace>),
+    Mlp(MlpSpace),
+}
+
+#[derive(Debug)]
+pub(crate) struct Outputs {
+    pub(crate) logits: Vec<f32>,
+    pub(crate) values: Vec<f32>,
+}
+
+/// A gradient, summed over as many batches as one likes.
+#[derive(Debug, Clone)]
+pub struct Gradient {
+    /// Slopes of the weights, then those of the products.
+    slopes: Vec<f32>,
+    folded: usize,
+}
+
+impl Network {
+    /// The network of these sizes.
+    ///
+    /// # Errors
+    /// If sizes are 0, beyond all reason, or do not fit together; the message says which.
+    pub fn new(architecture: Architecture, shape: Shape) -> Result<Self, String> {
+        check_size("vertiports", shape.vertiports)?;
+        check_size("node_features", shape.node_features)?;
+        check_size("aircraft_features", shape.aircraft_features)?;
+        let (body, layout, derived, folded) = match &architecture {
+            Architecture::Gcaps(settings) => {
+                let (body, layout, products, folded) = Gcaps::new(settings, shape)?;
+                (Body::Gcaps(Box::new(body)), layout, products.len(), folded)
+            }
+            Architecture::Mlp(settings) => {
+                let (body, layout) = Mlp::new(settings, shape)?;
+                (Body::Mlp(body), layout, 0, 0)
+            }
+        };
+        Ok(Self { architecture, shape, layout, folded, derived, body })
+    }
+
+    /// The policy's kind and sizes.
+    pub fn architecture(&self) -> &Architecture {
+        &self.architecture
+    }
+
+    /// Sizes of the features.
+    pub fn shape(&self) -> Shape {
+        self.shape
+    }
+
+    /// Where each tensor lies among the weights.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// First weights, a function of the seed alone.
+    pub fn init(&self, seed: u64) -> Vec<f32> {
+        init::draw(&self.layout, seed)
+    }
+
+    /// Room for what [`prepare`](Self::prepare) derives.
+    pub fn prepared(&self) -> Prepared {
+        Prepared { products: vec![0.0; self.derived] }
+    }
+
+    /// Room for passes of up to `most` decisions.
+    pub fn workspace(&self, most: usize) -> Workspace {
+        let vertiports = self.shape.vertiports;
+        Workspace {
+            most,
+            batch: 0,
+            vertiports,
+            outputs: Outputs { logits: vec![0.0; most * vertiports], values: vec![0.0; most] },
+            body: match &self.body {
+                Body::Gcaps(body) => BodySpace::Gcaps(Box::new(body.space(most))),
+                Body::Mlp(body) => BodySpace::Mlp(body.space(most)),
+            },
+        }
+    }
+
+    /// A gradient of zeros.
+    pub fn gradient(&self) -> Gradient {
+        Gradient { slopes: vec![0.0; self.layout.len() + self.derived], folded: self.folded }
+    }
+
+    /// Derives what the passes need of the weights. To be called after each change of them.
+    ///
+    /// # Panics
+    /// If `params` or `prepared` are another network's.
+    pub fn prepare(&self, params: &[f32], prepared: &mut Prepared) {
+        self.tensors(params, prepared);
+        match &self.body {
+            Body::Gcaps(body) => body.prepare(params, &mut prepared.products),
+            Body::Mlp(_) => {}
+        }
+    }
+
+    /// Logits and values of a batch, left in the workspace.
+    ///
+    /// # Panics
+    /// If the batch is larger than the workspace, or anything is of another network's shape.
+    pub fn forward(
+        &self,
+        params: &[f32],
+        prepared: &Prepared,
+        inputs: Inputs<'_>,
+        workspace: &mut Workspace,
+    ) {
+        self.check(inputs, workspace);
+        let tensors = self.tensors(params, prepared);
+        workspace.batch = inputs.batch;
+        let outputs = &mut workspace.outputs;
+        match (&self.body, &mut workspace.body) {
+            (Body::Gcaps(body), BodySpace::Gcaps(space)) => body.forward(tensors, inputs, space, outputs),
+            (Body::Mlp(body), BodySpace::Mlp(space)) => body.forward(tensors, inputs, space, outputs),
+            _ => panic!("the workspace is of another kind of network"),
+        }
+    }
+
+    /// Adds the gradient of a loss whose slopes in logits [B x N] and values [B] are given, for the batch of the latest
+    /// [`forward`](Self::forward). Slopes at masked vertiports are ignored.
+    ///
+    /// # Panics
+    /// If anything is of another network's shape, or the batch of another size than the latest.
+    pub fn backward(
+        &self,
+        (params, prepared): (&[f32], &Prepared),
+        inputs: Inputs<'_>,
+        (logit_slopes, value_slopes): (&[f32], &[f32]),
+        workspace: &mut Workspace,
+        gradient: &mut Gradient,
+    ) {
+        self.check(inputs, workspace);
+        let tensors = self.tensors(params, prepared);
+        assert_eq!(inputs.batch, workspace.batch, "the latest forward pass was of this batch");
+        assert_eq!(logit_slopes.len(), inputs.mask.len(), "a slope for every logit");
+        assert_eq!(value_slopes.len(), inputs.batch, "a slope for every value");
+        let slopes = (logit_slopes, value_slopes);
+        let gradient = &mut gradient.slopes;
+        match (&self.body, &mut workspace.body) {
+            (Body::Gcaps(body), BodySpace::Gcaps(space)) => {
+                body.backward(tensors, inputs, slopes, space, gradient);
+            }
+            (Body::Mlp(body), BodySpace::Mlp(space)) => body.backward(tensors, inputs, slopes, space, gradient),
+            _ => panic!("the workspace is of another kind of network"),
+        }
+    }
+
+    /// Completes a summed gradient; returns the slopes of the weights, in the order of the layout. To be called once
+    /// per sum: the gradient must be cleared before it is added to again.
+    ///
+    /// # Panics
+    /// If anything is another network's.
+    pub fn finish<'a>(
+        &self,
+        params: &[f32],
+        prepared: &Prepared,
+        gradient: &'a mut Gradient,
+    ) -> &'a mut [f32] {
+        self.tensors(params, prepared);
+        match &self.body {
+            Body::Gcaps(body) => body.finish(params, &mut gradient.slopes),
+            Body::Mlp(_) => {}
+        }
+        &mut gradient.slopes[..self.layout.len()]
+    }
+
+    fn tensors<'a>(&self, params: &'a [f32], prepared: &'a Prepared) -> Tensors<'a> {
+        assert_eq!(params.len(), self.layout.len(), "weights of this network");
+        assert_eq!(prepared.products.len(), self.derived, "products of this network");
+        Tensors { params, derived: &prepared.products }
+    }
+
+    fn check(&self, inputs: Inputs<'_>, workspace: &Workspace) {
+        let Shape { vertiports, node_features, aircraft_features } = self.shape;
+        let batch = inputs.batch;
+        assert!(batch <= workspace.most, "the workspace has room for {} decisions, not {batch}", workspace.most);
+        assert_eq!(workspace.vertiports, vertiports, "a workspace of this network");
+        assert_eq!(inputs.nodes.len(), batch * vertiports * node_features, "node features of the batch");
+        assert_eq!(inputs.aircraft.len(), batch * aircraft_features, "aircraft features of the batch");
+        assert_eq!(inputs.mask.len(), batch * vertiports, "mask of the batch");
+        assert_eq!(inputs.clock.len(), batch, "clocks of the batch");
+    }
+}
+
+impl Workspace {
+    /// Logits of the latest forward pass [B x N]; minus infinity where the mask is 0.
+    pub fn logits(&self) -> &[f32] {
+        &self.outputs.logits[..self.batch * self.vertiports]
+    }
+
+    /// Values of the latest forward pass [B].
+    pub fn values(&self) -> &[f32] {
+        &self.outputs.values[..self.batch]
+    }
+}
+
+impl Gradient {
+    /// Back to zeros.
+    pub fn clear(&mut self) {
+        self.sums_mut().fill(0.0);
+    }
+
+    /// What batches add to, for adding gradients up; of use only to [`Network::finish`].
+    pub fn sums(&self) -> &[f32] {
+        &self.slopes[self.folded..]
+    }
+
+    /// As [`sums`](Self::sums), to be changed.
+    pub fn sums_mut(&mut self) -> &mut [f32] {
+        &mut self.slopes[self.folded..]
+    }
+}

@@ -1,0 +1,56 @@
+//! The trained policies that come with the program, inside it, so that it runs from any folder.
+
+use crate::curve::{self, CurveRow};
+use crate::error::Error;
+use crate::weights::Model;
+
+/// A trained policy and how its training went.
+#[derive(Debug, Clone)]
+pub struct Trained {
+    /// The policy.
+    pub model: Model,
+    /// Its learning curve; empty if none was kept beside the weights.
+    pub curve: Vec<CurveRow>,
+}
+
+struct Files {
+    network: &'static str,
+    policy: &'static str,
+    weights: &'static [u8],
+    curve: &'static str,
+}
+
+macro_rules! files {
+    ($network:literal, $policy:literal) => {
+        Files {
+            network: $network,
+            policy: $policy,
+            weights: include_bytes!(concat!("../../../models/", $network, "/", $policy, ".safetensors")),
+            curve: include_str!(concat!("../../../models/", $network, "/", $policy, "-curve.csv")),
+        }
+    };
+}
+
+const SHIPPED: &[Files] = &[];
+
+/// The shipped policy of that name for a network.
+///
+/// # Errors
+/// [`Error::NotShipped`] if there is none.
+pub fn shipped(network: &str, policy: &str) -> Result<Trained, Error> {
+    let files = SHIPPED.iter().find(|files| files.network == network && files.policy == policy);
+    let Some(files) = files else {
+        let names: Vec<String> =
+            SHIPPED.iter().map(|files| format!("{} on {}", files.policy, files.network)).collect();
+        return Err(Error::NotShipped {
+            policy: policy.to_owned(),
+            network: network.to_owned(),
+            known: names.join(", "),
+        });
+    };
+    let origin = format!("shipped {policy} of {network}");
+    Ok(Trained {
+        model: Model::from_bytes(files.weights, &origin)?,
+        curve: curve::from_csv(files.curve, &origin)?,
+    })
+}

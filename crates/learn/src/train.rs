@@ -1,0 +1,214 @@
+//! A training run: roll out, update, look at the validation days, keep the best weights; stop and go on at will.
+//!
+//! Training days, validation days and the days people compare on come from disjoint ranges of seeds (`DaySeed`), so no
+//! run can ever learn or choose on a day it is later judged by.
+
+use std::sync::Arc;
+
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
+use vertifleet_core::{DaySeed, Network, Scenario};
+use vertifleet_policy::Policy;
+use vertifleet_sim::Simulation;
+
+use crate::adam::Adam;
+use crate::checkpoint::{Checkpoint, Progress};
+use crate::curve::CurveRow;
+use crate::error::Error;
+use crate::features::shape;
+use crate::learned::Learned;
+use crate::nn::{self, Architecture, Prepared};
+use crate::ppo::Ppo;
+use crate::rollout::{Rollout, Source};
+use crate::settings::Settings;
+use crate::weights::{Model, Origin};
+
+/// Days whose rewards the curve averages, as in stable-baselines3.
+const RECENT_DAYS: usize = 100;
+/// Validation days that share one inference.
+const VALIDATION_BLOCK: usize = 16;
+
+/// What a training run is asked to do.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// Network whose days are learned from.
+    pub network: Arc<Network>,
+    /// The policy's kind and sizes.
+    pub policy: Architecture,
+    /// Settings of the run.
+    pub settings: Settings,
+    /// Seed of the run: weights, days and choices follow from it.
+    pub seed: u32,
+    /// Commit of the program, for the weights' header.
+    pub commit: String,
+}
+
+/// A run under way.
+pub struct Training {
+    plan: Plan,
+    net: nn::Network,
+    params: Vec<f32>,
+    prepared: Prepared,
+    adam: Adam,
+    ppo: Ppo,
+    rollout: Rollout,
+    validation: Vec<Arc<Scenario>>,
+    progress: Progress,
+}
+
+impl Training {
+    /// A run before its first roll-out.
+    ///
+    /// # Errors
+    /// If the policy's sizes do not fit together or the seed is out of range.
+    pub fn start(plan: Plan) -> Result<Self, Error> {
+        let net = plan.net()?;
+        let params = net.init(u64::from(plan.seed));
+        let adam = Adam::new(params.len());
+        let progress = Progress::new(params.clone());
+        Self::assemble(plan, net, (params, adam), progress, true)
+    }
+
+    /// A run that goes on from a checkpoint, bit for bit as if it had never stopped.
+    ///
+    /// # Errors
+    /// If the checkpoint is damaged or of another run.
+    pub fn resume(plan: Plan, checkpoint: Checkpoint) -> Result<Self, Error> {
+        let net = plan.net()?;
+        let (params, adam, progress) = checkpoint.unpack(&plan, net.layout().len())?;
+        Self::assemble(plan, net, (params, adam), progress, false)
+    }
+
+    fn assemble(
+        plan: Plan,
+        net: nn::Network,
+        (params, adam): (Vec<f32>, Adam),
+        mut progress: Progress,
+        fresh: bool,
+    ) -> Result<Self, Error> {
+        let source = Source { network: Arc::clone(&plan.network), run_seed: plan.seed };
+        let days = (!fresh).then(|| std::mem::take(&mut progress.days));
+        let rollout = Rollout::new(source, &net, &plan.settings, days)?;
+        let validation = (0..u64::from(plan.settings.eval_days))
+            .map(|day| Ok(Arc::new(plan.network.draw(DaySeed::validation(day)?))))
+            .collect::<Result<Vec<_>, Error>>()?;
+        let mut prepared = net.prepared();
+        net.prepare(&params, &mut prepared);
+        let ppo = Ppo::new(&net, plan.network.vertiports().len(), &plan.settings);
+        Ok(Self { plan, net, params, prepared, adam, ppo, rollout, validation, progress })
+    }
+
+    /// Whether every step asked for has been learned from.
+    pub fn is_done(&self) -> bool {
+        self.progress.updates >= self.plan.settings.updates()
+    }
+
+    /// One roll-out and one update. Returns the new row of the curve.
+    ///
+    /// # Errors
+    /// If training days run out.
+    pub fn update(&mut self) -> Result<CurveRow, Error> {
+        let finished = self.rollout.collect(&self.net, &self.params, &self.prepared)?;
+        self.progress.remember_days(&finished, RECENT_DAYS);
+        let settings = &self.plan.settings;
+        let update = self.progress.updates;
+        let learning_rate = settings.learning_rate_at(update);
+        let losses = self.ppo.update(
+            &self.net,
+            &self.rollout,
+            (&mut self.params, &mut self.adam, &mut self.prepared),
+            // Distinct for every update of every seed.
+            u64::from(self.plan.seed) << 32 | update,
+            learning_rate,
+        );
+        self.progress.updates += 1;
+        let steps = self.progress.updates * settings.buffer_size() as u64;
+        if self.progress.updates.is_multiple_of(u64::from(settings.eval_every)) || self.is_done() {
+            let reward = self.validation_reward();
+            self.progress.keep_if_best(reward, &self.params, steps);
+        }
+        let row = CurveRow {
+            update: self.progress.updates,
+            steps,
+            days: self.progress.days_finished,
+            mean_reward: self.progress.mean_recent_reward(),
+            validation_reward: self.progress.latest_reward,
+            policy_loss: losses.policy_loss,
+            value_loss: losses.value_loss,
+            entropy: losses.entropy,
+            approx_kl: losses.approx_kl,
+            clip_fraction: losses.clip_fraction,
+            learning_rate: f64::from(learning_rate),
+        };
+        self.progress.curve.push(row);
+        Ok(row)
+    }
+
+    /// Mean reward on the validation days, best choices only.
+    fn validation_reward(&self) -> f64 {
+        let model = Arc::new(self.model_of(self.params.clone(), 0));
+        let blocks: Vec<&[Arc<Scenario>]> = self.validation.chunks(VALIDATION_BLOCK).collect();
+        let rewards = blocks
+            .par_iter()
+            .map(|block| play_block(&mut Learned::new(Arc::clone(&model)), block))
+            .collect::<Vec<_>>();
+        rewards.iter().flatten().sum::<f64>() / self.validation.len() as f64
+    }
+
+    /// The weights that did best on the validation days so far.
+    pub fn best_model(&self) -> Model {
+        self.model_of(self.progress.best_params.clone(), self.progress.best_steps)
+    }
+
+    fn model_of(&self, params: Vec<f32>, steps: u64) -> Model {
+        let origin = Origin {
+            network: self.plan.network.name().to_owned(),
+            feature_scales: self.plan.network.feature_scales(),
+            settings: self.plan.settings.clone(),
+            seed: self.plan.seed,
+            commit: self.plan.commit.clone(),
+        };
+        Model::new(self.net.clone(), params, origin, steps)
+    }
+
+    /// The learning curve so far.
+    pub fn curve(&self) -> &[CurveRow] {
+        &self.progress.curve
+    }
+
+    /// Everything that [`resume`](Self::resume) needs.
+    pub fn checkpoint(&self) -> Checkpoint {
+        let progress = Progress { days: self.rollout.progress(), ..self.progress.clone() };
+        Checkpoint::pack(&self.plan, &self.params, &self.adam, progress)
+    }
+}
+
+impl Plan {
+    fn net(&self) -> Result<nn::Network, Error> {
+        nn::Network::new(self.policy.clone(), shape(self.network.vertiports().len()))
+            .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })
+    }
+}
+
+/// Plays days in lockstep, one inference for all of them; rewards in the order of the days.
+fn play_block(policy: &mut Learned, days: &[Arc<Scenario>]) -> Vec<f64> {
+    let mut simulations: Vec<Simulation> =
+        days.iter().map(|day| Simulation::new(Arc::clone(day))).collect();
+    let mut choices = Vec::with_capacity(days.len());
+    loop {
+        let open: Vec<(usize, _)> = simulations
+            .iter_mut()
+            .enumerate()
+            .filter_map(|(at, day)| day.next_decision().map(|decision| (at, decision)))
+            .collect();
+        if open.is_empty() {
+            return simulations.iter().map(|day| day.summary().reward).collect();
+        }
+        let asked: Vec<_> =
+            open.iter().map(|&(at, decision)| (decision, simulations[at].view())).collect();
+        choices.clear();
+        policy.choose_batch(&asked, &mut choices).expect("a trained network always has an answer");
+        for (&(at, _), &choice) in open.iter().zip(&choices) {
+            simulations[at].apply(choice).expect("a trained network chooses from the mask");
+        }
+    }
+}

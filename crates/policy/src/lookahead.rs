@@ -1,0 +1,72 @@
+//! `lookahead`: the first of the two flights in a row that together earn the most per hour.
+
+use vertifleet_core::{Time, TypeIx, VertiportIx};
+use vertifleet_sim::{Decision, View};
+
+use crate::{Policy, PolicyError};
+
+/// Looks two flights ahead: this one, and the best one from where it ends, with the demand forecast for then.
+///
+/// Who will stand where by then is not known, so the second flight goes to a vertiport that has a stand free now, or
+/// back to the one that this flight leaves. Holds if no flight earns anything; among equals the vertiport listed first
+/// wins.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Lookahead;
+
+/// Money over time.
+#[derive(Clone, Copy)]
+struct Prospect {
+    profit_usd: f64,
+    seconds: f64,
+}
+
+impl Prospect {
+    fn of_flight(view: View<'_>, time: Time, kind: TypeIx, pair: (VertiportIx, VertiportIx)) -> Self {
+        let waiting = view.demand_left(view.period_at(time), pair.0, pair.1);
+        Self {
+            profit_usd: view.flight_profit_usd(time, kind, pair, waiting),
+            seconds: f64::from(view.leg(kind, pair.0, pair.1).block_s()),
+        }
+    }
+
+    fn then(self, next: Self) -> Self {
+        Self {
+            profit_usd: self.profit_usd + next.profit_usd,
+            seconds: self.seconds + next.seconds,
+        }
+    }
+
+    fn rate(self) -> f64 {
+        self.profit_usd / self.seconds
+    }
+}
+
+/// The rate of a flight and the best one after it; of the flight alone where that is better or the day is over by then.
+fn best_rate(view: View<'_>, kind: TypeIx, decision: &Decision, to: VertiportIx) -> f64 {
+    let first = Prospect::of_flight(view, decision.time, kind, (decision.at, to));
+    let ready = decision.time + view.leg(kind, decision.at, to).block_s();
+    if ready > view.day_end() {
+        return first.rate();
+    }
+    let has_room = |next: &VertiportIx| {
+        *next == decision.at || view.stands_taken()[next.at()] < view.stands(*next)
+    };
+    let next_flights = view.within_range(kind, to).iter().filter(has_room);
+    next_flights
+        .map(|next| first.then(Prospect::of_flight(view, ready, kind, (to, next))).rate())
+        .fold(first.rate(), f64::max)
+}
+
+impl Policy for Lookahead {
+    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        let kind = view.kind(decision.aircraft);
+        let mut best = (decision.at, 0.0);
+        for to in view.feasible(decision).iter().filter(|&to| to != decision.at) {
+            let rate = best_rate(*view, kind, decision, to);
+            if rate > best.1 {
+                best = (to, rate);
+            }
+        }
+        Ok(best.0)
+    }
+}

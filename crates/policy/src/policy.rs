@@ -1,0 +1,59 @@
+//! The one interface behind which every way of deciding stands.
+
+use vertifleet_core::{AircraftIx, Time, VertiportIx};
+use vertifleet_sim::{Decision, View};
+
+/// Decides where an aircraft flies next.
+///
+/// A choice depends on the decision, the view and the policy's own settings, and on nothing else: a policy carries no
+/// memory from one decision to the next. So one policy can play many days at once, in any order, on any number of
+/// threads, with the same outcome. `&mut` is for scratch space only.
+pub trait Policy: Send {
+    /// Chooses a vertiport of [`View::feasible`]; the aircraft's own vertiport means hold.
+    ///
+    /// # Errors
+    /// [`PolicyError`] if the policy has no answer, as a replay of another day's trace has none.
+    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError>;
+
+    /// Chooses for many days at once, one choice pushed per decision asked. Learned policies answer a batch much
+    /// faster than its parts; the rest answer one by one.
+    ///
+    /// # Errors
+    /// As [`choose`](Self::choose), for the first decision that has no answer.
+    fn choose_batch(
+        &mut self,
+        asked: &[(Decision, View<'_>)],
+        choices: &mut Vec<VertiportIx>,
+    ) -> Result<(), PolicyError> {
+        for (decision, view) in asked {
+            choices.push(self.choose(decision, view)?);
+        }
+        Ok(())
+    }
+}
+
+/// A policy that has no answer.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum PolicyError {
+    /// The trace ends before the day does.
+    #[error("the trace has {rows} rows, but the day asks for another decision at {time}")]
+    TraceTooShort {
+        /// Rows of the trace.
+        rows: usize,
+        /// When the day asks.
+        time: Time,
+    },
+    /// The trace's next row is about another aircraft or another time.
+    #[error(
+        "row {row} of the trace is aircraft {found_aircraft} at {found_time}, but aircraft {aircraft} decides at {time}",
+        found_aircraft = found.0.0, found_time = found.1, aircraft = asked.0.0, time = asked.1
+    )]
+    TraceOfAnotherDay {
+        /// Row, counted from 1 below the header.
+        row: usize,
+        /// What the row says.
+        found: (AircraftIx, Time),
+        /// What the day asks.
+        asked: (AircraftIx, Time),
+    },
+}

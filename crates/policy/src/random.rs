@@ -1,0 +1,42 @@
+//! `random`: Feas-RND (§V.B), uniform over the feasible decisions, hold included.
+
+use rand::{Rng, SeedableRng};
+use rand_xoshiro::SplitMix64;
+use vertifleet_core::VertiportIx;
+use vertifleet_sim::{Decision, View};
+
+use crate::{Policy, PolicyError};
+
+/// Draws uniformly from the mask.
+///
+/// The draw is a function of the policy's seed, the day's seed and the number of the decision, so it needs no memory
+/// and comes out the same however days are batched.
+#[derive(Debug, Clone, Copy)]
+pub struct Random {
+    seed: u64,
+}
+
+impl Random {
+    /// The policy whose draws follow `seed`.
+    pub fn new(seed: u64) -> Self {
+        Self { seed }
+    }
+
+    #[inline]
+    fn draw(self, day_seed: u64, index: u32) -> u64 {
+        let scramble = |state: u64| SplitMix64::seed_from_u64(state).next_u64();
+        scramble(scramble(scramble(self.seed) ^ day_seed) ^ u64::from(index))
+    }
+}
+
+impl Policy for Random {
+    #[inline]
+    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        let mask = view.feasible(decision);
+        // The upper half of the product spreads 2^64 draws evenly; with at most 257 outcomes the bias is below 2^-55.
+        let draw = u128::from(self.draw(view.day_seed(), decision.index));
+        #[expect(clippy::cast_possible_truncation, reason = "below the number of feasible vertiports")]
+        let rank = ((draw * u128::from(mask.len())) >> 64) as u32;
+        Ok(mask.nth(rank).expect("the rank is below the number of members, and hold is always one"))
+    }
+}

@@ -1,0 +1,40 @@
+//! `replay`: the decisions of a trace once more.
+
+use std::sync::Arc;
+
+use vertifleet_core::VertiportIx;
+use vertifleet_sim::{Decision, Trace, View};
+
+use crate::{Policy, PolicyError};
+
+/// Answers each decision with the row that the trace has for it.
+#[derive(Debug, Clone)]
+pub struct Replay {
+    trace: Arc<Trace>,
+}
+
+impl Replay {
+    /// Replays `trace`, which must be of the day that is played.
+    pub fn new(trace: Arc<Trace>) -> Self {
+        Self { trace }
+    }
+}
+
+impl Policy for Replay {
+    fn choose(&mut self, decision: &Decision, _: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        let at = decision.index as usize;
+        let rows = &self.trace.rows;
+        let row = rows.get(at).ok_or(PolicyError::TraceTooShort {
+            rows: rows.len(),
+            time: decision.time,
+        })?;
+        if (row.aircraft, row.time) != (decision.aircraft, decision.time) {
+            return Err(PolicyError::TraceOfAnotherDay {
+                row: at + 1,
+                found: (row.aircraft, row.time),
+                asked: (decision.aircraft, decision.time),
+            });
+        }
+        Ok(row.to)
+    }
+}

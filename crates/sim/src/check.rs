@@ -1,0 +1,51 @@
+//! The schedule checker: an independent verdict on a complete schedule, every broken rule named.
+//!
+//! Written from the rules alone (design §2; paper §III, Eq. 2-17). It shares no code with the simulator, not even how
+//! a duration is rounded, so that a mistake in one of the two shows as a disagreement. A schedule is judged row by row
+//! against what the rules make of the *stated* row before it, so that one mistake is one finding and not a hundred.
+//!
+//! One file a family of rules; [`Rule`] lists them all.
+
+mod amounts;
+mod decisions;
+mod event;
+mod expected;
+mod holds;
+mod order;
+mod passengers;
+mod report;
+mod rule;
+mod stands;
+mod times;
+
+use vertifleet_core::Scenario;
+
+use crate::Trace;
+use expected::Expected;
+
+pub use report::{Finding, Report, Totals};
+pub use rule::Rule;
+
+/// Judges a complete schedule of a day. Takes any trace, also one of another scenario, and never panics.
+pub fn check(scenario: &Scenario, trace: &Trace) -> Report {
+    let mut findings = report::Findings::default();
+    order::check(scenario, trace, &mut findings);
+    let events = event::in_order(scenario, trace, &mut findings);
+
+    decisions::check(scenario, &events, &mut findings);
+    stands::check(scenario, &events, &mut findings);
+    passengers::check(scenario, &events, &mut findings);
+    let mut totals = Totals::default();
+    for event in &events {
+        if event.is_hold() {
+            holds::check(scenario, event, &mut findings);
+            totals.count_hold();
+        } else {
+            let expected = Expected::of(scenario, event);
+            times::check(scenario, event, &expected, &mut findings);
+            amounts::check(event, &expected, &mut findings);
+            totals.count_flight(event.row.passengers, &expected);
+        }
+    }
+    findings.into_report(totals)
+}

@@ -1,0 +1,106 @@
+//! What the rules make of one flight: when it arrives, what it takes, earns and costs (design §2; Eq. 2-4, 7, 9,
+//! 13-15).
+
+use vertifleet_core::Scenario;
+
+use super::event::{Event, period_of};
+
+/// How far apart, in shares of itself, two ways to work out the same `f64` may come; far more than a handful of
+/// roundings and far less than anyone's numbers carry.
+const ROUNDING: f64 = 1e-12;
+
+/// A flight as the rules have it. Times are seconds since midnight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Expected {
+    pub(super) arrival_s: u64,
+    pub(super) ready_s: u64,
+    pub(super) energy_kwh: f64,
+    pub(super) revenue_usd: f64,
+    pub(super) passenger_cost_usd: f64,
+    pub(super) energy_cost_usd: f64,
+}
+
+impl Expected {
+    /// What the flight of `event`, decided when and carrying whom its row says, comes to.
+    pub(super) fn of(scenario: &Scenario, event: &Event<'_>) -> Self {
+        let (operations, kind, row) = (&scenario.operations, event.kind, event.row);
+        let distance_mi = scenario.distance_mi[event.pair()];
+        let time_s = u64::from(row.time.seconds());
+
+        let airborne_s = time_s + u64::from(operations.takeoff_s);
+        let landing_s = u64::from(operations.landing_s);
+        let stated_cruise_s = u64::from(row.arrival.seconds()).checked_sub(airborne_s + landing_s);
+        let cruise_s = nearest(3600.0 * distance_mi / kind.speed_mph, stated_cruise_s);
+        let arrival_s = airborne_s + cruise_s + landing_s;
+
+        let flight_h = (arrival_s - time_s) as f64 / 3600.0;
+        let lost_kwh = kind.battery_kwh * kind.self_discharge_per_h * flight_h;
+        let energy_kwh = kind.energy_kwh_per_mi * distance_mi + lost_kwh;
+        let stated_charge_s = u64::from(row.ready.seconds()).checked_sub(arrival_s);
+        let charge_s = nearest(3600.0 * energy_kwh / kind.charge_kw, stated_charge_s);
+
+        let passengers = f64::from(row.passengers);
+        Self {
+            arrival_s,
+            ready_s: arrival_s + charge_s,
+            energy_kwh,
+            revenue_usd: passengers * scenario.fare_usd[event.pair()],
+            passenger_cost_usd: passengers * scenario.passenger_cost_usd[event.pair()],
+            energy_cost_usd: energy_kwh * scenario.energy_price_usd[period_of(scenario, arrival_s)],
+        }
+    }
+
+    /// Whether a battery of that capacity lasts for the flight.
+    pub(super) fn fits(&self, battery_kwh: f64) -> bool {
+        self.energy_kwh <= battery_kwh * (1.0 + ROUNDING)
+    }
+}
+
+/// A duration to the nearest second, half a second up. Where the duration is half a second and `f64` cannot tell from
+/// which side, `stated` is taken if it is one of the two neighbours.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "finite and never negative"
+)]
+fn nearest(seconds: f64, stated: Option<u64>) -> u64 {
+    let past_half = seconds.fract() - 0.5;
+    let in_doubt = past_half.abs() <= seconds * ROUNDING;
+    let down = seconds as u64;
+    match stated {
+        Some(stated) if in_doubt && (down..=down + 1).contains(&stated) => stated,
+        _ if past_half >= 0.0 => down + 1,
+        _ => down,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn durations_go_to_the_nearest_second_and_halves_go_up() {
+        for (seconds, rounded) in [
+            (0.0, 0),
+            (0.4, 0),
+            (0.499_999, 0),
+            (0.5, 1),
+            (1.6, 2),
+            (562.5, 563),
+            (3.6e9, 3_600_000_000),
+        ] {
+            assert_eq!(nearest(seconds, None), rounded, "{seconds}");
+        }
+    }
+
+    #[test]
+    fn only_at_half_a_second_may_a_schedule_say_which_way() {
+        // 12.3 miles at 80 mph: half a second exactly, on one side or the other of it in binary.
+        let half = 3600.0 * 12.3 / 80.0;
+        assert_eq!(nearest(half, Some(553)), 553);
+        assert_eq!(nearest(half, Some(554)), 554);
+        assert_eq!(nearest(half, Some(555)), 554);
+        assert_eq!(nearest(553.499_999, Some(554)), 553);
+        assert_eq!(nearest(553.500_001, Some(553)), 554);
+    }
+}

@@ -1,0 +1,83 @@
+//! The rules by name. Names are stable: `--json` prints them, and the documentation lists them.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
+macro_rules! rules {
+    ($($variant:ident = $name:literal: $meaning:literal,)*) => {
+        /// A rule that a complete schedule keeps.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Rule { $(#[doc = $meaning] $variant,)* }
+
+        impl Rule {
+            /// Every rule, in the order in which the documentation lists them.
+            pub const ALL: &[Self] = &[$(Self::$variant,)*];
+
+            /// The stable name, as `stand-bound`.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name,)* }
+            }
+
+            /// What the rule asks for, in a sentence.
+            pub fn meaning(self) -> &'static str {
+                match self { $(Self::$variant => $meaning,)* }
+            }
+        }
+    };
+}
+
+rules! {
+    KnownIds = "known-ids":
+        "Every row is about an aircraft and vertiports of the scenario.",
+    Order = "order":
+        "Rows are in the order of time, then of the scenario's aircraft; an aircraft decides once an instant.",
+    OperatingHours = "operating-hours":
+        "Decisions are taken from the start to the end of operations, both inclusive.",
+    FirstDecision = "first-decision":
+        "Every aircraft first decides when operations start.",
+    DecisionTime = "decision-time":
+        "An aircraft decides again exactly when it is ready.",
+    MissingDecision = "missing-decision":
+        "An aircraft that is ready no later than the end of operations decides.",
+    Place = "place":
+        "An aircraft decides where it starts the day or where its decision before took it.",
+    HoldEmpty = "hold-empty":
+        "A hold carries nobody, earns and costs nothing, and takes no energy.",
+    HoldTime = "hold-time":
+        "A hold arrives when it is decided and is ready after the scenario's hold time (Eq. 8).",
+    ArrivalTime = "arrival-time":
+        "A flight arrives after take-off, cruise to the nearest second, and landing (Eq. 7).",
+    ReadyTime = "ready-time":
+        "An aircraft is ready when what the flight took is charged again, to the nearest second (Eq. 9, 14, 15).",
+    Energy = "energy":
+        "A flight takes the energy of its distance and what the battery loses on the way (Eq. 13).",
+    Range = "range":
+        "A flight takes no more energy than the battery holds (Eq. 12).",
+    Seats = "seats":
+        "A flight carries no more passengers than its aircraft has seats (Eq. 11).",
+    Demand = "demand":
+        "A flight carries no more passengers than still want to fly in the period of its decision.",
+    Boarding = "boarding":
+        "A flight leaves nobody behind who wants to fly and has a seat.",
+    Revenue = "revenue":
+        "A flight's revenue is its passengers times the fare (Eq. 4).",
+    PassengerCost = "passenger-cost":
+        "A flight's passenger cost is its passengers times the pair's cost a passenger (Eq. 2).",
+    EnergyCost = "energy-cost":
+        "A flight's energy cost is its energy times the price in the period of arrival (Eq. 3).",
+    StandBound = "stand-bound":
+        "At every instant the aircraft standing at a vertiport and in the air towards it are 0 to its stands (Eq. 16).",
+}
+
+impl fmt::Display for Rule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl Serialize for Rule {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}

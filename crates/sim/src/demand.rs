@@ -1,0 +1,54 @@
+//! Passengers still waiting, per demand period and pair of vertiports.
+
+use vertifleet_core::{Matrix, Scenario, VertiportIx};
+
+/// What is left of the day's demand. A flight takes its passengers at the moment it is decided.
+#[derive(Debug, Clone)]
+pub(crate) struct Demand {
+    vertiports: usize,
+    /// By period, then from, then to.
+    left: Vec<u32>,
+    total: u64,
+}
+
+impl Demand {
+    /// The demand of a day before its first flight.
+    pub(crate) fn of(scenario: &Scenario) -> Self {
+        let left: Vec<u32> = scenario.demand.iter().flat_map(Matrix::cells).copied().collect();
+        let total = left.iter().map(|&passengers| u64::from(passengers)).sum();
+        Self { vertiports: scenario.vertiports.len(), left, total }
+    }
+
+    #[inline]
+    fn at(&self, period: usize, from: VertiportIx, to: VertiportIx) -> usize {
+        (period * self.vertiports + from.at()) * self.vertiports + to.at()
+    }
+
+    /// Passengers who still want to fly from one vertiport to another in a period.
+    #[inline]
+    pub(crate) fn left(&self, period: usize, from: VertiportIx, to: VertiportIx) -> u32 {
+        self.left[self.at(period, from, to)]
+    }
+
+    /// All pairs of a period, `[from][to]` row by row.
+    #[inline]
+    pub(crate) fn period(&self, period: usize) -> &[u32] {
+        let pairs = self.vertiports * self.vertiports;
+        &self.left[period * pairs..][..pairs]
+    }
+
+    /// Takes as many passengers as want to fly and fit in `seats`; says how many.
+    #[inline]
+    pub(crate) fn board(&mut self, period: usize, from: VertiportIx, to: VertiportIx, seats: u16) -> u16 {
+        let at = self.at(period, from, to);
+        let left = &mut self.left[at];
+        let boarded = u16::try_from(*left).map_or(seats, |left| left.min(seats));
+        *left -= u32::from(boarded);
+        boarded
+    }
+
+    /// Passengers of the whole day, before the first flight.
+    pub(crate) fn total(&self) -> u64 {
+        self.total
+    }
+}

@@ -1,0 +1,113 @@
+//! The day's account (Eq. 2-5): what came in, what it cost, and what was flown for it.
+
+use serde::Serialize;
+
+use crate::TraceRow;
+
+/// Running totals of a day. Dollars, kWh, counts.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Ledger {
+    /// R^T (Eq. 4).
+    pub revenue_usd: f64,
+    /// C^O (Eq. 2).
+    pub passenger_cost_usd: f64,
+    /// C^C (Eq. 3).
+    pub energy_cost_usd: f64,
+    /// Energy flown, which is the energy charged.
+    pub energy_kwh: f64,
+    /// Flights, with passengers or without.
+    pub flights: u32,
+    /// Flights without passengers.
+    pub repositioning_flights: u32,
+    /// Decisions to stay.
+    pub holds: u32,
+    /// Passengers carried.
+    pub passengers: u64,
+    /// Distance flown times passengers on board.
+    pub passenger_miles: f64,
+    /// Distance flown times seats on board.
+    pub seat_miles: f64,
+}
+
+impl Ledger {
+    /// z (Eq. 5): revenue less passenger cost less energy cost, dollars.
+    #[inline]
+    pub fn profit_usd(&self) -> f64 {
+        self.revenue_usd - self.passenger_cost_usd - self.energy_cost_usd
+    }
+
+    /// Flights and holds.
+    #[inline]
+    pub fn decisions(&self) -> u32 {
+        self.flights + self.holds
+    }
+
+    /// Enters a flight of `distance_mi` with `seats` on board.
+    #[inline]
+    pub(crate) fn enter_flight(&mut self, row: &TraceRow, distance_mi: f64, seats: u16) {
+        self.revenue_usd += row.revenue_usd;
+        self.passenger_cost_usd += row.passenger_cost_usd;
+        self.energy_cost_usd += row.energy_cost_usd;
+        self.energy_kwh += row.energy_kwh;
+        self.flights += 1;
+        self.repositioning_flights += u32::from(row.passengers == 0);
+        self.passengers += u64::from(row.passengers);
+        self.passenger_miles += distance_mi * f64::from(row.passengers);
+        self.seat_miles += distance_mi * f64::from(seats);
+    }
+}
+
+/// A finished day in numbers, as `simulate --json` prints it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Summary {
+    /// Dollars (Eq. 5).
+    pub profit: f64,
+    /// Dollars (Eq. 4).
+    pub revenue: f64,
+    /// Dollars (Eq. 2).
+    pub passenger_cost: f64,
+    /// Dollars (Eq. 3).
+    pub energy_cost: f64,
+    /// Energy charged.
+    pub energy_kwh: f64,
+    /// The reward's denominator: all of the day's demand at full fare, dollars (§III.H).
+    pub potential: f64,
+    /// Profit over potential; 0 on a day without demand.
+    pub reward: f64,
+    /// Flights, with passengers or without.
+    pub flights: u32,
+    /// Flights without passengers.
+    pub repositioning_flights: u32,
+    /// Decisions to stay.
+    pub holds: u32,
+    /// Flights and holds.
+    pub decisions: u32,
+    /// Passengers carried.
+    pub passengers: u64,
+    /// Passengers who wanted to fly and were not carried.
+    pub spilled_passengers: u64,
+    /// Passenger-miles over seat-miles, repositioning included; 0 if nothing flew.
+    pub load_factor: f64,
+}
+
+impl Summary {
+    pub(crate) fn new(ledger: &Ledger, potential_usd: f64, demanded: u64) -> Self {
+        let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        Self {
+            profit: ledger.profit_usd(),
+            revenue: ledger.revenue_usd,
+            passenger_cost: ledger.passenger_cost_usd,
+            energy_cost: ledger.energy_cost_usd,
+            energy_kwh: ledger.energy_kwh,
+            potential: potential_usd,
+            reward: share(ledger.profit_usd(), potential_usd),
+            flights: ledger.flights,
+            repositioning_flights: ledger.repositioning_flights,
+            holds: ledger.holds,
+            decisions: ledger.decisions(),
+            passengers: ledger.passengers,
+            spilled_passengers: demanded - ledger.passengers,
+            load_factor: share(ledger.passenger_miles, ledger.seat_miles),
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! The world in motion (design §2): events, stands, feasible decisions, the ledger, and the trace a day leaves.
+//!
+//! Everything passes through two calls: [`Simulation::next_decision`] says which aircraft must decide now, and
+//! [`Simulation::apply`] carries its decision out or refuses it. [`View`] is what a policy may look at meanwhile.
+//! The [checker](check) judges finished schedules from the rules alone and shares no code with the simulator.
+
+pub mod check;
+mod demand;
+mod error;
+mod ledger;
+mod legs;
+mod queue;
+mod simulation;
+mod stands;
+mod trace;
+mod vertiport_set;
+mod view;
+
+pub use error::Refusal;
+pub use ledger::{Ledger, Summary};
+pub use legs::{Leg, Legs};
+pub use simulation::{Decision, Simulation};
+pub use trace::{Trace, TraceError, TraceRow};
+pub use vertiport_set::VertiportSet;
+pub use view::View;

@@ -1,0 +1,222 @@
+//! One day in motion: asks for decisions in their order and carries them out (design §2).
+
+use std::sync::Arc;
+
+use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
+
+use crate::demand::Demand;
+use crate::queue::ReadyQueue;
+use crate::stands::Stands;
+use crate::{Ledger, Legs, Refusal, Summary, TraceRow, VertiportSet, View};
+
+/// An aircraft that is ready for take-off and needs a vertiport to fly to; its own means *hold*.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Decision {
+    /// Now.
+    pub time: Time,
+    /// Who decides.
+    pub aircraft: AircraftIx,
+    /// Where it stands.
+    pub at: VertiportIx,
+    /// Decisions taken before this one today.
+    pub index: u32,
+}
+
+/// A day being flown. Same scenario and same decisions, same course, bit for bit.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    scenario: Arc<Scenario>,
+    legs: Legs,
+    stands: Stands,
+    demand: Demand,
+    queue: ReadyQueue,
+    /// Where each aircraft stands or will land.
+    place: Vec<VertiportIx>,
+    ledger: Ledger,
+    /// Demand period of the latest decision asked for; time never runs back.
+    period: usize,
+    potential_usd: f64,
+}
+
+impl Simulation {
+    /// The day before its first decision.
+    pub fn new(scenario: Arc<Scenario>) -> Self {
+        Self {
+            legs: Legs::of(&scenario),
+            stands: Stands::at_start(&scenario),
+            demand: Demand::of(&scenario),
+            queue: ReadyQueue::new(scenario.aircraft.len(), scenario.operations.start),
+            place: scenario.aircraft.iter().map(|aircraft| aircraft.at).collect(),
+            ledger: Ledger::default(),
+            period: 0,
+            potential_usd: scenario.potential_usd(),
+            scenario,
+        }
+    }
+
+    /// The decision to be taken now, or `None` once no aircraft has one left. Asking again changes nothing.
+    #[inline]
+    pub fn next_decision(&mut self) -> Option<Decision> {
+        let (aircraft, time) = self.queue.earliest();
+        if time > self.scenario.operations.end {
+            return None;
+        }
+        while self.scenario.periods.get(self.period + 1).is_some_and(|&start| start <= time) {
+            self.period += 1;
+        }
+        Some(Decision {
+            time,
+            aircraft,
+            at: self.place[aircraft.at()],
+            index: self.ledger.decisions(),
+        })
+    }
+
+    /// Sends the aircraft that decides now to `choice`; its own vertiport means hold. Returns what that came to.
+    ///
+    /// # Errors
+    /// [`Refusal`] names the rule that the choice breaks; nothing has changed then.
+    #[inline]
+    pub fn apply(&mut self, choice: VertiportIx) -> Result<TraceRow, Refusal> {
+        let decision = self.next_decision().ok_or(Refusal::DayOver)?;
+        if choice == decision.at {
+            return Ok(self.hold(&decision));
+        }
+        let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
+        if !self.legs.within_range(kind, decision.at).contains(choice) {
+            return Err(if choice.at() < self.place_count() {
+                Refusal::OutOfRange(choice.0)
+            } else {
+                Refusal::NoSuchVertiport(choice.0)
+            });
+        }
+        if !self.stands.open().contains(choice) {
+            return Err(Refusal::NoStandFree(choice.0));
+        }
+        Ok(self.fly(&decision, choice))
+    }
+
+    fn hold(&mut self, decision: &Decision) -> TraceRow {
+        let ready = decision.time + self.scenario.operations.hold_s;
+        self.queue.set(decision.aircraft, ready);
+        self.ledger.holds += 1;
+        TraceRow {
+            time: decision.time,
+            aircraft: decision.aircraft,
+            from: decision.at,
+            to: decision.at,
+            passengers: 0,
+            revenue_usd: 0.0,
+            passenger_cost_usd: 0.0,
+            energy_kwh: 0.0,
+            energy_cost_usd: 0.0,
+            arrival: decision.time,
+            ready,
+        }
+    }
+
+    #[inline]
+    fn fly(&mut self, decision: &Decision, to: VertiportIx) -> TraceRow {
+        let Decision { time, aircraft, at: from, .. } = *decision;
+        let kind = self.scenario.aircraft[aircraft.at()].kind;
+        let seats = self.scenario.aircraft_types[kind.at()].seats;
+        let leg = *self.legs.leg(kind, from, to);
+        let pair = (from, to);
+
+        let passengers = self.demand.board(self.period, from, to, seats);
+        let arrival = time + leg.flight_s;
+        let ready = arrival + leg.charge_s;
+        let row = TraceRow {
+            time,
+            aircraft,
+            from,
+            to,
+            passengers,
+            revenue_usd: f64::from(passengers) * self.scenario.fare_usd[pair],
+            passenger_cost_usd: f64::from(passengers) * self.scenario.passenger_cost_usd[pair],
+            energy_kwh: leg.energy_kwh,
+            energy_cost_usd: leg.energy_kwh * self.energy_price_at(arrival),
+            arrival,
+            ready,
+        };
+        self.stands.transfer(from, to);
+        self.place[aircraft.at()] = to;
+        self.queue.set(aircraft, ready);
+        self.ledger.enter_flight(&row, self.scenario.distance_mi[pair], seats);
+        row
+    }
+
+    /// E in the period that contains `time`, which is no earlier than now; dollars per kWh.
+    #[inline]
+    pub(crate) fn energy_price_at(&self, time: Time) -> f64 {
+        let later = &self.scenario.periods[self.period + 1..];
+        let periods_on = later.iter().take_while(|&&start| start <= time).count();
+        self.scenario.energy_price_usd[self.period + periods_on]
+    }
+
+    /// The vertiports the deciding aircraft may choose: its own, and each other within range that has a stand free.
+    #[inline]
+    pub(crate) fn feasible(&self, decision: &Decision) -> VertiportSet {
+        let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
+        let mut mask = self.legs.within_range(kind, decision.at).and(self.stands.open());
+        mask.insert(decision.at);
+        mask
+    }
+
+    /// What a policy may look at.
+    #[inline]
+    pub fn view(&self) -> View<'_> {
+        View::of(self)
+    }
+
+    /// The account so far.
+    #[inline]
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// The day's numbers so far; those of the day once it is over.
+    pub fn summary(&self) -> Summary {
+        Summary::new(&self.ledger, self.potential_usd, self.demand.total())
+    }
+
+    /// The reward's denominator (§III.H), dollars.
+    #[inline]
+    pub fn potential_usd(&self) -> f64 {
+        self.potential_usd
+    }
+
+    /// The day that is flown.
+    #[inline]
+    pub fn scenario(&self) -> &Arc<Scenario> {
+        &self.scenario
+    }
+
+    pub(crate) fn legs(&self) -> &Legs {
+        &self.legs
+    }
+
+    pub(crate) fn stands(&self) -> &Stands {
+        &self.stands
+    }
+
+    pub(crate) fn demand(&self) -> &Demand {
+        &self.demand
+    }
+
+    pub(crate) fn queue(&self) -> &ReadyQueue {
+        &self.queue
+    }
+
+    pub(crate) fn places(&self) -> &[VertiportIx] {
+        &self.place
+    }
+
+    pub(crate) fn period(&self) -> usize {
+        self.period
+    }
+
+    fn place_count(&self) -> usize {
+        self.scenario.vertiports.len()
+    }
+}

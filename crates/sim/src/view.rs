@@ -1,0 +1,171 @@
+//! What a policy may look at when it decides: the present, the forecast, and what any flight would take.
+
+use vertifleet_core::{AircraftIx, AircraftType, Scenario, Time, TypeIx, VertiportIx};
+
+use crate::{Decision, Leg, Simulation, VertiportSet};
+
+/// The state of the network at the moment of a decision. Borrowed; costs nothing to make.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    simulation: &'a Simulation,
+}
+
+impl<'a> View<'a> {
+    pub(crate) fn of(simulation: &'a Simulation) -> Self {
+        Self { simulation }
+    }
+
+    /// Number of vertiports (N).
+    #[inline]
+    pub fn vertiports(&self) -> usize {
+        self.scenario().vertiports.len()
+    }
+
+    /// The mask: hold, and every other vertiport within range that has a stand free. Never empty.
+    #[inline]
+    pub fn feasible(&self, decision: &Decision) -> VertiportSet {
+        self.simulation.feasible(decision)
+    }
+
+    /// The type of an aircraft.
+    #[inline]
+    pub fn kind(&self, aircraft: AircraftIx) -> TypeIx {
+        self.scenario().aircraft[aircraft.at()].kind
+    }
+
+    /// What aircraft of a type can do.
+    #[inline]
+    pub fn aircraft_type(&self, kind: TypeIx) -> &'a AircraftType {
+        &self.scenario().aircraft_types[kind.at()]
+    }
+
+    /// What a flight takes.
+    #[inline]
+    pub fn leg(&self, kind: TypeIx, from: VertiportIx, to: VertiportIx) -> &'a Leg {
+        self.simulation.legs().leg(kind, from, to)
+    }
+
+    /// What flights from a vertiport to each take.
+    #[inline]
+    pub fn legs_from(&self, kind: TypeIx, from: VertiportIx) -> &'a [Leg] {
+        self.simulation.legs().legs_from(kind, from)
+    }
+
+    /// The other vertiports that a full battery reaches.
+    #[inline]
+    pub fn within_range(&self, kind: TypeIx, from: VertiportIx) -> &'a VertiportSet {
+        self.simulation.legs().within_range(kind, from)
+    }
+
+    /// Where each aircraft stands or will land.
+    #[inline]
+    pub fn places(&self) -> &'a [VertiportIx] {
+        self.simulation.places()
+    }
+
+    /// When the aircraft can decide next.
+    #[inline]
+    pub fn ready_at(&self, aircraft: AircraftIx) -> Time {
+        self.simulation.queue().ready_at(aircraft)
+    }
+
+    /// U_i of every vertiport: aircraft standing there or in the air towards it.
+    #[inline]
+    pub fn stands_taken(&self) -> &'a [u16] {
+        self.simulation.stands().taken()
+    }
+
+    /// The demand period of now.
+    #[inline]
+    pub fn period(&self) -> usize {
+        self.simulation.period()
+    }
+
+    /// The demand period that contains a time.
+    #[inline]
+    pub fn period_at(&self, time: Time) -> usize {
+        self.scenario().period_at(time)
+    }
+
+    /// Passengers who still want to fly from one vertiport to another in a period, as forecast.
+    #[inline]
+    pub fn demand_left(&self, period: usize, from: VertiportIx, to: VertiportIx) -> u32 {
+        self.simulation.demand().left(period, from, to)
+    }
+
+    /// The same for all pairs of a period, `[from][to]` row by row.
+    #[inline]
+    pub fn demand_left_in(&self, period: usize) -> &'a [u32] {
+        self.simulation.demand().period(period)
+    }
+
+    /// P_ij, dollars a passenger, from one vertiport to each.
+    #[inline]
+    pub fn fares_usd(&self, from: VertiportIx) -> &'a [f64] {
+        self.scenario().fare_usd.row(from)
+    }
+
+    /// R_ij, dollars a passenger, from one vertiport to each.
+    #[inline]
+    pub fn passenger_costs_usd(&self, from: VertiportIx) -> &'a [f64] {
+        self.scenario().passenger_cost_usd.row(from)
+    }
+
+    /// E now, dollars per kWh.
+    #[inline]
+    pub fn energy_price_usd(&self) -> f64 {
+        self.scenario().energy_price_usd[self.period()]
+    }
+
+    /// What a flight decided at `time` (not before now) would earn with `waiting` passengers there: dollars, fares
+    /// less passenger cost less energy at the price of its arrival.
+    #[inline]
+    pub fn flight_profit_usd(
+        &self,
+        time: Time,
+        kind: TypeIx,
+        (from, to): (VertiportIx, VertiportIx),
+        waiting: u32,
+    ) -> f64 {
+        let seats = u32::from(self.aircraft_type(kind).seats);
+        let leg = self.leg(kind, from, to);
+        let margin_usd = self.fares_usd(from)[to.at()] - self.passenger_costs_usd(from)[to.at()];
+        let energy_price_usd = self.simulation.energy_price_at(time + leg.flight_s);
+        f64::from(waiting.min(seats)) * margin_usd - leg.energy_kwh * energy_price_usd
+    }
+
+    /// Start of operations.
+    #[inline]
+    pub fn day_start(&self) -> Time {
+        self.scenario().operations.start
+    }
+
+    /// Last instant of decisions.
+    #[inline]
+    pub fn day_end(&self) -> Time {
+        self.scenario().operations.end
+    }
+
+    /// Seconds a hold lasts.
+    #[inline]
+    pub fn hold_s(&self) -> u32 {
+        self.scenario().operations.hold_s
+    }
+
+    /// U_max of a vertiport.
+    #[inline]
+    pub fn stands(&self, vertiport: VertiportIx) -> u16 {
+        self.scenario().vertiports[vertiport.at()].stands
+    }
+
+    /// The seed the day was drawn with.
+    #[inline]
+    pub fn day_seed(&self) -> u64 {
+        self.scenario().seed
+    }
+
+    #[inline]
+    fn scenario(self) -> &'a Scenario {
+        self.simulation.scenario()
+    }
+}

@@ -1,0 +1,192 @@
+//! Simulator and checker, written apart, agree: what the one plays the other passes, and not with one row edited.
+
+mod common;
+
+use std::sync::Arc;
+
+use proptest::prelude::{
+    Just, Strategy, any, prop, prop_assert, prop_assert_eq, prop_oneof, proptest,
+};
+use proptest::sample::Index;
+use proptest::test_runner::Config;
+use vertifleet_core::{Scenario, Time, VertiportIx};
+use vertifleet_sim::check::check;
+use vertifleet_sim::{Simulation, Summary, Trace, TraceRow};
+
+use common::small_day;
+
+/// Plays a day at random: each draw picks among the feasible vertiports, round and round.
+fn play(day: &Arc<Scenario>, draws: &[u32]) -> (Summary, Trace) {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    let mut trace = Trace::default();
+    while let Some(decision) = simulation.next_decision() {
+        let mask = simulation.view().feasible(&decision);
+        let rank = draws[trace.rows.len() % draws.len()] % mask.len();
+        let choice = mask.nth(rank).expect("a rank below the number of members");
+        trace.rows.push(simulation.apply(choice).expect("a choice from the mask"));
+    }
+    (simulation.summary(), trace)
+}
+
+fn draws() -> impl Strategy<Value = Vec<u32>> {
+    prop::collection::vec(any::<u32>(), 1..40)
+}
+
+/// The day with distances in tenths of a mile and speeds at which many a cruise lasts a whole number of seconds and a
+/// half: what people type, and where two ways to work out a duration may round apart.
+fn in_round_numbers(day: &Arc<Scenario>) -> Arc<Scenario> {
+    let mut day = Scenario::clone(day).into_day();
+    for distance_mi in day.distance_mi.cells_mut() {
+        *distance_mi = (*distance_mi * 10.0).round() / 10.0;
+    }
+    for kind in &mut day.aircraft_types {
+        kind.speed_mph = 80.0;
+        kind.charge_kw = 90.0;
+    }
+    Arc::new(day.check("day in round numbers").expect("a day within the rules"))
+}
+
+/// One thing done to one row of a schedule.
+#[derive(Debug, Clone, Copy)]
+enum Edit {
+    OneMorePassenger,
+    OnePassengerLess,
+    Sooner(Clock),
+    Later(Clock),
+    OtherDestination(Index),
+    Dropped,
+    Doubled,
+    SwappedWith(Index),
+}
+
+/// Which of a row's times is edited.
+#[derive(Debug, Clone, Copy)]
+enum Clock {
+    Decision,
+    Arrival,
+    Ready,
+}
+
+impl Clock {
+    fn of(self, row: &mut TraceRow) -> &mut Time {
+        match self {
+            Self::Decision => &mut row.time,
+            Self::Arrival => &mut row.arrival,
+            Self::Ready => &mut row.ready,
+        }
+    }
+}
+
+fn edits() -> impl Strategy<Value = Edit> {
+    let clocks = || prop_oneof![Just(Clock::Decision), Just(Clock::Arrival), Just(Clock::Ready)];
+    prop_oneof![
+        Just(Edit::OneMorePassenger),
+        Just(Edit::OnePassengerLess),
+        clocks().prop_map(Edit::Sooner),
+        clocks().prop_map(Edit::Later),
+        any::<Index>().prop_map(Edit::OtherDestination),
+        Just(Edit::Dropped),
+        Just(Edit::Doubled),
+        any::<Index>().prop_map(Edit::SwappedWith),
+    ]
+}
+
+/// Carries an edit out; `false` if it would leave the schedule as it was.
+fn carry_out(edit: Edit, day: &Scenario, rows: &mut Vec<TraceRow>, at: usize) -> bool {
+    let row = &mut rows[at];
+    match edit {
+        Edit::OneMorePassenger => row.passengers += 1,
+        Edit::OnePassengerLess => match row.passengers.checked_sub(1) {
+            Some(fewer) => row.passengers = fewer,
+            None => return false,
+        },
+        Edit::Sooner(clock) => {
+            let time = clock.of(row);
+            *time = Time::from_seconds(time.seconds() - 1);
+        }
+        Edit::Later(clock) => {
+            let time = clock.of(row);
+            *time = *time + 1;
+        }
+        Edit::OtherDestination(to) => {
+            let to = VertiportIx::new(to.index(day.vertiports.len()));
+            if to == row.to {
+                return false;
+            }
+            row.to = to;
+        }
+        Edit::Dropped => drop(rows.remove(at)),
+        Edit::Doubled => rows.insert(at, rows[at]),
+        Edit::SwappedWith(other) => {
+            let other = other.index(rows.len());
+            rows.swap(at, other);
+            return other != at;
+        }
+    }
+    true
+}
+
+/// Equal but for the order in which sums were taken.
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1.0)
+}
+
+proptest! {
+    #![proptest_config(Config::with_cases(200))]
+
+    #[test]
+    fn what_the_simulator_plays_keeps_every_rule(day in small_day(), draws in draws()) {
+        let (_, trace) = play(&day, &draws);
+        let report = check(&day, &trace);
+        prop_assert!(report.is_valid(), "{report}");
+    }
+
+    #[test]
+    fn round_numbers_put_nobody_in_doubt(day in small_day(), draws in draws()) {
+        let (_, trace) = play(&in_round_numbers(&day), &draws);
+        let report = check(&in_round_numbers(&day), &trace);
+        prop_assert!(report.is_valid(), "{report}");
+    }
+
+    #[test]
+    fn both_accounts_of_a_day_agree(day in small_day(), draws in draws()) {
+        let (summary, trace) = play(&day, &draws);
+        let totals = check(&day, &trace).totals;
+        for (theirs, ours) in [
+            (totals.profit, summary.profit),
+            (totals.revenue, summary.revenue),
+            (totals.passenger_cost, summary.passenger_cost),
+            (totals.energy_cost, summary.energy_cost),
+            (totals.energy_kwh, summary.energy_kwh),
+        ] {
+            prop_assert!(close(theirs, ours), "{theirs} and {ours}");
+        }
+        prop_assert_eq!(totals.flights, summary.flights);
+        prop_assert_eq!(totals.repositioning_flights, summary.repositioning_flights);
+        prop_assert_eq!(totals.holds, summary.holds);
+        prop_assert_eq!(totals.decisions, summary.decisions);
+        prop_assert_eq!(totals.passengers, summary.passengers);
+    }
+
+    #[test]
+    fn a_simulated_trace_survives_its_file(day in small_day(), draws in draws()) {
+        let (_, trace) = play(&day, &draws);
+        let read = Trace::from_csv(trace.to_csv(&day).as_bytes(), &day, "day.csv");
+        prop_assert_eq!(read.expect("a written trace"), trace);
+    }
+}
+
+proptest! {
+    #![proptest_config(Config::with_cases(2_000))]
+
+    #[test]
+    fn one_edited_row_is_always_found(
+        day in small_day(), draws in draws(), at in any::<Index>(), edit in edits()
+    ) {
+        let (_, mut trace) = play(&day, &draws);
+        let at = at.index(trace.rows.len());
+        if carry_out(edit, &day, &mut trace.rows, at) {
+            prop_assert!(!check(&day, &trace).is_valid(), "{edit:?} in row {at} was not found");
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! What holds on every day under any decisions (design §2).
+
+mod common;
+
+use std::sync::Arc;
+
+use proptest::prelude::{any, prop, prop_assert, prop_assert_eq, proptest};
+use vertifleet_core::{AircraftIx, Scenario, VertiportIx};
+use vertifleet_sim::{Ledger, Refusal, Simulation, TraceRow};
+
+use common::small_day;
+
+/// Plays a day; each draw picks among the feasible vertiports, round and round. `each` sees every step.
+fn play(
+    day: &Arc<Scenario>,
+    draws: &[u32],
+    mut each: impl FnMut(&mut Simulation, &TraceRow),
+) -> (Simulation, Vec<TraceRow>) {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    let mut rows = Vec::new();
+    while let Some(decision) = simulation.next_decision() {
+        let mask = simulation.view().feasible(&decision);
+        let rank = draws[rows.len() % draws.len()] % mask.len();
+        let choice = mask.nth(rank).expect("a rank below the number of members");
+        let row = simulation.apply(choice).expect("a choice from the mask");
+        each(&mut simulation, &row);
+        rows.push(row);
+    }
+    (simulation, rows)
+}
+
+fn draws() -> impl proptest::strategy::Strategy<Value = Vec<u32>> {
+    prop::collection::vec(any::<u32>(), 1..40)
+}
+
+proptest! {
+    #[test]
+    fn stands_are_never_overbooked_and_no_aircraft_is_lost(day in small_day(), draws in draws()) {
+        play(&day, &draws, |simulation, _| {
+            let view = simulation.view();
+            let mut counted = vec![0; view.vertiports()];
+            for place in view.places() {
+                counted[place.at()] += 1;
+            }
+            assert_eq!(view.stands_taken(), counted, "a stand is taken for each aircraft at or towards it");
+            for vertiport in VertiportIx::all(view.vertiports()) {
+                assert!(view.stands_taken()[vertiport.at()] <= view.stands(vertiport));
+            }
+            assert_eq!(view.places().len(), day.aircraft.len());
+        });
+    }
+
+    #[test]
+    fn decisions_come_in_order_and_within_operations(day in small_day(), draws in draws()) {
+        let (_, rows) = play(&day, &draws, |_, _| ());
+        prop_assert!(rows.iter().all(|row| (day.operations.start..=day.operations.end).contains(&row.time)));
+        prop_assert!(rows.is_sorted_by_key(|row| (row.time, row.aircraft)));
+        for aircraft in AircraftIx::all(day.aircraft.len()) {
+            let own: Vec<&TraceRow> = rows.iter().filter(|row| row.aircraft == aircraft).collect();
+            prop_assert_eq!(own[0].time, day.operations.start);
+            prop_assert_eq!(own[0].from, day.aircraft[aircraft.at()].at);
+            for pair in own.windows(2) {
+                prop_assert_eq!((pair[1].time, pair[1].from), (pair[0].ready, pair[0].to));
+            }
+            prop_assert!(own[own.len() - 1].ready > day.operations.end, "nobody stops early");
+        }
+    }
+
+    #[test]
+    fn batteries_and_cabins_hold_what_they_are_asked_to(day in small_day(), draws in draws()) {
+        let (_, rows) = play(&day, &draws, |_, _| ());
+        let mut carried = vec![vec![0_u32; day.vertiports.len().pow(2)]; day.periods.len()];
+        for row in &rows {
+            let kind = &day.aircraft_types[day.aircraft[row.aircraft.at()].kind.at()];
+            prop_assert!(row.energy_kwh >= 0.0 && kind.lasts_for(row.energy_kwh));
+            prop_assert!(row.passengers <= kind.seats);
+            let pair = row.from.at() * day.vertiports.len() + row.to.at();
+            carried[day.period_at(row.time)][pair] += u32::from(row.passengers);
+        }
+        for (carried, demand) in carried.iter().zip(&day.demand) {
+            prop_assert!(carried.iter().zip(demand.cells()).all(|(carried, demand)| carried <= demand));
+        }
+    }
+
+    #[test]
+    fn the_ledger_adds_up(day in small_day(), draws in draws()) {
+        let (simulation, rows) = play(&day, &draws, |_, _| ());
+        let summary = simulation.summary();
+        let sum = |part: fn(&TraceRow) -> f64| rows.iter().map(part).sum::<f64>();
+        prop_assert_eq!(summary.revenue, sum(|row| row.revenue_usd));
+        prop_assert_eq!(summary.passenger_cost, sum(|row| row.passenger_cost_usd));
+        prop_assert_eq!(summary.energy_cost, sum(|row| row.energy_cost_usd));
+        prop_assert_eq!(summary.energy_kwh, sum(|row| row.energy_kwh));
+        prop_assert_eq!(summary.profit, summary.revenue - summary.passenger_cost - summary.energy_cost);
+        let flights = rows.iter().filter(|row| row.from != row.to).count();
+        prop_assert_eq!(summary.flights as usize, flights);
+        prop_assert_eq!(summary.decisions as usize, rows.len());
+        prop_assert_eq!(summary.holds as usize, rows.len() - flights);
+        let demanded: u64 = day.demand.iter().flat_map(|t| t.cells()).map(|&q| u64::from(q)).sum();
+        let carried: u64 = rows.iter().map(|row| u64::from(row.passengers)).sum();
+        prop_assert_eq!((summary.passengers, summary.spilled_passengers), (carried, demanded - carried));
+        prop_assert!((0.0..=1.0).contains(&summary.load_factor));
+    }
+
+    #[test]
+    fn rewards_paid_by_the_flight_sum_to_the_reward_of_the_day(day in small_day(), draws in draws()) {
+        let (simulation, rows) = play(&day, &draws, |_, _| ());
+        if simulation.potential_usd() > 0.0 {
+            let dense: f64 = rows.iter().map(|row| row.profit_usd() / simulation.potential_usd()).sum();
+            prop_assert!((dense - simulation.summary().reward).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_same_decisions_leave_the_same_trace(day in small_day(), draws in draws()) {
+        let (_, once) = play(&day, &draws, |_, _| ());
+        let again = std::thread::scope(|scope| {
+            let others: Vec<_> =
+                (0..2).map(|_| scope.spawn(|| play(&day, &draws, |_, _| ()).1)).collect();
+            others.into_iter().map(|other| other.join().expect("a day plays")).collect::<Vec<_>>()
+        });
+        prop_assert!(again.iter().all(|rows| *rows == once));
+    }
+
+    #[test]
+    fn a_refused_decision_changes_nothing(day in small_day(), draws in draws(), odd in any::<u16>()) {
+        play(&day, &draws, |simulation, _| {
+            let Some(decision) = simulation.next_decision() else { return };
+            let mask = simulation.view().feasible(&decision);
+            assert!(mask.contains(decision.at), "hold is always feasible");
+            for choice in VertiportIx::all(day.vertiports.len() + 1).chain([VertiportIx(odd)]) {
+                if mask.contains(choice) {
+                    continue;
+                }
+                let before = format!("{simulation:?}");
+                let refusal = simulation.apply(choice).expect_err("the choice is outside the mask");
+                assert_eq!(format!("{simulation:?}"), before);
+                let exists = choice.at() < day.vertiports.len();
+                assert_eq!(refusal == Refusal::NoSuchVertiport(choice.0), !exists);
+            }
+        });
+    }
+
+    #[test]
+    fn after_the_day_every_decision_is_refused(day in small_day(), draws in draws()) {
+        let (mut simulation, _) = play(&day, &draws, |_, _| ());
+        prop_assert_eq!(simulation.apply(VertiportIx(0)), Err(Refusal::DayOver));
+    }
+}
+
+#[test]
+fn an_untouched_ledger_is_empty() {
+    assert_eq!(Ledger::default().profit_usd(), 0.0);
+}

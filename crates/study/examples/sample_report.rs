@@ -1,0 +1,27 @@
+//! Writes a report of made-up results, to look at the page and the figures without a simulation.
+//!
+//! `cargo run -p vertifleet-study --example sample_report -- FOLDER`
+
+use std::path::Path;
+use std::process::ExitCode;
+
+#[path = "../tests/made_up/mod.rs"]
+mod made_up;
+
+fn main() -> ExitCode {
+    let Some(folder) = std::env::args().nth(1) else {
+        eprintln!("usage: sample_report FOLDER");
+        return ExitCode::from(2);
+    };
+    let study = made_up::study(100);
+    match vertifleet_study::report::write(&study, Path::new(&folder)) {
+        Ok(paths) => {
+            println!("{}", paths.report.display());
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error[{}]: {error}", error.code());
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! What can go wrong between the records and the written report, with stable codes (V4xx).
+
+use std::path::PathBuf;
+
+use vertifleet_core::Code;
+use vertifleet_policy::PlayError;
+
+/// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for machines and the error index.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A file that cannot be written (V102), as `vertifleet-core` says it.
+    #[error(transparent)]
+    Core(#[from] vertifleet_core::Error),
+
+    /// V401. The report's folder cannot be made. Cause: missing rights, or a file where the folder should be. Fix: name
+    /// another folder.
+    #[error("{}: cannot make the folder of the report: {cause}", path.display())]
+    CannotMakeFolder {
+        /// The folder.
+        path: PathBuf,
+        /// What the operating system says.
+        cause: std::io::Error,
+    },
+
+    /// V402. There is nothing to compare. Cause: no policy or no day. Fix: name at least one policy and one day.
+    #[error("nothing to compare: {policies} policies on {days} days")]
+    Empty {
+        /// Number of policies.
+        policies: usize,
+        /// Number of days.
+        days: usize,
+    },
+    /// V403. Two policies did not meet the same days in the same order, so that their results cannot be paired.
+    /// Cause: records of different runs were mixed. Fix: run all policies in one comparison.
+    #[error(
+        "policy {policy:?}, day {position}: found {found}, but {first_policy:?} has {expected}"
+    )]
+    Unpaired {
+        /// The policy whose days differ.
+        policy: String,
+        /// The policy that it was compared with.
+        first_policy: String,
+        /// Position of the first day that differs.
+        position: usize,
+        /// The day there.
+        found: String,
+        /// The day that should be there.
+        expected: String,
+    },
+    /// V404. Two policies of one comparison have the same name. Cause: a policy was named twice. Fix: name each once.
+    #[error("policy {name:?} is named twice")]
+    DuplicatePolicy {
+        /// The name.
+        name: String,
+    },
+    /// V405. A result is not a finite number. Cause: a policy or a scenario with values beyond any day's. Fix: check
+    /// the scenario; if it is sound, report the day as a defect.
+    #[error("policy {policy:?}, day {day:?}: {member} must be a finite number, found {value}")]
+    NotFinite {
+        /// The policy.
+        policy: String,
+        /// The day.
+        day: String,
+        /// Which result.
+        member: &'static str,
+        /// The value found.
+        value: f64,
+    },
+
+    /// V406. A policy could not play a day to its end. Cause: a replay of another day's trace, or a policy that chose
+    /// what is not feasible. Fix: replay a trace only on its own day; report any other policy as a defect.
+    #[error("policy {policy:?} cannot play {day}: {cause}")]
+    Stuck {
+        /// The policy.
+        policy: String,
+        /// The day.
+        day: String,
+        /// Where it got stuck.
+        cause: PlayError,
+    },
+}
+
+impl Error {
+    /// The stable number of this error, as in `V401`.
+    pub fn code(&self) -> Code {
+        Code(match self {
+            Self::Core(error) => return error.code(),
+            Self::CannotMakeFolder { .. } => 401,
+            Self::Empty { .. } => 402,
+            Self::Unpaired { .. } => 403,
+            Self::DuplicatePolicy { .. } => 404,
+            Self::NotFinite { .. } => 405,
+            Self::Stuck { .. } => 406,
+        })
+    }
+
+    /// What helps beside the message, where there is more to say.
+    pub fn hint(&self) -> Option<&str> {
+        match self {
+            Self::Core(error) => error.hint(),
+            Self::CannotMakeFolder { .. } => {
+                Some("name a folder that is yours, or one that is not there yet")
+            }
+            Self::Empty { .. } => Some("a comparison takes at least one policy and one day"),
+            Self::DuplicatePolicy { .. } => {
+                Some("give a second model of the same kind a name of its own")
+            }
+            Self::Unpaired { .. } => Some("run all policies in one comparison"),
+            Self::Stuck { .. } => Some("a replay needs the trace of the very day that is played"),
+            Self::NotFinite { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! The figures of a comparison as SVG: learning curves (Fig. 3), reward (Fig. 4), profit (Fig. 5), day by day.
+//!
+//! Every figure names its marks in words and tells its series apart by marker, dash or place as well as by colour, so
+//! that it reads the same in grey. Colours are set twice: as attributes for the file on its own, and as classes that a
+//! page's style sheet may override for a dark background.
+
+mod axis;
+mod box_plot;
+mod canvas;
+mod day_differences;
+mod learning_curves;
+mod palette;
+mod png;
+
+use crate::summary::Summary;
+
+pub(crate) use palette::style_sheet;
+pub(crate) use png::png;
+
+/// One picture with what a page says about it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Figure {
+    /// File name without ending, for example `figure-5-profit`.
+    pub slug: &'static str,
+    /// How to read the picture, in a sentence or two.
+    pub caption: String,
+    /// The picture: a complete SVG document.
+    pub svg: String,
+}
+
+/// Every figure that the summary has numbers for, in the order in which a reader wants them.
+pub fn all(summary: &Summary) -> Vec<Figure> {
+    let figures = [
+        Some(box_plot::daily_profit(summary)),
+        Some(box_plot::episode_reward(summary)),
+        day_differences::figure(summary),
+        learning_curves::figure(summary),
+    ];
+    figures.into_iter().flatten().collect()
+}
+
+#[cfg(test)]
+#[path = "figure_tests.rs"]
+mod tests;

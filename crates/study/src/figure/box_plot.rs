@@ -1,0 +1,186 @@
+//! Box plots of what every policy earned on each day (Fig. 4 and Fig. 5).
+//!
+//! Boxes lie, one row a policy, so that names can be read and every day has its dot below the box. Rows are named, so
+//! colour carries nothing that is not also said in words.
+
+use super::Figure;
+use super::axis::Scale;
+use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened, text_width};
+use super::palette::Paint;
+use crate::numbers::{counted, dollars, grouped, typeset};
+use crate::statistics::BoxSummary;
+use crate::summary::{PolicySummary, Summary};
+
+const WIDTH: f64 = 760.0;
+const TOP: f64 = 96.0;
+const ROW: f64 = 58.0;
+const BOTTOM: f64 = 52.0;
+const BOX_HEIGHT: f64 = 18.0;
+const RIGHT: f64 = 92.0;
+const LONGEST_NAME: usize = 22;
+
+/// With more days the dots run into each other and say less than the box.
+const MOST_DOTS: usize = 400;
+
+/// What a box plot shows of a policy.
+struct Measure {
+    slug: &'static str,
+    title: &'static str,
+    subtitle: String,
+    axis: &'static str,
+    daily: fn(&PolicySummary) -> &[f64],
+    boxed: fn(&PolicySummary) -> &BoxSummary,
+    mean: fn(&PolicySummary) -> f64,
+    written: fn(f64) -> String,
+    /// Values of the axis with this many decimals.
+    tick: fn(f64, usize) -> String,
+}
+
+/// Fig. 5: profit per day.
+pub(super) fn daily_profit(summary: &Summary) -> Figure {
+    draw(
+        summary,
+        &Measure {
+            slug: "figure-5-profit",
+            title: "Daily profit",
+            subtitle: subtitle(summary),
+            axis: "profit a day, $",
+            daily: |policy| &policy.daily_profit_usd,
+            boxed: |policy| &policy.profit_box_usd,
+            mean: |policy| policy.profit_usd.mean,
+            written: dollars,
+            tick: |value, _| dollars(value),
+        },
+        "Corresponds to Fig. 5 of the paper.",
+    )
+}
+
+/// Fig. 4: episode reward per day.
+pub(super) fn episode_reward(summary: &Summary) -> Figure {
+    draw(
+        summary,
+        &Measure {
+            slug: "figure-4-reward",
+            title: "Episode reward",
+            subtitle: subtitle(summary),
+            axis: "profit as a share of the revenue if every passenger flew",
+            daily: |policy| &policy.daily_reward,
+            boxed: |policy| &policy.reward_box,
+            mean: |policy| policy.reward.mean,
+            written: |value| typeset(&grouped(value, 4)),
+            tick: |value, decimals| typeset(&grouped(value, decimals)),
+        },
+        "Corresponds to Fig. 4 of the paper.",
+    )
+}
+
+fn subtitle(summary: &Summary) -> String {
+    let days = counted(summary.days, "day", "days");
+    format!(
+        "{days} of the “{}” network, the same for every policy",
+        shortened(&summary.network, 40)
+    )
+}
+
+fn draw(summary: &Summary, measure: &Measure, source: &str) -> Figure {
+    let policies = &summary.policies;
+    let bottom = TOP + ROW * policies.len() as f64;
+    let names = policies.iter().map(|policy| shortened(&policy.name, LONGEST_NAME));
+    let left = names.map(|name| text_width(&name, 13.0)).fold(60.0, f64::max) + 32.0;
+    let values = policies.iter().flat_map(|policy| (measure.daily)(policy).iter().copied());
+    let scale = Scale::around(values, (left, WIDTH - RIGHT), 9);
+
+    let mut canvas = Canvas::new(WIDTH, bottom + BOTTOM, measure.title, &measure.subtitle);
+    let dots = summary.days <= MOST_DOTS;
+    draw_key(&mut canvas, dots);
+    let mean_heading = Lettering::SMALL.anchored(Anchor::End);
+    canvas.text((WIDTH - 16.0, TOP - 8.0), mean_heading, "mean");
+    draw_axis(&mut canvas, &scale, measure, (left, bottom));
+    for (position, policy) in policies.iter().enumerate() {
+        let middle = TOP + ROW * (position as f64 + 0.42);
+        let name = shortened(&policy.name, LONGEST_NAME);
+        let lettering = Lettering::LABEL.bold().anchored(Anchor::End);
+        canvas.text((left - 14.0, middle + 4.5), lettering, &name);
+        let mean = (measure.written)((measure.mean)(policy));
+        canvas.text((WIDTH - 16.0, middle + 4.5), Lettering::LABEL.anchored(Anchor::End), &mean);
+        if dots {
+            draw_dots(&mut canvas, &scale, (measure.daily)(policy), middle + BOX_HEIGHT, position);
+        }
+        draw_box(&mut canvas, &scale, (measure.boxed)(policy), middle, Paint::Series(position));
+        let mark =
+            Look { fill: Some((Paint::Ground, 1.0)), stroke: Some(Stroke::solid(Paint::Ink, 1.4)) };
+        canvas.diamond((scale.pixel((measure.mean)(policy)), middle), 4.6, mark);
+    }
+    Figure {
+        slug: measure.slug,
+        caption: format!(
+            "{source} Box: middle half of the days; line in it: median; whiskers: at most 1.5 times as long as the box."
+        ),
+        svg: canvas.into_svg(),
+    }
+}
+
+fn draw_axis(canvas: &mut Canvas, scale: &Scale, measure: &Measure, (left, bottom): Point) {
+    let decimals = scale.decimals(1.0);
+    for tick in scale.ticks() {
+        let x = scale.pixel(tick);
+        canvas.line((x, TOP), (x, bottom), Stroke::solid(Paint::Grid, 1.0));
+        let label = (measure.tick)(tick, decimals);
+        canvas.text((x, bottom + 18.0), Lettering::SMALL.anchored(Anchor::Middle), &label);
+    }
+    canvas.line((left, bottom), (WIDTH - RIGHT, bottom), Stroke::solid(Paint::Muted, 1.0));
+    let middle = f64::midpoint(left, WIDTH - RIGHT);
+    canvas.text((middle, bottom + 38.0), Lettering::SMALL.anchored(Anchor::Middle), measure.axis);
+}
+
+fn draw_box(canvas: &mut Canvas, scale: &Scale, summary: &BoxSummary, middle: f64, paint: Paint) {
+    let x = |value| scale.pixel(value);
+    let whisker = Stroke::solid(paint, 1.4);
+    let half = BOX_HEIGHT / 2.0;
+    for (from, to) in [
+        (summary.low_whisker, summary.first_quartile),
+        (summary.third_quartile, summary.high_whisker),
+    ] {
+        canvas.line((x(from), middle), (x(to), middle), whisker);
+    }
+    for end in [summary.low_whisker, summary.high_whisker] {
+        canvas.line((x(end), middle - 5.0), (x(end), middle + 5.0), whisker);
+    }
+    let corner = (x(summary.first_quartile), middle - half);
+    let size = (x(summary.third_quartile) - corner.0, BOX_HEIGHT);
+    canvas.rectangle(corner, size, Look::filled(Paint::Ground));
+    canvas.rectangle(corner, size, Look { fill: Some((paint, 0.22)), stroke: Some(whisker) });
+    let median = x(summary.median);
+    canvas.line((median, middle - half), (median, middle + half), Stroke::solid(paint, 2.6));
+    for &outlier in &summary.outliers {
+        canvas.circle((x(outlier), middle), 3.0, Look::outlined(whisker));
+    }
+}
+
+/// One dot a day; neighbours of the calendar stand at different heights, so that equal days do not hide each other.
+fn draw_dots(canvas: &mut Canvas, scale: &Scale, values: &[f64], top: f64, series: usize) {
+    let look = Look { fill: Some((Paint::Series(series), 0.45)), stroke: None };
+    for (position, &value) in values.iter().enumerate() {
+        let height = (position * 5 % 8) as f64 * 1.5;
+        canvas.circle((scale.pixel(value), top + height - 1.0), 1.7, look);
+    }
+}
+
+fn draw_key(canvas: &mut Canvas, dots: bool) {
+    let y = 72.0;
+    let grey = Stroke::solid(Paint::Muted, 1.4);
+    let text = Lettering::SMALL;
+    let box_look = Look { fill: Some((Paint::Muted, 0.18)), stroke: Some(grey) };
+    canvas.line((16.0, y), (46.0, y), grey);
+    canvas.rectangle((22.0, y - 6.0), (18.0, 12.0), box_look);
+    canvas.line((31.0, y - 6.0), (31.0, y + 6.0), Stroke::solid(Paint::Muted, 2.6));
+    canvas.text((53.0, y + 4.0), text, "quartiles, median, whiskers");
+    canvas.diamond((237.0, y), 4.6, Look::outlined(Stroke::solid(Paint::Ink, 1.4)));
+    canvas.text((247.0, y + 4.0), text, "mean");
+    canvas.circle((300.0, y), 3.0, Look::outlined(grey));
+    canvas.text((309.0, y + 4.0), text, "outlier");
+    if dots {
+        canvas.circle((371.0, y), 2.2, Look { fill: Some((Paint::Muted, 0.7)), stroke: None });
+        canvas.text((379.0, y + 4.0), text, "one day");
+    }
+}

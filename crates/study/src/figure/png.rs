@@ -1,0 +1,41 @@
+//! An SVG figure as a picture of pixels, with letters from the embedded font: the same picture on every machine.
+
+use std::sync::{Arc, LazyLock};
+
+use resvg::{tiny_skia, usvg};
+
+/// Pixels of the PNG for one of the SVG: sharp on dense screens and in print.
+const PIXEL_RATIO: f32 = 2.0;
+
+/// Inter, cut to Latin letters; licence in `assets/OFL.txt`.
+const FONTS: [&[u8]; 2] = [
+    include_bytes!("../../assets/Inter-Regular.otf"),
+    include_bytes!("../../assets/Inter-SemiBold.otf"),
+];
+
+static FONT_DATABASE: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
+    let mut database = usvg::fontdb::Database::new();
+    for font in FONTS {
+        database.load_font_data(font.to_vec());
+    }
+    Arc::new(database)
+});
+
+/// The figure as PNG at [`PIXEL_RATIO`] times its size.
+///
+/// # Panics
+/// If the SVG is not well-formed or has no size: figures of this crate are and have.
+pub(crate) fn png(svg: &str) -> Vec<u8> {
+    let options = usvg::Options {
+        font_family: "Inter".to_owned(),
+        fontdb: Arc::clone(&FONT_DATABASE),
+        ..usvg::Options::default()
+    };
+    let tree = usvg::Tree::from_str(svg, &options).expect("figures are well-formed SVG");
+    let size = tree.size().to_int_size().scale_by(PIXEL_RATIO).expect("figures have a size");
+    let mut pixels =
+        tiny_skia::Pixmap::new(size.width(), size.height()).expect("figures have a size");
+    let scale = tiny_skia::Transform::from_scale(PIXEL_RATIO, PIXEL_RATIO);
+    resvg::render(&tree, scale, &mut pixels.as_mut());
+    pixels.encode_png().expect("a picture in memory can be encoded")
+}

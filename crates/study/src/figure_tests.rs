@@ -1,0 +1,131 @@
+//! What every figure promises: it is well-formed, its texts are inside, it makes a PNG, and it says what is what.
+
+use resvg::usvg::roxmltree::Document;
+
+use super::{Figure, all, png, style_sheet};
+use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
+use crate::summary::Summary;
+
+/// Names that a user could give, none of them friendly to XML.
+const HOSTILE: &str = "a<b>&\"c'\u{0}\u{ffff} with a name much longer than any row";
+
+fn summary(names: &[&str], days: u32) -> Summary {
+    let policies = names.iter().zip(0u32..).map(|(&name, policy)| PolicyRecord {
+        name: name.to_owned(),
+        description: String::new(),
+        days: (0..days).map(|day| record(policy, day)).collect(),
+        decision_ns: LatencySummary::default(),
+    });
+    let curves = names.iter().zip(0u32..).map(|(&name, policy)| Curve {
+        name: name.to_owned(),
+        points: (0..4)
+            .map(|step| (u64::from(step) * 500, f64::from(step + policy) / 20.0))
+            .chain([(9_999, f64::NAN)])
+            .collect(),
+    });
+    let study = Study {
+        network: "small & odd".to_owned(),
+        seed: 3,
+        days: days as usize,
+        command: "vertifleet compare".to_owned(),
+        curves: curves.collect(),
+        policies: policies.collect(),
+    };
+    Summary::of(&study).expect("a sound study")
+}
+
+/// The last policy earns most; the third day is an outlier.
+fn record(policy: u32, day: u32) -> DayRecord {
+    let odd = if day == 2 { 900.0 } else { 0.0 };
+    let profit_usd = 1_000.0 + f64::from(100 * policy + 10 * (day * 7 % 5)) + odd;
+    DayRecord {
+        policy: policy as usize,
+        day: format!("day-{day}"),
+        seed: u64::from(day),
+        profit_usd,
+        revenue_usd: 3_000.0,
+        passenger_cost_usd: 1_500.0,
+        energy_cost_usd: 100.0,
+        energy_kwh: 500.0,
+        potential_usd: 10_000.0,
+        reward: profit_usd / 10_000.0,
+        flights: 30,
+        repositioning_flights: 2,
+        holds: 5,
+        decisions: 35,
+        passengers: 100,
+        spilled_passengers: 10,
+        load_factor: 0.8,
+    }
+}
+
+fn slugs(figures: &[Figure]) -> Vec<&str> {
+    figures.iter().map(|figure| figure.slug).collect()
+}
+
+#[test]
+fn the_box_plot_of_a_small_study() {
+    let figures = all(&summary(&["random", "greedy"], 6));
+    insta::assert_snapshot!(figures[0].svg);
+}
+
+#[test]
+fn the_learning_curves_of_a_small_study() {
+    let figures = all(&summary(&["random", "greedy"], 6));
+    insta::assert_snapshot!(figures[3].svg);
+}
+
+#[test]
+fn any_name_and_any_number_of_days_make_well_formed_pictures() {
+    let many: Vec<String> =
+        (0..14).map(|policy| format!("policy number {policy} of many")).collect();
+    let many: Vec<&str> = many.iter().map(String::as_str).collect();
+    for (names, days) in
+        [(vec![HOSTILE, "greedy"], 5), (many, 3), (vec!["alone"], 1), (vec!["a", "b"], 450)]
+    {
+        for figure in all(&summary(&names, days)) {
+            let document = Document::parse(&figure.svg).expect("well-formed XML");
+            for text in document.descendants().filter(|node| node.has_tag_name("text")) {
+                let place = |name| text.attribute(name).and_then(|value| value.parse::<f64>().ok());
+                assert!(place("x").is_some_and(|x| (0.0..=760.0).contains(&x)), "{}", figure.slug);
+            }
+            assert!(!figure.svg.contains("NaN") && !figure.svg.contains("inf"), "{}", figure.slug);
+            assert!(png(&figure.svg).starts_with(b"\x89PNG"));
+        }
+    }
+}
+
+#[test]
+fn a_figure_is_drawn_only_where_there_are_numbers_for_it() {
+    let full = summary(&["random", "greedy"], 4);
+    let whole =
+        ["figure-5-profit", "figure-4-reward", "figure-day-by-day", "figure-3-learning-curves"];
+    assert_eq!(slugs(&all(&full)), whole);
+
+    let untrained = Summary { curves: Vec::new(), ..full };
+    assert_eq!(slugs(&all(&untrained)), whole[..3]);
+    let alone = Summary { curves: Vec::new(), ..summary(&["greedy"], 4) };
+    assert_eq!(slugs(&all(&alone)), whole[..2]);
+}
+
+#[test]
+fn letters_of_a_png_come_from_the_embedded_font() {
+    let figure = |label: &str| {
+        format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='90' height='20'><text y='15'>{label}</text></svg>"
+        )
+    };
+    assert_ne!(png(&figure("−$1,234 ± µ")), png(&figure("")));
+}
+
+#[test]
+fn every_class_of_a_figure_has_a_colour_on_dark_ground() {
+    let rules = style_sheet();
+    for figure in all(&summary(&["a", "b", "c"], 6)) {
+        let document = Document::parse(&figure.svg).expect("well-formed XML");
+        let classes = document.descendants().filter_map(|node| node.attribute("class"));
+        for class in classes.flat_map(str::split_whitespace) {
+            assert!(rules.contains(&format!(".{class}{{")), "{class}");
+        }
+    }
+}

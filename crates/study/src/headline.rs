@@ -1,0 +1,65 @@
+//! The comparison in one or two sentences, made from its numbers.
+
+use crate::numbers::{counted, dollars, grouped, p_statement, signed_dollars};
+use crate::summary::{Comparison, Summary};
+
+/// What the best policy earns, and whether its lead over the reference is more than chance.
+pub(crate) fn text(summary: &Summary) -> String {
+    let best = summary.best();
+    let earns = format!(
+        "{} earns {} a day on average over {} of the “{}” network",
+        best.name,
+        dollars(best.profit_usd.mean),
+        counted(summary.days, "unseen day", "unseen days"),
+        summary.network
+    );
+    match summary.best_against_reference() {
+        None => format!("{earns}."),
+        Some(comparison) => format!("{earns}{}", lead(summary, comparison)),
+    }
+}
+
+fn lead(summary: &Summary, comparison: &Comparison) -> String {
+    let test = &comparison.profit_usd;
+    let difference = test.difference;
+    let other = &summary.policies[comparison.pair.1];
+    let share = share(difference.mean, other.profit_usd.mean);
+    let p = p_statement(test.p_value);
+    match difference.interval_95() {
+        None => format!(", {share} {}.", other.name),
+        Some(_) if !test.is_significant() => format!(
+            ". Its lead over {}, {}, is within what chance alone can make (paired t-test, {p}).",
+            other.name,
+            signed_dollars(difference.mean)
+        ),
+        Some((low, high)) => format!(
+            ", {share} {} (95 % interval of the difference {} to {}; paired t-test, {p}).",
+            other.name,
+            signed_dollars(low),
+            signed_dollars(high)
+        ),
+    }
+}
+
+/// `1.3 % more than`, or in dollars where a share of the other mean says nothing.
+fn share(difference: f64, other_mean: f64) -> String {
+    if difference == 0.0 {
+        "as much as".to_owned()
+    } else if other_mean > 0.0 {
+        format!("{} % more than", grouped(100.0 * difference / other_mean, 1))
+    } else {
+        format!("{} more than", dollars(difference))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::share;
+
+    #[test]
+    fn a_lead_is_a_share_only_of_what_is_earned() {
+        assert_eq!(share(13.0, 1_000.0), "1.3 % more than");
+        assert_eq!(share(13.0, -5.0), "$13 more than");
+        assert_eq!(share(0.0, 1_000.0), "as much as");
+    }
+}

@@ -1,0 +1,22 @@
+//! Many policies on many days: statistics, figures, report.
+//!
+//! [`run`] plays the days, [`record`] holds what they leave behind, [`Summary`] turns it into statistics, and [`table`], [`figure`] and
+//! [`report`] present those. Presentation computes nothing; statistics know nothing of pages.
+
+mod days_csv;
+mod error;
+pub mod figure;
+mod headline;
+mod numbers;
+mod page;
+pub mod published;
+pub mod record;
+pub mod report;
+pub mod run;
+pub mod statistics;
+pub mod summary;
+pub mod table;
+
+pub use error::Error;
+pub use record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
+pub use summary::Summary;

@@ -1,0 +1,229 @@
+//! `report.html`: one page that opens offline, follows the reader's light or dark setting, and prints.
+//!
+//! The template escapes every text that it is given; only the figures and the style sheet, which are ours, go in as
+//! they are. Nothing is loaded from anywhere: style and figures are inside, links point to files beside the page.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::figure::{self, Figure};
+use crate::headline;
+use crate::numbers::{counted, duration, grouped, p_statement, signed_dollars, typeset};
+use crate::published::{NOTE, PublishedResult};
+use crate::statistics::Estimate;
+use crate::summary::{PolicySummary, Summary};
+
+/// The whole page.
+pub(crate) fn text(summary: &Summary, figures: &[Figure]) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { "Vertifleet comparison: " (summary.network) }
+                style { (PreEscaped(style())) }
+            }
+            body {
+                main {
+                    (opening(summary))
+                    (results(summary))
+                    h2 { "Figures" }
+                    @for figure in figures { (picture(figure)) }
+                    @if !summary.comparisons.is_empty() { (tests(summary)) }
+                    @if !summary.published.is_empty() { (published(summary)) }
+                    (closing(figures))
+                }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn style() -> String {
+    let figures = figure::style_sheet();
+    format!(
+        "{}@media screen and (prefers-color-scheme:dark){{{figures}}}\n",
+        include_str!("page/style.css")
+    )
+}
+
+fn opening(summary: &Summary) -> Markup {
+    let (first, last) = summary.day_seeds;
+    html! {
+        p.program { "Vertifleet " (summary.program_version) " · comparison of policies" }
+        h1 { (counted(summary.policies.len(), "policy", "policies")) " on "
+            (counted(summary.days, "unseen day", "unseen days")) }
+        p.headline { (headline::text(summary)) }
+        dl {
+            div { dt { "Network" } dd { (summary.network) } }
+            div { dt { "Days" } dd { (summary.days) } }
+            div { dt { "Seed" } dd { (summary.seed) } }
+            div { dt { "Days drawn from seeds" } dd { (first) " to " (last) } }
+            div { dt { "Program" } dd { "vertifleet " (summary.program_version) } }
+        }
+        pre { (summary.command) }
+    }
+}
+
+fn results(summary: &Summary) -> Markup {
+    html! {
+        h2 { "Results" }
+        p.lead { "Means a day, highest profit first. ± is the 95 % interval of the mean (Student’s t), sd the standard "
+            "deviation between days." }
+        div.wide { table {
+            thead { tr {
+                th scope="col" { "policy" }
+                th scope="col" { "profit, $" }
+                th scope="col" { "sd, $" }
+                th scope="col" { "reward" }
+                th scope="col" { "flights" }
+                th scope="col" { "reposition" }
+                th scope="col" { "holds" }
+                th scope="col" { "passengers" }
+                th scope="col" { "load" br; "factor" }
+                th scope="col" { "time per decision" br; small { "median / 99 %" } }
+            } }
+            tbody { @for (position, policy) in summary.policies.iter().enumerate() {
+                tr.best[position == 0] { (result_cells(policy)) }
+            } }
+        } }
+        ul.descriptions { @for policy in &summary.policies {
+            @if !policy.description.is_empty() { li { b { (policy.name) } ": " (policy.description) } }
+        } }
+    }
+}
+
+fn result_cells(policy: &PolicySummary) -> Markup {
+    let latency = policy.decision_ns;
+    html! {
+        th scope="row" title=(policy.name) { (policy.name) }
+        td { (estimate(&policy.profit_usd, |value| grouped(value, 0))) }
+        td { (policy.profit_usd.standard_deviation.map_or("n/a".to_owned(), |value| grouped(value, 0))) }
+        td { (estimate(&policy.reward, |value| format!("{value:.4}"))) }
+        td { (grouped(policy.flights, 1)) }
+        td { (grouped(policy.repositioning_flights, 1)) }
+        td { (grouped(policy.holds, 1)) }
+        td { (grouped(policy.passengers, 1)) }
+        td { (format!("{:.3}", policy.load_factor)) }
+        td { (duration(latency.median)) small { " / " (duration(latency.p99)) } }
+    }
+}
+
+fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> Markup {
+    html! {
+        (typeset(&written(estimate.mean)))
+        @if let Some(half_width) = estimate.half_width_95 { small { " ± " (written(half_width)) } }
+    }
+}
+
+fn picture(figure: &Figure) -> Markup {
+    html! {
+        figure {
+            (PreEscaped(&figure.svg))
+            figcaption { (figure.caption) }
+        }
+    }
+}
+
+fn tests(summary: &Summary) -> Markup {
+    html! {
+        h2 { "Paired t-tests" }
+        p.lead { "Mean difference of the daily profit, row minus column, on the same days. Two-sided p, not adjusted for "
+            "the number of tests; tinted below 0.05." }
+        div.wide { table.tests {
+            thead { tr {
+                th scope="col" { "row − column" }
+                @for policy in &summary.policies { th scope="col" { (policy.name) } }
+            } }
+            tbody { @for row in 0..summary.policies.len() { tr {
+                th scope="row" { (summary.policies[row].name) }
+                @for column in 0..summary.policies.len() { (test_cell(summary, row, column)) }
+            } } }
+        } }
+    }
+}
+
+fn test_cell(summary: &Summary, row: usize, column: usize) -> Markup {
+    let pair = (row.min(column), row.max(column));
+    let Some(comparison) = summary.comparisons.iter().find(|comparison| comparison.pair == pair)
+    else {
+        return html! { td { "" } };
+    };
+    let test = &comparison.profit_usd;
+    let sign = if row < column { 1.0 } else { -1.0 };
+    html! {
+        td.clear[test.is_significant()] {
+            (signed_dollars(sign * test.difference.mean)) small { (p_statement(test.p_value)) }
+        }
+    }
+}
+
+fn published(summary: &Summary) -> Markup {
+    html! {
+        h2 { "Beside the published figures" }
+        p.lead { "§V.B of S. Paul and S. Chowdhury, “A Graph-based Reinforcement Learning Framework for Urban Air "
+            "Mobility Fleet Scheduling”, on its authors’ 100 test days; ours on the days of this report. ± is the standard "
+            "deviation between days, as the paper gives it." }
+        div.wide { table {
+            thead {
+                tr {
+                    th.group { "" }
+                    th.group colspan="3" { "published" }
+                    th.group.second colspan="4" { "this run" }
+                }
+                tr {
+                    th scope="col" { "method" }
+                    th scope="col" { "profit, $" }
+                    th scope="col" { "trips" }
+                    th.before-second scope="col" { "reward, end of training" }
+                    th.second scope="col" { "policy" }
+                    th scope="col" { "profit, $" }
+                    th scope="col" { "flights" }
+                    th scope="col" { "reward" }
+                }
+            }
+            tbody { @for result in summary.published { tr { (published_cells(summary, result)) } } }
+        } }
+        div.note { @for paragraph in NOTE { p { (paragraph) } } }
+    }
+}
+
+fn published_cells(summary: &Summary, result: &PublishedResult) -> Markup {
+    let ours = summary.policies.iter().find(|policy| policy.name == result.policy);
+    html! {
+        th scope="row" { (result.name) }
+        td { (grouped(result.profit_usd, 0)) small { " ± " (grouped(result.standard_deviation_usd, 0)) } }
+        td { (grouped(result.flights, 0)) }
+        td.before-second { (result.reward_at_convergence.map_or("not stated".to_owned(), |reward| format!("about {reward:.3}"))) }
+        td.second { (result.policy) }
+        @if let Some(policy) = ours {
+            td {
+                (typeset(&grouped(policy.profit_usd.mean, 0)))
+                @if let Some(deviation) = policy.profit_usd.standard_deviation {
+                    small { " ± " (grouped(deviation, 0)) }
+                }
+            }
+            td { (grouped(policy.flights, 0)) }
+            td { (format!("{:.3}", policy.reward.mean)) }
+        } @else {
+            td colspan="3" { "not in this run" }
+        }
+    }
+}
+
+fn closing(figures: &[Figure]) -> Markup {
+    html! {
+        footer {
+            p { "Profit is fares less passenger and energy cost (Eq. 5 of the paper). Reward is profit as a share of the "
+                "revenue if every passenger flew (§III.H). Every policy met the same days. What the paper leaves open, and "
+                "what was assumed instead, is listed under " em { "Concepts: the model" } " in Vertifleet’s documentation." }
+            p { "Files beside this page: " a href="days.csv" { "days.csv" } ", every policy’s every day; "
+                a href="summary.json" { "summary.json" } ", all numbers of this page"
+                @for figure in figures {
+                    "; " a href={ (figure.slug) ".svg" } { (figure.slug) } " (" a href={ (figure.slug) ".png" } { "PNG" } ")"
+                }
+                "." }
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! What a comparison leaves behind: every policy's every day, before any statistics.
+//!
+//! These are plain numbers, so that everything after them (statistics, figures, report) can be tested without a
+//! simulation. Days stand in the same order for every policy: that is what makes the tests paired.
+
+/// One policy's result on one day.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DayRecord {
+    /// Position of the policy in [`Study::policies`].
+    pub policy: usize,
+    /// Name of the day's scenario.
+    pub day: String,
+    /// Seed that the day was drawn from.
+    pub seed: u64,
+    /// Revenue less passenger and energy cost (Eq. 5), in dollars.
+    pub profit_usd: f64,
+    /// Fares paid (Eq. 4), in dollars.
+    pub revenue_usd: f64,
+    /// Operating cost (Eq. 2), in dollars.
+    pub passenger_cost_usd: f64,
+    /// Cost of charging (Eq. 3), in dollars.
+    pub energy_cost_usd: f64,
+    /// Energy charged, in kWh.
+    pub energy_kwh: f64,
+    /// Revenue if every passenger of the day flew: the denominator of the reward, in dollars.
+    pub potential_usd: f64,
+    /// Episode reward (§III.H): profit over potential revenue.
+    pub reward: f64,
+    /// Flights, with and without passengers.
+    pub flights: u32,
+    /// Flights without passengers.
+    pub repositioning_flights: u32,
+    /// Decisions to stay and ask again later.
+    pub holds: u32,
+    /// Decisions: flights and holds.
+    pub decisions: u32,
+    /// Passengers flown.
+    pub passengers: u64,
+    /// Passengers of the day's demand that did not fly.
+    pub spilled_passengers: u64,
+    /// Passenger-miles over seat-miles, 0 to 1.
+    pub load_factor: f64,
+}
+
+/// Time that one decision takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct LatencySummary {
+    /// Half of the decisions take at most this long, in nanoseconds.
+    pub median_ns: u64,
+    /// 99 % of the decisions take at most this long, in nanoseconds.
+    pub p99_ns: u64,
+}
+
+/// One policy on every day of the study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolicyRecord {
+    /// Name as the user gave it, for example `greedy`.
+    pub name: String,
+    /// What the policy does, in one short sentence.
+    pub description: String,
+    /// One record a day, in the study's order of days.
+    pub days: Vec<DayRecord>,
+    /// Time that one decision of this policy takes.
+    pub decision_ns: LatencySummary,
+}
+
+/// How a policy's training went (Fig. 3).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Name of the policy that was trained.
+    pub name: String,
+    /// Steps of experience and the mean episode reward at that point, in order of steps.
+    pub points: Vec<(u64, f64)>,
+}
+
+/// Many policies on the same days.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// Name of the network that the days were drawn from.
+    pub network: String,
+    /// Seed of the first day, as the user gave it.
+    pub seed: u64,
+    /// Number of days; each policy has as many records.
+    pub days: usize,
+    /// Command that made the study, as it would be typed.
+    pub command: String,
+    /// Every policy's record.
+    pub policies: Vec<PolicyRecord>,
+    /// Learning curves of those policies that were trained; may be empty.
+    pub curves: Vec<Curve>,
+}

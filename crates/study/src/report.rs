@@ -1,0 +1,55 @@
+//! Writes a comparison to a folder: page, figures, table of days, numbers for machines.
+
+use std::path::{Path, PathBuf};
+
+use vertifleet_core::write_atomically;
+
+use crate::error::Error;
+use crate::record::Study;
+use crate::summary::Summary;
+use crate::{days_csv, figure, page};
+
+/// Where everything was written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Paths {
+    /// The page.
+    pub report: PathBuf,
+    /// Every policy's every day.
+    pub days: PathBuf,
+    /// All numbers of the page.
+    pub summary: PathBuf,
+    /// The figures, each as SVG and as PNG.
+    pub figures: Vec<PathBuf>,
+}
+
+/// Writes the whole report of a study into `folder`, which is made if it is not there.
+///
+/// Every file is replaced at once or not at all; the page comes last, so that it never links to what is not there.
+///
+/// # Errors
+/// [`Error::CannotMakeFolder`], [`Error::Core`] (V102) for a file that cannot be written, or any error of [`Summary::of`];
+/// after the last of these nothing is written.
+pub fn write(study: &Study, folder: &Path) -> Result<Paths, Error> {
+    let summary = Summary::of(study)?;
+    std::fs::create_dir_all(folder)
+        .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })?;
+    let figures = figure::all(&summary);
+    let mut pictures = Vec::with_capacity(2 * figures.len());
+    for figure in &figures {
+        let (svg, png) = (format!("{}.svg", figure.slug), format!("{}.png", figure.slug));
+        pictures.push(put(folder, &svg, figure.svg.as_bytes())?);
+        pictures.push(put(folder, &png, &figure::png(&figure.svg))?);
+    }
+    Ok(Paths {
+        days: put(folder, "days.csv", days_csv::text(study).as_bytes())?,
+        summary: put(folder, "summary.json", (summary.to_json() + "\n").as_bytes())?,
+        figures: pictures,
+        report: put(folder, "report.html", page::text(&summary, &figures).as_bytes())?,
+    })
+}
+
+fn put(folder: &Path, name: &str, contents: &[u8]) -> Result<PathBuf, Error> {
+    let path = folder.join(name);
+    write_atomically(&path, contents)?;
+    Ok(path)
+}

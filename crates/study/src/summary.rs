@@ -1,0 +1,285 @@
+//! A study in numbers: what `summary.json` and `--json` hold, and what table, figures and page show.
+//!
+//! The one place where records become statistics. Everything that presents reads a [`Summary`] and computes nothing.
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::published::{self, PublishedResult};
+use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
+use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
+
+/// Name and version of the format of `summary.json`.
+pub const FORMAT: &str = "vertifleet-comparison/1";
+
+/// A comparison of policies, summed up.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// Always [`FORMAT`].
+    pub format: &'static str,
+    /// Version of the program, which is that of every crate of the workspace.
+    pub program_version: &'static str,
+    /// Command that made the study.
+    pub command: String,
+    /// Name of the network.
+    pub network: String,
+    /// Seed as the user gave it.
+    pub seed: u64,
+    /// Number of days.
+    pub days: usize,
+    /// Smallest and largest seed that a day was drawn from.
+    pub day_seeds: (u64, u64),
+    /// Every policy, highest mean profit first.
+    pub policies: Vec<PolicySummary>,
+    /// Every pair of policies once, in the order of `policies`.
+    pub comparisons: Vec<Comparison>,
+    /// Published results beside which these stand; empty but for the network `paper`.
+    pub published: &'static [PublishedResult],
+    /// Learning curves of those policies that were trained.
+    #[serde(skip)]
+    pub curves: Vec<Curve>,
+}
+
+/// One policy over all days. Counts and amounts are means a day.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PolicySummary {
+    /// Name as the user gave it.
+    pub name: String,
+    /// What the policy does.
+    pub description: String,
+    /// Daily profit, in dollars.
+    pub profit_usd: Estimate,
+    /// Box plot of the daily profit (Fig. 5).
+    pub profit_box_usd: BoxSummary,
+    /// Episode reward.
+    pub reward: Estimate,
+    /// Box plot of the episode reward (Fig. 4).
+    pub reward_box: BoxSummary,
+    /// Fares paid, in dollars.
+    pub revenue_usd: f64,
+    /// Operating cost, in dollars.
+    pub passenger_cost_usd: f64,
+    /// Cost of charging, in dollars.
+    pub energy_cost_usd: f64,
+    /// Energy charged, in kWh.
+    pub energy_kwh: f64,
+    /// Revenue if every passenger of the day flew, in dollars.
+    pub potential_usd: f64,
+    /// Flights, with and without passengers.
+    pub flights: f64,
+    /// Flights without passengers.
+    pub repositioning_flights: f64,
+    /// Decisions to hold.
+    pub holds: f64,
+    /// All decisions.
+    pub decisions: f64,
+    /// Passengers flown.
+    pub passengers: f64,
+    /// Passengers that did not fly.
+    pub spilled_passengers: f64,
+    /// Mean of the days' load factors, 0 to 1.
+    pub load_factor: f64,
+    /// Time of one decision.
+    pub decision_ns: Latency,
+    /// Profit of each day, in the study's order of days.
+    #[serde(skip)]
+    pub daily_profit_usd: Vec<f64>,
+    /// Reward of each day, in the study's order of days.
+    #[serde(skip)]
+    pub daily_reward: Vec<f64>,
+}
+
+/// Time of one decision, as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Latency {
+    /// Median, in nanoseconds.
+    pub median: u64,
+    /// 99th percentile, in nanoseconds.
+    pub p99: u64,
+}
+
+/// Two policies on the same days, first minus second.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Name of the first policy: the one with the higher mean profit.
+    pub first: String,
+    /// Name of the second policy.
+    pub second: String,
+    /// Positions of the two in [`Summary::policies`].
+    #[serde(skip)]
+    pub pair: (usize, usize),
+    /// Paired t-test of the daily profit, in dollars.
+    pub profit_usd: PairedTest,
+    /// Paired t-test of the episode reward.
+    pub reward: PairedTest,
+}
+
+impl Summary {
+    /// Sums a study up.
+    ///
+    /// # Errors
+    /// [`Error::Empty`], [`Error::DuplicatePolicy`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are
+    /// not those of different policies on the same days.
+    pub fn of(study: &Study) -> Result<Self, Error> {
+        check(study)?;
+        let mut policies: Vec<PolicySummary> = study
+            .policies
+            .iter()
+            .map(PolicySummary::of)
+            .collect::<Option<_>>()
+            .ok_or_else(|| empty(study))?;
+        // Stable, so that equal policies stay in the order in which they were named.
+        policies.sort_by(|a, b| b.profit_usd.mean.total_cmp(&a.profit_usd.mean));
+        let seeds = || study.policies.iter().flat_map(|policy| &policy.days).map(|day| day.seed);
+        let day_seeds = seeds().min().zip(seeds().max()).ok_or_else(|| empty(study))?;
+        Ok(Self {
+            format: FORMAT,
+            program_version: env!("CARGO_PKG_VERSION"),
+            command: study.command.clone(),
+            network: study.network.clone(),
+            seed: study.seed,
+            days: study.days,
+            day_seeds,
+            comparisons: compare_all(&policies),
+            policies,
+            published: published::results_for(&study.network),
+            curves: study.curves.clone(),
+        })
+    }
+
+    /// The summary as `summary.json` and `--json` have it: indented.
+    ///
+    /// # Panics
+    /// Never: numbers and texts can always be written.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
+    }
+
+    /// The policy with the highest mean profit.
+    ///
+    /// # Panics
+    /// Never: a summary has at least one policy.
+    pub fn best(&self) -> &PolicySummary {
+        self.policies.first().expect("a summary has at least one policy")
+    }
+
+    /// The comparison that says most about the best policy: with `greedy`, or with the second best if `greedy` is
+    /// the best or was not run. `None` if there is only one policy.
+    pub fn best_against_reference(&self) -> Option<&Comparison> {
+        let reference = self.policies.iter().skip(1).position(|policy| policy.name == "greedy");
+        let second = reference.map_or(1, |position| position + 1);
+        self.comparisons.iter().find(|comparison| comparison.pair == (0, second))
+    }
+}
+
+impl PolicySummary {
+    fn of(policy: &PolicyRecord) -> Option<Self> {
+        let column =
+            |value: fn(&DayRecord) -> f64| policy.days.iter().map(value).collect::<Vec<f64>>();
+        let average = |value: fn(&DayRecord) -> f64| mean(&column(value));
+        let daily_profit_usd = column(|day| day.profit_usd);
+        let daily_reward = column(|day| day.reward);
+        let LatencySummary { median_ns, p99_ns } = policy.decision_ns;
+        Some(Self {
+            name: policy.name.clone(),
+            description: policy.description.clone(),
+            profit_usd: Estimate::of(&daily_profit_usd),
+            profit_box_usd: BoxSummary::of(&daily_profit_usd)?,
+            reward: Estimate::of(&daily_reward),
+            reward_box: BoxSummary::of(&daily_reward)?,
+            revenue_usd: average(|day| day.revenue_usd),
+            passenger_cost_usd: average(|day| day.passenger_cost_usd),
+            energy_cost_usd: average(|day| day.energy_cost_usd),
+            energy_kwh: average(|day| day.energy_kwh),
+            potential_usd: average(|day| day.potential_usd),
+            flights: average(|day| f64::from(day.flights)),
+            repositioning_flights: average(|day| f64::from(day.repositioning_flights)),
+            holds: average(|day| f64::from(day.holds)),
+            decisions: average(|day| f64::from(day.decisions)),
+            passengers: average(|day| day.passengers as f64),
+            spilled_passengers: average(|day| day.spilled_passengers as f64),
+            load_factor: average(|day| day.load_factor),
+            decision_ns: Latency { median: median_ns, p99: p99_ns },
+            daily_profit_usd,
+            daily_reward,
+        })
+    }
+}
+
+fn compare_all(policies: &[PolicySummary]) -> Vec<Comparison> {
+    let pairs = (0..policies.len()).flat_map(|i| (i + 1..policies.len()).map(move |j| (i, j)));
+    pairs
+        .map(|(i, j)| {
+            let (first, second) = (&policies[i], &policies[j]);
+            Comparison {
+                first: first.name.clone(),
+                second: second.name.clone(),
+                pair: (i, j),
+                profit_usd: PairedTest::of(&first.daily_profit_usd, &second.daily_profit_usd),
+                reward: PairedTest::of(&first.daily_reward, &second.daily_reward),
+            }
+        })
+        .collect()
+}
+
+fn empty(study: &Study) -> Error {
+    Error::Empty { policies: study.policies.len(), days: study.days }
+}
+
+/// The records are those of differently named policies on the same days, with finite results.
+fn check(study: &Study) -> Result<(), Error> {
+    let Some(first) = study.policies.first().filter(|_| study.days > 0) else {
+        return Err(empty(study));
+    };
+    for (position, policy) in study.policies.iter().enumerate() {
+        if study.policies[..position].iter().any(|other| other.name == policy.name) {
+            return Err(Error::DuplicatePolicy { name: policy.name.clone() });
+        }
+        check_paired(study.days, first, policy)?;
+        for day in &policy.days {
+            check_finite(&policy.name, day)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_paired(days: usize, first: &PolicyRecord, policy: &PolicyRecord) -> Result<(), Error> {
+    let label = |day: &DayRecord| format!("{} (seed {})", day.day, day.seed);
+    for position in 0..days.max(policy.days.len()) {
+        let found = policy.days.get(position).map_or("no day".to_owned(), label);
+        let expected = match first.days.get(position) {
+            Some(day) if position < days => label(day),
+            None if position < days => "a day".to_owned(),
+            _ => "no day".to_owned(),
+        };
+        if found != expected {
+            return Err(Error::Unpaired {
+                policy: policy.name.clone(),
+                first_policy: first.name.clone(),
+                position,
+                found,
+                expected,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_finite(policy: &str, day: &DayRecord) -> Result<(), Error> {
+    let members = [
+        ("profit_usd", day.profit_usd),
+        ("revenue_usd", day.revenue_usd),
+        ("passenger_cost_usd", day.passenger_cost_usd),
+        ("energy_cost_usd", day.energy_cost_usd),
+        ("energy_kwh", day.energy_kwh),
+        ("potential_usd", day.potential_usd),
+        ("reward", day.reward),
+        ("load_factor", day.load_factor),
+    ];
+    match members.into_iter().find(|(_, value)| !value.is_finite()) {
+        None => Ok(()),
+        Some((member, value)) => {
+            Err(Error::NotFinite { policy: policy.to_owned(), day: day.day.clone(), member, value })
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The comparison as plain text for a terminal: one row a policy, then the paired t-tests.
+
+use std::fmt::Write as _;
+
+use crate::numbers::{counted, duration, grouped, p_value, signed};
+use crate::statistics::Estimate;
+use crate::summary::{Comparison, PolicySummary, Summary};
+
+/// Which side of its column a cell's text keeps to.
+#[derive(Clone, Copy)]
+enum Align {
+    Left,
+    Right,
+}
+
+/// The text that `compare` prints: policies by mean profit, then every pair's t-test on the daily profit. No line
+/// end after the last line.
+pub fn text(summary: &Summary) -> String {
+    let mut text = format!(
+        "network {}, {}, seed {}\n\n",
+        summary.network,
+        counted(summary.days, "day", "days"),
+        summary.seed
+    );
+    let mut policies = vec![heading([
+        "policy",
+        "profit, $ a day",
+        "sd, $",
+        "reward",
+        "flights",
+        "reposition",
+        "holds",
+        "passengers",
+        "load factor",
+        "decision median",
+        "p99",
+    ])];
+    policies.extend(summary.policies.iter().map(policy_row));
+    append_aligned(&mut text, &policies);
+    text.push_str("means a day; ± is the 95 % interval of the mean");
+    if summary.comparisons.is_empty() {
+        return text;
+    }
+    text.push_str("\n\npaired t-tests of the daily profit, two-sided\n\n");
+    let mut tests =
+        vec![heading(["first - second", "difference, $", "t", "df", "p", "first ahead"])];
+    tests.extend(summary.comparisons.iter().map(|comparison| test_row(comparison, summary.days)));
+    append_aligned(&mut text, &tests);
+    text.truncate(text.trim_end().len());
+    text
+}
+
+fn heading<const N: usize>(cells: [&str; N]) -> Vec<String> {
+    cells.map(str::to_owned).to_vec()
+}
+
+fn policy_row(policy: &PolicySummary) -> Vec<String> {
+    vec![
+        policy.name.clone(),
+        estimate(&policy.profit_usd, |value| grouped(value, 0)),
+        policy.profit_usd.standard_deviation.map_or("n/a".to_owned(), |value| grouped(value, 0)),
+        estimate(&policy.reward, |value| format!("{value:.4}")),
+        grouped(policy.flights, 1),
+        grouped(policy.repositioning_flights, 1),
+        grouped(policy.holds, 1),
+        grouped(policy.passengers, 1),
+        format!("{:.3}", policy.load_factor),
+        duration(policy.decision_ns.median),
+        duration(policy.decision_ns.p99),
+    ]
+}
+
+fn test_row(comparison: &Comparison, days: usize) -> Vec<String> {
+    let test = &comparison.profit_usd;
+    let half_width = test.difference.half_width_95.map(|half| format!(" ± {}", grouped(half, 0)));
+    vec![
+        format!("{} - {}", comparison.first, comparison.second),
+        signed(test.difference.mean, 0) + &half_width.unwrap_or_default(),
+        test.t.map_or("n/a".to_owned(), |t| grouped(t, 2)),
+        test.degrees_of_freedom.to_string(),
+        p_value(test.p_value),
+        format!("{} of {}", test.first_larger, counted(days, "day", "days")),
+    ]
+}
+
+fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> String {
+    match estimate.half_width_95 {
+        Some(half_width) => format!("{} ± {}", written(estimate.mean), written(half_width)),
+        None => written(estimate.mean),
+    }
+}
+
+/// Appends rows whose first column keeps left and whose other columns keep right, a rule below the first row.
+fn append_aligned(text: &mut String, rows: &[Vec<String>]) {
+    let columns = rows.first().map_or(0, Vec::len);
+    let widths: Vec<usize> = (0..columns)
+        .map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0))
+        .collect();
+    for (position, row) in rows.iter().enumerate() {
+        let cells = row.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| {
+            padded(cell, width, if column == 0 { Align::Left } else { Align::Right })
+        });
+        let line = cells.collect::<Vec<_>>().join("  ");
+        let _ = writeln!(text, "{}", line.trim_end());
+        if position == 0 {
+            let _ =
+                writeln!(text, "{}", "-".repeat(widths.iter().sum::<usize>() + 2 * (columns - 1)));
+        }
+    }
+}
+
+fn padded(cell: &str, width: usize, align: Align) -> String {
+    match align {
+        Align::Left => format!("{cell:<width$}"),
+        Align::Right => format!("{cell:>width$}"),
+    }
+}

@@ -1,0 +1,170 @@
+//! What a report promises: whole, self-contained, escaped, paired; and what the terminal shows.
+
+mod made_up;
+
+use std::path::Path;
+
+use vertifleet_study::{Error, Study, Summary, report, table};
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).expect("a written file")
+}
+
+fn written(study: &Study) -> (tempfile::TempDir, report::Paths) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let paths = report::write(study, &folder.path().join("new/folder")).expect("a report");
+    (folder, paths)
+}
+
+#[test]
+fn the_table_of_five_policies() {
+    let summary = Summary::of(&made_up::study(20)).expect("a sound study");
+    insta::assert_snapshot!(table::text(&summary));
+}
+
+#[test]
+fn the_table_of_one_policy_on_one_day_leaves_undefined_numbers_out() {
+    let mut study = made_up::study(1);
+    study.policies.truncate(1);
+    insta::assert_snapshot!(table::text(&Summary::of(&study).expect("a sound study")));
+}
+
+#[test]
+fn a_report_loads_nothing_from_anywhere() {
+    let (_folder, paths) = written(&made_up::study(12));
+    let page = read(&paths.report);
+    for loading in ["src=", "@import", "url(", "<script", "<link", "href=\"http", "href=\"//"] {
+        assert!(!page.contains(loading), "{loading}");
+    }
+    // The name of SVG's vocabulary is the only address in the page, and nobody fetches it.
+    let addresses = page.matches("http").count();
+    assert_eq!(addresses, page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
+}
+
+#[test]
+fn links_of_a_report_lead_to_files_beside_it() {
+    let (_folder, paths) = written(&made_up::study(12));
+    let page = read(&paths.report);
+    let folder = paths.report.parent().expect("a file has a folder");
+    let links: Vec<&str> =
+        page.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    assert_eq!(links.len(), 2 + paths.figures.len());
+    for link in links {
+        assert!(folder.join(link).is_file(), "{link}");
+    }
+}
+
+#[test]
+fn every_name_in_a_report_is_escaped() {
+    let hostile = "<script>alert(\"x\")</script>&";
+    let mut study = made_up::study(12);
+    study.network = hostile.to_owned();
+    study.command = hostile.to_owned();
+    for (position, policy) in study.policies.iter_mut().enumerate() {
+        policy.name = format!("{position}{hostile}");
+        policy.description = hostile.to_owned();
+    }
+    for curve in &mut study.curves {
+        curve.name = hostile.to_owned();
+    }
+    let (_folder, paths) = written(&study);
+    let page = read(&paths.report);
+    assert!(!page.contains("<script") && !page.contains("</script"));
+    assert!(page.contains("&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;&amp;"));
+}
+
+#[test]
+fn a_headline_says_whether_the_lead_is_more_than_chance() {
+    let mut study = made_up::study(40);
+    let (_folder, paths) = written(&study);
+    assert!(read(&paths.report).contains("% more than greedy (95 % interval of the difference +$"));
+    let profits: Vec<f64> = study.policies[1].days.iter().map(|day| day.profit_usd).collect();
+    for (position, (day, profit)) in study.policies[4].days.iter_mut().zip(profits).enumerate() {
+        day.profit_usd = profit + if position % 2 == 0 { 500.0 } else { -480.0 };
+    }
+    study.policies.remove(2);
+    let (_folder, paths) = written(&study);
+    assert!(
+        read(&paths.report).contains("Its lead over greedy, +$10, is within what chance alone")
+    );
+}
+
+#[test]
+fn published_figures_stand_in_the_report_of_the_paper_network_only() {
+    let mut study = made_up::study(12);
+    let (_folder, paths) = written(&study);
+    assert!(read(&paths.report).contains("28,747"));
+    study.network = "new-york".to_owned();
+    let (_folder, paths) = written(&study);
+    assert!(!read(&paths.report).contains("28,747"));
+}
+
+#[test]
+fn days_have_one_row_a_policy_and_day() {
+    let study = made_up::study(7);
+    let (_folder, paths) = written(&study);
+    let mut reader = csv::Reader::from_path(&paths.days).expect("a CSV file");
+    let rows: Vec<csv::StringRecord> = reader.records().collect::<Result<_, _>>().expect("rows");
+    assert_eq!(rows.len(), study.policies.len() * 7);
+    assert_eq!((&rows[0][0], &rows[0][1], &rows[0][2]), ("random", "paper-1", "1"));
+    assert_eq!(rows[0][3].parse(), Ok(study.policies[0].days[0].profit_usd));
+}
+
+#[test]
+fn the_summary_for_machines_holds_policies_by_profit_and_every_pair() {
+    let (_folder, paths) = written(&made_up::study(30));
+    let summary: serde_json::Value = serde_json::from_str(&read(&paths.summary)).expect("JSON");
+    assert_eq!(summary["format"], "vertifleet-comparison/1");
+    let policies = summary["policies"].as_array().expect("a list");
+    let profits: Vec<f64> =
+        policies.iter().filter_map(|policy| policy["profit_usd"]["mean"].as_f64()).collect();
+    assert_eq!(profits.len(), 5);
+    assert!(profits.is_sorted_by(|a, b| a >= b), "{profits:?}");
+    let comparisons = summary["comparisons"].as_array().expect("a list");
+    assert_eq!(comparisons.len(), 10);
+    assert!(comparisons.iter().all(|pair| pair["profit_usd"]["p_value"].is_number()));
+}
+
+#[test]
+fn a_report_replaces_an_older_one_and_leaves_no_other_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    report::write(&made_up::study(5), folder.path()).expect("a report");
+    let paths = report::write(&made_up::study(9), folder.path()).expect("a second report");
+    assert!(read(&paths.report).contains("9 unseen days"));
+    let files = std::fs::read_dir(folder.path()).expect("a folder").count();
+    assert_eq!(files, 3 + paths.figures.len());
+}
+
+#[test]
+fn a_report_that_cannot_be_written_names_the_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("taken");
+    std::fs::write(&file, "").expect("a file");
+    let error = report::write(&made_up::study(3), &file).expect_err("a file is no folder");
+    assert_eq!(error.code().0, 401);
+    assert!(error.to_string().contains("taken"), "{error}");
+}
+
+/// What a change to a sound study of five policies on four days is refused with.
+fn refusal(change: impl FnOnce(&mut Study)) -> (String, String) {
+    let mut study = made_up::study(4);
+    change(&mut study);
+    let error: Error = Summary::of(&study).expect_err("an unsound study");
+    (error.code().to_string(), error.to_string())
+}
+
+#[test]
+fn records_that_cannot_be_compared_are_refused() {
+    let refusals = [
+        refusal(|study| study.policies.clear()),
+        refusal(|study| study.days = 0),
+        refusal(|study| study.policies[2].days.swap(0, 1)),
+        refusal(|study| study.policies[1].days.truncate(3)),
+        refusal(|study| study.days = 5),
+        refusal(|study| study.days = 3),
+        refusal(|study| study.policies[1].name = "random".to_owned()),
+        refusal(|study| study.policies[0].days[3].reward = f64::NAN),
+    ];
+    let text: Vec<String> = refusals.iter().map(|(code, text)| format!("{code}: {text}")).collect();
+    insta::assert_snapshot!(text.join("\n"));
+}
