@@ -54,4 +54,9 @@ macro_rules! from_coded {
     };
 }
 
-from_coded!(vertifleet_core::Error, vertifleet_sim::TraceError, vertifleet_learn::Error, vertifleet_study::Error);
+from_coded!(
+    vertifleet_core::Error,
+    vertifleet_sim::TraceError,
+    vertifleet_learn::Error,
+    vertifleet_study::Error
+);

@@ -92,7 +92,9 @@ impl Recipe {
     /// Steps and mean episode reward over the training of a learned policy; nothing for the others.
     pub(crate) fn curve(&self) -> Vec<(u64, f64)> {
         match self {
-            Self::Learned { curve, .. } => curve.iter().map(|row| (row.steps, row.mean_reward)).collect(),
+            Self::Learned { curve, .. } => {
+                curve.iter().filter_map(|row| Some((row.steps, row.mean_reward?))).collect()
+            }
             _ => Vec::new(),
         }
     }
@@ -111,15 +113,24 @@ fn read_curve(path: &Path) -> Result<Vec<CurveRow>, Failure> {
 }
 
 /// The policy that is asked for on one day.
-pub(crate) fn for_scenario(choice: &Choice<'_>, scenario: &Scenario) -> Result<Box<dyn Policy>, Failure> {
-    let recipe = if let Some(path) = choice.model {
-        Recipe::of_file(path)?
-    } else if let Some(rule) = Recipe::rule(choice.name, choice.seed) {
-        rule
-    } else if let Some(path) = choice.name.strip_prefix("replay:") {
-        Recipe::Replay(Arc::new(Trace::read(Path::new(path), scenario)?))
-    } else {
-        Recipe::shipped(choice.name, network_of(scenario))?
+pub(crate) fn for_scenario(
+    choice: &Choice<'_>,
+    scenario: &Scenario,
+) -> Result<Box<dyn Policy>, Failure> {
+    let replayed = choice.name.strip_prefix("replay:");
+    let recipe = match (choice.model, Recipe::rule(choice.name, choice.seed), replayed) {
+        (Some(path), None, None) => Recipe::of_file(path)?,
+        (Some(_), ..) => {
+            return Err(Failure::usage(
+                format!("policy {:?} takes no weights, but --model is given", choice.name),
+                "leave --model out, or name a learned policy",
+            ));
+        }
+        (None, Some(rule), _) => rule,
+        (None, None, Some(path)) => {
+            Recipe::Replay(Arc::new(Trace::read(Path::new(path), scenario)?))
+        }
+        (None, None, None) => Recipe::shipped(choice.name, network_of(scenario))?,
     };
     recipe.check_fits(scenario)?;
     Ok(recipe.make())
@@ -133,5 +144,9 @@ fn network_of(scenario: &Scenario) -> &str {
 /// V451: a policy got stuck on a day. Cause: the trace replayed is another day's. Fix: replay it on its own day.
 pub(crate) fn cannot_play(policy: &str, day: &str, error: &PlayError) -> Failure {
     let hint = "replay needs the trace of the very scenario that is played";
-    Failure::expected(Code(451), format!("policy {policy:?} cannot play {day}: {error}"), Some(hint))
+    Failure::expected(
+        Code(451),
+        format!("policy {policy:?} cannot play {day}: {error}"),
+        Some(hint),
+    )
 }

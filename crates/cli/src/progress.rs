@@ -18,8 +18,12 @@ impl Progress {
     /// A bar over `total` units, named in the plural.
     pub(crate) fn new(total: u64, unit: &str) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
-        let template = format!("{{bar:30}} {{human_pos}}/{{human_len}} {unit}  {{elapsed}} gone, {{eta}} left  {{msg}}");
-        bar.set_style(ProgressStyle::with_template(&template).expect("a template without mistakes"));
+        let template = format!(
+            "{{bar:30}} {{human_pos}}/{{human_len}} {unit}  {{elapsed}} gone, {{eta}} left  {{msg}}"
+        );
+        bar.set_style(
+            ProgressStyle::with_template(&template).expect("a template without mistakes"),
+        );
         Self { bar, begun: Instant::now() }
     }
 

@@ -31,7 +31,14 @@ mod tests {
     fn with_lambda_1_and_gamma_1_it_is_the_return_less_the_value() {
         let mut advantages = [0.0; 4];
         let values = [0.5, 0.25, 2.0, 1.0];
-        estimate(&[1.0, 2.0, 3.0, 4.0], &values, &[false, true, false, false], 10.0, (1.0, 1.0), &mut advantages);
+        estimate(
+            &[1.0, 2.0, 3.0, 4.0],
+            &values,
+            &[false, true, false, false],
+            10.0,
+            (1.0, 1.0),
+            &mut advantages,
+        );
         assert_eq!(advantages, [3.0 - 0.5, 2.0 - 0.25, 17.0 - 2.0, 14.0 - 1.0]);
     }
 

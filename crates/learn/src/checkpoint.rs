@@ -30,7 +30,6 @@ pub(crate) struct Progress {
     pub(crate) recent_rewards: Vec<f64>,
     /// Filled in when a checkpoint is taken; while a run is under way the roll-out knows.
     pub(crate) days: Vec<DayInProgress>,
-    pub(crate) latest_reward: f64,
     pub(crate) best_reward: Option<f64>,
     pub(crate) best_steps: u64,
     #[serde(skip)]
@@ -45,7 +44,6 @@ impl Progress {
             days_finished: 0,
             recent_rewards: Vec::new(),
             days: Vec::new(),
-            latest_reward: 0.0,
             best_reward: None,
             best_steps: 0,
             best_params: params,
@@ -60,13 +58,12 @@ impl Progress {
         self.recent_rewards.drain(..surplus);
     }
 
-    pub(crate) fn mean_recent_reward(&self) -> f64 {
-        let days = self.recent_rewards.len().max(1) as f64;
-        self.recent_rewards.iter().sum::<f64>() / days
+    pub(crate) fn mean_recent_reward(&self) -> Option<f64> {
+        let days = self.recent_rewards.len();
+        (days > 0).then(|| self.recent_rewards.iter().sum::<f64>() / days as f64)
     }
 
     pub(crate) fn keep_if_best(&mut self, reward: f64, params: &[f32], steps: u64) {
-        self.latest_reward = reward;
         if self.best_reward.is_none_or(|best| reward > best) {
             self.best_reward = Some(reward);
             self.best_steps = steps;
@@ -111,7 +108,11 @@ impl Checkpoint {
         Self { header, tensors: [params.to_vec(), adam.first.clone(), adam.second.clone(), best] }
     }
 
-    pub(crate) fn unpack(self, plan: &Plan, parameters: usize) -> Result<(Vec<f32>, Adam, Progress), Error> {
+    pub(crate) fn unpack(
+        self,
+        plan: &Plan,
+        parameters: usize,
+    ) -> Result<(Vec<f32>, Adam, Progress), Error> {
         let Header { network, policy, settings, seed, adam_steps, mut progress, .. } = self.header;
         let of_another = |what: &str, found: String, asked: String| {
             let rule = format!("it is of a run with {what} {found}, but {asked} is asked for");
@@ -126,8 +127,8 @@ impl Checkpoint {
         if seed != plan.seed {
             return of_another("seed", seed.to_string(), plan.seed.to_string());
         }
-        if settings != plan.settings {
-            return of_another("settings", format!("{settings:?}"), format!("{:?}", plan.settings));
+        if let Some((name, found, asked)) = settings.first_difference(&plan.settings) {
+            return of_another(&format!("setting {name}"), found, asked);
         }
         if self.tensors.iter().any(|tensor| tensor.len() != parameters) {
             let rule = format!("every tensor must have {parameters} entries");
@@ -161,7 +162,8 @@ impl Checkpoint {
             (*name, view)
         });
         let info = HashMap::from([(HEADER.to_owned(), header)]);
-        let bytes = safetensors::serialize(tensors, Some(info)).expect("four flat tensors are valid");
+        let bytes =
+            safetensors::serialize(tensors, Some(info)).expect("four flat tensors are valid");
         Ok(vertifleet_core::write_atomically(path, &bytes)?)
     }
 
@@ -191,7 +193,9 @@ impl Checkpoint {
                 return Err(format!("tensor {name:?} must be F32"));
             }
             let entries = view.data().chunks_exact(4);
-            *values = entries.map(|b| f32::from_le_bytes(b.try_into().expect("chunks of four"))).collect();
+            *values = entries
+                .map(|b| f32::from_le_bytes(b.try_into().expect("chunks of four")))
+                .collect();
         }
         Ok(Self { header, tensors })
     }

@@ -17,10 +17,10 @@ pub struct CurveRow {
     pub steps: u64,
     /// Days finished.
     pub days: u64,
-    /// Mean reward of the last 100 days finished, choices drawn from the policy.
-    pub mean_reward: f64,
-    /// Mean reward on the validation days, best choices only; repeated until it is measured again.
-    pub validation_reward: f64,
+    /// Mean reward of the last 100 days finished, choices drawn from the policy; none before the first day is over.
+    pub mean_reward: Option<f64>,
+    /// Mean reward on the validation days, best choices only, where it was measured after this update.
+    pub validation_reward: Option<f64>,
     /// Mean clipped surrogate loss of the last epoch.
     pub policy_loss: f64,
     /// Mean squared error of the values in the last epoch, in scaled rewards.
@@ -87,20 +87,25 @@ impl EventFile {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn append(&mut self, unix_seconds: f64, row: &CurveRow, steps_per_second: f64) -> io::Result<()> {
+    pub fn append(
+        &mut self,
+        unix_seconds: f64,
+        row: &CurveRow,
+        steps_per_second: f64,
+    ) -> io::Result<()> {
         let scalars = [
             ("rollout/ep_rew_mean", row.mean_reward),
             ("eval/mean_reward", row.validation_reward),
-            ("train/policy_gradient_loss", row.policy_loss),
-            ("train/value_loss", row.value_loss),
-            ("train/entropy", row.entropy),
-            ("train/approx_kl", row.approx_kl),
-            ("train/clip_fraction", row.clip_fraction),
-            ("train/learning_rate", row.learning_rate),
-            ("time/fps", steps_per_second),
+            ("train/policy_gradient_loss", Some(row.policy_loss)),
+            ("train/value_loss", Some(row.value_loss)),
+            ("train/entropy", Some(row.entropy)),
+            ("train/approx_kl", Some(row.approx_kl)),
+            ("train/clip_fraction", Some(row.clip_fraction)),
+            ("train/learning_rate", Some(row.learning_rate)),
+            ("time/fps", Some(steps_per_second)),
         ];
         let mut summary = Vec::new();
-        for (tag, value) in scalars {
+        for (tag, value) in scalars.into_iter().filter_map(|(tag, value)| Some((tag, value?))) {
             // Summary.Value: tag (1), simple_value (2, 32-bit).
             let mut scalar = Vec::new();
             bytes_field(&mut scalar, 1, tag.as_bytes());
@@ -151,4 +156,64 @@ fn varint(message: &mut Vec<u8>, mut value: u64) {
 /// CRC-32C, rotated and offset so that checksums of checksums stay useful.
 fn masked_checksum(bytes: &[u8]) -> u32 {
     crc32c::crc32c(bytes).rotate_right(15).wrapping_add(0xa282_ead8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CurveRow, EventFile, from_csv, masked_checksum, to_csv};
+
+    fn row() -> CurveRow {
+        CurveRow {
+            update: 3,
+            steps: 300,
+            mean_reward: Some(0.03125),
+            entropy: 1.5,
+            ..CurveRow::default()
+        }
+    }
+
+    #[test]
+    fn a_curve_reads_as_it_was_written() {
+        let rows = [CurveRow::default(), row()];
+        assert_eq!(from_csv(&to_csv(&rows), "curve").expect("a curve"), rows);
+        let error = from_csv("update,steps\n1,x\n", "curve").expect_err("no curve");
+        assert_eq!(error.code().to_string(), "V308");
+    }
+
+    #[test]
+    fn events_are_framed_by_length_and_checksums() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut events = EventFile::create(folder.path(), 1_700_000_000).expect("a file");
+        events.append(1_700_000_001.5, &row(), 1234.0).expect("a file");
+        let path = folder.path().join("events.out.tfevents.1700000000.vertifleet");
+        let bytes = std::fs::read(path).expect("the file");
+
+        let mut records = Vec::new();
+        let mut rest = bytes.as_slice();
+        while !rest.is_empty() {
+            let (length, after) = rest.split_at(8);
+            let (length_sum, after) = after.split_at(4);
+            assert_eq!(length_sum, masked_checksum(length).to_le_bytes());
+            let length = u64::from_le_bytes(length.try_into().expect("eight bytes"));
+            let (event, after) = after.split_at(usize::try_from(length).expect("a short record"));
+            let (event_sum, after) = after.split_at(4);
+            assert_eq!(event_sum, masked_checksum(event).to_le_bytes());
+            records.push(event);
+            rest = after;
+        }
+        assert_eq!(records.len(), 2);
+        assert!(records[0].ends_with(b"brain.Event:2"));
+        let has = |part: &[u8]| records[1].windows(part.len()).any(|window| window == part);
+        assert!(has(b"rollout/ep_rew_mean") && has(&0.03125_f32.to_le_bytes()));
+        assert!(!has(b"eval/mean_reward"), "what was not measured is not written");
+    }
+
+    #[test]
+    fn the_checksum_is_that_of_the_format() {
+        // CRC-32C of nine digits is 0xe3069283 (RFC 3720, appendix B.4 gives the polynomial); masked as TFRecord does.
+        assert_eq!(
+            masked_checksum(b"123456789"),
+            0xe306_9283_u32.rotate_right(15).wrapping_add(0xa282_ead8)
+        );
+    }
 }

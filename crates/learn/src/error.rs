@@ -99,12 +99,24 @@ impl Error {
     /// What to do about it.
     pub fn hint(&self) -> Option<&str> {
         match self {
-            Self::UnknownPreset { .. } | Self::UnknownSetting { .. } | Self::BadSetting { .. } => None,
-            Self::BadWeights { .. } => Some("`vertifleet train` writes weights that load; a file of another policy needs that policy's name"),
-            Self::WrongNetwork { .. } => Some("this policy's weights fit one network only; train it on this one"),
-            Self::BadCheckpoint { .. } => Some("resume with the settings the run was started with, or start anew in another folder"),
-            Self::NotShipped { .. } => Some("name a rule (random, greedy, lookahead) or give weights with --model"),
-            Self::BadCurve { .. } => Some("`vertifleet train` writes the curve beside the weights; remove the file to go without"),
+            Self::UnknownPreset { .. } | Self::UnknownSetting { .. } | Self::BadSetting { .. } => {
+                None
+            }
+            Self::BadWeights { .. } => Some(
+                "`vertifleet train` writes weights that load; a file of another policy needs that policy's name",
+            ),
+            Self::WrongNetwork { .. } => {
+                Some("this policy's weights fit one network only; train it on this one")
+            }
+            Self::BadCheckpoint { .. } => Some(
+                "resume with the settings the run was started with, or start anew in another folder",
+            ),
+            Self::NotShipped { .. } => {
+                Some("name a rule (random, greedy, lookahead) or give weights with --model")
+            }
+            Self::BadCurve { .. } => Some(
+                "`vertifleet train` writes the curve beside the weights; remove the file to go without",
+            ),
             Self::Core(error) => error.hint(),
         }
     }

@@ -12,11 +12,7 @@ use crate::nn::{Inputs, Shape};
 
 /// The shape of the features of a network with `vertiports` vertiports.
 pub fn shape(vertiports: usize) -> Shape {
-    Shape {
-        vertiports,
-        node_features: 2 * vertiports + 4,
-        aircraft_features: 2 * vertiports + 2,
-    }
+    Shape { vertiports, node_features: 2 * vertiports + 4, aircraft_features: 2 * vertiports + 2 }
 }
 
 /// The features of a batch of decisions, rows side by side.
@@ -82,10 +78,11 @@ impl Observations {
     pub fn write(&mut self, row: usize, decision: &Decision, view: &View<'_>, scales: &Scales) {
         let Shape { vertiports, node_features, aircraft_features } = self.shape;
         assert_eq!(view.vertiports(), vertiports, "features are of one shape");
-        let nodes = &mut self.nodes[row * vertiports * node_features..][..vertiports * node_features];
-        write_nodes(nodes, view, scales);
+        let nodes =
+            &mut self.nodes[row * vertiports * node_features..][..vertiports * node_features];
+        write_nodes(nodes, *view, scales);
         let aircraft = &mut self.aircraft[row * aircraft_features..][..aircraft_features];
-        write_aircraft(aircraft, decision, view, scales);
+        write_aircraft(aircraft, decision, *view, scales);
 
         let mask = &mut self.mask[row * vertiports..][..vertiports];
         mask.fill(0);
@@ -124,7 +121,7 @@ impl From<FeatureScales> for Scales {
 }
 
 /// δ_i of every node.
-fn write_nodes(nodes: &mut [f32], view: &View<'_>, scales: &Scales) {
+fn write_nodes(nodes: &mut [f32], view: View<'_>, scales: &Scales) {
     let vertiports = view.vertiports();
     let left = view.demand_left_in(view.period());
     let width = 2 * vertiports + 4;
@@ -145,7 +142,7 @@ fn write_nodes(nodes: &mut [f32], view: &View<'_>, scales: &Scales) {
 }
 
 /// ψ_k. Every take-off is with a full battery (Eq. 14), so the charge shown is the capacity.
-fn write_aircraft(aircraft: &mut [f32], decision: &Decision, view: &View<'_>, scales: &Scales) {
+fn write_aircraft(aircraft: &mut [f32], decision: &Decision, view: View<'_>, scales: &Scales) {
     let vertiports = view.vertiports();
     let kind = view.kind(decision.aircraft);
     let (price, rest) = aircraft.split_at_mut(1);

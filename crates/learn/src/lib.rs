@@ -1,5 +1,10 @@
 //! Learned policies (§IV): features, the GCAPS and MLP networks, proximal policy optimisation, weights, checkpoints.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "networks work in single precision; what is truncated on the way there is meant to be"
+)]
+
 mod adam;
 mod advantage;
 mod checkpoint;

@@ -15,8 +15,7 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::{
-    IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator,
-    ParallelSliceMut,
+    IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator, ParallelSliceMut,
 };
 
 use crate::adam::{Adam, clip_norm};
@@ -178,7 +177,14 @@ impl Ppo {
             lane.gradient.clear();
             lane.losses = Losses::default();
             for chunk in decisions.chunks(CHUNK).skip(at).step_by(LANES) {
-                lane.learn(net, (params, prepared), rollout, settings, (chunk, decisions.len()), &remember);
+                lane.learn(
+                    net,
+                    (params, prepared),
+                    rollout,
+                    settings,
+                    (chunk, decisions.len()),
+                    &remember,
+                );
             }
         });
         let (first, rest) = self.lanes[..used].split_at_mut(1);
@@ -329,7 +335,8 @@ mod tests {
     use crate::settings::Settings;
 
     fn loss(logits: &[f32], value: f32, made: &Remembered, settings: &Settings) -> f64 {
-        let found = decision_loss(logits, value, made, settings, 1.0, &mut vec![0.0; logits.len()]).losses;
+        let found =
+            decision_loss(logits, value, made, settings, 1.0, &mut vec![0.0; logits.len()]).losses;
         found.policy_loss + f64::from(settings.vf_coef) * found.value_loss
             - f64::from(settings.ent_coef) * found.entropy
     }
@@ -353,9 +360,14 @@ mod tests {
                 down[at] -= step;
                 let rise = loss(&up, 0.2, &made, &settings) - loss(&down, 0.2, &made, &settings);
                 let expected = rise / f64::from(2.0 * step);
-                assert!((f64::from(slopes[at]) - expected).abs() < 1e-3, "{} is not {expected}", slopes[at]);
+                assert!(
+                    (f64::from(slopes[at]) - expected).abs() < 1e-3,
+                    "{} is not {expected}",
+                    slopes[at]
+                );
             }
-            let rise = loss(&logits, 0.21, &made, &settings) - loss(&logits, 0.19, &made, &settings);
+            let rise =
+                loss(&logits, 0.21, &made, &settings) - loss(&logits, 0.19, &made, &settings);
             assert!((f64::from(found.value_slope) - rise / 0.02).abs() < 1e-3);
         }
     }

@@ -37,7 +37,8 @@ impl Source {
     /// A number in [0, 1) that belongs to one decision of one training day.
     fn uniform(&self, day: u64, decision: u32) -> f32 {
         let scramble = |state: u64| SplitMix64::seed_from_u64(state).next_u64();
-        let bits = scramble(scramble(scramble(u64::from(self.run_seed)) ^ day) ^ u64::from(decision));
+        let bits =
+            scramble(scramble(scramble(u64::from(self.run_seed)) ^ day) ^ u64::from(decision));
         // The upper 24 bits are all that a single-precision number in [0, 1) can hold.
         (bits >> 40) as f32 * (1.0 / 16_777_216.0)
     }
@@ -69,7 +70,9 @@ impl PlayedDay {
 
     /// The next decision; the day must not be over.
     fn decision(&mut self) -> Decision {
-        self.simulation.next_decision().expect("a day that is over has been replaced by the next one")
+        self.simulation
+            .next_decision()
+            .expect("a day that is over has been replaced by the next one")
     }
 }
 
@@ -115,7 +118,8 @@ impl Rollout {
         let fresh = |number| DayInProgress { number, choices: Vec::new() };
         let days = days.unwrap_or_else(|| (0..settings.n_envs as u64).map(fresh).collect());
         if days.len() != settings.n_envs {
-            let rule = format!("{} days in progress, but n_envs is {}", days.len(), settings.n_envs);
+            let rule =
+                format!("{} days in progress, but n_envs is {}", days.len(), settings.n_envs);
             return Err(Error::BadCheckpoint { rule });
         }
         let mut played = Vec::with_capacity(days.len());
@@ -191,7 +195,12 @@ impl Group {
         self.finished.clear();
         for step in 0..settings.n_steps {
             self.observe(scales);
-            net.forward(params, prepared, self.present.inputs(self.days.len()), &mut self.workspace);
+            net.forward(
+                params,
+                prepared,
+                self.present.inputs(self.days.len()),
+                &mut self.workspace,
+            );
             for at in 0..self.days.len() {
                 self.step(at, at * settings.n_steps + step, source, settings)?;
             }
@@ -210,7 +219,13 @@ impl Group {
     }
 
     /// Decides for one day and remembers everything about it in row `row`.
-    fn step(&mut self, at: usize, row: usize, source: &Source, settings: &Settings) -> Result<(), Error> {
+    fn step(
+        &mut self,
+        at: usize,
+        row: usize,
+        source: &Source,
+        settings: &Settings,
+    ) -> Result<(), Error> {
         let Self { days, stretch, present, workspace, finished } = self;
         let day = &mut days[at];
         let decision = day.decision();

@@ -129,10 +129,7 @@ impl Settings {
     /// # Errors
     /// If there is no such setting, or the value does not fit it.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), Error> {
-        let mut members = match serde_json::to_value(&*self) {
-            Ok(serde_json::Value::Object(members)) => members,
-            other => unreachable!("settings are a JSON object, not {other:?}"),
-        };
+        let mut members = self.members();
         if !members.contains_key(name) {
             let known = members.keys().cloned().collect::<Vec<_>>().join(", ");
             return Err(Error::UnknownSetting { name: name.to_owned(), known });
@@ -146,6 +143,21 @@ impl Settings {
         changed.check()?;
         *self = changed;
         Ok(())
+    }
+
+    /// The first setting in which two runs differ: its name, and the value in each.
+    pub(crate) fn first_difference(&self, other: &Self) -> Option<(String, String, String)> {
+        let others = other.members();
+        let mut pairs = self.members().into_iter().zip(others);
+        let differs = pairs.find(|((_, own), (_, other))| own != other);
+        differs.map(|((name, own), (_, other))| (name, own.to_string(), other.to_string()))
+    }
+
+    fn members(&self) -> serde_json::Map<String, serde_json::Value> {
+        match serde_json::to_value(self) {
+            Ok(serde_json::Value::Object(members)) => members,
+            other => unreachable!("settings are a JSON object, not {other:?}"),
+        }
     }
 
     /// Decisions per roll-out.

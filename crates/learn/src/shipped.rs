@@ -25,7 +25,13 @@ macro_rules! files {
         Files {
             network: $network,
             policy: $policy,
-            weights: include_bytes!(concat!("../../../models/", $network, "/", $policy, ".safetensors")),
+            weights: include_bytes!(concat!(
+                "../../../models/",
+                $network,
+                "/",
+                $policy,
+                ".safetensors"
+            )),
             curve: include_str!(concat!("../../../models/", $network, "/", $policy, "-curve.csv")),
         }
     };

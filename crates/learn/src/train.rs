@@ -122,8 +122,9 @@ impl Training {
         );
         self.progress.updates += 1;
         let steps = self.progress.updates * settings.buffer_size() as u64;
-        if self.progress.updates.is_multiple_of(u64::from(settings.eval_every)) || self.is_done() {
-            let reward = self.validation_reward();
+        let looks = self.progress.updates.is_multiple_of(u64::from(settings.eval_every));
+        let validation_reward = (looks || self.is_done()).then(|| self.validation_reward());
+        if let Some(reward) = validation_reward {
             self.progress.keep_if_best(reward, &self.params, steps);
         }
         let row = CurveRow {
@@ -131,7 +132,7 @@ impl Training {
             steps,
             days: self.progress.days_finished,
             mean_reward: self.progress.mean_recent_reward(),
-            validation_reward: self.progress.latest_reward,
+            validation_reward,
             policy_loss: losses.policy_loss,
             value_loss: losses.value_loss,
             entropy: losses.entropy,
@@ -157,6 +158,11 @@ impl Training {
     /// The weights that did best on the validation days so far.
     pub fn best_model(&self) -> Model {
         self.model_of(self.progress.best_params.clone(), self.progress.best_steps)
+    }
+
+    /// Mean reward of the weights kept on the validation days; none before they were looked at.
+    pub fn best_validation_reward(&self) -> Option<f64> {
+        self.progress.best_reward
     }
 
     fn model_of(&self, params: Vec<f32>, steps: u64) -> Model {

@@ -156,7 +156,8 @@ impl Model {
     /// As [`read`](Self::read).
     pub fn from_bytes(bytes: &[u8], origin: &str) -> Result<Self, Error> {
         let broken = |rule: String| Error::BadWeights { origin: origin.to_owned(), rule };
-        let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|error| broken(error.to_string()))?;
+        let (_, metadata) =
+            SafeTensors::read_metadata(bytes).map_err(|error| broken(error.to_string()))?;
         let text = metadata.metadata().as_ref().and_then(|info| info.get(HEADER));
         let text = text.ok_or_else(|| broken(format!("the file has no {HEADER:?} header")))?;
         let header: Header =
@@ -178,7 +179,8 @@ fn collect(net: &nn::Network, file: &SafeTensors<'_>) -> Result<Vec<f32>, String
     let mut params = Vec::with_capacity(net.layout().len());
     for tensor in net.layout().tensors() {
         let name = &tensor.name;
-        let view = found.remove(name.as_str()).ok_or_else(|| format!("tensor {name:?} is missing"))?;
+        let view =
+            found.remove(name.as_str()).ok_or_else(|| format!("tensor {name:?} is missing"))?;
         if view.dtype() != Dtype::F32 || view.shape() != tensor.shape.as_slice() {
             return Err(format!(
                 "tensor {name:?} must be F32 of shape {:?}, found {:?} of shape {:?}",
@@ -187,9 +189,11 @@ fn collect(net: &nn::Network, file: &SafeTensors<'_>) -> Result<Vec<f32>, String
                 view.shape(),
             ));
         }
-        params.extend(view.data().chunks_exact(4).map(|bytes| {
-            f32::from_le_bytes(bytes.try_into().expect("chunks of four"))
-        }));
+        params.extend(
+            view.data()
+                .chunks_exact(4)
+                .map(|bytes| f32::from_le_bytes(bytes.try_into().expect("chunks of four"))),
+        );
     }
     if let Some(name) = found.keys().next() {
         return Err(format!("tensor {name:?} does not belong to this policy"));

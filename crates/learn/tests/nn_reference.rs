@@ -8,9 +8,9 @@ use vertifleet_learn::nn::{Architecture, Inputs, Network, Shape, Tensor};
 
 /// Numbers in [-1, 1) that the name and their index decide.
 fn noise(name: &str, len: usize) -> Vec<f32> {
-    let start = name.bytes().fold(2_166_136_261_u32, |start, byte| {
-        (start ^ u32::from(byte)).wrapping_mul(16_777_619)
-    });
+    let start = name
+        .bytes()
+        .fold(2_166_136_261_u32, |start, byte| (start ^ u32::from(byte)).wrapping_mul(16_777_619));
     (0..)
         .take(len)
         .map(|at: u32| {
@@ -66,7 +66,8 @@ fn check(kind: &str, stored: &str) {
 
 fn check_case(net: &Network, case: &Value) {
     let Shape { vertiports, node_features, aircraft_features } = net.shape();
-    let batch = case["batch"].as_u64().and_then(|batch| usize::try_from(batch).ok()).expect("a number");
+    let batch =
+        case["batch"].as_u64().and_then(|batch| usize::try_from(batch).ok()).expect("a number");
     let logits: Vec<Option<f64>> =
         case["logits"].as_array().expect("logits").iter().map(Value::as_f64).collect();
     let mask: Vec<u8> = logits.iter().map(|logit| u8::from(logit.is_some())).collect();
@@ -121,7 +122,12 @@ fn check_slopes(tensor: &Tensor, slopes: &[f32], stored: &Value) {
     let directions = noise(&format!("{name} projection"), tensor.len());
     let projection: f64 =
         slopes.clone().zip(directions).map(|(slope, noise)| slope * f64::from(noise)).sum();
-    assert_close(name, projection / scale, stored["projection"].as_f64().expect("a number") / scale, 1e-5);
+    assert_close(
+        name,
+        projection / scale,
+        stored["projection"].as_f64().expect("a number") / scale,
+        1e-5,
+    );
     for (found, expected) in slopes.zip(numbers(&stored["first"])) {
         assert_close(name, found / scale, expected / scale, 1e-5);
     }

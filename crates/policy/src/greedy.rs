@@ -17,7 +17,8 @@ impl Policy for Greedy {
         let mut best = (decision.at, 0.0);
         for to in view.feasible(decision).iter().filter(|&to| to != decision.at) {
             let waiting = view.demand_left(period, decision.at, to);
-            let profit_usd = view.flight_profit_usd(decision.time, kind, (decision.at, to), waiting);
+            let profit_usd =
+                view.flight_profit_usd(decision.time, kind, (decision.at, to), waiting);
             let rate = profit_usd / f64::from(view.leg(kind, decision.at, to).block_s());
             if rate > best.1 {
                 best = (to, rate);

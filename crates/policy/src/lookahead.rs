@@ -21,7 +21,12 @@ struct Prospect {
 }
 
 impl Prospect {
-    fn of_flight(view: View<'_>, time: Time, kind: TypeIx, pair: (VertiportIx, VertiportIx)) -> Self {
+    fn of_flight(
+        view: View<'_>,
+        time: Time,
+        kind: TypeIx,
+        pair: (VertiportIx, VertiportIx),
+    ) -> Self {
         let waiting = view.demand_left(view.period_at(time), pair.0, pair.1);
         Self {
             profit_usd: view.flight_profit_usd(time, kind, pair, waiting),
@@ -30,10 +35,7 @@ impl Prospect {
     }
 
     fn then(self, next: Self) -> Self {
-        Self {
-            profit_usd: self.profit_usd + next.profit_usd,
-            seconds: self.seconds + next.seconds,
-        }
+        Self { profit_usd: self.profit_usd + next.profit_usd, seconds: self.seconds + next.seconds }
     }
 
     fn rate(self) -> f64 {

@@ -35,7 +35,10 @@ impl Policy for Random {
         let mask = view.feasible(decision);
         // The upper half of the product spreads 2^64 draws evenly; with at most 257 outcomes the bias is below 2^-55.
         let draw = u128::from(self.draw(view.day_seed(), decision.index));
-        #[expect(clippy::cast_possible_truncation, reason = "below the number of feasible vertiports")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "below the number of feasible vertiports"
+        )]
         let rank = ((draw * u128::from(mask.len())) >> 64) as u32;
         Ok(mask.nth(rank).expect("the rank is below the number of members, and hold is always one"))
     }

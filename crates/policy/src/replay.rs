@@ -24,10 +24,9 @@ impl Policy for Replay {
     fn choose(&mut self, decision: &Decision, _: &View<'_>) -> Result<VertiportIx, PolicyError> {
         let at = decision.index as usize;
         let rows = &self.trace.rows;
-        let row = rows.get(at).ok_or(PolicyError::TraceTooShort {
-            rows: rows.len(),
-            time: decision.time,
-        })?;
+        let row = rows
+            .get(at)
+            .ok_or(PolicyError::TraceTooShort { rows: rows.len(), time: decision.time })?;
         if (row.aircraft, row.time) != (decision.aircraft, decision.time) {
             return Err(PolicyError::TraceOfAnotherDay {
                 row: at + 1,

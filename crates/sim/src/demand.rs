@@ -39,7 +39,13 @@ impl Demand {
 
     /// Takes as many passengers as want to fly and fit in `seats`; says how many.
     #[inline]
-    pub(crate) fn board(&mut self, period: usize, from: VertiportIx, to: VertiportIx, seats: u16) -> u16 {
+    pub(crate) fn board(
+        &mut self,
+        period: usize,
+        from: VertiportIx,
+        to: VertiportIx,
+        seats: u16,
+    ) -> u16 {
         let at = self.at(period, from, to);
         let left = &mut self.left[at];
         let boarded = u16::try_from(*left).map_or(seats, |left| left.min(seats));

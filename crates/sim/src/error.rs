@@ -13,6 +13,8 @@ pub enum Refusal {
     #[error("vertiport {0} is out of range: the flight takes more energy than the battery holds")]
     OutOfRange(u16),
     /// Every stand of the destination is taken or promised (Eq. 16).
-    #[error("vertiport {0} has no stand free: every one is taken or promised to an aircraft on its way")]
+    #[error(
+        "vertiport {0} has no stand free: every one is taken or promised to an aircraft on its way"
+    )]
     NoStandFree(u16),
 }

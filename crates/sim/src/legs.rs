@@ -41,7 +41,11 @@ impl Leg {
 
 /// To the nearest second, halves up. A leg that no battery lasts for may take absurdly long; the bound keeps sums of its
 /// parts within `u32`, and nobody can fly it.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded and never negative")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "bounded and never negative"
+)]
 fn nearest_second(seconds: f64) -> u32 {
     seconds.round().min(1e9) as u32
 }
@@ -86,7 +90,8 @@ impl Legs {
     /// The legs of one type from a vertiport to each vertiport.
     #[inline]
     pub fn legs_from(&self, kind: TypeIx, from: VertiportIx) -> &[Leg] {
-        &self.by_pair[(kind.at() * self.vertiports + from.at()) * self.vertiports..][..self.vertiports]
+        &self.by_pair[(kind.at() * self.vertiports + from.at()) * self.vertiports..]
+            [..self.vertiports]
     }
 
     /// The other vertiports that a full battery reaches.

@@ -18,12 +18,14 @@ pub(crate) struct Stands {
 impl Stands {
     /// The stands as the fleet's start positions take them.
     pub(crate) fn at_start(scenario: &Scenario) -> Self {
-        let limit: Vec<u16> = scenario.vertiports.iter().map(|vertiport| vertiport.stands).collect();
+        let limit: Vec<u16> =
+            scenario.vertiports.iter().map(|vertiport| vertiport.stands).collect();
         let mut taken = vec![0; limit.len()];
         for aircraft in &scenario.aircraft {
             taken[aircraft.at.at()] += 1;
         }
-        let open = VertiportIx::all(limit.len()).filter(|v| taken[v.at()] < limit[v.at()]).collect();
+        let open =
+            VertiportIx::all(limit.len()).filter(|v| taken[v.at()] < limit[v.at()]).collect();
         Self { taken, limit, open }
     }
 

@@ -44,7 +44,9 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
 
 /// The policies by name: weights given by --model first, then rules, then the network's shipped weights.
 fn recipes(arguments: &CompareArguments, network: &str) -> Result<Vec<(String, Recipe)>, Failure> {
-    if let Some((unused, _)) = arguments.models.iter().find(|(name, _)| !arguments.policies.contains(name)) {
+    if let Some((unused, _)) =
+        arguments.models.iter().find(|(name, _)| !arguments.policies.contains(name))
+    {
         return Err(Failure::usage(
             format!("--model names {unused:?}, which is not among --policies"),
             "add the name to --policies",

@@ -70,11 +70,11 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
         let row = training.update()?;
         let steps_per_second = settings.buffer_size() as f64 / begun.elapsed().as_secs_f64();
         progress.advance(settings.buffer_size() as u64);
-        progress.say(format!(
-            "{steps_per_second:.0} steps/s, reward {:.5}, validation {:.5}",
-            row.mean_reward, row.validation_reward
-        ));
-        events.append(unix_seconds(), &row, steps_per_second).map_err(|error| Failure::internal(&error))?;
+        progress
+            .say(format!("{steps_per_second:.0} steps/s, reward {}", reward_text(row.mean_reward)));
+        events
+            .append(unix_seconds(), &row, steps_per_second)
+            .map_err(|error| Failure::internal(&error))?;
         if saved.elapsed().as_secs() >= 30 {
             files.write(&training)?;
             saved = Instant::now();
@@ -125,15 +125,22 @@ fn unix_seconds() -> f64 {
 }
 
 fn tell(training: &Training, files: &Files, arguments: &TrainArguments) {
-    let CurveRow { steps, mean_reward, validation_reward, .. } =
-        training.curve().last().copied().unwrap_or_default();
+    let CurveRow { steps, mean_reward, .. } = training.curve().last().copied().unwrap_or_default();
     if !training.is_done() {
-        eprintln!("stopped after {steps} steps; --resume goes on from {}", files.checkpoint.display());
+        eprintln!(
+            "stopped after {steps} steps; --resume goes on from {}",
+            files.checkpoint.display()
+        );
     }
     println!("steps              {steps}");
-    println!("mean reward        {mean_reward:.5}");
-    println!("validation reward  {validation_reward:.5}");
+    println!("mean reward        {}", reward_text(mean_reward));
+    println!("validation reward  {}", reward_text(training.best_validation_reward()));
     println!("weights            {}", files.weights.display());
     println!("learning curve     {}", files.curve.display());
     eprintln!("watch the curve with: tensorboard --logdir {}", arguments.out.display());
+}
+
+/// A reward that may not be known yet.
+fn reward_text(reward: Option<f64>) -> String {
+    reward.map_or_else(|| "not known yet".to_owned(), |reward| format!("{reward:.5}"))
 }

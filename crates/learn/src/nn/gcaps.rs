@@ -2,8 +2,10 @@
 
 mod decoder;
 mod encoder;
+#[cfg(test)]
+mod encoder_tests;
 mod products;
-mod reads;
+pub(crate) mod reads;
 
 use decoder::{Decoder, DecoderSpace};
 use encoder::{Encoder, EncoderSpace};
@@ -16,18 +18,26 @@ use crate::nn::layer_norm::LayerNorm;
 use crate::nn::layout::{Layout, Slot, Tensors};
 use crate::nn::linear::Linear;
 use crate::nn::network::{Inputs, Outputs};
-use crate::nn::product::Write;
 use crate::nn::value_head::ValueHead;
 
-/// Where the weights lie that only products of them are worked with.
+/// Where the weights lie that products are taken of. But for the first and the last, nothing else is done with them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Weights {
-    /// W_0, b_0: worked with themselves too.
+    /// W_0, b_0.
     node: Linear,
     /// V_10, V_11, V_12.
     first: [Slot; 3],
     /// V_20, V_21, V_22.
     second: [Slot; 3],
+    /// W_f, b_f: from capsules to embeddings.
+    embed: Linear,
+    /// W_K, W_V, W_L.
+    key: Slot,
+    value: Slot,
+    pointer: Slot,
+    /// The value head's rows for the mean of the embeddings, and its hidden layer's bias.
+    means: Slot,
+    hidden_bias: Slot,
 }
 
 /// The network's tensors and sizes.
@@ -36,7 +46,6 @@ pub(crate) struct Gcaps {
     weights: Weights,
     products: Products,
     encoder: Encoder,
-    embed: Linear,
     decoder: Decoder,
 }
 
@@ -44,16 +53,17 @@ pub(crate) struct Gcaps {
 #[derive(Debug)]
 pub(crate) struct GcapsSpace {
     encoder: EncoderSpace,
-    embeddings: Vec<f32>,
     decoder: DecoderSpace,
-    embedding_slopes: Vec<f32>,
     capsule_slopes: Vec<f32>,
 }
 
 impl Gcaps {
     /// The network, its weights' layout, and that of the products behind them. Weights come in the order of the
     /// layout: first those that only products of them are worked with.
-    pub(crate) fn new(settings: &GcapsSettings, shape: Shape) -> Result<(Self, Layout, Layout, usize), String> {
+    pub(crate) fn new(
+        settings: &GcapsSettings,
+        shape: Shape,
+    ) -> Result<(Self, Layout, Layout, usize), String> {
         let &GcapsSettings { width, heads } = settings;
         check_size("width", width)?;
         check_size("heads", heads)?;
@@ -62,53 +72,57 @@ impl Gcaps {
         }
         let mut layout = Layout::starting_at(0);
         let square = (width, width);
-        let plain = |inputs| Init::Uniform { inputs, gain: 1.0 };
+        let plain = Init::Uniform { inputs: width, gain: 1.0 };
         // Three terms add up in front of each rectifier.
         let hop = Init::Uniform { inputs: 3 * width, gain: init::BEFORE_RELU };
         let mut hops = |p: usize| {
-            [0, 1, 2].map(|a| layout.matrix(&format!("encoder.moment_{p}.hop_{a}.weight"), square, hop))
+            [0, 1, 2]
+                .map(|a| layout.matrix(&format!("encoder.moment_{p}.hop_{a}.weight"), square, hop))
         };
         let (first, second) = (hops(1), hops(2));
-        let folded = layout.len();
-        let node = Linear::new(&mut layout, "encoder.node", (shape.node_features, width), 1.0);
-        let embed = Linear::new(&mut layout, "encoder.feed_forward", (2 * width, width), 1.0);
-        let query = Linear::new(&mut layout, "decoder.query", (shape.aircraft_features, width), 1.0);
-        let pointer = Init::Uniform { inputs: width, gain: init::LOGITS };
         let value_inputs = 2 * width + 1;
         let means = Init::Uniform { inputs: value_inputs, gain: init::BEFORE_RELU };
-        let decoder = Decoder {
-            reads: Reads {
-                vertiports: shape.vertiports,
-                heads,
-                width,
-                score_scale: 1.0 / ((width / heads) as f32).sqrt(),
-                logit_scale: 1.0 / (width as f32).sqrt(),
-            },
-            query,
-            key: layout.matrix("decoder.key.weight", square, plain(width)),
-            value: layout.matrix("decoder.value.weight", square, plain(width)),
-            output: layout.matrix("decoder.output.weight", square, plain(width)),
-            first_norm: LayerNorm::new(&mut layout, "decoder.norm_1", width),
-            feed_forward: Linear::new(&mut layout, "decoder.feed_forward", square, init::BEFORE_RELU),
-            second_norm: LayerNorm::new(&mut layout, "decoder.norm_2", width),
-            pointer: layout.matrix("decoder.pointer.weight", square, pointer),
-            means: layout.matrix("value.means.weight", square, means),
-            head: ValueHead::new(&mut layout, width, value_inputs, width),
-        };
-        let weights = Weights { node, first, second };
+        let embed = Linear::new(&mut layout, "encoder.feed_forward", (2 * width, width), 1.0);
+        let key = layout.matrix("decoder.key.weight", square, plain);
+        let value = layout.matrix("decoder.value.weight", square, plain);
+        let pointer = Init::Uniform { inputs: width, gain: init::LOGITS };
+        let pointer = layout.matrix("decoder.pointer.weight", square, pointer);
+        let means = layout.matrix("value.means.weight", square, means);
+        let folded = layout.len();
+
+        let node = Linear::new(&mut layout, "encoder.node", (shape.node_features, width), 1.0);
+        let query =
+            Linear::new(&mut layout, "decoder.query", (shape.aircraft_features, width), 1.0);
+        let output = layout.matrix("decoder.output.weight", square, plain);
+        let first_norm = LayerNorm::new(&mut layout, "decoder.norm_1", width);
+        let feed_forward =
+            Linear::new(&mut layout, "decoder.feed_forward", square, init::BEFORE_RELU);
+        let second_norm = LayerNorm::new(&mut layout, "decoder.norm_2", width);
+        let head = ValueHead::new(&mut layout, width, value_inputs, width);
+        let hidden_bias = head.hidden_bias;
+        let weights =
+            Weights { node, first, second, embed, key, value, pointer, means, hidden_bias };
+
         let mut behind = Layout::starting_at(layout.end());
         let products = Products::new(&mut behind, &weights);
-        let encoder = Encoder { vertiports: shape.vertiports, width, node };
-        Ok((Self { weights, products, encoder, embed, decoder }, layout, behind, folded))
+        let reads = Reads {
+            vertiports: shape.vertiports,
+            heads,
+            width: 2 * width,
+            score_scale: 1.0 / ((width / heads) as f32).sqrt(),
+            logit_scale: 1.0 / (width as f32).sqrt(),
+        };
+        let encoder = Encoder { vertiports: shape.vertiports, width, node, products };
+        let decoder =
+            Decoder { reads, query, output, first_norm, feed_forward, second_norm, head, products };
+        Ok((Self { weights, products, encoder, decoder }, layout, behind, folded))
     }
 
     pub(crate) fn space(&self, batch: usize) -> GcapsSpace {
         let nodes = batch * self.encoder.vertiports;
         GcapsSpace {
-            encoder: EncoderSpace::new(self.encoder, batch),
-            embeddings: vec![0.0; nodes * self.encoder.width],
+            encoder: EncoderSpace::new(&self.encoder, batch),
             decoder: DecoderSpace::new(&self.decoder, batch),
-            embedding_slopes: vec![0.0; nodes * self.encoder.width],
             capsule_slopes: vec![0.0; nodes * 2 * self.encoder.width],
         }
     }
@@ -128,12 +142,10 @@ impl Gcaps {
         space: &mut GcapsSpace,
         outputs: &mut Outputs,
     ) {
-        let nodes = inputs.batch * self.encoder.vertiports;
-        self.encoder.forward(tensors, &self.products, inputs, &mut space.encoder);
-        let capsules = &space.encoder.capsules[..nodes * 2 * self.encoder.width];
-        let embeddings = &mut space.embeddings[..nodes * self.encoder.width];
-        self.embed.forward(tensors, capsules, embeddings);
-        self.decoder.forward(tensors, inputs, embeddings, &mut space.decoder, outputs);
+        let capsules = inputs.batch * self.decoder.reads.vertiports * self.decoder.reads.width;
+        self.encoder.forward(tensors, inputs, &mut space.encoder);
+        let capsules = &space.encoder.capsules[..capsules];
+        self.decoder.forward(tensors, inputs, capsules, &mut space.decoder, outputs);
     }
 
     pub(crate) fn backward(
@@ -144,16 +156,11 @@ impl Gcaps {
         space: &mut GcapsSpace,
         gradient: &mut [f32],
     ) {
-        let nodes = inputs.batch * self.encoder.vertiports;
-        let embeddings = &space.embeddings[..nodes * self.encoder.width];
-        let embedding_slopes = &mut space.embedding_slopes[..nodes * self.encoder.width];
-        let to = (&mut *embedding_slopes, &mut *gradient);
-        self.decoder.backward(tensors, inputs, embeddings, slopes, &mut space.decoder, to);
-        let capsule_slopes = &mut space.capsule_slopes[..nodes * 2 * self.encoder.width];
-        let capsules = &space.encoder.capsules[..nodes * 2 * self.encoder.width];
-        self.embed.backward(capsules, embedding_slopes, gradient);
-        self.embed.input_slopes(tensors, embedding_slopes, Write::Set, capsule_slopes);
-        let to = (capsule_slopes, gradient);
-        self.encoder.backward(tensors, &self.products, inputs, &mut space.encoder, to);
+        let capsules = inputs.batch * self.decoder.reads.vertiports * self.decoder.reads.width;
+        let capsule_slopes = &mut space.capsule_slopes[..capsules];
+        let capsules = &space.encoder.capsules[..capsules];
+        let to = (&mut *capsule_slopes, &mut *gradient);
+        self.decoder.backward(tensors, inputs, capsules, slopes, &mut space.decoder, to);
+        self.encoder.backward(tensors, inputs, &mut space.encoder, (capsule_slopes, gradient));
     }
 }

@@ -12,7 +12,10 @@ pub(crate) enum Init {
     Zero,
     One,
     /// Uniform with mean 0 and variance `gain² / inputs`.
-    Uniform { inputs: usize, gain: f32 },
+    Uniform {
+        inputs: usize,
+        gain: f32,
+    },
 }
 
 /// Gain in front of a rectifier, which loses half of the signal's power.

@@ -38,7 +38,13 @@ impl LayerNorm {
     }
 
     /// Normalises the rows of `from` into `to`.
-    pub(crate) fn forward(self, tensors: Tensors<'_>, from: &[f32], kept: &mut Normalised, to: &mut [f32]) {
+    pub(crate) fn forward(
+        self,
+        tensors: Tensors<'_>,
+        from: &[f32],
+        kept: &mut Normalised,
+        to: &mut [f32],
+    ) {
         let width = self.scale.columns;
         let (scale, shift) = (tensors.part(self.scale), tensors.part(self.shift));
         let kept = kept.rows.chunks_exact_mut(width).zip(&mut kept.over_spread);
@@ -52,7 +58,9 @@ impl LayerNorm {
             for normal in &mut *normal {
                 *normal *= *over_spread;
             }
-            for ((to, normal), (scale, shift)) in to.iter_mut().zip(&*normal).zip(scale.iter().zip(shift)) {
+            for ((to, normal), (scale, shift)) in
+                to.iter_mut().zip(&*normal).zip(scale.iter().zip(shift))
+            {
                 *to = normal * scale + shift;
             }
         }

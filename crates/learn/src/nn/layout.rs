@@ -78,7 +78,12 @@ impl Layout {
     }
 
     /// Adds a matrix behind what is there.
-    pub(crate) fn matrix(&mut self, name: &str, (rows, columns): (usize, usize), init: Init) -> Slot {
+    pub(crate) fn matrix(
+        &mut self,
+        name: &str,
+        (rows, columns): (usize, usize),
+        init: Init,
+    ) -> Slot {
         self.push(name, vec![rows, columns], init);
         Slot { offset: self.end - rows * columns, rows, columns }
     }
@@ -137,7 +142,11 @@ impl<'a> Tensors<'a> {
     /// A tensor's entries.
     pub(crate) fn part(self, slot: Slot) -> &'a [f32] {
         let weights = self.params.len();
-        if slot.offset < weights { slot.part(self.params) } else { slot.counted_from(weights).part(self.derived) }
+        if slot.offset < weights {
+            slot.part(self.params)
+        } else {
+            slot.counted_from(weights).part(self.derived)
+        }
     }
 
     /// A tensor as a matrix.

@@ -13,7 +13,12 @@ pub(crate) struct Linear {
 
 impl Linear {
     /// Adds the layer's tensors.
-    pub(crate) fn new(layout: &mut Layout, name: &str, (from, to): (usize, usize), gain: f32) -> Self {
+    pub(crate) fn new(
+        layout: &mut Layout,
+        name: &str,
+        (from, to): (usize, usize),
+        gain: f32,
+    ) -> Self {
         let init = Init::Uniform { inputs: from, gain };
         Self {
             weight: layout.matrix(&format!("{name}.weight"), (from, to), init),
@@ -37,7 +42,13 @@ impl Linear {
     }
 
     /// The slopes of the layer's input.
-    pub(crate) fn input_slopes(self, tensors: Tensors<'_>, slopes: &[f32], write: Write, to: &mut [f32]) {
+    pub(crate) fn input_slopes(
+        self,
+        tensors: Tensors<'_>,
+        slopes: &[f32],
+        write: Write,
+        to: &mut [f32],
+    ) {
         let rows = slopes.len() / self.weight.columns;
         let slopes = Matrix::new(slopes, rows, self.weight.columns);
         let to = MatrixMut::new(to, rows, self.weight.rows);
@@ -76,7 +87,12 @@ pub(crate) fn add_rows(rows: &[f32], to: &mut [f32]) {
 }
 
 /// Sums each group of `group` rows of `width` entries, times `factor`: one row of `to` per group.
-pub(crate) fn sum_groups(rows: &[f32], (group, width): (usize, usize), factor: f32, to: &mut [f32]) {
+pub(crate) fn sum_groups(
+    rows: &[f32],
+    (group, width): (usize, usize),
+    factor: f32,
+    to: &mut [f32],
+) {
     for (rows, to) in rows.chunks_exact(group * width).zip(to.chunks_exact_mut(width)) {
         to.fill(0.0);
         add_rows(rows, to);

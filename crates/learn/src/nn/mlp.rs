@@ -102,7 +102,8 @@ impl Mlp {
     fn flatten(&self, inputs: Inputs<'_>, features: &mut [f32]) {
         let of_nodes = self.shape.vertiports * self.shape.node_features;
         let of_aircraft = self.shape.aircraft_features;
-        let from = inputs.nodes.chunks_exact(of_nodes).zip(inputs.aircraft.chunks_exact(of_aircraft));
+        let from =
+            inputs.nodes.chunks_exact(of_nodes).zip(inputs.aircraft.chunks_exact(of_aircraft));
         for (to, (nodes, aircraft)) in features.chunks_exact_mut(of_nodes + of_aircraft).zip(from) {
             let (to_nodes, to_aircraft) = to.split_at_mut(of_nodes);
             to_nodes.copy_from_slice(nodes);
@@ -142,7 +143,13 @@ impl Mlp {
     }
 
     /// From the slopes of the last layer's outputs down.
-    fn layers_backward(&self, tensors: Tensors<'_>, batch: usize, space: &mut MlpSpace, gradient: &mut [f32]) {
+    fn layers_backward(
+        &self,
+        tensors: Tensors<'_>,
+        batch: usize,
+        space: &mut MlpSpace,
+        gradient: &mut [f32],
+    ) {
         let len = batch * self.logits.weight.rows;
         let MlpSpace { features, outputs, slopes, next_slopes, .. } = space;
         for at in (0..self.layers.len()).rev() {

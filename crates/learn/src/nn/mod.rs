@@ -16,6 +16,8 @@ mod mlp;
 mod network;
 mod product;
 mod relu;
+#[cfg(test)]
+mod slope_tests;
 mod value_head;
 
 pub use architecture::{Architecture, GcapsSettings, MlpSettings, Shape};

@@ -171,8 +171,12 @@ impl Network {
         workspace.batch = inputs.batch;
         let outputs = &mut workspace.outputs;
         match (&self.body, &mut workspace.body) {
-            (Body::Gcaps(body), BodySpace::Gcaps(space)) => body.forward(tensors, inputs, space, outputs),
-            (Body::Mlp(body), BodySpace::Mlp(space)) => body.forward(tensors, inputs, space, outputs),
+            (Body::Gcaps(body), BodySpace::Gcaps(space)) => {
+                body.forward(tensors, inputs, space, outputs);
+            }
+            (Body::Mlp(body), BodySpace::Mlp(space)) => {
+                body.forward(tensors, inputs, space, outputs);
+            }
             _ => panic!("the workspace is of another kind of network"),
         }
     }
@@ -201,7 +205,9 @@ impl Network {
             (Body::Gcaps(body), BodySpace::Gcaps(space)) => {
                 body.backward(tensors, inputs, slopes, space, gradient);
             }
-            (Body::Mlp(body), BodySpace::Mlp(space)) => body.backward(tensors, inputs, slopes, space, gradient),
+            (Body::Mlp(body), BodySpace::Mlp(space)) => {
+                body.backward(tensors, inputs, slopes, space, gradient);
+            }
             _ => panic!("the workspace is of another kind of network"),
         }
     }
@@ -234,10 +240,22 @@ impl Network {
     fn check(&self, inputs: Inputs<'_>, workspace: &Workspace) {
         let Shape { vertiports, node_features, aircraft_features } = self.shape;
         let batch = inputs.batch;
-        assert!(batch <= workspace.most, "the workspace has room for {} decisions, not {batch}", workspace.most);
+        assert!(
+            batch <= workspace.most,
+            "the workspace has room for {} decisions, not {batch}",
+            workspace.most
+        );
         assert_eq!(workspace.vertiports, vertiports, "a workspace of this network");
-        assert_eq!(inputs.nodes.len(), batch * vertiports * node_features, "node features of the batch");
-        assert_eq!(inputs.aircraft.len(), batch * aircraft_features, "aircraft features of the batch");
+        assert_eq!(
+            inputs.nodes.len(),
+            batch * vertiports * node_features,
+            "node features of the batch"
+        );
+        assert_eq!(
+            inputs.aircraft.len(),
+            batch * aircraft_features,
+            "aircraft features of the batch"
+        );
         assert_eq!(inputs.mask.len(), batch * vertiports, "mask of the batch");
         assert_eq!(inputs.clock.len(), batch, "clocks of the batch");
     }

@@ -4,7 +4,10 @@
 //! `gemm` chooses its kernel by the CPU at run time, so one build runs everywhere and a given machine always computes
 //! the same bits. `faer`, which needs no `unsafe`, was 2 to 14 % slower at these shapes.
 
-#![expect(unsafe_code, reason = "gemm takes pointers; the matrices below have checked their slices")]
+#![expect(
+    unsafe_code,
+    reason = "gemm takes pointers; the matrices below have checked their slices"
+)]
 
 use gemm::Parallelism;
 

@@ -19,7 +19,12 @@ pub(crate) struct ValueHead {
 impl ValueHead {
     /// Adds the head's tensors. Its hidden layer takes `inputs` features and the clock from here, and in all as many
     /// as `inputs_in_all`.
-    pub(crate) fn new(layout: &mut Layout, inputs: usize, inputs_in_all: usize, width: usize) -> Self {
+    pub(crate) fn new(
+        layout: &mut Layout,
+        inputs: usize,
+        inputs_in_all: usize,
+        width: usize,
+    ) -> Self {
         let hidden = Init::Uniform { inputs: inputs_in_all, gain: BEFORE_RELU };
         let output = Init::Uniform { inputs: width, gain: VALUE };
         Self {
@@ -40,7 +45,13 @@ impl ValueHead {
     }
 
     /// From the hidden layer's sums (bias included) to values.
-    pub(crate) fn forward(self, tensors: Tensors<'_>, clock: &[f32], hidden: &mut [f32], values: &mut [f32]) {
+    pub(crate) fn forward(
+        self,
+        tensors: Tensors<'_>,
+        clock: &[f32],
+        hidden: &mut [f32],
+        values: &mut [f32],
+    ) {
         let width = self.hidden.columns;
         let (of_clock, output) = (tensors.part(self.clock()), tensors.part(self.output));
         let bias = tensors.part(self.output_bias)[0];

@@ -9,7 +9,7 @@ use vertifleet_core::{
 
 /// Days with 1 to 5 vertiports, 1 to 6 aircraft of 1 or 2 types and a few periods; stands and demand are scarce, and
 /// some pairs are out of range.
-pub fn small_day() -> impl Strategy<Value = Arc<Scenario>> {
+pub(crate) fn small_day() -> impl Strategy<Value = Arc<Scenario>> {
     (1_usize..=5, 1_usize..=6, 1_usize..=2, 1_usize..=4, any::<u64>())
         .prop_flat_map(|(vertiports, fleet, types, periods, seed)| {
             (
@@ -48,10 +48,9 @@ fn day(
             busy: false,
         })
         .collect();
-    for at in 0..vertiports.len() {
+    for (at, vertiport) in vertiports.iter_mut().enumerate() {
         let standing = fleet.iter().filter(|&&(_, place)| place == at).count();
-        let standing = u16::try_from(standing).expect("a small fleet");
-        vertiports[at].stands = vertiports[at].stands.max(standing);
+        vertiport.stands = vertiport.stands.max(u16::try_from(standing).expect("a small fleet"));
     }
     let size = vertiports.len();
     let distance_mi = Matrix::from_fn(size, |from, to| {

@@ -7,7 +7,12 @@
 //! logit_i = (y W_L) . E_i / sqrt(h)
 //! v = head of [mean E, y, clock]
 //! ```
+//!
+//! The embeddings E = C W_f + b_f of the capsules C are never formed: whatever reads them does so through a matrix, and
+//! the product of W_f and that matrix, taken once per change of the weights
+//! ([`Products`]), reads the capsules. b_f is a shift of what is read.
 
+use crate::nn::gcaps::products::Products;
 use crate::nn::gcaps::reads::{Reads, ReadsSpace};
 use crate::nn::layer_norm::{LayerNorm, Normalised};
 use crate::nn::layout::{Slot, Tensors};
@@ -22,19 +27,13 @@ use crate::nn::value_head::ValueHead;
 pub(crate) struct Decoder {
     pub(crate) reads: Reads,
     pub(crate) query: Linear,
-    /// W_K, W_V.
-    pub(crate) key: Slot,
-    pub(crate) value: Slot,
     /// W_O.
     pub(crate) output: Slot,
     pub(crate) first_norm: LayerNorm,
     pub(crate) feed_forward: Linear,
     pub(crate) second_norm: LayerNorm,
-    /// W_L.
-    pub(crate) pointer: Slot,
-    /// The value head's rows for the mean of the embeddings.
-    pub(crate) means: Slot,
     pub(crate) head: ValueHead,
+    pub(crate) products: Products,
 }
 
 /// What the decoder needs while it works: rows of h entries, one per sample, and the reads.
@@ -120,23 +119,28 @@ impl Decoder {
         self.width() / self.reads.heads
     }
 
-    /// Logits and values from node embeddings.
+    /// Logits and values from capsules.
     pub(crate) fn forward(
         &self,
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
-        embeddings: &[f32],
+        capsules: &[f32],
         space: &mut DecoderSpace,
         outputs: &mut Outputs,
     ) {
         let (batch, width) = (inputs.batch, self.width());
         let rows = space.rows(batch * width);
         self.query.forward(tensors, inputs.aircraft, rows.query);
-        self.attend(tensors, batch, embeddings, rows.query, rows.reads, rows.heads);
+        self.attend(tensors, batch, capsules, rows.query, rows.reads, rows.heads);
 
         rows.sum.copy_from_slice(rows.query);
         let heads = Matrix::new(rows.heads, batch, width);
-        multiply(MatrixMut::new(rows.sum, batch, width), Write::Add, heads, tensors.matrix(self.output));
+        multiply(
+            MatrixMut::new(rows.sum, batch, width),
+            Write::Add,
+            heads,
+            tensors.matrix(self.output),
+        );
         self.first_norm.forward(tensors, rows.sum, rows.first_norm, rows.z);
         self.feed_forward.forward(tensors, rows.z, rows.lifted);
         relu::forward(rows.lifted);
@@ -145,16 +149,23 @@ impl Decoder {
         self.second_norm.forward(tensors, rows.sum, rows.second_norm, rows.y);
 
         let y = Matrix::new(rows.y, batch, width);
-        multiply(self.reads.pointer(rows.reads, batch), Write::Set, y, tensors.matrix(self.pointer));
+        multiply(
+            self.reads.pointer(rows.reads, batch),
+            Write::Set,
+            y,
+            tensors.matrix(self.products.pointer),
+        );
+        let shift = tensors.matrix(self.products.pointer_shift).transposed();
+        multiply(rows.reads.logit_shifts(batch), Write::Set, y, shift);
         let logits = &mut outputs.logits[..batch * self.reads.vertiports];
-        self.reads.point(embeddings, inputs.mask, rows.reads, logits);
+        self.reads.point(capsules, inputs.mask, rows.reads, logits);
 
-        repeat(tensors.part(self.head.hidden_bias), rows.hidden);
+        repeat(tensors.part(self.products.hidden_shift), rows.hidden);
         let hidden = MatrixMut::new(rows.hidden, batch, width);
         multiply(hidden, Write::Add, y, tensors.matrix(self.head.features()));
-        let means = Matrix::new(&rows.reads.means[..batch * self.means.rows], batch, self.means.rows);
+        let means = Matrix::new(&rows.reads.means[..batch * 2 * width], batch, 2 * width);
         let hidden = MatrixMut::new(rows.hidden, batch, width);
-        multiply(hidden, Write::Add, means, tensors.matrix(self.means));
+        multiply(hidden, Write::Add, means, tensors.matrix(self.products.means).transposed());
         self.head.forward(tensors, inputs.clock, rows.hidden, &mut outputs.values[..batch]);
     }
 
@@ -163,40 +174,48 @@ impl Decoder {
         &self,
         tensors: Tensors<'_>,
         batch: usize,
-        embeddings: &[f32],
+        capsules: &[f32],
         query: &[f32],
         reads: &mut ReadsSpace,
         heads: &mut [f32],
     ) {
         let (width, each) = (self.width(), self.head_width());
-        let (key, value) = (tensors.matrix(self.key), tensors.matrix(self.value));
         let query = Matrix::new(query, batch, width);
         for head in 0..self.reads.heads {
-            let key = key.columns(head * each, each).transposed();
+            let key = tensors.matrix(self.products.key.rows(head * each, each));
             let to = self.reads.query(reads, batch, head);
             multiply(to, Write::Set, query.columns(head * each, each), key);
         }
-        self.reads.attend(embeddings, reads);
+        self.reads.attend(capsules, reads);
+        repeat(tensors.part(self.products.value_shift), heads);
         for head in 0..self.reads.heads {
             let to = MatrixMut::new(heads, batch, width).columns(head * each, each);
             let collected = self.reads.collected(reads, batch, head);
-            multiply(to, Write::Set, collected, value.columns(head * each, each));
+            let value = tensors.matrix(self.products.value.rows(head * each, each));
+            multiply(to, Write::Add, collected, value.transposed());
         }
     }
 
-    /// Adds the slopes of the decoder's weights; writes the embeddings' slopes.
+    /// Adds the slopes of the decoder's weights; writes the capsules' slopes.
     pub(crate) fn backward(
         &self,
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
-        embeddings: &[f32],
+        capsules: &[f32],
         (logit_slopes, value_slopes): (&[f32], &[f32]),
         space: &mut DecoderSpace,
-        (embedding_slopes, gradient): (&mut [f32], &mut [f32]),
+        (capsule_slopes, gradient): (&mut [f32], &mut [f32]),
     ) {
         let (batch, width) = (inputs.batch, self.width());
         let rows = &mut space.rows(batch * width);
-        self.read_out_backward(tensors, inputs, embeddings, (logit_slopes, value_slopes), rows, gradient);
+        self.read_out_backward(
+            tensors,
+            inputs,
+            capsules,
+            (logit_slopes, value_slopes),
+            rows,
+            gradient,
+        );
 
         self.second_norm.backward(tensors, rows.second_norm, rows.slopes, gradient);
         rows.branch_slopes.copy_from_slice(rows.slopes);
@@ -209,7 +228,7 @@ impl Decoder {
         let slopes = Matrix::new(rows.slopes, batch, width);
         let to = MatrixMut::new(rows.branch_slopes, batch, width);
         multiply(to, Write::Set, slopes, tensors.matrix(self.output).transposed());
-        self.attend_backward(tensors, batch, embeddings, rows, (embedding_slopes, gradient));
+        self.attend_backward(tensors, batch, capsules, rows, (capsule_slopes, gradient));
 
         self.query.backward(inputs.aircraft, rows.slopes, gradient);
     }
@@ -219,7 +238,7 @@ impl Decoder {
         &self,
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
-        embeddings: &[f32],
+        capsules: &[f32],
         (logit_slopes, value_slopes): (&[f32], &[f32]),
         rows: &mut Rows<'_>,
         gradient: &mut [f32],
@@ -228,52 +247,69 @@ impl Decoder {
         let hidden_slopes = &mut *rows.branch_slopes;
         let kept = (inputs.clock, &*rows.hidden);
         self.head.backward(tensors, kept, value_slopes, hidden_slopes, gradient);
-        add_rows(hidden_slopes, self.head.hidden_bias.part_mut(gradient));
+        add_rows(hidden_slopes, self.products.hidden_shift.part_mut(gradient));
         add_weight_slopes(self.head.features(), rows.y, hidden_slopes, gradient);
-        let means = &rows.reads.means[..batch * self.means.rows];
-        add_weight_slopes(self.means, means, hidden_slopes, gradient);
         let hidden_slopes = Matrix::new(hidden_slopes, batch, width);
+        let means = Matrix::new(&rows.reads.means[..batch * 2 * width], batch, 2 * width);
+        let to = self.products.means.matrix_mut(gradient);
+        multiply(to, Write::Add, hidden_slopes.transposed(), means);
         let to = self.reads.mean_slopes(rows.reads, batch);
-        multiply(to, Write::Set, hidden_slopes, tensors.matrix(self.means).transposed());
+        multiply(to, Write::Set, hidden_slopes, tensors.matrix(self.products.means));
         let to = MatrixMut::new(rows.slopes, batch, width);
         multiply(to, Write::Set, hidden_slopes, tensors.matrix(self.head.features()).transposed());
 
-        self.reads.point_backward(embeddings, inputs.mask, logit_slopes, rows.reads);
+        self.reads.point_backward(capsules, inputs.mask, logit_slopes, rows.reads);
         let pointer_slopes = self.reads.query_slopes(rows.reads, batch, self.reads.heads);
         let y = Matrix::new(rows.y, batch, width);
-        multiply(self.pointer.matrix_mut(gradient), Write::Add, y.transposed(), pointer_slopes);
+        multiply(
+            self.products.pointer.matrix_mut(gradient),
+            Write::Add,
+            y.transposed(),
+            pointer_slopes,
+        );
         let to = MatrixMut::new(rows.slopes, batch, width);
-        multiply(to, Write::Add, pointer_slopes, tensors.matrix(self.pointer).transposed());
+        multiply(
+            to,
+            Write::Add,
+            pointer_slopes,
+            tensors.matrix(self.products.pointer).transposed(),
+        );
+        let shift_slopes = rows.reads.shift_slopes(batch);
+        let to = self.products.pointer_shift.matrix_mut(gradient);
+        multiply(to, Write::Add, shift_slopes.transposed(), y);
+        let to = MatrixMut::new(rows.slopes, batch, width);
+        multiply(to, Write::Add, shift_slopes, tensors.matrix(self.products.pointer_shift));
     }
 
-    /// From the heads' slopes (in the branch's place) to the embeddings' and, added, the query's.
+    /// From the heads' slopes (in the branch's place) to the capsules' and, added, the query's.
     fn attend_backward(
         &self,
         tensors: Tensors<'_>,
         batch: usize,
-        embeddings: &[f32],
+        capsules: &[f32],
         rows: &mut Rows<'_>,
-        (embedding_slopes, gradient): (&mut [f32], &mut [f32]),
+        (capsule_slopes, gradient): (&mut [f32], &mut [f32]),
     ) {
         let (width, each) = (self.width(), self.head_width());
-        let (key, value) = (tensors.matrix(self.key), tensors.matrix(self.value));
+        add_rows(rows.branch_slopes, self.products.value_shift.part_mut(gradient));
         let slopes = Matrix::new(rows.branch_slopes, batch, width);
         for head in 0..self.reads.heads {
+            let value = self.products.value.rows(head * each, each);
             let slopes = slopes.columns(head * each, each);
-            let collected = self.reads.collected(rows.reads, batch, head).transposed();
-            let to = self.value.matrix_mut(gradient).columns(head * each, each);
-            multiply(to, Write::Add, collected, slopes);
+            let collected = self.reads.collected(rows.reads, batch, head);
+            multiply(value.matrix_mut(gradient), Write::Add, slopes.transposed(), collected);
             let to = self.reads.collected_slopes(rows.reads, batch, head);
-            multiply(to, Write::Set, slopes, value.columns(head * each, each).transposed());
+            multiply(to, Write::Set, slopes, tensors.matrix(value));
         }
-        self.reads.attend_backward(embeddings, rows.reads, embedding_slopes);
+        self.reads.attend_backward(capsules, rows.reads, capsule_slopes);
         let query = Matrix::new(rows.query, batch, width);
         for head in 0..self.reads.heads {
+            let key = self.products.key.rows(head * each, each);
             let slopes = self.reads.query_slopes(rows.reads, batch, head);
-            let to = self.key.matrix_mut(gradient).columns(head * each, each);
-            multiply(to, Write::Add, slopes.transposed(), query.columns(head * each, each));
+            let query = query.columns(head * each, each).transposed();
+            multiply(key.matrix_mut(gradient), Write::Add, query, slopes);
             let to = MatrixMut::new(rows.slopes, batch, width).columns(head * each, each);
-            multiply(to, Write::Add, slopes, key.columns(head * each, each));
+            multiply(to, Write::Add, slopes, tensors.matrix(key).transposed());
         }
     }
 }

@@ -43,10 +43,11 @@ pub(crate) struct Encoder {
     pub(crate) width: usize,
     /// W_0, b_0.
     pub(crate) node: Linear,
+    pub(crate) products: Products,
 }
 
 impl EncoderSpace {
-    pub(crate) fn new(encoder: Encoder, batch: usize) -> Self {
+    pub(crate) fn new(encoder: &Encoder, batch: usize) -> Self {
         let (nodes, width) = (batch * encoder.vertiports, encoder.width);
         Self {
             feature_means: vec![0.0; batch * encoder.node.weight.rows],
@@ -62,12 +63,12 @@ impl EncoderSpace {
 impl Encoder {
     /// Fills the capsules.
     pub(crate) fn forward(
-        self,
+        &self,
         tensors: Tensors<'_>,
-        products: &Products,
         inputs: Inputs<'_>,
         space: &mut EncoderSpace,
     ) {
+        let products = self.products;
         let (batch, width, features) = (inputs.batch, self.width, self.node.weight.rows);
         let nodes = batch * self.vertiports;
         let over_nodes = 1.0 / self.vertiports as f32;
@@ -87,11 +88,21 @@ impl Encoder {
 
         let means = Matrix::new(feature_means, batch, features);
         repeat(tensors.part(products.first_shift), rows);
-        multiply(MatrixMut::new(rows, batch, width), Write::Subtract, means, tensors.matrix(products.first_mean));
+        multiply(
+            MatrixMut::new(rows, batch, width),
+            Write::Subtract,
+            means,
+            tensors.matrix(products.first_mean),
+        );
         self.spread(rows, 0, capsules);
         let means = Matrix::new(square_means, batch, width);
         rows.fill(0.0);
-        multiply(MatrixMut::new(rows, batch, width), Write::Subtract, means, tensors.matrix(products.second_mean));
+        multiply(
+            MatrixMut::new(rows, batch, width),
+            Write::Subtract,
+            means,
+            tensors.matrix(products.second_mean),
+        );
         self.spread(rows, width, capsules);
 
         let first = MatrixMut::new(capsules, nodes, 2 * width).columns(0, width);
@@ -104,7 +115,7 @@ impl Encoder {
     }
 
     /// Writes each sample's row into the columns from `first` on of all of its nodes' capsules.
-    fn spread(self, rows: &[f32], first: usize, capsules: &mut [f32]) {
+    fn spread(&self, rows: &[f32], first: usize, capsules: &mut [f32]) {
         let of_samples = capsules.chunks_exact_mut(self.vertiports * 2 * self.width);
         for (row, capsules) in rows.chunks_exact(self.width).zip(of_samples) {
             for capsule in capsules.chunks_exact_mut(2 * self.width) {
@@ -114,7 +125,7 @@ impl Encoder {
     }
 
     /// Sums the columns from `first` on over each sample's nodes.
-    fn gather(self, slopes: &[f32], first: usize, rows: &mut [f32]) {
+    fn gather(&self, slopes: &[f32], first: usize, rows: &mut [f32]) {
         let of_samples = slopes.chunks_exact(self.vertiports * 2 * self.width);
         for (row, slopes) in rows.chunks_exact_mut(self.width).zip(of_samples) {
             row.fill(0.0);
@@ -126,13 +137,13 @@ impl Encoder {
 
     /// Adds the slopes of W_0, b_0 and the products. `slopes` are the capsules'; they are used up.
     pub(crate) fn backward(
-        self,
+        &self,
         tensors: Tensors<'_>,
-        products: &Products,
         inputs: Inputs<'_>,
         space: &mut EncoderSpace,
         (slopes, gradient): (&mut [f32], &mut [f32]),
     ) {
+        let products = self.products;
         let (batch, width, features) = (inputs.batch, self.width, self.node.weight.rows);
         let nodes = batch * self.vertiports;
         let over_nodes = 1.0 / self.vertiports as f32;
@@ -148,14 +159,24 @@ impl Encoder {
         multiply(products.first_node.matrix_mut(gradient), Write::Add, from.transposed(), first);
         let means = Matrix::new(&space.feature_means[..batch * features], batch, features);
         let sums = Matrix::new(rows, batch, width);
-        multiply(products.first_mean.matrix_mut(gradient), Write::Subtract, means.transposed(), sums);
+        multiply(
+            products.first_mean.matrix_mut(gradient),
+            Write::Subtract,
+            means.transposed(),
+            sums,
+        );
 
         self.gather(slopes, width, rows);
         let from = Matrix::new(squares, nodes, width);
         multiply(products.second_node.matrix_mut(gradient), Write::Add, from.transposed(), second);
         let means = Matrix::new(&space.square_means[..batch * width], batch, width);
         let sums = Matrix::new(rows, batch, width);
-        multiply(products.second_mean.matrix_mut(gradient), Write::Subtract, means.transposed(), sums);
+        multiply(
+            products.second_mean.matrix_mut(gradient),
+            Write::Subtract,
+            means.transposed(),
+            sums,
+        );
 
         // The slopes of the squares: by the node's own term, and by the mean, the same for all of a sample's nodes.
         let mean_slopes = &mut space.square_means[..batch * width];

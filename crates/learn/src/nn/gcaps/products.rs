@@ -19,18 +19,36 @@ pub(crate) struct Products {
     pub(crate) second_node: Slot,
     /// T_2.
     pub(crate) second_mean: Slot,
+    /// (W_f W_K)^T, (W_f W_V)^T, and the latter's shift b_f W_V. A head's part is a block of rows.
+    pub(crate) key: Slot,
+    pub(crate) value: Slot,
+    pub(crate) value_shift: Slot,
+    /// W_L W_f^T, and its shift b_f W_L^T.
+    pub(crate) pointer: Slot,
+    pub(crate) pointer_shift: Slot,
+    /// (W_f M)^T with M the value head's rows for the mean of the embeddings, and b_f M with the head's bias.
+    pub(crate) means: Slot,
+    pub(crate) hidden_shift: Slot,
 }
 
 impl Products {
     /// Adds the products to a layout that begins where the weights end.
     pub(crate) fn new(layout: &mut Layout, weights: &Weights) -> Self {
         let (features, width) = (weights.node.weight.rows, weights.node.weight.columns);
+        let mut matrix = |name, rows, columns| layout.matrix(name, (rows, columns), Init::Zero);
         Self {
-            first_node: layout.matrix("first_node", (features, width), Init::Zero),
-            first_mean: layout.matrix("first_mean", (features, width), Init::Zero),
-            first_shift: layout.vector("first_shift", width, Init::Zero),
-            second_node: layout.matrix("second_node", (width, width), Init::Zero),
-            second_mean: layout.matrix("second_mean", (width, width), Init::Zero),
+            first_node: matrix("first_node", features, width),
+            first_mean: matrix("first_mean", features, width),
+            first_shift: matrix("first_shift", 1, width),
+            second_node: matrix("second_node", width, width),
+            second_mean: matrix("second_mean", width, width),
+            key: matrix("key", width, 2 * width),
+            value: matrix("value", width, 2 * width),
+            value_shift: matrix("value_shift", 1, width),
+            pointer: matrix("pointer", width, 2 * width),
+            pointer_shift: matrix("pointer_shift", 1, width),
+            means: matrix("means", width, 2 * width),
+            hidden_shift: matrix("hidden_shift", 1, width),
         }
     }
 }
@@ -38,6 +56,17 @@ impl Products {
 impl Products {
     /// Takes the products.
     pub(crate) fn prepare(&self, weights: &Weights, params: &[f32], derived: &mut [f32]) {
+        self.prepare_encoder(weights, params, derived);
+        self.prepare_decoder(weights, params, derived);
+    }
+
+    /// From the slopes of the products, behind those of the weights, to the weights' own.
+    pub(crate) fn finish(&self, weights: &Weights, params: &[f32], gradient: &mut [f32]) {
+        self.finish_encoder(weights, params, gradient);
+        self.finish_decoder(weights, params, gradient);
+    }
+
+    fn prepare_encoder(&self, weights: &Weights, params: &[f32], derived: &mut [f32]) {
         let here = |slot: Slot| slot.counted_from(params.len());
         let node = weights.node.weight.matrix(params);
         let [at_node, once, twice] = weights.first.map(|hop| hop.matrix(params));
@@ -61,8 +90,7 @@ impl Products {
         add(twice, to);
     }
 
-    /// From the slopes of the products, behind those of the weights, to the weights' own.
-    pub(crate) fn finish(&self, weights: &Weights, params: &[f32], gradient: &mut [f32]) {
+    fn finish_encoder(&self, weights: &Weights, params: &[f32], gradient: &mut [f32]) {
         let (own, behind) = gradient.split_at_mut(params.len());
         let here = |slot: Slot| slot.counted_from(params.len());
         let node_slopes = here(self.first_node).matrix(behind);
@@ -95,6 +123,65 @@ impl Products {
         once.part_mut(own).copy_from_slice(here(self.second_mean).part(behind));
         add_part(at_node, once, own);
         copy_part(once, twice, own);
+    }
+
+    fn prepare_decoder(&self, weights: &Weights, params: &[f32], derived: &mut [f32]) {
+        let here = |slot: Slot| slot.counted_from(params.len());
+        let embed = weights.embed.weight.matrix(params);
+        let bias = weights.embed.bias.matrix(params);
+        for (product, weight) in
+            [(self.key, weights.key), (self.value, weights.value), (self.means, weights.means)]
+        {
+            let to = here(product).matrix_mut(derived);
+            multiply(to, Write::Set, weight.matrix(params).transposed(), embed.transposed());
+        }
+        let to = here(self.value_shift).matrix_mut(derived);
+        multiply(to, Write::Set, bias, weights.value.matrix(params));
+        let to = here(self.hidden_shift);
+        to.part_mut(derived).copy_from_slice(weights.hidden_bias.part(params));
+        multiply(to.matrix_mut(derived), Write::Add, bias, weights.means.matrix(params));
+
+        let pointer = weights.pointer.matrix(params);
+        let to = here(self.pointer).matrix_mut(derived);
+        multiply(to, Write::Set, pointer, embed.transposed());
+        let to = here(self.pointer_shift).matrix_mut(derived);
+        multiply(to, Write::Set, bias, pointer.transposed());
+    }
+
+    fn finish_decoder(&self, weights: &Weights, params: &[f32], gradient: &mut [f32]) {
+        let (own, behind) = gradient.split_at_mut(params.len());
+        let slopes = |slot: Slot| slot.counted_from(params.len()).matrix(behind);
+        let embed = weights.embed.weight.matrix(params);
+        let bias = weights.embed.bias.matrix(params);
+        weights.embed.weight.part_mut(own).fill(0.0);
+        weights.embed.bias.part_mut(own).fill(0.0);
+        for (product, weight) in
+            [(self.key, weights.key), (self.value, weights.value), (self.means, weights.means)]
+        {
+            let slopes = slopes(product).transposed();
+            multiply(weight.matrix_mut(own), Write::Set, embed.transposed(), slopes);
+            let to = weights.embed.weight.matrix_mut(own);
+            multiply(to, Write::Add, slopes, weight.matrix(params).transposed());
+        }
+        for (shift, weight) in
+            [(self.value_shift, weights.value), (self.hidden_shift, weights.means)]
+        {
+            multiply(weight.matrix_mut(own), Write::Add, bias.transposed(), slopes(shift));
+            let to = weights.embed.bias.matrix_mut(own);
+            multiply(to, Write::Add, slopes(shift), weight.matrix(params).transposed());
+        }
+        add(
+            self.hidden_shift.counted_from(params.len()).part(behind),
+            weights.hidden_bias.part_mut(own),
+        );
+
+        let pointer = weights.pointer.matrix(params);
+        multiply(weights.pointer.matrix_mut(own), Write::Set, slopes(self.pointer), embed);
+        let to = weights.embed.weight.matrix_mut(own);
+        multiply(to, Write::Add, slopes(self.pointer).transposed(), pointer);
+        let shift = slopes(self.pointer_shift);
+        multiply(weights.pointer.matrix_mut(own), Write::Add, shift.transposed(), bias);
+        multiply(weights.embed.bias.matrix_mut(own), Write::Add, shift, pointer);
     }
 }
 

@@ -1,9 +1,9 @@
-//! How the decoder reads a sample's node embeddings: attention over them, their mean, and each one's own logit.
+//! How the decoder reads a sample's capsules: attention over them, their mean, and each one's own logit.
 //!
 //! A sample has one query, so keys and values of all nodes are never formed. A head's query is brought to the nodes'
-//! side (u = W_K q), its scores are E . u, and what its attention collects, a E, goes through W_V afterwards. All of a
-//! sample's reads are rows of the nodes' width, so they are kept together, and going back the slopes of the node
-//! embeddings are one product, `factors^T rows`:
+//! side (u = W_K q), its scores are C . u, and what its attention collects, a C, goes through W_V afterwards. All of a
+//! sample's reads are rows of the nodes' width, so they are kept together, and going back the slopes of the
+//! capsules are one product, `factors^T rows`:
 //!
 //! | rows | factors |
 //! |---|---|
@@ -20,7 +20,7 @@ use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 pub(crate) struct Reads {
     pub(crate) vertiports: usize,
     pub(crate) heads: usize,
-    /// Width of the embeddings read.
+    /// Width of a capsule.
     pub(crate) width: usize,
     /// What scores are multiplied by, 1 / sqrt(d).
     pub(crate) score_scale: f32,
@@ -39,8 +39,22 @@ pub(crate) struct ReadsSpace {
     pub(crate) collected: Vec<f32>,
     /// [width].
     pub(crate) means: Vec<f32>,
+    /// What is added to all of a sample's logits; going back, its slopes [1].
+    logit_shifts: Vec<f32>,
     /// Slopes of queries and pointer [(heads + 1) x width].
     query_slopes: Vec<f32>,
+}
+
+impl ReadsSpace {
+    /// Where the shifts of the logits are to be written.
+    pub(crate) fn logit_shifts(&mut self, batch: usize) -> MatrixMut<'_> {
+        MatrixMut::new(&mut self.logit_shifts[..batch], batch, 1)
+    }
+
+    /// The slopes of the shifts.
+    pub(crate) fn shift_slopes(&self, batch: usize) -> Matrix<'_> {
+        Matrix::new(&self.logit_shifts[..batch], batch, 1)
+    }
 }
 
 impl Reads {
@@ -54,6 +68,7 @@ impl Reads {
             factors: vec![1.0 / self.vertiports as f32; batch * self.block() * self.vertiports],
             collected: vec![0.0; batch * self.heads * self.width],
             means: vec![0.0; batch * self.width],
+            logit_shifts: vec![0.0; batch],
             query_slopes: vec![0.0; batch * (self.heads + 1) * self.width],
         }
     }
@@ -75,7 +90,12 @@ impl Reads {
     }
 
     /// Where the slopes of what a head collected are to be written.
-    pub(crate) fn collected_slopes(self, space: &mut ReadsSpace, batch: usize, head: usize) -> MatrixMut<'_> {
+    pub(crate) fn collected_slopes(
+        self,
+        space: &mut ReadsSpace,
+        batch: usize,
+        head: usize,
+    ) -> MatrixMut<'_> {
         self.row(space, batch, head)
     }
 
@@ -87,19 +107,21 @@ impl Reads {
     /// What a head collected, of every sample.
     pub(crate) fn collected(self, space: &ReadsSpace, batch: usize, head: usize) -> Matrix<'_> {
         let collected = &space.collected[..batch * self.heads * self.width];
-        Matrix::new(collected, batch, self.heads * self.width).columns(head * self.width, self.width)
+        Matrix::new(collected, batch, self.heads * self.width)
+            .columns(head * self.width, self.width)
     }
 
     /// The slopes of a head's query; of the pointer for the head behind the last.
     pub(crate) fn query_slopes(self, space: &ReadsSpace, batch: usize, head: usize) -> Matrix<'_> {
         let slopes = &space.query_slopes[..batch * (self.heads + 1) * self.width];
-        Matrix::new(slopes, batch, (self.heads + 1) * self.width).columns(head * self.width, self.width)
+        Matrix::new(slopes, batch, (self.heads + 1) * self.width)
+            .columns(head * self.width, self.width)
     }
 
     /// Eq. 20 for all heads, once the queries are there; and the means.
-    pub(crate) fn attend(self, embeddings: &[f32], space: &mut ReadsSpace) {
+    pub(crate) fn attend(self, capsules: &[f32], space: &mut ReadsSpace) {
         let Self { vertiports, heads, width, .. } = self;
-        let nodes = embeddings.chunks_exact(vertiports * width);
+        let nodes = capsules.chunks_exact(vertiports * width);
         let rows = space.rows.chunks_exact(self.block() * width);
         let factors = space.factors.chunks_exact_mut(self.block() * vertiports);
         let collected = space.collected.chunks_exact_mut(heads * width);
@@ -109,64 +131,101 @@ impl Reads {
             let attention = &mut factors[..heads * vertiports];
             let scores = MatrixMut::new(attention, heads, vertiports);
             multiply(scores, Write::Set, queries, nodes.transposed());
-            attention.chunks_exact_mut(vertiports).for_each(|scores| softmax(scores, self.score_scale));
+            attention
+                .chunks_exact_mut(vertiports)
+                .for_each(|scores| softmax(scores, self.score_scale));
             let attention = Matrix::new(attention, heads, vertiports);
             multiply(MatrixMut::new(collected, heads, width), Write::Set, attention, nodes);
         }
-        let batch = embeddings.len() / (vertiports * width);
+        let batch = capsules.len() / (vertiports * width);
         let means = &mut space.means[..batch * width];
-        sum_groups(embeddings, (vertiports, width), 1.0 / vertiports as f32, means);
+        sum_groups(capsules, (vertiports, width), 1.0 / vertiports as f32, means);
     }
 
-    /// Logits of every node, once the pointers are there; minus infinity where the mask is 0.
-    pub(crate) fn point(self, embeddings: &[f32], mask: &[u8], space: &ReadsSpace, logits: &mut [f32]) {
+    /// Logits of every node, once pointers and shifts are there; minus infinity where the mask is 0.
+    pub(crate) fn point(
+        self,
+        capsules: &[f32],
+        mask: &[u8],
+        space: &ReadsSpace,
+        logits: &mut [f32],
+    ) {
         let Self { vertiports, heads, width, .. } = self;
-        let nodes = embeddings.chunks_exact(vertiports * width);
+        let nodes = capsules.chunks_exact(vertiports * width);
         let rows = space.rows.chunks_exact(self.block() * width);
-        for ((nodes, rows), logits) in nodes.zip(rows).zip(logits.chunks_exact_mut(vertiports)) {
+        let rows = rows.zip(&space.logit_shifts);
+        for ((nodes, (rows, shift)), logits) in
+            nodes.zip(rows).zip(logits.chunks_exact_mut(vertiports))
+        {
             let pointer = Matrix::new(&rows[2 * heads * width..][..width], 1, width);
             let nodes = Matrix::new(nodes, vertiports, width).transposed();
-            multiply(MatrixMut::new(logits, 1, vertiports), Write::Set, pointer, nodes);
+            logits.fill(*shift);
+            multiply(MatrixMut::new(logits, 1, vertiports), Write::Add, pointer, nodes);
         }
         for (logit, &open) in logits.iter_mut().zip(mask) {
             *logit = if open == 0 { f32::NEG_INFINITY } else { *logit * self.logit_scale };
         }
     }
 
-    /// From the logits' slopes to the pointers' slopes.
-    pub(crate) fn point_backward(self, embeddings: &[f32], mask: &[u8], slopes: &[f32], space: &mut ReadsSpace) {
+    /// From the logits' slopes to those of pointers and shifts.
+    pub(crate) fn point_backward(
+        self,
+        capsules: &[f32],
+        mask: &[u8],
+        slopes: &[f32],
+        space: &mut ReadsSpace,
+    ) {
         let Self { vertiports, heads, width, .. } = self;
         let factors = space.factors.chunks_exact_mut(self.block() * vertiports);
         let of_logits = mask.chunks_exact(vertiports).zip(slopes.chunks_exact(vertiports));
-        let nodes = embeddings.chunks_exact(vertiports * width);
+        let nodes = capsules.chunks_exact(vertiports * width);
         let to = space.query_slopes.chunks_exact_mut((heads + 1) * width);
-        for (((mask, slopes), nodes), (factors, to)) in of_logits.zip(nodes).zip(factors.zip(to)) {
+        let to = to.zip(&mut space.logit_shifts);
+        for (((mask, slopes), nodes), (factors, (to, shift))) in
+            of_logits.zip(nodes).zip(factors.zip(to))
+        {
             let factors = &mut factors[2 * heads * vertiports..][..vertiports];
             for ((factor, slope), &open) in factors.iter_mut().zip(slopes).zip(mask) {
                 *factor = if open == 0 { 0.0 } else { slope * self.logit_scale };
             }
+            *shift = factors.iter().sum();
             let to = MatrixMut::new(&mut to[heads * width..], 1, width);
             let nodes = Matrix::new(nodes, vertiports, width);
             multiply(to, Write::Set, Matrix::new(factors, 1, vertiports), nodes);
         }
     }
 
-    /// From the slopes of what was collected to the queries' slopes and, all reads together, the embeddings'.
-    pub(crate) fn attend_backward(self, embeddings: &[f32], space: &mut ReadsSpace, slopes: &mut [f32]) {
+    /// From the slopes of what was collected to the queries' slopes and, all reads together, the capsules'.
+    pub(crate) fn attend_backward(
+        self,
+        capsules: &[f32],
+        space: &mut ReadsSpace,
+        slopes: &mut [f32],
+    ) {
         let Self { vertiports, heads, width, .. } = self;
-        let nodes = embeddings.chunks_exact(vertiports * width);
+        let nodes = capsules.chunks_exact(vertiports * width);
         let rows = space.rows.chunks_exact(self.block() * width);
         let factors = space.factors.chunks_exact_mut(self.block() * vertiports);
         let to = space.query_slopes.chunks_exact_mut((heads + 1) * width);
         let slopes = slopes.chunks_exact_mut(vertiports * width);
-        for ((((nodes, rows), factors), to), slopes) in nodes.zip(rows).zip(factors).zip(to).zip(slopes) {
+        for ((((nodes, rows), factors), to), slopes) in
+            nodes.zip(rows).zip(factors).zip(to).zip(slopes)
+        {
             let nodes = Matrix::new(nodes, vertiports, width);
             let collected = Matrix::new(&rows[..heads * width], heads, width);
             let (attention, rest) = factors.split_at_mut(heads * vertiports);
             let scores = &mut rest[..heads * vertiports];
-            multiply(MatrixMut::new(scores, heads, vertiports), Write::Set, collected, nodes.transposed());
-            let of_heads = attention.chunks_exact(vertiports).zip(scores.chunks_exact_mut(vertiports));
-            of_heads.for_each(|(attention, slopes)| softmax_backward(attention, slopes, self.score_scale));
+            multiply(
+                MatrixMut::new(scores, heads, vertiports),
+                Write::Set,
+                collected,
+                nodes.transposed(),
+            );
+            let of_heads =
+                attention.chunks_exact(vertiports).zip(scores.chunks_exact_mut(vertiports));
+            of_heads.for_each(|(attention, slopes)| {
+                softmax_backward(attention, slopes, self.score_scale);
+            });
             let to = MatrixMut::new(&mut to[..heads * width], heads, width);
             multiply(to, Write::Set, Matrix::new(scores, heads, vertiports), nodes);
 

@@ -1,0 +1,184 @@
+//! The commands as a user runs them.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use assert_cmd::cargo::cargo_bin_cmd;
+use serde_json::Value;
+
+fn vertifleet(folder: &Path, arguments: &str) -> Command {
+    let mut command = cargo_bin_cmd!("vertifleet");
+    command.current_dir(folder).args(arguments.split_whitespace());
+    command
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn stdout(folder: &Path, arguments: &str) -> String {
+    let output = vertifleet(folder, arguments).assert().success().get_output().stdout.clone();
+    String::from_utf8(output).expect("text")
+}
+
+/// What a failing command says, and that it says it on stderr alone.
+fn failure(folder: &Path, arguments: &str, code: i32) -> String {
+    let assert = vertifleet(folder, arguments).assert().code(code);
+    assert!(assert.get_output().stdout.is_empty(), "stdout is for results");
+    String::from_utf8(assert.get_output().stderr.clone()).expect("text")
+}
+
+#[test]
+fn a_day_is_drawn_played_checked_and_replayed() {
+    let folder = folder();
+    let at = folder.path();
+    stdout(at, "scenario paper --seed 7 -o day.json");
+    for policy in ["random", "greedy", "lookahead", "gcaps", "mlp"] {
+        let played = stdout(
+            at,
+            &format!("simulate day.json --policy {policy} --seed 3 --trace {policy}.csv --json"),
+        );
+        let verdict = stdout(at, &format!("check day.json {policy}.csv --json"));
+        let replayed =
+            stdout(at, &format!("simulate day.json --policy replay:{policy}.csv --json"));
+        assert_eq!(played, replayed, "{policy}");
+
+        let played: Value = serde_json::from_str(&played).expect("JSON");
+        let verdict: Value = serde_json::from_str(&verdict).expect("JSON");
+        assert_eq!(verdict["valid"], true);
+        let (found, stated) = (&verdict["totals"]["profit"], &played["profit"]);
+        let apart = found.as_f64().expect("dollars") - stated.as_f64().expect("dollars");
+        assert!(apart.abs() < 1e-6, "{policy}: {found} is not {stated}");
+    }
+}
+
+#[test]
+fn simulate_prints_every_number_of_the_day() {
+    let folder = folder();
+    stdout(folder.path(), "scenario paper --seed 1 -o day.json");
+    let text = stdout(folder.path(), "simulate day.json --policy greedy --json");
+    let day: Value = serde_json::from_str(&text).expect("JSON");
+    let number = |name: &str| day[name].as_f64().unwrap_or_else(|| panic!("{name} is missing"));
+    assert_eq!(number("decisions"), number("flights") + number("holds"));
+    assert!((number("reward") - number("profit") / number("potential")).abs() < 1e-12);
+    let earned = number("revenue") - number("passenger_cost") - number("energy_cost");
+    assert!((number("profit") - earned).abs() < 1e-9);
+    for name in
+        ["energy_kwh", "repositioning_flights", "passengers", "spilled_passengers", "load_factor"]
+    {
+        number(name);
+    }
+    let people = stdout(folder.path(), "simulate day.json --policy greedy");
+    assert!(people.contains("profit") && people.contains("load factor"));
+}
+
+#[test]
+fn the_same_command_prints_the_same_on_any_number_of_threads() {
+    let folder = folder();
+    let compare = |threads: u32| {
+        let text = stdout(
+            folder.path(),
+            &format!(
+                "compare --network paper --policies random,greedy,gcaps --days 6 --seed 5 --json --threads {threads}"
+            ),
+        );
+        let mut results: Value = serde_json::from_str(&text).expect("JSON");
+        // Times per decision and the command itself are the only things that may differ.
+        results["command"].take();
+        for policy in results["policies"].as_array_mut().expect("a list") {
+            policy["decision_ns"].take();
+        }
+        results
+    };
+    assert_eq!(compare(1), compare(2));
+}
+
+#[test]
+fn a_report_is_a_folder_with_a_page_figures_and_tables() {
+    let folder = folder();
+    stdout(
+        folder.path(),
+        "compare --network paper --policies random,greedy,gcaps --days 4 --seed 9 --report out",
+    );
+    for name in
+        ["report.html", "days.csv", "summary.json", "figure-4-reward.svg", "figure-5-profit.png"]
+    {
+        assert!(folder.path().join("out").join(name).exists(), "{name}");
+    }
+}
+
+#[test]
+fn many_days_go_into_a_folder() {
+    let folder = folder();
+    stdout(folder.path(), "scenario paper --seed 7 --days 3 -o days");
+    for seed in 7..10 {
+        let text = fs::read_to_string(folder.path().join(format!("days/paper-{seed}.json")))
+            .expect("a day");
+        assert_eq!(text, stdout(folder.path(), &format!("scenario paper --seed {seed}")));
+    }
+}
+
+#[test]
+fn a_broken_rule_is_named_and_the_exit_code_is_1() {
+    let folder = folder();
+    let at = folder.path();
+    stdout(at, "scenario paper --seed 7 -o day.json");
+    stdout(at, "simulate day.json --policy greedy --trace trace.csv");
+    let trace = fs::read_to_string(at.join("trace.csv")).expect("a trace");
+    let mut lines: Vec<&str> = trace.lines().collect();
+    lines.remove(30);
+    fs::write(at.join("trace.csv"), lines.join("\n")).expect("a file");
+    let output =
+        vertifleet(at, "check day.json trace.csv").assert().code(1).get_output().stdout.clone();
+    let text = String::from_utf8(output).expect("text");
+    assert!(text.contains("decision"), "{text}");
+}
+
+#[test]
+fn training_leaves_weights_that_run() {
+    let folder = folder();
+    let settings = "--steps 400 --set n_envs=4 --set n_steps=50 --set batch_size=100 --set n_epochs=1 --set eval_days=2";
+    let train = format!("train --network paper --policy mlp {settings} --out run");
+    stdout(folder.path(), &train);
+    let first = fs::read(folder.path().join("run/mlp.safetensors")).expect("weights");
+    stdout(folder.path(), &train.replace("--out run", "--out again --threads 1"));
+    let again = fs::read(folder.path().join("again/mlp.safetensors")).expect("weights");
+    assert!(first == again, "same seed, same weights");
+
+    let compare = "compare --network paper --policies greedy,mine --days 2 --seed 1 --model mine=run/mlp.safetensors";
+    assert!(stdout(folder.path(), compare).contains("mine"));
+    stdout(folder.path(), "scenario paper --seed 7 -o day.json");
+    stdout(folder.path(), "simulate day.json --policy mlp --model run/mlp.safetensors");
+}
+
+#[test]
+fn what_users_get_wrong_has_a_code_and_a_way_out() {
+    let folder = folder();
+    let at = folder.path();
+    stdout(at, "scenario paper --seed 7 -o day.json");
+    stdout(at, "scenario paper --seed 8 -o other.json");
+    stdout(at, "simulate other.json --policy greedy --trace other.csv");
+    fs::write(at.join("broken.json"), "{").expect("a file");
+    let cases = [
+        ("simulate nowhere.json --policy greedy", "V101"),
+        ("simulate broken.json --policy greedy", "V105"),
+        ("scenario nowhere --seed 1", "V1"),
+        ("scenario paper --seed 9999999999999999", "V1"),
+        ("simulate day.json --policy fastest", "V307"),
+        ("simulate day.json --policy gcaps --model day.json", "V304"),
+        ("simulate day.json --policy greedy --model day.json", "V450"),
+        ("simulate day.json --policy replay:other.csv", "V451"),
+        ("train --network paper --policy mlp --out run --set speed=9", "V302"),
+        ("train --network paper --policy mlp --out run --set gamma=9", "V303"),
+        ("train --network paper --policy mlp --out run --preset best", "V301"),
+        ("compare --network paper --policies greedy --days 1 --seed 1 --model gcaps=x", "V450"),
+        ("compare --network paper --policies greedy,greedy --days 1 --seed 1", "V404"),
+    ];
+    for (arguments, code) in cases {
+        let said = failure(at, arguments, 2);
+        assert!(said.starts_with(&format!("error[{code}")), "{arguments}: {said}");
+    }
+    failure(at, "simulate", 2);
+    failure(at, "fly", 2);
+}

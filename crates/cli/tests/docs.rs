@@ -1,0 +1,241 @@
+//! The documentation is true: error index, links, architecture page and command reference match code and tree.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use serde_json::Value;
+use vertifleet_learn::Settings;
+
+type Names = BTreeSet<String>;
+
+const COMMANDS: [&str; 5] = ["scenario", "simulate", "check", "train", "compare"];
+
+fn root() -> PathBuf {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("crates/cli is in a folder");
+    crates.parent().expect("crates is in a folder").to_owned()
+}
+
+fn text(path: impl AsRef<Path>) -> String {
+    let path = root().join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// All files below a folder whose name ends in `ending`.
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder of the project") {
+        let path = entry.expect("an entry of a folder").path();
+        if path.is_dir() {
+            found.extend(files(&path, ending));
+        } else if path.to_string_lossy().ends_with(ending) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// The pages of the book, and those at the root of the project.
+fn pages() -> Vec<PathBuf> {
+    let mut pages = files(&root().join("docs/src"), ".md");
+    pages.extend(["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(|page| root().join(page)));
+    pages
+}
+
+/// The page without blocks of code that stand between fences.
+fn prose(page: &str) -> String {
+    page.split("```").step_by(2).collect()
+}
+
+fn headings(page: &str) -> impl Iterator<Item = &str> {
+    page.lines()
+        .filter_map(|line| line.strip_prefix('#'))
+        .map(|line| line.trim_start_matches('#').trim())
+}
+
+/// The three digits that `text` begins with, if there are exactly three.
+fn code(text: &str) -> Option<&str> {
+    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+    (digits == 3).then(|| &text[..3])
+}
+
+/// The codes that stand right behind `before`, wherever it occurs.
+fn codes_behind(text: &str, before: &str) -> Vec<String> {
+    text.split(before).skip(1).filter_map(code).map(|digits| format!("V{digits}")).collect()
+}
+
+#[test]
+fn every_error_code_has_an_entry_and_every_entry_a_code() {
+    let mut used = Names::new();
+    for source in files(&root().join("crates"), ".rs") {
+        if source.components().any(|part| part.as_os_str() == "src") {
+            let source = text(source);
+            used.extend(codes_behind(&source, "Code("));
+            used.extend(codes_behind(&source, "    /// V"));
+        }
+    }
+    let page = text("docs/src/reference/errors.md");
+    let entries: Vec<String> = codes_behind(&page, "\n## V");
+    assert!(entries.is_sorted_by(|one, next| one < next), "entries are in order, none twice");
+    assert!(used.len() > 30, "the sources still write their codes in a way that this test finds");
+    assert_eq!(Names::from_iter(entries), used);
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    for page in pages() {
+        let folder = page.parent().expect("a page is in a folder");
+        for target in prose(&text(&page)).split("](").skip(1) {
+            let target = target.split(')').next().expect("split gives at least one part");
+            if target.starts_with("https://") {
+                continue;
+            }
+            let (path, anchor) = target.split_once('#').unwrap_or((target, ""));
+            let file = if path.is_empty() { page.clone() } else { folder.join(path) };
+            assert!(file.exists(), "{}: nothing at {target}", page.display());
+            let leads =
+                anchor.is_empty() || headings(&text(&file)).any(|heading| slug(heading) == anchor);
+            assert!(leads, "{}: no such heading: {target}", page.display());
+        }
+    }
+}
+
+/// The anchor that mdBook gives a heading.
+fn slug(heading: &str) -> String {
+    let kept = heading.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+    kept.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()
+}
+
+#[test]
+fn the_summary_lists_every_page() {
+    let book = root().join("docs/src");
+    let summary = text("docs/src/SUMMARY.md");
+    let listed = summary.split("](").skip(1).filter_map(|target| target.split(')').next());
+    let listed: Names = listed.map(str::to_owned).collect();
+    let pages = files(&book, ".md").into_iter().map(|page| {
+        page.strip_prefix(&book).expect("a page of the book").to_string_lossy().replace('\\', "/")
+    });
+    assert_eq!(listed, pages.filter(|page| page != "SUMMARY.md").collect());
+}
+
+#[test]
+fn the_architecture_page_names_every_crate_and_every_dependency() {
+    let page = text("docs/src/architecture.md");
+    for entry in fs::read_dir(root().join("crates")).expect("the folder of crates") {
+        let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
+        assert!(page.contains(&format!("| `crates/{name}` |")), "crates/{name} has no row");
+    }
+    let (_, tables) = page.split_once("## Dependencies").expect("a section on dependencies");
+    let rows = tables.lines().filter(|line| line.starts_with("| `"));
+    let named: Names = rows
+        .flat_map(|row| row.split('|').nth(1).expect("a first cell").split('`').skip(1).step_by(2))
+        .map(str::to_owned)
+        .collect();
+    let manifest = text("Cargo.toml");
+    let (_, section) = manifest.split_once("[workspace.dependencies]").expect("a section");
+    let lines = section.lines().take_while(|line| !line.starts_with('['));
+    let asked = lines.filter_map(|line| line.split_once(" = ")).map(|(name, _)| name.to_owned());
+    assert_eq!(named, asked.filter(|name| !name.starts_with('#')).collect());
+}
+
+/// What `vertifleet ... --help` prints.
+fn help(arguments: &[&str]) -> String {
+    let output = Command::cargo_bin("vertifleet").expect("the program").args(arguments).output();
+    String::from_utf8(output.expect("the program runs").stdout).expect("help is text")
+}
+
+/// Long flags in a text, where a word begins with two dashes.
+fn long_flags(text: &str) -> Names {
+    let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
+    words.filter(|word| word.len() > 2 && word.starts_with("--")).map(str::to_owned).collect()
+}
+
+/// The flags that help lists; what it says about them may mention others.
+fn flags_in_help(help: &str) -> Names {
+    let options = help.lines().filter(|line| line.trim_start().starts_with('-'));
+    options
+        .flat_map(|line| long_flags(line.trim_start().split("  ").next().unwrap_or("")))
+        .collect()
+}
+
+/// The flags that a section's table lists.
+fn flags_in_section(section: &str) -> Names {
+    let rows = section.lines().filter(|line| line.starts_with("| `-"));
+    rows.flat_map(|row| long_flags(row.split('|').nth(1).expect("a first cell"))).collect()
+}
+
+/// The section of the command reference under this heading.
+fn section(heading: &str) -> String {
+    let page = text("docs/src/reference/commands.md");
+    let (_, rest) = page.split_once(&format!("\n## {heading}\n")).expect("a section of that name");
+    rest.split("\n## ").next().expect("split gives at least one part").to_owned()
+}
+
+#[test]
+fn the_command_reference_lists_the_flags_that_help_lists() {
+    let everywhere = flags_in_section(&section("Every command"));
+    assert_eq!(flags_in_help(&help(&["--help"])), everywhere);
+    let help_of_the_program = help(&["--help"]);
+    for command in COMMANDS {
+        let section = section(&format!("vertifleet {command}"));
+        let mut listed = flags_in_section(&section);
+        listed.extend(everywhere.iter().cloned());
+        assert_eq!(listed, flags_in_help(&help(&[command, "--help"])), "{command}");
+        assert!(help_of_the_program.contains(&format!("\n  {command} ")), "{command} is a command");
+    }
+    let (_, listed) = help_of_the_program.split_once("Commands:\n").expect("a list of commands");
+    let listed = listed.lines().take_while(|line| !line.is_empty()).count();
+    assert_eq!(listed, COMMANDS.len() + 1, "the five commands and help, no other");
+}
+
+#[test]
+fn commands_in_the_pages_use_flags_that_exist() {
+    for command in COMMANDS {
+        let known = flags_in_help(&help(&[command, "--help"]));
+        for page in pages() {
+            let page_text = text(&page).replace("\\\n", " ");
+            for line in page_text.lines().filter(|line| !line.starts_with('|')) {
+                let Some((_, rest)) = line.split_once(&format!("vertifleet {command} ")) else {
+                    continue;
+                };
+                let used = long_flags(rest);
+                assert!(used.is_subset(&known), "{}: {line}", page.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_command_reference_lists_the_rules_of_the_checker() {
+    let source = text("crates/sim/src/check/rule.rs");
+    let rules = source.split("= \"").skip(1).filter_map(|rest| rest.split('"').next());
+    let section = section("vertifleet check");
+    for rule in rules {
+        assert!(section.contains(&format!("| `{rule}` |")), "{rule} is not listed");
+    }
+}
+
+/// A setting as the training page writes it, compared with its value.
+fn says(cell: &str, value: &Value) -> bool {
+    match (value.as_f64(), cell.trim().replace(',', "").parse::<f64>()) {
+        (Some(value), Ok(written)) => (value - written).abs() <= 1e-6 * written.abs(),
+        _ => value.as_str().is_some_and(|word| cell.trim() == format!("`{word}`")),
+    }
+}
+
+#[test]
+fn the_training_page_lists_every_setting_of_both_presets() {
+    let preset =
+        |name| serde_json::to_value(Settings::preset(name).expect("a preset")).expect("plain data");
+    let (paper, default) = (preset("paper"), preset("default"));
+    let page = text("docs/src/concepts/training.md");
+    for (name, value) in paper.as_object().expect("settings have names") {
+        let row = page.lines().find(|line| line.starts_with(&format!("| `{name}` | ")));
+        let cells: Vec<&str> =
+            row.unwrap_or_else(|| panic!("{name} is not listed")).split('|').collect();
+        assert!(says(cells[2], value), "{name} of paper is {value}");
+        assert!(says(cells[3], &default[name]), "{name} of default is {}", default[name]);
+    }
+}

@@ -1,0 +1,166 @@
+//! What the rules promise, on days of the `paper` network.
+
+use std::sync::Arc;
+
+use vertifleet_core::{DaySeed, Network, Scenario, VertiportIx};
+use vertifleet_policy::{Greedy, Lookahead, PlayError, Policy, PolicyError, Random, Replay, play};
+use vertifleet_sim::{Decision, Simulation, Trace, View, check::check};
+
+fn day(seed: u64) -> Arc<Scenario> {
+    let network = Network::shipped("paper").expect("a shipped network");
+    Arc::new(network.draw(DaySeed::validation(seed).expect("a seed")))
+}
+
+fn trace_of(day: &Arc<Scenario>, policy: &mut dyn Policy) -> (Trace, f64) {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    let mut trace = Trace::default();
+    play(&mut simulation, policy, |row| trace.rows.push(*row)).expect("the policy plays the day");
+    (trace, simulation.summary().profit)
+}
+
+fn rules() -> [(&'static str, Box<dyn Policy>); 3] {
+    [
+        ("random", Box::new(Random::new(1))),
+        ("greedy", Box::new(Greedy)),
+        ("lookahead", Box::new(Lookahead)),
+    ]
+}
+
+#[test]
+fn every_rule_leaves_a_schedule_that_passes_the_check() {
+    for (name, mut policy) in rules() {
+        for seed in 0..5 {
+            let day = day(seed);
+            let (trace, profit) = trace_of(&day, policy.as_mut());
+            let report = check(&day, &trace);
+            assert!(report.is_valid(), "{name}: {report}");
+            assert!((report.totals.profit - profit).abs() < 1e-6, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_replay_repeats_the_day_to_the_bit() {
+    let day = day(3);
+    let (trace, profit) = trace_of(&day, &mut Random::new(8));
+    let (again, profit_again) = trace_of(&day, &mut Replay::new(Arc::new(trace.clone())));
+    assert_eq!((again, profit_again), (trace, profit));
+}
+
+#[test]
+fn a_replay_of_another_day_gets_stuck_and_says_where() {
+    let (trace, _) = trace_of(&day(3), &mut Greedy);
+    let mut simulation = Simulation::new(day(4));
+    let error = play(&mut simulation, &mut Replay::new(Arc::new(trace.clone())), |_| ())
+        .expect_err("another day's trace");
+    assert!(!error.to_string().is_empty());
+
+    let short = Trace { rows: trace.rows[..10].to_vec() };
+    let mut simulation = Simulation::new(day(3));
+    let error = play(&mut simulation, &mut Replay::new(Arc::new(short)), |_| ());
+    let expected = PolicyError::TraceTooShort {
+        rows: 10,
+        time: simulation.next_decision().expect("the day goes on").time,
+    };
+    assert_eq!(error, Err(PlayError::NoAnswer(expected)));
+}
+
+/// Asks a policy and an oracle the same question at every decision of a greedy day.
+fn on_every_decision(seed: u64, mut ask: impl FnMut(&Decision, &View<'_>)) {
+    let mut simulation = Simulation::new(day(seed));
+    while let Some(decision) = simulation.next_decision() {
+        ask(&decision, &simulation.view());
+        let choice = Greedy.choose(&decision, &simulation.view()).expect("greedy always answers");
+        simulation.apply(choice).expect("a choice from the mask");
+    }
+}
+
+#[test]
+fn greedy_takes_the_highest_profit_per_hour() {
+    let day = day(11);
+    on_every_decision(11, |decision, view| {
+        let rate = |to: VertiportIx| {
+            if to == decision.at {
+                return 0.0;
+            }
+            let pair = (decision.at, to);
+            let miles = day.distance_mi[pair];
+            let waiting = view.demand_left(view.period_at(decision.time), decision.at, to);
+            let margin = day.fare_usd[pair] - day.passenger_cost_usd[pair];
+            let profit = f64::from(waiting.min(4)) * margin - 0.2 * 2.2 * miles;
+            let hours = 0.5 + miles / 74.5 + 2.2 * miles / 150.0;
+            profit / hours
+        };
+        let choice = Greedy.choose(decision, view).expect("greedy always answers");
+        let best = view.feasible(decision).iter().map(rate).fold(f64::NEG_INFINITY, f64::max);
+        // Whole seconds move a rate by a few parts in ten thousand.
+        assert!(rate(choice) >= best - 1e-3 * best.abs(), "{} is below {best}", rate(choice));
+    });
+}
+
+#[test]
+fn lookahead_takes_the_best_two_flights_in_a_row() {
+    on_every_decision(12, |decision, view| {
+        let kind = view.kind(decision.aircraft);
+        let flight = |time, from, to| {
+            let waiting = view.demand_left(view.period_at(time), from, to);
+            let profit = view.flight_profit_usd(time, kind, (from, to), waiting);
+            (profit, f64::from(view.leg(kind, from, to).block_s()))
+        };
+        let rate = |to: VertiportIx| {
+            let first = flight(decision.time, decision.at, to);
+            let ready = decision.time + view.leg(kind, decision.at, to).block_s();
+            let seconds = VertiportIx::all(view.vertiports()).filter(|&next| {
+                let room = view.stands_taken()[next.at()] < view.stands(next);
+                next != to && (room || next == decision.at) && ready <= view.day_end()
+            });
+            seconds
+                .map(|next| {
+                    let second = flight(ready, to, next);
+                    (first.0 + second.0) / (first.1 + second.1)
+                })
+                .fold(first.0 / first.1, f64::max)
+        };
+        let others = view.feasible(decision).iter().filter(|&to| to != decision.at);
+        let best = others.map(rate).fold(0.0, f64::max);
+        let choice = Lookahead.choose(decision, view).expect("lookahead always answers");
+        let found = if choice == decision.at { 0.0 } else { rate(choice) };
+        assert!((found - best).abs() < 1e-12);
+    });
+}
+
+#[test]
+fn random_draws_evenly_from_the_mask() {
+    let day = day(5);
+    let mut simulation = Simulation::new(day);
+    let decision = simulation.next_decision().expect("a day begins");
+    let view = simulation.view();
+    let mask = view.feasible(&decision);
+    let draws = 20_000;
+    let mut counts = vec![0_u32; view.vertiports()];
+    for seed in 0..draws {
+        counts[Random::new(seed).choose(&decision, &view).expect("random always answers").at()] +=
+            1;
+    }
+    let expected = draws as f64 / f64::from(mask.len());
+    for vertiport in VertiportIx::all(view.vertiports()) {
+        let count = f64::from(counts[vertiport.at()]);
+        if mask.contains(vertiport) {
+            // Five standard deviations of a binomial draw.
+            assert!(
+                (count - expected).abs() < 5.0 * expected.sqrt(),
+                "{count} is not about {expected}"
+            );
+        } else {
+            assert_eq!(count, 0.0);
+        }
+    }
+}
+
+#[test]
+fn another_seed_or_another_day_draws_otherwise() {
+    let profit = |policy_seed, day_seed| trace_of(&day(day_seed), &mut Random::new(policy_seed)).1;
+    assert_ne!(profit(1, 0), profit(2, 0));
+    assert_ne!(profit(1, 0), profit(1, 1));
+    assert_eq!(profit(1, 0), profit(1, 0));
+}
