@@ -26,7 +26,7 @@ fn noise(name: &str, len: usize) -> Vec<f32> {
 fn weight(tensor: &Tensor) -> Vec<f32> {
     let (base, reach) = match tensor.shape.as_slice() {
         &[inputs, _] => (0.0, (2.0 / inputs as f32).sqrt()),
-        _ if tensor.name.ends_with(".scale") => (1.0, 0.25),
+        _ if tensor.name.rsplit('.').next() == Some("scale") => (1.0, 0.25),
         _ => (0.0, 0.25),
     };
     noise(&tensor.name, tensor.len()).iter().map(|noise| base + reach * noise).collect()
@@ -86,7 +86,7 @@ fn check_case(net: &Network, case: &Value) {
     for (found, expected) in workspace.logits().iter().zip(&logits) {
         match expected {
             Some(expected) => assert_close("logit", f64::from(*found), *expected, 2e-5),
-            None => assert_eq!(*found, f32::NEG_INFINITY, "a masked logit"),
+            None => assert!(found.is_infinite() && *found < 0.0, "a masked logit: {found}"),
         }
     }
     for (found, expected) in workspace.values().iter().zip(numbers(&case["values"])) {

@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
         network: network.name().to_owned(),
         seed: arguments.seed,
         days: days.len(),
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        command: command(),
         policies: play(&days, &recipes)?,
         curves: curves(&recipes),
     };
@@ -97,4 +97,12 @@ fn curves(recipes: &[(String, Recipe)]) -> Vec<Curve> {
         (!points.is_empty()).then(|| Curve { name: name.clone(), points })
     };
     recipes.iter().filter_map(curve).collect()
+}
+
+/// The command as anyone can type it, wherever the program lies.
+fn command() -> String {
+    std::iter::once("vertifleet".to_owned())
+        .chain(std::env::args().skip(1))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
