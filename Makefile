@@ -18,11 +18,11 @@ lint: prepare
 bench: prepare
 	cargo bench --workspace --locked
 
-# How the shipped weights were made (about 15 minutes each on 2 cores).
+# How the shipped weights were made; they are then copied from out/train to models/paper, with their curves.
 train: prepare
 	cargo build --release --locked -p vertifleet-cli
-	./target/release/vertifleet train --network paper --policy gcaps --seed 1 --out models/paper
-	./target/release/vertifleet train --network paper --policy mlp --seed 1 --out models/paper
+	./target/release/vertifleet train --network paper --policy gcaps --seed 1 --out out/train
+	./target/release/vertifleet train --network paper --policy mlp --seed 1 --out out/train
 
 prepare:
 	@scripts/prepare

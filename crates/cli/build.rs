@@ -9,6 +9,10 @@ fn main() {
         output.status.success().then(|| text.trim().to_owned())
     };
     let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
+    // Sources only: what lies about beside them does not change the program.
+    let changed = git(&["status", "--porcelain", "--", ":/crates", ":/networks", ":/Cargo.lock"]);
+    let mark = if changed.is_some_and(|files| !files.is_empty()) { "-dirty" } else { "" };
+    let commit = commit + mark;
     println!("cargo::rustc-env=VERTIFLEET_COMMIT={commit}");
     if let Some(folder) = git(&["rev-parse", "--absolute-git-dir"]) {
         println!("cargo::rerun-if-changed={folder}/logs/HEAD");

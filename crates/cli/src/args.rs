@@ -85,6 +85,16 @@ pub(crate) enum Trainable {
     Mlp,
 }
 
+impl Trainable {
+    /// The policy's name.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Gcaps => "gcaps",
+            Self::Mlp => "mlp",
+        }
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct TrainArguments {
     /// Network file, or the name of a shipped network (paper)

@@ -17,7 +17,8 @@ use crate::failure::Failure;
 fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
     let scenario = Scenario::read(path)?;
     for warning in scenario.warnings() {
-        eprintln!("\u{1b}[1;33mwarning\u{1b}[0m: {}: {warning}", path.display());
+        let (yellow, reset) = ("\u{1b}[1;33m", "\u{1b}[0m");
+        eprintln!("{yellow}warning[{}]{reset}: {}: {warning}", warning.code(), path.display());
     }
     Ok(scenario)
 }

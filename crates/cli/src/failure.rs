@@ -1,4 +1,7 @@
 //! How the program fails: a coded message and a hint on stderr, and an exit code.
+//!
+//! Exit code 2 is for what the user typed or wrote; 1 is for what went wrong although that was right: a disk that is
+//! full, a policy that gets stuck, a training that diverges.
 
 use std::fmt;
 use std::process::ExitCode;
@@ -6,7 +9,10 @@ use std::process::ExitCode;
 use anstream::eprintln;
 use vertifleet_core::Code;
 
-/// Exit code 2: wrong usage or bad input. Exit code 1: anything else that went wrong.
+/// Codes of failures that no other input would have avoided.
+const NOT_THE_INPUT: [u16; 5] = [102, 309, 401, 405, 406];
+
+/// An outcome that is none.
 #[derive(Debug)]
 pub(crate) struct Failure {
     code: Option<Code>,
@@ -40,7 +46,8 @@ impl Failure {
         if let Some(hint) = &self.hint {
             eprintln!("{bold}hint{reset}: {hint}");
         }
-        ExitCode::from(if self.code.is_some() { 2 } else { 1 })
+        let input = self.code.is_some_and(|code| !NOT_THE_INPUT.contains(&code.0));
+        ExitCode::from(if input { 2 } else { 1 })
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use vertifleet_core::{Code, Scenario};
+use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{CurveRow, Learned, Model, Trained, shipped};
 use vertifleet_policy::{Greedy, Lookahead, PlayError, Policy, Random, Replay};
 use vertifleet_sim::Trace;
@@ -67,12 +68,26 @@ impl Recipe {
         }
     }
 
-    /// The policy of a weight file, with the learning curve that `train` left beside it.
-    pub(crate) fn of_file(path: &Path) -> Result<Self, Failure> {
+    /// The policy of a weight file. Where `name` is that of a kind of policy, the weights must be of that kind.
+    pub(crate) fn of_file(name: &str, path: &Path) -> Result<Self, Failure> {
         let model = Arc::new(Model::read(path)?);
-        let curve = curve_beside(path);
-        let curve = if curve.exists() { read_curve(&curve)? } else { Vec::new() };
-        Ok(Self::Learned { model, curve })
+        let kind = model.header().policy.name();
+        if Architecture::named(name).is_some() && name != kind {
+            let message =
+                format!("{} has weights of {kind:?}, but {name:?} is asked for", path.display());
+            return Err(Failure::usage(message, "name the policy as its weights do"));
+        }
+        Ok(Self::Learned { model, curve: Vec::new() })
+    }
+
+    /// The policy of a weight file, with the learning curve that `train` left beside it.
+    pub(crate) fn of_file_with_curve(name: &str, path: &Path) -> Result<Self, Failure> {
+        let mut recipe = Self::of_file(name, path)?;
+        let beside = curve_beside(path);
+        if let (Self::Learned { curve, .. }, true) = (&mut recipe, beside.exists()) {
+            *curve = read_curve(&beside)?;
+        }
+        Ok(recipe)
     }
 
     /// The shipped policy of a network.
@@ -119,13 +134,10 @@ pub(crate) fn for_scenario(
 ) -> Result<Box<dyn Policy>, Failure> {
     let replayed = choice.name.strip_prefix("replay:");
     let recipe = match (choice.model, Recipe::rule(choice.name, choice.seed), replayed) {
-        (Some(path), None, None) => Recipe::of_file(path)?,
-        (Some(_), ..) => {
-            return Err(Failure::usage(
-                format!("policy {:?} takes no weights, but --model is given", choice.name),
-                "leave --model out, or name a learned policy",
-            ));
+        (Some(path), None, None) if Architecture::named(choice.name).is_some() => {
+            Recipe::of_file(choice.name, path)?
         }
+        (Some(_), ..) => return Err(takes_no_weights(choice.name)),
         (None, Some(rule), _) => rule,
         (None, None, Some(path)) => {
             Recipe::Replay(Arc::new(Trace::read(Path::new(path), scenario)?))
@@ -134,6 +146,14 @@ pub(crate) fn for_scenario(
     };
     recipe.check_fits(scenario)?;
     Ok(recipe.make())
+}
+
+/// Weights given for a policy that has none.
+pub(crate) fn takes_no_weights(policy: &str) -> Failure {
+    Failure::usage(
+        format!("policy {policy:?} takes no weights, but --model is given"),
+        "leave --model out, or name a learned policy (gcaps, mlp)",
+    )
 }
 
 /// The network a day was drawn from, by its name: `paper` of `paper-7`.

@@ -95,16 +95,44 @@ fn the_same_command_prints_the_same_on_any_number_of_threads() {
 }
 
 #[test]
+fn the_environment_bounds_the_threads_too() {
+    let folder = folder();
+    let compare = "compare --network paper --policies random,gcaps --days 3 --seed 5 --report";
+    let days = |threads: &str| {
+        let arguments = format!("{compare} out-{threads}");
+        vertifleet(folder.path(), &arguments).env("RAYON_NUM_THREADS", threads).assert().success();
+        fs::read(folder.path().join(format!("out-{threads}/days.csv"))).expect("a table")
+    };
+    assert!(days("1") == days("2"));
+}
+
+#[test]
+fn what_is_hardly_meant_is_warned_of_with_its_code() {
+    let folder = folder();
+    let day = stdout(folder.path(), "scenario paper --seed 7");
+    let weak = day.replace("\"battery_kwh\": 110", "\"battery_kwh\": 1");
+    assert_ne!(weak, day);
+    fs::write(folder.path().join("weak.json"), weak).expect("a file");
+    let assert = vertifleet(folder.path(), "simulate weak.json --policy greedy").assert().success();
+    let said = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
+    assert!(said.starts_with("warning[V120]: weak.json: aircraft"), "{said}");
+}
+
+#[test]
 fn a_report_is_a_folder_with_a_page_figures_and_tables() {
     let folder = folder();
     stdout(
         folder.path(),
         "compare --network paper --policies random,greedy,gcaps --days 4 --seed 9 --report out",
     );
-    for name in
-        ["report.html", "days.csv", "summary.json", "figure-4-reward.svg", "figure-5-profit.png"]
-    {
+    for name in ["report.html", "days.csv", "summary.json"] {
         assert!(folder.path().join("out").join(name).exists(), "{name}");
+    }
+    for figure in ["figure-3-learning-curves", "figure-4-reward", "figure-5-profit"] {
+        for kind in ["svg", "png"] {
+            let name = format!("{figure}.{kind}");
+            assert!(folder.path().join("out").join(&name).exists(), "{name}");
+        }
     }
 }
 
@@ -160,6 +188,10 @@ fn what_users_get_wrong_has_a_code_and_a_way_out() {
     stdout(at, "scenario paper --seed 8 -o other.json");
     stdout(at, "simulate other.json --policy greedy --trace other.csv");
     fs::write(at.join("broken.json"), "{").expect("a file");
+    let shipped =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/paper/gcaps.safetensors");
+    fs::copy(shipped, at.join("gcaps.safetensors")).expect("a copy");
+    fs::write(at.join("gcaps-checkpoint.safetensors"), "of an earlier run").expect("a file");
     let cases = [
         ("simulate nowhere.json --policy greedy", "V101"),
         ("simulate broken.json --policy greedy", "V105"),
@@ -173,7 +205,10 @@ fn what_users_get_wrong_has_a_code_and_a_way_out() {
         ("train --network paper --policy mlp --out run --set gamma=9", "V303"),
         ("train --network paper --policy mlp --out run --preset best", "V301"),
         ("compare --network paper --policies greedy --days 1 --seed 1 --model gcaps=x", "V450"),
-        ("compare --network paper --policies greedy,greedy --days 1 --seed 1", "V404"),
+        ("compare --network paper --policies greedy,greedy --days 1 --seed 1", "V450"),
+        ("compare --network paper --policies greedy --days 1 --seed 1 --model greedy=x", "V450"),
+        ("simulate day.json --policy mlp --model gcaps.safetensors", "V450"),
+        ("train --network paper --policy gcaps --out .", "V450"),
     ];
     for (arguments, code) in cases {
         let said = failure(at, arguments, 2);

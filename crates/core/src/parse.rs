@@ -66,7 +66,12 @@ fn json_value<T: DeserializeOwned>(text: &[u8], origin: &str) -> Result<T, Error
         let position = format!(" at line {line} column {}", error.column());
         let problem = message.strip_suffix(&position).unwrap_or(&message);
         let place = Place { origin, line, column };
-        if error.is_data() { place.wrong_member(path, problem) } else { place.not_parsed(problem) }
+        // A number that no `f64` holds is called a mistake of syntax, but it has a member that can be named.
+        if error.is_data() || problem == "number out of range" {
+            place.wrong_member(path, problem)
+        } else {
+            place.not_parsed(problem)
+        }
     };
     let mut deserializer = serde_json::Deserializer::from_slice(text);
     let value = serde_path_to_error::deserialize(&mut deserializer)

@@ -76,6 +76,7 @@ impl Progress {
 struct Header {
     format: String,
     network: String,
+    network_print: u32,
     policy: Architecture,
     settings: Settings,
     seed: u32,
@@ -94,18 +95,25 @@ pub struct Checkpoint {
 const NAMES: [&str; 4] = ["params", "adam_first", "adam_second", "best_params"];
 
 impl Checkpoint {
-    pub(crate) fn pack(plan: &Plan, params: &[f32], adam: &Adam, mut progress: Progress) -> Self {
+    pub(crate) fn pack(
+        plan: &Plan,
+        params: &[f32],
+        adam: &Adam,
+        mut progress: Progress,
+    ) -> Result<Self, Error> {
         let best = std::mem::take(&mut progress.best_params);
         let header = Header {
             format: FORMAT.to_owned(),
             network: plan.network.name().to_owned(),
+            network_print: plan.network_print()?,
             policy: plan.policy.clone(),
             settings: plan.settings.clone(),
             seed: plan.seed,
             adam_steps: adam.steps,
             progress,
         };
-        Self { header, tensors: [params.to_vec(), adam.first.clone(), adam.second.clone(), best] }
+        let tensors = [params.to_vec(), adam.first.clone(), adam.second.clone(), best];
+        Ok(Self { header, tensors })
     }
 
     pub(crate) fn unpack(
@@ -113,13 +121,19 @@ impl Checkpoint {
         plan: &Plan,
         parameters: usize,
     ) -> Result<(Vec<f32>, Adam, Progress), Error> {
-        let Header { network, policy, settings, seed, adam_steps, mut progress, .. } = self.header;
+        let Header {
+            network, network_print, policy, settings, seed, adam_steps, mut progress, ..
+        } = self.header;
         let of_another = |what: &str, found: String, asked: String| {
             let rule = format!("it is of a run with {what} {found}, but {asked} is asked for");
             Err(Error::BadCheckpoint { rule })
         };
         if network != plan.network.name() {
             return of_another("network", network, plan.network.name().to_owned());
+        }
+        if network_print != plan.network_print()? {
+            let rule = format!("network {network:?} has changed since the run was started");
+            return Err(Error::BadCheckpoint { rule });
         }
         if policy != plan.policy {
             return of_another("policy", format!("{policy:?}"), format!("{:?}", plan.policy));
@@ -134,19 +148,18 @@ impl Checkpoint {
             let rule = format!("every tensor must have {parameters} entries");
             return Err(Error::BadCheckpoint { rule });
         }
+        if self.tensors.iter().flatten().any(|entry| !entry.is_finite()) {
+            return Err(Error::BadCheckpoint {
+                rule: "a weight is not a finite number".to_owned(),
+            });
+        }
+        if progress.updates > plan.settings.updates() {
+            let rule = format!("{} updates are more than the run has", progress.updates);
+            return Err(Error::BadCheckpoint { rule });
+        }
         let [params, first, second, best_params] = self.tensors;
         progress.best_params = best_params;
         Ok((params, Adam { first, second, steps: adam_steps }, progress))
-    }
-
-    /// The seed and settings of the run, to go on with the same.
-    pub fn settings(&self) -> (&Architecture, &Settings, u32) {
-        (&self.header.policy, &self.header.settings, self.header.seed)
-    }
-
-    /// Name of the network that the run learns on.
-    pub fn network(&self) -> &str {
-        &self.header.network
     }
 
     /// Writes the file, whole or not at all.

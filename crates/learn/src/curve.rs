@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
@@ -66,18 +66,22 @@ pub fn from_csv(text: &str, origin: &str) -> Result<Vec<CurveRow>, Error> {
 #[derive(Debug)]
 pub struct EventFile {
     file: File,
+    path: PathBuf,
 }
 
 impl EventFile {
-    /// A new event file in `folder`, named after the time it was begun.
+    /// A new event file in `folder`, which is made if it is not there; named after the time it was begun.
     ///
     /// # Errors
-    /// If the file cannot be written.
-    pub fn create(folder: &Path, unix_seconds: u64) -> io::Result<Self> {
-        let path = folder.join(format!("events.out.tfevents.{unix_seconds}.vertifleet"));
-        let mut events = Self { file: File::create(path)? };
+    /// If the file is there already or cannot be written.
+    pub fn create(folder: &Path, unix_seconds: f64) -> Result<Self, Error> {
+        vertifleet_core::create_folder(folder)?;
+        let path = folder.join(format!("events.out.tfevents.{unix_seconds:.6}.vertifleet"));
+        let cannot = |cause| Self::cannot_write(&path, cause);
+        let file = File::create_new(&path).map_err(cannot)?;
+        let mut events = Self { file, path };
         // file_version (field 3) marks the second version of the format.
-        let mut event = wall_time(unix_seconds as f64);
+        let mut event = wall_time(unix_seconds);
         bytes_field(&mut event, 3, b"brain.Event:2");
         events.record(&event)?;
         Ok(events)
@@ -92,7 +96,7 @@ impl EventFile {
         unix_seconds: f64,
         row: &CurveRow,
         steps_per_second: f64,
-    ) -> io::Result<()> {
+    ) -> Result<(), Error> {
         let scalars = [
             ("rollout/ep_rew_mean", row.mean_reward),
             ("eval/mean_reward", row.validation_reward),
@@ -120,15 +124,19 @@ impl EventFile {
         self.record(&event)
     }
 
-    fn record(&mut self, event: &[u8]) -> io::Result<()> {
+    fn record(&mut self, event: &[u8]) -> Result<(), Error> {
         let length = (event.len() as u64).to_le_bytes();
         let mut record = Vec::with_capacity(event.len() + 16);
         record.extend(length);
         record.extend(masked_checksum(&length).to_le_bytes());
         record.extend(event);
         record.extend(masked_checksum(event).to_le_bytes());
-        self.file.write_all(&record)?;
-        self.file.flush()
+        let written = self.file.write_all(&record).and_then(|()| self.file.flush());
+        written.map_err(|cause| Self::cannot_write(&self.path, cause))
+    }
+
+    fn cannot_write(path: &Path, cause: io::Error) -> Error {
+        vertifleet_core::Error::CannotWrite { origin: path.display().to_string(), cause }.into()
     }
 }
 
@@ -183,9 +191,9 @@ mod tests {
     #[test]
     fn events_are_framed_by_length_and_checksums() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut events = EventFile::create(folder.path(), 1_700_000_000).expect("a file");
+        let mut events = EventFile::create(folder.path(), 1_700_000_000.0).expect("a file");
         events.append(1_700_000_001.5, &row(), 1234.0).expect("a file");
-        let path = folder.path().join("events.out.tfevents.1700000000.vertifleet");
+        let path = folder.path().join("events.out.tfevents.1700000000.000000.vertifleet");
         let bytes = std::fs::read(path).expect("the file");
 
         let mut records = Vec::new();

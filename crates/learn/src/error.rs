@@ -75,6 +75,13 @@ pub enum Error {
         /// What is wrong.
         rule: String,
     },
+    /// V309: a training run left the numbers: some weight is infinite or no number. Fix: train with a smaller
+    /// `learning_rate`, from the last checkpoint or anew.
+    #[error("training diverged in update {update}: a weight is no finite number any more")]
+    Diverged {
+        /// The update, from 1.
+        update: u64,
+    },
     /// A file, a network or a seed.
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
@@ -92,6 +99,7 @@ impl Error {
             Self::BadCheckpoint { .. } => Code(306),
             Self::NotShipped { .. } => Code(307),
             Self::BadCurve { .. } => Code(308),
+            Self::Diverged { .. } => Code(309),
             Self::Core(error) => error.code(),
         }
     }
@@ -117,6 +125,7 @@ impl Error {
             Self::BadCurve { .. } => Some(
                 "`vertifleet train` writes the curve beside the weights; remove the file to go without",
             ),
+            Self::Diverged { .. } => Some("lower learning_rate; the last checkpoint is as it was"),
             Self::Core(error) => error.hint(),
         }
     }

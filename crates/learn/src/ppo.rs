@@ -30,7 +30,8 @@ const CHUNK: usize = 128;
 /// Gradients that are filled side by side and then added up; more would cost memory, fewer idle threads.
 const LANES: usize = 8;
 
-/// Means over the minibatches of the last epoch, as stable-baselines3 logs them.
+/// Means over the minibatches of the last epoch, when the update is nearly done. (stable-baselines3 logs all but the
+/// divergence as means over all epochs.)
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Losses {
     pub(crate) policy_loss: f64,
@@ -97,6 +98,9 @@ impl Ppo {
     }
 
     /// One update on a roll-out. `seed` shuffles; `learning_rate` is this update's.
+    ///
+    /// `go_on` is told the share of the update that is done, after every minibatch; `false` abandons the update, with
+    /// the parameters wherever they were, and nothing is returned.
     pub(crate) fn update(
         &mut self,
         net: &nn::Network,
@@ -104,12 +108,13 @@ impl Ppo {
         (params, adam, prepared): (&mut [f32], &mut Adam, &mut Prepared),
         seed: u64,
         learning_rate: f32,
-    ) -> Losses {
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> Option<Losses> {
         self.estimate_advantages(rollout);
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         self.order.sort_unstable();
         let mut losses = Losses::default();
-        for _ in 0..self.settings.n_epochs {
+        for epoch in 0..self.settings.n_epochs {
             self.order.shuffle(&mut rng);
             losses = Losses::default();
             let batches = self.order.len().div_ceil(self.settings.batch_size);
@@ -120,9 +125,13 @@ impl Ppo {
                 clip_norm(gradient, self.settings.max_grad_norm);
                 adam.step(params, gradient, learning_rate);
                 net.prepare(params, prepared);
+                let done = f64::from(epoch) + (batch + 1) as f64 / batches as f64;
+                if !go_on(done / f64::from(self.settings.n_epochs)) {
+                    return None;
+                }
             }
         }
-        losses
+        Some(losses)
     }
 
     fn estimate_advantages(&mut self, rollout: &Rollout) {

@@ -6,11 +6,10 @@
 
 use std::sync::Arc;
 
-use rand::{Rng, SeedableRng};
-use rand_xoshiro::SplitMix64;
 use rayon::prelude::{IntoParallelRefMutIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{DaySeed, Network, VertiportIx};
+use vertifleet_policy::draw;
 use vertifleet_sim::{Decision, Simulation};
 
 use crate::error::Error;
@@ -36,9 +35,7 @@ impl Source {
 
     /// A number in [0, 1) that belongs to one decision of one training day.
     fn uniform(&self, day: u64, decision: u32) -> f32 {
-        let scramble = |state: u64| SplitMix64::seed_from_u64(state).next_u64();
-        let bits =
-            scramble(scramble(scramble(u64::from(self.run_seed)) ^ day) ^ u64::from(decision));
+        let bits = draw(u64::from(self.run_seed), day, decision);
         // The upper 24 bits are all that a single-precision number in [0, 1) can hold.
         (bits >> 40) as f32 * (1.0 / 16_777_216.0)
     }
@@ -64,6 +61,10 @@ impl PlayedDay {
             simulation.apply(VertiportIx(choice)).map_err(|refusal| Error::BadCheckpoint {
                 rule: format!("day {} does not replay: {refusal}", progress.number),
             })?;
+        }
+        if simulation.next_decision().is_none() {
+            let rule = format!("day {} is over and not in progress", progress.number);
+            return Err(Error::BadCheckpoint { rule });
         }
         Ok(Self { progress, simulation })
     }
@@ -287,7 +288,56 @@ fn sample(logits: &[f32], uniform: f32) -> (VertiportIx, f32) {
 
 #[cfg(test)]
 mod tests {
-    use super::sample;
+    use std::sync::Arc;
+
+    use vertifleet_core::Network;
+
+    use super::{DayInProgress, Group, PlayedDay, Source, dense_reward, sample};
+    use crate::features::{Scales, shape};
+    use crate::nn::{Architecture, GcapsSettings, Network as Net};
+    use crate::settings::{Reward, Settings};
+
+    fn source() -> Source {
+        let network = Network::shipped("paper").expect("a shipped network");
+        Source { network: Arc::new(network), run_seed: 5 }
+    }
+
+    /// Rewards of one day's first 600 decisions, which are more than a day has, and where the day ends among them.
+    fn rewards(reward: Reward) -> (Vec<f32>, usize) {
+        let source = source();
+        let mut settings = Settings::tuned();
+        (settings.n_envs, settings.n_steps) = (1, 600);
+        (settings.reward, settings.reward_scale) = (reward, 1.0);
+        let architecture = Architecture::Gcaps(GcapsSettings { width: 16, heads: 2 });
+        let net = Net::new(architecture, shape(8)).expect("a network");
+        let params = net.init(1);
+        let mut prepared = net.prepared();
+        net.prepare(&params, &mut prepared);
+        let day = DayInProgress { number: 0, choices: Vec::new() };
+        let day = PlayedDay::resume(&source, day).expect("a training day");
+        let mut group = Group::new(vec![day], &source.network, &net, settings.n_steps);
+        let scales = Scales::from(source.network.feature_scales());
+        group
+            .collect(&source, &scales, &settings, (&net, &params, &prepared))
+            .expect("days are left");
+        let end = group.stretch.day_ends.iter().position(|&end| end).expect("the day ends");
+        (group.stretch.rewards, end)
+    }
+
+    #[test]
+    fn what_training_is_paid_by_the_flight_sums_to_what_it_is_paid_at_the_end() {
+        let (dense, end) = rewards(Reward::Dense);
+        let (terminal, same_end) = rewards(Reward::Terminal);
+        assert_eq!(end, same_end);
+        assert!(terminal[..end].iter().all(|&reward| reward == 0.0));
+        let sum: f32 = dense[..=end].iter().sum();
+        assert!((sum - terminal[end]).abs() < 1e-6, "{sum} is not {}", terminal[end]);
+    }
+
+    #[test]
+    fn a_day_without_demand_pays_nothing() {
+        assert_eq!(dense_reward(-10.0, 0.0), 0.0);
+    }
 
     #[test]
     fn choices_come_as_often_as_the_softmax_says() {

@@ -124,11 +124,24 @@ impl Settings {
         }
     }
 
-    /// Changes one setting by its name, as `--set name=value` does.
+    /// Changes settings by their names, as `--set name=value` does; all of them, or none if one does not fit.
     ///
     /// # Errors
-    /// If there is no such setting, or the value does not fit it.
-    pub fn set(&mut self, name: &str, value: &str) -> Result<(), Error> {
+    /// If there is no such setting, or a value does not fit it or the others.
+    pub fn set<'a>(
+        &mut self,
+        pairs: impl IntoIterator<Item = (&'a str, &'a str)>,
+    ) -> Result<(), Error> {
+        let mut changed = self.clone();
+        for (name, value) in pairs {
+            changed = changed.with(name, value)?;
+        }
+        changed.check()?;
+        *self = changed;
+        Ok(())
+    }
+
+    fn with(&self, name: &str, value: &str) -> Result<Self, Error> {
         let mut members = self.members();
         if !members.contains_key(name) {
             let known = members.keys().cloned().collect::<Vec<_>>().join(", ");
@@ -137,12 +150,8 @@ impl Settings {
         // A value is a JSON number where it reads as one, a word otherwise.
         let parsed = serde_json::from_str(value).unwrap_or_else(|_| value.into());
         members.insert(name.to_owned(), parsed);
-        let changed: Self = serde_json::from_value(members.into()).map_err(|error| {
-            Error::BadSetting { name: name.to_owned(), rule: error.to_string() }
-        })?;
-        changed.check()?;
-        *self = changed;
-        Ok(())
+        serde_json::from_value(members.into())
+            .map_err(|error| Error::BadSetting { name: name.to_owned(), rule: error.to_string() })
     }
 
     /// The first setting in which two runs differ: its name, and the value in each.
@@ -223,8 +232,7 @@ mod tests {
     #[test]
     fn a_setting_changes_by_its_name() {
         let mut settings = Settings::tuned();
-        settings.set("batch_size", "512").expect("a setting");
-        settings.set("reward", "terminal").expect("a setting");
+        settings.set([("batch_size", "512"), ("reward", "terminal")]).expect("settings");
         assert_eq!((settings.batch_size, settings.reward), (512, Reward::Terminal));
     }
 
@@ -234,7 +242,7 @@ mod tests {
         for (name, value) in
             [("batchsize", "512"), ("batch_size", "-1"), ("gamma", "1.5"), ("reward", "sparse")]
         {
-            settings.set(name, value).expect_err(name);
+            settings.set([("ent_coef", "0.5"), (name, value)]).expect_err(name);
         }
         assert_eq!(settings, Settings::tuned());
     }

@@ -37,7 +37,7 @@ macro_rules! files {
     };
 }
 
-const SHIPPED: &[Files] = &[];
+const SHIPPED: &[Files] = &[files!("paper", "gcaps"), files!("paper", "mlp")];
 
 /// The shipped policy of that name for a network.
 ///
@@ -59,4 +59,32 @@ pub fn shipped(network: &str, policy: &str) -> Result<Trained, Error> {
         model: Model::from_bytes(files.weights, &origin)?,
         curve: curve::from_csv(files.curve, &origin)?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SHIPPED, shipped};
+
+    #[test]
+    fn every_shipped_policy_loads_and_is_what_it_is_called() {
+        for files in SHIPPED {
+            let trained = shipped(files.network, files.policy).expect("a shipped policy");
+            let header = trained.model.header();
+            assert_eq!(
+                (header.network.as_str(), header.policy.name()),
+                (files.network, files.policy)
+            );
+            assert!(
+                trained.curve.iter().any(|row| row.steps == header.steps),
+                "weights lie on their curve"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_not_shipped_is_named_with_what_is() {
+        let error = shipped("paper", "fastest").expect_err("no such policy");
+        assert_eq!(error.code().to_string(), "V307");
+        assert!(error.to_string().contains("gcaps on paper, mlp on paper"));
+    }
 }

@@ -97,6 +97,11 @@ impl Training {
         Ok(Self { plan, net, params, prepared, adam, ppo, rollout, validation, progress })
     }
 
+    /// The run's settings.
+    pub fn settings(&self) -> &Settings {
+        &self.plan.settings
+    }
+
     /// Whether every step asked for has been learned from.
     pub fn is_done(&self) -> bool {
         self.progress.updates >= self.plan.settings.updates()
@@ -104,9 +109,12 @@ impl Training {
 
     /// One roll-out and one update. Returns the new row of the curve.
     ///
+    /// `go_on` is told the share of the update that is done, again and again; `false` abandons the update, and nothing
+    /// is returned. What was learned in it is lost then: go on from a [`checkpoint`](Self::checkpoint) taken before.
+    ///
     /// # Errors
-    /// If training days run out.
-    pub fn update(&mut self) -> Result<CurveRow, Error> {
+    /// If training days run out, or the weights have left the numbers ([`Error::Diverged`]).
+    pub fn update(&mut self, go_on: &dyn Fn(f64) -> bool) -> Result<Option<CurveRow>, Error> {
         let finished = self.rollout.collect(&self.net, &self.params, &self.prepared)?;
         self.progress.remember_days(&finished, RECENT_DAYS);
         let settings = &self.plan.settings;
@@ -119,7 +127,12 @@ impl Training {
             // Distinct for every update of every seed.
             u64::from(self.plan.seed) << 32 | update,
             learning_rate,
+            go_on,
         );
+        let Some(losses) = losses else { return Ok(None) };
+        if !self.params.iter().all(|weight| weight.is_finite()) {
+            return Err(Error::Diverged { update: update + 1 });
+        }
         self.progress.updates += 1;
         let steps = self.progress.updates * settings.buffer_size() as u64;
         let looks = self.progress.updates.is_multiple_of(u64::from(settings.eval_every));
@@ -141,7 +154,7 @@ impl Training {
             learning_rate: f64::from(learning_rate),
         };
         self.progress.curve.push(row);
-        Ok(row)
+        Ok(Some(row))
     }
 
     /// Mean reward on the validation days, best choices only.
@@ -155,8 +168,12 @@ impl Training {
         rewards.iter().flatten().sum::<f64>() / self.validation.len() as f64
     }
 
-    /// The weights that did best on the validation days so far.
+    /// The weights that did best on the validation days so far; before the first look at them, the latest weights.
     pub fn best_model(&self) -> Model {
+        if self.progress.best_reward.is_none() {
+            let steps = self.progress.updates * self.plan.settings.buffer_size() as u64;
+            return self.model_of(self.params.clone(), steps);
+        }
         self.model_of(self.progress.best_params.clone(), self.progress.best_steps)
     }
 
@@ -182,13 +199,23 @@ impl Training {
     }
 
     /// Everything that [`resume`](Self::resume) needs.
-    pub fn checkpoint(&self) -> Checkpoint {
+    ///
+    /// # Errors
+    /// Never once a run has started: its validation days have been drawn.
+    pub fn checkpoint(&self) -> Result<Checkpoint, Error> {
         let progress = Progress { days: self.rollout.progress(), ..self.progress.clone() };
         Checkpoint::pack(&self.plan, &self.params, &self.adam, progress)
     }
 }
 
 impl Plan {
+    /// A number that changes when the network's days do: the checksum of one of them, and of the feature scales.
+    pub(crate) fn network_print(&self) -> Result<u32, Error> {
+        let day = self.network.draw(DaySeed::validation(0)?);
+        let scales = serde_json::to_string(&self.network.feature_scales()).expect("numbers");
+        Ok(crc32c::crc32c_append(crc32c::crc32c(day.to_json().as_bytes()), scales.as_bytes()))
+    }
+
     fn net(&self) -> Result<nn::Network, Error> {
         nn::Network::new(self.policy.clone(), shape(self.network.vertiports().len()))
             .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })

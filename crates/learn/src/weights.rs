@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use vertifleet_core::{FeatureScales, Scenario};
 
 use crate::error::Error;
+use crate::features;
 use crate::nn::{self, Architecture, Shape};
 use crate::settings::Settings;
 
@@ -166,7 +167,14 @@ impl Model {
             return Err(broken(format!("format must be {FORMAT:?}, found {:?}", header.format)));
         }
         header.settings.check()?;
+        if header.shape != features::shape(header.shape.vertiports) {
+            return Err(broken(format!("{:?} is not the shape of our features", header.shape)));
+        }
         let net = nn::Network::new(header.policy.clone(), header.shape).map_err(broken)?;
+        // A header may promise more weights than any memory holds; the file has to have them.
+        if net.layout().len() > bytes.len() / 4 {
+            return Err(broken(format!("{} weights do not fit in the file", net.layout().len())));
+        }
         let file = SafeTensors::deserialize(bytes).map_err(|error| broken(error.to_string()))?;
         let params = collect(&net, &file).map_err(broken)?;
         Ok(Self { header, net, params })

@@ -36,14 +36,14 @@ fn small_mlp() -> Architecture {
 
 fn finish(mut training: Training) -> Training {
     while !training.is_done() {
-        training.update().expect("training days are left");
+        training.update(&|_| true).expect("training days are left");
     }
     training
 }
 
 /// Everything a run leaves, to the bit.
 fn remains(training: &Training) -> (Checkpoint, Vec<u8>) {
-    (training.checkpoint(), training.best_model().to_bytes())
+    (training.checkpoint().expect("a run"), training.best_model().to_bytes())
 }
 
 #[test]
@@ -67,12 +67,52 @@ fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
     let whole = finish(Training::start(plan.clone()).expect("a plan"));
 
     let mut first = Training::start(plan.clone()).expect("a plan");
-    first.update().expect("an update");
-    first.checkpoint().write(&path).expect("a folder to write to");
+    first.update(&|_| true).expect("an update");
+    first.checkpoint().expect("a run").write(&path).expect("a folder to write to");
     drop(first);
     let rest =
         Training::resume(plan, Checkpoint::read(&path).expect("a checkpoint")).expect("its run");
     assert!(remains(&finish(rest)) == remains(&whole));
+}
+
+#[test]
+fn an_update_that_is_abandoned_leaves_the_checkpoint_before_it_good() {
+    let plan = plan(small_gcaps(), Reward::Dense);
+    let whole = finish(Training::start(plan.clone()).expect("a plan"));
+
+    let mut first = Training::start(plan.clone()).expect("a plan");
+    first.update(&|_| true).expect("an update");
+    let before = first.checkpoint().expect("a run");
+    let abandoned = first.update(&|done| done < 0.4).expect("an update");
+    assert!(abandoned.is_none());
+    let rest = Training::resume(plan, before).expect("its run");
+    assert!(remains(&finish(rest)) == remains(&whole));
+}
+
+#[test]
+fn a_run_that_diverges_says_so() {
+    let mut plan = plan(small_mlp(), Reward::Dense);
+    plan.settings.learning_rate = 1.0;
+    plan.settings.reward_scale = 1e9;
+    plan.settings.max_grad_norm = 1e9;
+    plan.settings.total_steps = 10_000_000;
+    let mut training = Training::start(plan).expect("a plan");
+    let error =
+        (0..400).find_map(|_| training.update(&|_| true).err()).expect("steps far too large");
+    assert_eq!(error.code().to_string(), "V309");
+}
+
+#[test]
+fn a_network_that_has_changed_does_not_go_on() {
+    let run = plan(small_gcaps(), Reward::Dense);
+    let checkpoint =
+        Training::start(run.clone()).and_then(|training| training.checkpoint()).expect("a run");
+    let text = include_str!("../../../networks/paper.toml")
+        .replace("stands = 6\nbusy = true", "stands = 7\nbusy = true");
+    let mut changed = run;
+    changed.network = Arc::new(Network::from_toml(&text, "changed").expect("a network"));
+    let error = Training::resume(changed, checkpoint).err().expect("another network");
+    assert!(error.to_string().contains("has changed"), "{error}");
 }
 
 #[test]
@@ -87,7 +127,8 @@ fn another_seed_gives_other_weights() {
 #[test]
 fn a_checkpoint_of_another_run_is_refused() {
     let run = plan(small_gcaps(), Reward::Dense);
-    let checkpoint = || Training::start(run.clone()).expect("a plan").checkpoint();
+    let checkpoint =
+        || Training::start(run.clone()).and_then(|training| training.checkpoint()).expect("a run");
     let refused = |change: fn(&mut Plan)| {
         let mut other = run.clone();
         change(&mut other);
@@ -115,7 +156,7 @@ fn damaged_weights_are_refused_and_never_a_panic() {
     let training = Training::start(plan(small_mlp(), Reward::Dense)).expect("a plan");
     let bytes = training.best_model().to_bytes();
     for len in [0, 7, 8, 100, bytes.len() / 2, bytes.len() - 1] {
-        let error = Model::from_bytes(&bytes[..len], "cut").err().expect("cut weights");
+        let error = Model::from_bytes(&bytes[..len], "cut").expect_err("cut weights");
         assert_eq!(error.code().to_string(), "V304", "{error}");
     }
     for at in (0..3000).step_by(7) {

@@ -1,5 +1,6 @@
 //! Who decides: the [`Policy`] trait, the rules that need no learning, and how a day is played with one.
 
+mod draw;
 mod greedy;
 mod lookahead;
 mod play;
@@ -7,6 +8,7 @@ mod policy;
 mod random;
 mod replay;
 
+pub use draw::draw;
 pub use greedy::Greedy;
 pub use lookahead::Lookahead;
 pub use play::{PlayError, play};

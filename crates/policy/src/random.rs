@@ -1,11 +1,9 @@
 //! `random`: Feas-RND (§V.B), uniform over the feasible decisions, hold included.
 
-use rand::{Rng, SeedableRng};
-use rand_xoshiro::SplitMix64;
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, View};
 
-use crate::{Policy, PolicyError};
+use crate::{Policy, PolicyError, draw};
 
 /// Draws uniformly from the mask.
 ///
@@ -21,12 +19,6 @@ impl Random {
     pub fn new(seed: u64) -> Self {
         Self { seed }
     }
-
-    #[inline]
-    fn draw(self, day_seed: u64, index: u32) -> u64 {
-        let scramble = |state: u64| SplitMix64::seed_from_u64(state).next_u64();
-        scramble(scramble(scramble(self.seed) ^ day_seed) ^ u64::from(index))
-    }
 }
 
 impl Policy for Random {
@@ -34,7 +26,7 @@ impl Policy for Random {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
         let mask = view.feasible(decision);
         // The upper half of the product spreads 2^64 draws evenly; with at most 257 outcomes the bias is below 2^-55.
-        let draw = u128::from(self.draw(view.day_seed(), decision.index));
+        let draw = u128::from(draw(self.seed, view.day_seed(), decision.index));
         #[expect(
             clippy::cast_possible_truncation,
             reason = "below the number of feasible vertiports"

@@ -77,6 +77,7 @@ fn results(summary: &Summary) -> Markup {
                 th scope="col" { "profit, $" }
                 th scope="col" { "sd, $" }
                 th scope="col" { "reward" }
+                th scope="col" { "sd" }
                 th scope="col" { "flights" }
                 th scope="col" { "reposition" }
                 th scope="col" { "holds" }
@@ -101,6 +102,7 @@ fn result_cells(policy: &PolicySummary) -> Markup {
         td { (estimate(&policy.profit_usd, |value| grouped(value, 0))) }
         td { (policy.profit_usd.standard_deviation.map_or("n/a".to_owned(), |value| grouped(value, 0))) }
         td { (estimate(&policy.reward, |value| format!("{value:.4}"))) }
+        td { (policy.reward.standard_deviation.map_or("n/a".to_owned(), |value| format!("{value:.5}"))) }
         td { (grouped(policy.flights, 1)) }
         td { (grouped(policy.repositioning_flights, 1)) }
         td { (grouped(policy.holds, 1)) }

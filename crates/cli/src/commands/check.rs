@@ -2,21 +2,21 @@
 
 use std::process::ExitCode;
 
-use anstream::println;
 use vertifleet_sim::{Trace, check::check};
 
 use crate::args::CheckArguments;
 use crate::commands::read_scenario;
 use crate::failure::Failure;
+use crate::output::print;
 
 pub(crate) fn run(arguments: &CheckArguments) -> Result<ExitCode, Failure> {
     let scenario = read_scenario(&arguments.scenario)?;
     let trace = Trace::read(&arguments.trace, &scenario)?;
     let report = check(&scenario, &trace);
     if arguments.json {
-        println!("{}", serde_json::to_string_pretty(&report).expect("a verdict is plain data"));
+        print(&serde_json::to_string_pretty(&report).expect("a verdict is plain data"))?;
     } else {
-        println!("{report}");
+        print(&report.to_string())?;
     }
     Ok(if report.is_valid() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

@@ -4,20 +4,24 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use anstream::{eprintln, println};
+use anstream::eprintln;
 use vertifleet_core::{DaySeed, Network, Scenario};
 use vertifleet_study::run::{Contender, run as play_all};
 use vertifleet_study::{Curve, Study, Summary, report, table};
 
 use crate::args::CompareArguments;
 use crate::failure::Failure;
-use crate::policies::Recipe;
+use crate::output::print;
+use crate::policies::{self, Recipe};
 use crate::progress::Progress;
 
 pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     let network = Network::find(&arguments.network)?;
     let recipes = recipes(arguments, network.name())?;
     let days = draw(&network, arguments)?;
+    if let Some(folder) = &arguments.report {
+        vertifleet_core::create_folder(folder)?;
+    }
     for (_, recipe) in &recipes {
         recipe.check_fits(&days[0])?;
     }
@@ -31,9 +35,9 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     };
     let summary = Summary::of(&study)?;
     if arguments.json {
-        println!("{}", summary.to_json());
+        print(&summary.to_json())?;
     } else {
-        println!("{}", table::text(&summary));
+        print(&table::text(&summary))?;
     }
     if let Some(folder) = &arguments.report {
         let paths = report::write(&study, folder)?;
@@ -44,9 +48,20 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
 
 /// The policies by name: weights given by --model first, then rules, then the network's shipped weights.
 fn recipes(arguments: &CompareArguments, network: &str) -> Result<Vec<(String, Recipe)>, Failure> {
-    if let Some((unused, _)) =
-        arguments.models.iter().find(|(name, _)| !arguments.policies.contains(name))
-    {
+    if let Some(twice) = first_repeated(&arguments.policies) {
+        return Err(Failure::usage(
+            format!("--policies names {twice:?} twice"),
+            "give a second model of the same kind a name of its own, with --model NAME=PATH",
+        ));
+    }
+    let models: Vec<String> = arguments.models.iter().map(|(name, _)| name.clone()).collect();
+    if let Some(twice) = first_repeated(&models) {
+        return Err(Failure::usage(
+            format!("--model names {twice:?} twice"),
+            "give each name one path",
+        ));
+    }
+    if let Some(unused) = models.iter().find(|name| !arguments.policies.contains(name)) {
         return Err(Failure::usage(
             format!("--model names {unused:?}, which is not among --policies"),
             "add the name to --policies",
@@ -55,7 +70,8 @@ fn recipes(arguments: &CompareArguments, network: &str) -> Result<Vec<(String, R
     let recipe = |name: &String| {
         let given = arguments.models.iter().find(|(given, _)| given == name);
         let recipe = match (given, Recipe::rule(name, arguments.seed)) {
-            (Some((_, path)), _) => Recipe::of_file(Path::new(path))?,
+            (Some(_), Some(_)) => return Err(policies::takes_no_weights(name)),
+            (Some((_, path)), None) => Recipe::of_file_with_curve(name, Path::new(path))?,
             (None, Some(rule)) => rule,
             (None, None) => Recipe::shipped(name, network)?,
         };
@@ -64,12 +80,15 @@ fn recipes(arguments: &CompareArguments, network: &str) -> Result<Vec<(String, R
     arguments.policies.iter().map(recipe).collect()
 }
 
+fn first_repeated(names: &[String]) -> Option<&String> {
+    names.iter().enumerate().find(|(at, name)| names[..*at].contains(name)).map(|(_, name)| name)
+}
+
 fn draw(network: &Network, arguments: &CompareArguments) -> Result<Vec<Arc<Scenario>>, Failure> {
-    let day = |day: u32| {
-        let seed = DaySeed::comparison(arguments.seed.saturating_add(u64::from(day)))?;
-        Ok(Arc::new(network.draw(seed)))
-    };
-    (0..arguments.days).map(day).collect()
+    // The last seed first, so that nothing is drawn where not everything can be.
+    let seed = |day: u32| DaySeed::comparison(arguments.seed.saturating_add(u64::from(day)));
+    seed(arguments.days - 1)?;
+    (0..arguments.days).map(|day| Ok(Arc::new(network.draw(seed(day)?)))).collect()
 }
 
 fn play(

@@ -1,6 +1,5 @@
 //! `vertifleet scenario`: draws days of a network.
 
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -8,15 +7,14 @@ use vertifleet_core::{DaySeed, Network};
 
 use crate::args::ScenarioArguments;
 use crate::failure::Failure;
+use crate::output::print;
 use crate::progress::Progress;
 
 pub(crate) fn run(arguments: &ScenarioArguments) -> Result<ExitCode, Failure> {
     let network = Network::find(&arguments.network)?;
     match (arguments.days, &arguments.output) {
         (None, None) => {
-            let text = network.draw(DaySeed::comparison(arguments.seed)?).to_json();
-            // A reader that has seen enough, like `head`, is no failure.
-            let _ = std::io::stdout().write_all(text.as_bytes());
+            print(&network.draw(DaySeed::comparison(arguments.seed)?).to_json())?;
         }
         (None, Some(file)) => {
             network.draw(DaySeed::comparison(arguments.seed)?).write(file)?;
@@ -36,7 +34,7 @@ fn draw_days(network: &Network, seed: u64, days: u32, folder: &Path) -> Result<(
     let progress = Progress::new(u64::from(days), "days");
     for day in 0..u64::from(days) {
         let scenario = network.draw(DaySeed::comparison(seed + day)?);
-        scenario.write(&folder.join(format!("{}.json", scenario.name)))?;
+        scenario.write(folder.join(format!("{}.json", scenario.name)))?;
         progress.advance(1);
     }
     progress.finish();

@@ -3,7 +3,6 @@
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use anstream::println;
 use vertifleet_core::Scenario;
 use vertifleet_policy::play;
 use vertifleet_sim::{Simulation, Summary, Trace};
@@ -11,6 +10,7 @@ use vertifleet_sim::{Simulation, Summary, Trace};
 use crate::args::SimulateArguments;
 use crate::commands::read_scenario;
 use crate::failure::Failure;
+use crate::output::print;
 use crate::policies::{self, Choice};
 
 pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
@@ -25,28 +25,35 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     if let Some(path) = &arguments.trace {
         trace.write(&scenario, path)?;
     }
-    print(&simulation.summary(), &scenario, arguments);
+    let summary = simulation.summary();
+    if arguments.json {
+        print(&serde_json::to_string_pretty(&summary).expect("a summary is plain data"))?;
+    } else {
+        print(&text(&summary, &scenario, &arguments.policy))?;
+    }
     Ok(ExitCode::SUCCESS)
 }
 
-fn print(summary: &Summary, scenario: &Scenario, arguments: &SimulateArguments) {
-    if arguments.json {
-        println!("{}", serde_json::to_string_pretty(summary).expect("a summary is plain data"));
-        return;
-    }
+fn text(summary: &Summary, scenario: &Scenario, policy: &str) -> String {
     let Summary { flights, repositioning_flights, holds, passengers, spilled_passengers, .. } =
         summary;
-    println!("{} with {}", scenario.name, arguments.policy);
-    println!("  profit          {:>12.2} $", summary.profit);
-    println!("  revenue         {:>12.2} $", summary.revenue);
-    println!("  passenger cost  {:>12.2} $", summary.passenger_cost);
-    println!("  energy cost     {:>12.2} $  ({:.0} kWh)", summary.energy_cost, summary.energy_kwh);
-    println!(
-        "  reward          {:>12.5}    of {:.0} $ potential",
-        summary.reward, summary.potential
-    );
-    println!("  flights         {flights:>12}    {repositioning_flights} without passengers");
-    println!("  holds           {holds:>12}");
-    println!("  passengers      {passengers:>12}    {spilled_passengers} spilled");
-    println!("  load factor     {:>11.1} %", 100.0 * summary.load_factor);
+    let lines = [
+        format!("{} with {policy}", scenario.name),
+        format!("  profit          {:>12.2} $", summary.profit),
+        format!("  revenue         {:>12.2} $", summary.revenue),
+        format!("  passenger cost  {:>12.2} $", summary.passenger_cost),
+        format!(
+            "  energy cost     {:>12.2} $  ({:.0} kWh)",
+            summary.energy_cost, summary.energy_kwh
+        ),
+        format!(
+            "  reward          {:>12.5}    of {:.0} $ potential",
+            summary.reward, summary.potential
+        ),
+        format!("  flights         {flights:>12}    {repositioning_flights} without passengers"),
+        format!("  holds           {holds:>12}"),
+        format!("  passengers      {passengers:>12}    {spilled_passengers} spilled"),
+        format!("  load factor     {:>11.1} %", 100.0 * summary.load_factor),
+    ];
+    lines.join("\n")
 }

@@ -1,112 +1,178 @@
 //! `vertifleet train`: runs a training, shows how it goes, and leaves weights, curve and checkpoint.
 
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-use anstream::{eprintln, println};
+use anstream::eprintln;
 use vertifleet_core::Network;
-use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
-use vertifleet_learn::{Checkpoint, CurveRow, EventFile, Plan, Settings, Training, to_csv};
+use vertifleet_learn::nn::Architecture;
+use vertifleet_learn::{Checkpoint, CurveRow, EventFile, Model, Plan, Settings, Training, to_csv};
 
 use crate::args::{TrainArguments, Trainable};
 use crate::failure::Failure;
+use crate::output::print;
 use crate::policies::curve_beside;
 use crate::progress::Progress;
+
+/// How often a run is set aside while it goes on.
+const SECONDS_BETWEEN_SAVES: u64 = 30;
 
 /// Files of a run, in the folder the user names.
 struct Files {
     weights: PathBuf,
     curve: PathBuf,
     checkpoint: PathBuf,
+    /// TensorBoard takes a folder for a run, so each policy has its own.
+    events: PathBuf,
 }
 
 impl Files {
     fn of(policy: Trainable, folder: &Path) -> Self {
-        let name = match policy {
-            Trainable::Gcaps => "gcaps",
-            Trainable::Mlp => "mlp",
-        };
+        let name = policy.name();
         let weights = folder.join(format!("{name}.safetensors"));
         Self {
             curve: curve_beside(&weights),
             weights,
             checkpoint: folder.join(format!("{name}-checkpoint.safetensors")),
+            events: folder.join("tensorboard").join(name),
         }
     }
 
-    /// Leaves the run as it stands; each file is whole at every moment.
-    fn write(&self, training: &Training) -> Result<(), Failure> {
-        vertifleet_core::write_atomically(&self.curve, to_csv(training.curve()).as_bytes())?;
-        training.best_model().write(&self.weights)?;
-        training.checkpoint().write(&self.checkpoint)?;
+    /// Leaves the run as it stood; each file is whole at every moment.
+    fn write(&self, run: &SetAside) -> Result<(), Failure> {
+        vertifleet_core::write_atomically(&self.curve, to_csv(&run.curve).as_bytes())?;
+        run.model.write(&self.weights)?;
+        run.checkpoint.write(&self.checkpoint)?;
         Ok(())
+    }
+}
+
+/// A run between two updates, as its files hold it.
+struct SetAside {
+    curve: Vec<CurveRow>,
+    model: Model,
+    checkpoint: Checkpoint,
+}
+
+impl SetAside {
+    fn of(training: &Training) -> Result<Self, Failure> {
+        Ok(Self {
+            curve: training.curve().to_vec(),
+            model: training.best_model(),
+            checkpoint: training.checkpoint()?,
+        })
     }
 }
 
 pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     let plan = plan(arguments)?;
-    let settings = plan.settings.clone();
     vertifleet_core::create_folder(&arguments.out)?;
     let files = Files::of(arguments.policy, &arguments.out);
     let mut training = if arguments.resume {
         Training::resume(plan, Checkpoint::read(&files.checkpoint)?)?
+    } else if files.checkpoint.exists() {
+        return Err(Failure::usage(
+            format!("{} is there already, of an earlier run", files.checkpoint.display()),
+            "go on with it by --resume, name another folder, or remove the file",
+        ));
     } else {
         Training::start(plan)?
     };
     let stop = stop_on_interrupt()?;
-    let mut events = EventFile::create(&arguments.out, unix_seconds() as u64)
-        .map_err(|error| Failure::internal(&error))?;
+    let last = learn(&mut training, &files, &stop)?;
+    files.write(&last)?;
+    tell(&last, &files, training.best_validation_reward())?;
+    if !training.is_done() {
+        eprintln!("stopped early; --resume goes on from {}", files.checkpoint.display());
+    }
+    Ok(ExitCode::SUCCESS)
+}
 
-    let progress = Progress::new(settings.updates() * settings.buffer_size() as u64, "steps");
-    if let Some(row) = training.curve().last() {
+/// Learns until all is learned or `stop` is raised. Returns the run as it stood after its last whole update.
+fn learn(training: &mut Training, files: &Files, stop: &AtomicBool) -> Result<SetAside, Failure> {
+    let settings = training.settings().clone();
+    let per_update = settings.buffer_size() as u64;
+    let mut events = Events::create(&files.events);
+    let progress = Progress::new(settings.updates() * per_update, "steps");
+    let mut saved = Instant::now();
+    let mut last = SetAside::of(training)?;
+    if let Some(row) = last.curve.last() {
         progress.already_done(row.steps);
     }
-    let mut saved = Instant::now();
-    while !training.is_done() && !stop.load(Ordering::Relaxed) {
+    while !training.is_done() {
         let begun = Instant::now();
-        let row = training.update()?;
-        let steps_per_second = settings.buffer_size() as f64 / begun.elapsed().as_secs_f64();
-        progress.advance(settings.buffer_size() as u64);
+        let shown = Cell::new(0);
+        let go_on = |share: f64| {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a share of the steps"
+            )]
+            let steps = (share * per_update as f64) as u64;
+            progress.advance(steps.saturating_sub(shown.replace(steps)));
+            !stop.load(Ordering::Relaxed)
+        };
+        let Some(row) = training.update(&go_on)? else { break };
+        let steps_per_second = per_update as f64 / begun.elapsed().as_secs_f64();
         progress
             .say(format!("{steps_per_second:.0} steps/s, reward {}", reward_text(row.mean_reward)));
-        events
-            .append(unix_seconds(), &row, steps_per_second)
-            .map_err(|error| Failure::internal(&error))?;
-        if saved.elapsed().as_secs() >= 30 {
-            files.write(&training)?;
+        events.append(&row, steps_per_second);
+        last = SetAside::of(training)?;
+        if saved.elapsed().as_secs() >= SECONDS_BETWEEN_SAVES {
+            // A disk that is full now may have room again when the run is over.
+            if let Err(failure) = files.write(&last) {
+                failure.report();
+            }
             saved = Instant::now();
         }
     }
     progress.finish();
-    files.write(&training)?;
-    tell(&training, &files, arguments);
-    Ok(ExitCode::SUCCESS)
+    Ok(last)
+}
+
+/// TensorBoard's file. A run does not depend on it: where it cannot be written, people are told once.
+struct Events(Option<EventFile>);
+
+impl Events {
+    fn create(folder: &Path) -> Self {
+        Self(Self::told(EventFile::create(folder, unix_seconds())))
+    }
+
+    fn append(&mut self, row: &CurveRow, steps_per_second: f64) {
+        if let Some(file) = &mut self.0
+            && Self::told(file.append(unix_seconds(), row, steps_per_second)).is_none()
+        {
+            self.0 = None;
+        }
+    }
+
+    fn told<T>(outcome: Result<T, vertifleet_learn::Error>) -> Option<T> {
+        outcome.map_err(|error| eprintln!("warning: no events for TensorBoard: {error}")).ok()
+    }
 }
 
 fn plan(arguments: &TrainArguments) -> Result<Plan, Failure> {
     let mut settings = Settings::preset(&arguments.preset)?;
-    if let Some(steps) = arguments.steps {
-        settings.set("total_steps", &steps.to_string())?;
-    }
-    for (name, value) in &arguments.set {
-        settings.set(name, value)?;
-    }
+    let steps = arguments.steps.map(|steps| steps.to_string());
+    let steps = steps.iter().map(|steps| ("total_steps", steps.as_str()));
+    let named = arguments.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
+    settings.set(steps.chain(named))?;
     Ok(Plan {
         network: Arc::new(Network::find(&arguments.network)?),
-        policy: match arguments.policy {
-            Trainable::Gcaps => Architecture::Gcaps(GcapsSettings::default()),
-            Trainable::Mlp => Architecture::Mlp(MlpSettings::default()),
-        },
+        policy: Architecture::named(arguments.policy.name())
+            .expect("every kind that can be trained has its sizes"),
         settings,
         seed: arguments.seed,
         commit: env!("VERTIFLEET_COMMIT").to_owned(),
     })
 }
 
-/// A flag that Ctrl-C raises; the update under way is finished and everything written. A second Ctrl-C ends at once.
+/// A flag that Ctrl-C raises; then the update under way is given up and the run set aside as it stood before. A second
+/// Ctrl-C ends at once.
 fn stop_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&stop);
@@ -114,7 +180,7 @@ fn stop_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
         if raised.swap(true, Ordering::Relaxed) {
             std::process::exit(130);
         }
-        eprintln!("\nstopping after this update; press Ctrl-C again to stop at once");
+        eprintln!("\nstopping; press Ctrl-C again to stop at once");
     })
     .map_err(|error| Failure::internal(&error))?;
     Ok(stop)
@@ -124,20 +190,18 @@ fn unix_seconds() -> f64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64())
 }
 
-fn tell(training: &Training, files: &Files, arguments: &TrainArguments) {
-    let CurveRow { steps, mean_reward, .. } = training.curve().last().copied().unwrap_or_default();
-    if !training.is_done() {
-        eprintln!(
-            "stopped after {steps} steps; --resume goes on from {}",
-            files.checkpoint.display()
-        );
-    }
-    println!("steps              {steps}");
-    println!("mean reward        {}", reward_text(mean_reward));
-    println!("validation reward  {}", reward_text(training.best_validation_reward()));
-    println!("weights            {}", files.weights.display());
-    println!("learning curve     {}", files.curve.display());
-    eprintln!("watch the curve with: tensorboard --logdir {}", arguments.out.display());
+fn tell(run: &SetAside, files: &Files, best_reward: Option<f64>) -> Result<(), Failure> {
+    let CurveRow { steps, mean_reward, .. } = run.curve.last().copied().unwrap_or_default();
+    let lines = [
+        format!("steps              {steps}"),
+        format!("mean reward        {}", reward_text(mean_reward)),
+        format!("validation reward  {}", reward_text(best_reward)),
+        format!("weights            {}", files.weights.display()),
+        format!("learning curve     {}", files.curve.display()),
+    ];
+    print(&lines.join("\n"))?;
+    eprintln!("watch the curve with: tensorboard --logdir {}", files.events.display());
+    Ok(())
 }
 
 /// A reward that may not be known yet.
