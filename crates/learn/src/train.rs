@@ -130,9 +130,7 @@ impl Training {
             go_on,
         );
         let Some(losses) = losses else { return Ok(None) };
-        if !self.params.iter().all(|weight| weight.is_finite()) {
-            return Err(Error::Diverged { update: update + 1 });
-        }
+        check_finite(&self.params, update + 1)?;
         self.progress.updates += 1;
         let steps = self.progress.updates * settings.buffer_size() as u64;
         let looks = self.progress.updates.is_multiple_of(u64::from(settings.eval_every));
@@ -242,6 +240,28 @@ fn play_block(policy: &mut Learned, days: &[Arc<Scenario>]) -> Vec<f64> {
         policy.choose_batch(&asked, &mut choices).expect("a trained network always has an answer");
         for (&(at, _), &choice) in open.iter().zip(&choices) {
             simulations[at].apply(choice).expect("a trained network chooses from the mask");
+        }
+    }
+}
+
+/// Refuses weights that have left the numbers in an update, counted from 1.
+fn check_finite(params: &[f32], update: u64) -> Result<(), Error> {
+    if params.iter().all(|weight| weight.is_finite()) {
+        return Ok(());
+    }
+    Err(Error::Diverged { update })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check_finite;
+
+    #[test]
+    fn a_run_that_diverges_says_so() {
+        check_finite(&[1.0, -2.0], 3).expect("numbers");
+        for lost in [f32::NAN, f32::INFINITY] {
+            let error = check_finite(&[1.0, lost], 3).expect_err("no number");
+            assert_eq!(error.code().to_string(), "V309");
         }
     }
 }
