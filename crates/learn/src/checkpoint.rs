@@ -3,10 +3,9 @@
 //! Randomness is a function of seed, day and decision, so there is no generator to store; a day in progress is its
 //! number and the choices made on it.
 
-use std::collections::HashMap;
 use std::path::Path;
 
-use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+use safetensors::tensor::{Dtype, SafeTensors};
 use serde::{Deserialize, Serialize};
 
 use crate::adam::Adam;
@@ -15,10 +14,10 @@ use crate::error::Error;
 use crate::nn::Architecture;
 use crate::rollout::DayInProgress;
 use crate::settings::Settings;
+use crate::tensor_file;
 use crate::train::Plan;
 
 const FORMAT: &str = "vertifleet-checkpoint/1";
-const HEADER: &str = "vertifleet";
 /// No checkpoint of ours comes near; larger files are not read.
 const LIMIT_BYTES: u64 = 4 << 30;
 
@@ -97,15 +96,15 @@ const NAMES: [&str; 4] = ["params", "adam_first", "adam_second", "best_params"];
 impl Checkpoint {
     pub(crate) fn pack(
         plan: &Plan,
-        params: &[f32],
-        adam: &Adam,
+        network_print: u32,
+        (params, adam): (&[f32], &Adam),
         mut progress: Progress,
-    ) -> Result<Self, Error> {
+    ) -> Self {
         let best = std::mem::take(&mut progress.best_params);
         let header = Header {
             format: FORMAT.to_owned(),
             network: plan.network.name().to_owned(),
-            network_print: plan.network_print()?,
+            network_print,
             policy: plan.policy.clone(),
             settings: plan.settings.clone(),
             seed: plan.seed,
@@ -113,12 +112,13 @@ impl Checkpoint {
             progress,
         };
         let tensors = [params.to_vec(), adam.first.clone(), adam.second.clone(), best];
-        Ok(Self { header, tensors })
+        Self { header, tensors }
     }
 
     pub(crate) fn unpack(
         self,
         plan: &Plan,
+        plan_print: u32,
         parameters: usize,
     ) -> Result<(Vec<f32>, Adam, Progress), Error> {
         let Header {
@@ -131,7 +131,7 @@ impl Checkpoint {
         if network != plan.network.name() {
             return of_another("network", network, plan.network.name().to_owned());
         }
-        if network_print != plan.network_print()? {
+        if network_print != plan_print {
             let rule = format!("network {network:?} has changed since the run was started");
             return Err(Error::BadCheckpoint { rule });
         }
@@ -167,16 +167,10 @@ impl Checkpoint {
     /// # Errors
     /// If the folder cannot be written to.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        let header = serde_json::to_string(&self.header).expect("a header is plain data");
-        let tensors = NAMES.iter().zip(&self.tensors).map(|(name, values)| {
-            let bytes = bytemuck::cast_slice(values);
-            let view = TensorView::new(Dtype::F32, vec![values.len()], bytes)
-                .expect("a flat tensor's shape is its length");
-            (*name, view)
-        });
-        let info = HashMap::from([(HEADER.to_owned(), header)]);
-        let bytes =
-            safetensors::serialize(tensors, Some(info)).expect("four flat tensors are valid");
+        let tensors = NAMES.iter().zip(&self.tensors);
+        let tensors =
+            tensors.map(|(name, entries)| (*name, vec![entries.len()], entries.as_slice()));
+        let bytes = tensor_file::to_bytes(&self.header, tensors);
         Ok(vertifleet_core::write_atomically(path, &bytes)?)
     }
 
@@ -190,13 +184,7 @@ impl Checkpoint {
     }
 
     fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|error| error.to_string())?;
-        let text = metadata.metadata().as_ref().and_then(|info| info.get(HEADER));
-        let text = text.ok_or_else(|| format!("the file has no {HEADER:?} header"))?;
-        let header: Header = serde_json::from_str(text).map_err(|error| error.to_string())?;
-        if header.format != FORMAT {
-            return Err(format!("format must be {FORMAT:?}, found {:?}", header.format));
-        }
+        let header: Header = tensor_file::header(bytes, FORMAT, |header: &Header| &header.format)?;
         header.settings.check().map_err(|error| error.to_string())?;
         let file = SafeTensors::deserialize(bytes).map_err(|error| error.to_string())?;
         let mut tensors: [Vec<f32>; 4] = Default::default();
@@ -205,10 +193,7 @@ impl Checkpoint {
             if view.dtype() != Dtype::F32 {
                 return Err(format!("tensor {name:?} must be F32"));
             }
-            let entries = view.data().chunks_exact(4);
-            *values = entries
-                .map(|b| f32::from_le_bytes(b.try_into().expect("chunks of four")))
-                .collect();
+            *values = tensor_file::entries(&view).collect();
         }
         Ok(Self { header, tensors })
     }

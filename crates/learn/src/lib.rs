@@ -17,6 +17,7 @@ mod ppo;
 mod rollout;
 mod settings;
 mod shipped;
+mod tensor_file;
 mod train;
 mod weights;
 

@@ -53,6 +53,8 @@ pub struct Training {
     rollout: Rollout,
     validation: Vec<Arc<Scenario>>,
     progress: Progress,
+    /// What [`Plan::network_print`] says; a checkpoint remembers it.
+    network_print: u32,
 }
 
 impl Training {
@@ -74,7 +76,8 @@ impl Training {
     /// If the checkpoint is damaged or of another run.
     pub fn resume(plan: Plan, checkpoint: Checkpoint) -> Result<Self, Error> {
         let net = plan.net()?;
-        let (params, adam, progress) = checkpoint.unpack(&plan, net.layout().len())?;
+        let (params, adam, progress) =
+            checkpoint.unpack(&plan, plan.network_print()?, net.layout().len())?;
         Self::assemble(plan, net, (params, adam), progress, false)
     }
 
@@ -94,7 +97,19 @@ impl Training {
         let mut prepared = net.prepared();
         net.prepare(&params, &mut prepared);
         let ppo = Ppo::new(&net, plan.network.vertiports().len(), &plan.settings);
-        Ok(Self { plan, net, params, prepared, adam, ppo, rollout, validation, progress })
+        let network_print = plan.network_print()?;
+        Ok(Self {
+            plan,
+            net,
+            params,
+            prepared,
+            adam,
+            ppo,
+            rollout,
+            validation,
+            progress,
+            network_print,
+        })
     }
 
     /// The run's settings.
@@ -197,12 +212,9 @@ impl Training {
     }
 
     /// Everything that [`resume`](Self::resume) needs.
-    ///
-    /// # Errors
-    /// Never once a run has started: its validation days have been drawn.
-    pub fn checkpoint(&self) -> Result<Checkpoint, Error> {
+    pub fn checkpoint(&self) -> Checkpoint {
         let progress = Progress { days: self.rollout.progress(), ..self.progress.clone() };
-        Checkpoint::pack(&self.plan, &self.params, &self.adam, progress)
+        Checkpoint::pack(&self.plan, self.network_print, (&self.params, &self.adam), progress)
     }
 }
 

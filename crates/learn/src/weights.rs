@@ -3,7 +3,7 @@
 //! A file stands for itself: architecture, shape and feature scales are in its header, so a policy can be run from it
 //! without the network file it was trained on.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
@@ -14,11 +14,10 @@ use crate::error::Error;
 use crate::features;
 use crate::nn::{self, Architecture, Shape};
 use crate::settings::Settings;
+use crate::tensor_file;
 
 /// First member of every header.
 const FORMAT: &str = "vertifleet-weights/1";
-/// The header's name among the file's metadata.
-const HEADER: &str = "vertifleet";
 /// No weight file of ours comes near; larger ones are not read.
 const LIMIT_BYTES: u64 = 512 << 20;
 
@@ -121,16 +120,11 @@ impl Model {
 
     /// The file's bytes.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let header = serde_json::to_string(&self.header).expect("a header is plain data");
         let tensors = self.net.layout().tensors().iter().map(|tensor| {
-            let values = &self.params[tensor.offset..][..tensor.len()];
-            let bytes = bytemuck::cast_slice(values);
-            let view = TensorView::new(Dtype::F32, tensor.shape.clone(), bytes)
-                .expect("the layout's shapes agree with their lengths");
-            (tensor.name.clone(), view)
+            let entries = &self.params[tensor.offset..][..tensor.len()];
+            (tensor.name.as_str(), tensor.shape.clone(), entries)
         });
-        let info = HashMap::from([(HEADER.to_owned(), header)]);
-        safetensors::serialize(tensors, Some(info)).expect("the layout's tensors are valid")
+        tensor_file::to_bytes(&self.header, tensors)
     }
 
     /// Writes the file, whole or not at all.
@@ -157,15 +151,8 @@ impl Model {
     /// As [`read`](Self::read).
     pub fn from_bytes(bytes: &[u8], origin: &str) -> Result<Self, Error> {
         let broken = |rule: String| Error::BadWeights { origin: origin.to_owned(), rule };
-        let (_, metadata) =
-            SafeTensors::read_metadata(bytes).map_err(|error| broken(error.to_string()))?;
-        let text = metadata.metadata().as_ref().and_then(|info| info.get(HEADER));
-        let text = text.ok_or_else(|| broken(format!("the file has no {HEADER:?} header")))?;
         let header: Header =
-            serde_json::from_str(text).map_err(|error| broken(format!("header: {error}")))?;
-        if header.format != FORMAT {
-            return Err(broken(format!("format must be {FORMAT:?}, found {:?}", header.format)));
-        }
+            tensor_file::header(bytes, FORMAT, |header: &Header| &header.format).map_err(broken)?;
         header.settings.check()?;
         if header.shape != features::shape(header.shape.vertiports) {
             return Err(broken(format!("{:?} is not the shape of our features", header.shape)));
@@ -197,11 +184,7 @@ fn collect(net: &nn::Network, file: &SafeTensors<'_>) -> Result<Vec<f32>, String
                 view.shape(),
             ));
         }
-        params.extend(
-            view.data()
-                .chunks_exact(4)
-                .map(|bytes| f32::from_le_bytes(bytes.try_into().expect("chunks of four"))),
-        );
+        params.extend(tensor_file::entries(&view));
     }
     if let Some(name) = found.keys().next() {
         return Err(format!("tensor {name:?} does not belong to this policy"));

@@ -43,7 +43,7 @@ fn finish(mut training: Training) -> Training {
 
 /// Everything a run leaves, to the bit.
 fn remains(training: &Training) -> (Checkpoint, Vec<u8>) {
-    (training.checkpoint().expect("a run"), training.best_model().to_bytes())
+    (training.checkpoint(), training.best_model().to_bytes())
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
 
     let mut first = Training::start(plan.clone()).expect("a plan");
     first.update(&|_| true).expect("an update");
-    first.checkpoint().expect("a run").write(&path).expect("a folder to write to");
+    first.checkpoint().write(&path).expect("a folder to write to");
     drop(first);
     let rest =
         Training::resume(plan, Checkpoint::read(&path).expect("a checkpoint")).expect("its run");
@@ -82,7 +82,7 @@ fn an_update_that_is_abandoned_leaves_the_checkpoint_before_it_good() {
 
     let mut first = Training::start(plan.clone()).expect("a plan");
     first.update(&|_| true).expect("an update");
-    let before = first.checkpoint().expect("a run");
+    let before = first.checkpoint();
     let abandoned = first.update(&|done| done < 0.4).expect("an update");
     assert!(abandoned.is_none());
     let rest = Training::resume(plan, before).expect("its run");
@@ -92,8 +92,7 @@ fn an_update_that_is_abandoned_leaves_the_checkpoint_before_it_good() {
 #[test]
 fn a_network_that_has_changed_does_not_go_on() {
     let run = plan(small_gcaps(), Reward::Dense);
-    let checkpoint =
-        Training::start(run.clone()).and_then(|training| training.checkpoint()).expect("a run");
+    let checkpoint = Training::start(run.clone()).expect("a plan").checkpoint();
     let text = include_str!("../../../networks/paper.toml")
         .replace("stands = 6\nbusy = true", "stands = 7\nbusy = true");
     let mut changed = run;
@@ -114,8 +113,7 @@ fn another_seed_gives_other_weights() {
 #[test]
 fn a_checkpoint_of_another_run_is_refused() {
     let run = plan(small_gcaps(), Reward::Dense);
-    let checkpoint =
-        || Training::start(run.clone()).and_then(|training| training.checkpoint()).expect("a run");
+    let checkpoint = || Training::start(run.clone()).expect("a plan").checkpoint();
     let refused = |change: fn(&mut Plan)| {
         let mut other = run.clone();
         change(&mut other);

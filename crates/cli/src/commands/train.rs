@@ -59,12 +59,12 @@ struct SetAside {
 }
 
 impl SetAside {
-    fn of(training: &Training) -> Result<Self, Failure> {
-        Ok(Self {
+    fn of(training: &Training) -> Self {
+        Self {
             curve: training.curve().to_vec(),
             model: training.best_model(),
-            checkpoint: training.checkpoint()?,
-        })
+            checkpoint: training.checkpoint(),
+        }
     }
 }
 
@@ -99,7 +99,7 @@ fn learn(training: &mut Training, files: &Files, stop: &AtomicBool) -> Result<Se
     let mut events = Events::create(&files.events);
     let progress = Progress::new(settings.updates() * per_update, "steps");
     let mut saved = Instant::now();
-    let mut last = SetAside::of(training)?;
+    let mut last = SetAside::of(training);
     if let Some(row) = last.curve.last() {
         progress.already_done(row.steps);
     }
@@ -121,7 +121,7 @@ fn learn(training: &mut Training, files: &Files, stop: &AtomicBool) -> Result<Se
         progress
             .say(format!("{steps_per_second:.0} steps/s, reward {}", reward_text(row.mean_reward)));
         events.append(&row, steps_per_second);
-        last = SetAside::of(training)?;
+        last = SetAside::of(training);
         if saved.elapsed().as_secs() >= SECONDS_BETWEEN_SAVES {
             // A disk that is full now may have room again when the run is over.
             if let Err(failure) = files.write(&last) {
