@@ -205,7 +205,10 @@ fn what_users_get_wrong_has_a_code_and_a_way_out() {
         ("train --network paper --policy mlp --out run --set gamma=9", "V303"),
         ("train --network paper --policy mlp --out run --preset best", "V301"),
         ("compare --network paper --policies greedy --days 1 --seed 1 --model gcaps=x", "V450"),
-        ("compare --network paper --policies greedy,greedy --days 1 --seed 1", "V450"),
+        (
+            "compare --network paper --policies greedy,greedy --days 1 --seed 1 --report twice",
+            "V404",
+        ),
         ("compare --network paper --policies greedy --days 1 --seed 1 --model greedy=x", "V450"),
         ("simulate day.json --policy mlp --model gcaps.safetensors", "V450"),
         ("train --network paper --policy gcaps --out .", "V450"),
@@ -214,6 +217,7 @@ fn what_users_get_wrong_has_a_code_and_a_way_out() {
         let said = failure(at, arguments, 2);
         assert!(said.starts_with(&format!("error[{code}")), "{arguments}: {said}");
     }
+    assert!(!at.join("twice").exists(), "what is refused leaves nothing behind");
     failure(at, "simulate", 2);
     failure(at, "fly", 2);
 }

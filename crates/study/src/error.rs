@@ -102,9 +102,9 @@ impl Error {
                 Some("name a folder that is yours, or one that is not there yet")
             }
             Self::Empty { .. } => Some("a comparison takes at least one policy and one day"),
-            Self::DuplicatePolicy { .. } => {
-                Some("give a second model of the same kind a name of its own")
-            }
+            Self::DuplicatePolicy { .. } => Some(
+                "give a second model of the same kind a name of its own, with --model NAME=PATH",
+            ),
             Self::Unpaired { .. } => Some("run all policies in one comparison"),
             Self::Stuck { .. } => Some("a replay needs the trace of the very day that is played"),
             Self::NotFinite { .. } => None,

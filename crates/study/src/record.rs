@@ -84,7 +84,7 @@ pub struct Study {
     pub days: usize,
     /// Command that made the study, as it would be typed.
     pub command: String,
-    /// Every policy's record.
+    /// Every policy's record, no two of the same name: [`Contenders`](crate::run::Contenders) sees to that.
     pub policies: Vec<PolicyRecord>,
     /// Learning curves of those policies that were trained; may be empty.
     pub curves: Vec<Curve>,

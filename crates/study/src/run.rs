@@ -24,16 +24,35 @@ pub struct Contender<'a> {
     pub make: Box<dyn Fn() -> Box<dyn Policy> + Sync + 'a>,
 }
 
+/// The policies that take part, no two of the same name: everything after this tells them apart by it.
+pub struct Contenders<'a>(Vec<Contender<'a>>);
+
+impl<'a> Contenders<'a> {
+    /// These policies, in this order.
+    ///
+    /// # Errors
+    /// [`Error::DuplicatePolicy`] if two have the same name.
+    pub fn new(contenders: Vec<Contender<'a>>) -> Result<Self, Error> {
+        for (position, Contender { name, .. }) in contenders.iter().enumerate() {
+            if contenders[..position].iter().any(|other| other.name == *name) {
+                return Err(Error::DuplicatePolicy { name: name.clone() });
+            }
+        }
+        Ok(Self(contenders))
+    }
+}
+
 /// Plays all days with every contender; `played` is called after each day of each of them, from any thread.
 ///
 /// # Errors
 /// [`Error::Stuck`] if a policy cannot play a day to its end.
 pub fn run(
     days: &[Arc<Scenario>],
-    contenders: &[Contender<'_>],
+    contenders: &Contenders<'_>,
     played: &(impl Fn() + Sync),
 ) -> Result<Vec<PolicyRecord>, Error> {
     contenders
+        .0
         .iter()
         .enumerate()
         .map(|(position, contender)| play_days(position, contender, days, played))
@@ -135,23 +154,33 @@ mod tests {
 
     use vertifleet_core::{DaySeed, Network};
 
-    use super::{Contender, LatencySummary, PolicyRecord, latency, run};
+    use super::{Contender, Contenders, LatencySummary, PolicyRecord, latency, run};
     use crate::summary::Summary;
     use crate::{DayRecord, Study};
 
-    fn contenders() -> [Contender<'static>; 2] {
-        [
-            Contender {
-                name: "random".to_owned(),
-                description: String::new(),
-                make: Box::new(|| Box::new(Random::new(7))),
-            },
-            Contender {
-                name: "greedy".to_owned(),
-                description: String::new(),
-                make: Box::new(|| Box::new(Greedy)),
-            },
-        ]
+    fn greedy(name: &str) -> Contender<'static> {
+        Contender {
+            name: name.to_owned(),
+            description: String::new(),
+            make: Box::new(|| Box::new(Greedy)),
+        }
+    }
+
+    fn contenders() -> Contenders<'static> {
+        let random = Contender {
+            name: "random".to_owned(),
+            description: String::new(),
+            make: Box::new(|| Box::new(Random::new(7))),
+        };
+        Contenders::new(vec![random, greedy("greedy")]).expect("different names")
+    }
+
+    #[test]
+    fn a_name_that_comes_twice_is_refused_before_any_day_is_played() {
+        let repeated = vec![greedy("one"), greedy("two"), greedy("one")];
+        let error = Contenders::new(repeated).err().expect("a name that comes twice");
+        assert_eq!(error.code().to_string(), "V404");
+        assert!(error.to_string().contains("\"one\""), "{error}");
     }
 
     fn played_on(threads: usize) -> Vec<PolicyRecord> {

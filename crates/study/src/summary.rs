@@ -118,8 +118,8 @@ impl Summary {
     /// Sums a study up.
     ///
     /// # Errors
-    /// [`Error::Empty`], [`Error::DuplicatePolicy`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are
-    /// not those of different policies on the same days.
+    /// [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies on the
+    /// same days.
     pub fn of(study: &Study) -> Result<Self, Error> {
         check(study)?;
         let mut policies: Vec<PolicySummary> = study
@@ -226,15 +226,12 @@ fn empty(study: &Study) -> Error {
     Error::Empty { policies: study.policies.len(), days: study.days }
 }
 
-/// The records are those of differently named policies on the same days, with finite results.
+/// The records are those of policies on the same days, with finite results.
 fn check(study: &Study) -> Result<(), Error> {
     let Some(first) = study.policies.first().filter(|_| study.days > 0) else {
         return Err(empty(study));
     };
-    for (position, policy) in study.policies.iter().enumerate() {
-        if study.policies[..position].iter().any(|other| other.name == policy.name) {
-            return Err(Error::DuplicatePolicy { name: policy.name.clone() });
-        }
+    for policy in &study.policies {
         check_paired(study.days, first, policy)?;
         for day in &policy.days {
             check_finite(&policy.name, day)?;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use anstream::eprintln;
 use vertifleet_core::{DaySeed, Network, Scenario};
-use vertifleet_study::run::{Contender, run as play_all};
+use vertifleet_study::run::{Contender, Contenders, run as play_all};
 use vertifleet_study::{Curve, Study, Summary, report, table};
 
 use crate::args::CompareArguments;
@@ -18,6 +18,7 @@ use crate::progress::Progress;
 pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     let network = Network::find(&arguments.network)?;
     let recipes = recipes(arguments, network.name())?;
+    let contenders = contenders(&recipes)?;
     let days = draw(&network, arguments)?;
     if let Some(folder) = &arguments.report {
         vertifleet_core::create_folder(folder)?;
@@ -25,12 +26,15 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     for (_, recipe) in &recipes {
         recipe.check_fits(&days[0])?;
     }
+    let progress = Progress::new((days.len() * recipes.len()) as u64, "days");
+    let policies = play_all(&days, &contenders, &|| progress.advance(1));
+    progress.finish();
     let study = Study {
         network: network.name().to_owned(),
         seed: arguments.seed,
         days: days.len(),
         command: command(),
-        policies: play(&days, &recipes)?,
+        policies: policies?,
         curves: curves(&recipes),
     };
     let summary = Summary::of(&study)?;
@@ -48,12 +52,6 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
 
 /// The policies by name: weights given by --model first, then rules, then the network's shipped weights.
 fn recipes(arguments: &CompareArguments, network: &str) -> Result<Vec<(String, Recipe)>, Failure> {
-    if let Some(twice) = first_repeated(&arguments.policies) {
-        return Err(Failure::usage(
-            format!("--policies names {twice:?} twice"),
-            "give a second model of the same kind a name of its own, with --model NAME=PATH",
-        ));
-    }
     let models: Vec<String> = arguments.models.iter().map(|(name, _)| name.clone()).collect();
     if let Some(twice) = first_repeated(&models) {
         return Err(Failure::usage(
@@ -91,22 +89,13 @@ fn draw(network: &Network, arguments: &CompareArguments) -> Result<Vec<Arc<Scena
     (0..arguments.days).map(|day| Ok(Arc::new(network.draw(seed(day)?)))).collect()
 }
 
-fn play(
-    days: &[Arc<Scenario>],
-    recipes: &[(String, Recipe)],
-) -> Result<Vec<vertifleet_study::PolicyRecord>, Failure> {
-    let contenders: Vec<Contender<'_>> = recipes
-        .iter()
-        .map(|(name, recipe)| Contender {
-            name: name.clone(),
-            description: recipe.description(),
-            make: Box::new(|| recipe.make()),
-        })
-        .collect();
-    let progress = Progress::new((days.len() * recipes.len()) as u64, "days");
-    let records = play_all(days, &contenders, &|| progress.advance(1));
-    progress.finish();
-    Ok(records?)
+fn contenders(recipes: &[(String, Recipe)]) -> Result<Contenders<'_>, Failure> {
+    let contenders = recipes.iter().map(|(name, recipe)| Contender {
+        name: name.clone(),
+        description: recipe.description(),
+        make: Box::new(|| recipe.make()),
+    });
+    Ok(Contenders::new(contenders.collect())?)
 }
 
 /// The learning curves of the learned policies that have one.
