@@ -1,6 +1,6 @@
 //! The learning curve: one row an update, as CSV for people and as TensorBoard events for those who watch.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -59,6 +59,11 @@ pub fn from_csv(text: &str, origin: &str) -> Result<Vec<CurveRow>, Error> {
     })
 }
 
+/// How the names of our event files begin; TensorBoard looks for `tfevents`.
+const PREFIX: &str = "events.out.tfevents.";
+/// How they end.
+const SUFFIX: &str = ".vertifleet";
+
 /// A TensorBoard event file: records of protocol-buffer messages, each framed by its length and two checksums.
 ///
 /// The format is small and fixed, and the crates that write it bring a whole protocol-buffer compiler along, so the
@@ -70,13 +75,15 @@ pub struct EventFile {
 }
 
 impl EventFile {
-    /// A new event file in `folder`, which is made if it is not there; named after the time it was begun.
+    /// A new event file in `folder`, which is made if it is not there; named after the time it was begun. It begins
+    /// with the updates that are behind the run, `so_far`, and takes the place of the run's earlier event files: one that
+    /// was killed may have told of updates which its checkpoint knows nothing of, and TensorBoard would show them twice.
     ///
     /// # Errors
-    /// If the file is there already or cannot be written.
-    pub fn create(folder: &Path, unix_seconds: f64) -> Result<Self, Error> {
+    /// If the file is there already or cannot be written, or an earlier one cannot be removed.
+    pub fn create(folder: &Path, unix_seconds: f64, so_far: &[CurveRow]) -> Result<Self, Error> {
         vertifleet_core::create_folder(folder)?;
-        let path = folder.join(format!("events.out.tfevents.{unix_seconds:.6}.vertifleet"));
+        let path = folder.join(format!("{PREFIX}{unix_seconds:.6}{SUFFIX}"));
         let cannot = |cause| Self::cannot_write(&path, cause);
         let file = File::create_new(&path).map_err(cannot)?;
         let mut events = Self { file, path };
@@ -84,10 +91,27 @@ impl EventFile {
         let mut event = wall_time(unix_seconds);
         bytes_field(&mut event, 3, b"brain.Event:2");
         events.record(&event)?;
+        for row in so_far {
+            events.append(unix_seconds, row, None)?;
+        }
+        events.remove_earlier(folder)?;
         Ok(events)
     }
 
-    /// Appends one update.
+    /// Removes the other event files that a run left in this folder.
+    fn remove_earlier(&self, folder: &Path) -> Result<(), Error> {
+        let cannot = |cause| Self::cannot_write(folder, cause);
+        for entry in fs::read_dir(folder).map_err(cannot)? {
+            let path = entry.map_err(cannot)?.path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if name.starts_with(PREFIX) && name.ends_with(SUFFIX) && path != self.path {
+                fs::remove_file(&path).map_err(|cause| Self::cannot_write(&path, cause))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Appends one update; `steps_per_second` is how fast it went, where that is known.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -95,7 +119,7 @@ impl EventFile {
         &mut self,
         unix_seconds: f64,
         row: &CurveRow,
-        steps_per_second: f64,
+        steps_per_second: Option<f64>,
     ) -> Result<(), Error> {
         let scalars = [
             ("rollout/ep_rew_mean", row.mean_reward),
@@ -106,7 +130,7 @@ impl EventFile {
             ("train/approx_kl", Some(row.approx_kl)),
             ("train/clip_fraction", Some(row.clip_fraction)),
             ("train/learning_rate", Some(row.learning_rate)),
-            ("time/fps", Some(steps_per_second)),
+            ("time/fps", steps_per_second),
         ];
         let mut summary = Vec::new();
         for (tag, value) in scalars.into_iter().filter_map(|(tag, value)| Some((tag, value?))) {
@@ -168,6 +192,8 @@ fn masked_checksum(bytes: &[u8]) -> u32 {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::{CurveRow, EventFile, from_csv, masked_checksum, to_csv};
 
     fn row() -> CurveRow {
@@ -191,11 +217,47 @@ mod tests {
     #[test]
     fn events_are_framed_by_length_and_checksums() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut events = EventFile::create(folder.path(), 1_700_000_000.0).expect("a file");
-        events.append(1_700_000_001.5, &row(), 1234.0).expect("a file");
+        let mut events = EventFile::create(folder.path(), 1_700_000_000.0, &[]).expect("a file");
+        events.append(1_700_000_001.5, &row(), Some(1234.0)).expect("a file");
         let path = folder.path().join("events.out.tfevents.1700000000.000000.vertifleet");
-        let bytes = std::fs::read(path).expect("the file");
+        let records = records(&path);
+        assert_eq!(records.len(), 2);
+        assert!(records[0].ends_with(b"brain.Event:2"));
+        let has = |part: &[u8]| records[1].windows(part.len()).any(|window| window == part);
+        assert!(has(b"rollout/ep_rew_mean") && has(&0.03125_f32.to_le_bytes()));
+        assert!(!has(b"eval/mean_reward"), "what was not measured is not written");
+    }
 
+    #[test]
+    fn a_run_that_was_killed_and_goes_on_tells_of_each_step_once() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let row = |update| CurveRow { update, steps: update, ..CurveRow::default() };
+        let mut killed = EventFile::create(folder.path(), 1_700_000_000.0, &[]).expect("a file");
+        for update in 1..=5 {
+            killed.append(1_700_000_001.0, &row(update), Some(1234.0)).expect("a file");
+        }
+        std::fs::write(folder.path().join("notes.txt"), "not ours").expect("a file");
+
+        let kept = [row(1), row(2), row(3)];
+        let mut resumed = EventFile::create(folder.path(), 1_700_000_009.0, &kept).expect("a file");
+        resumed.append(1_700_000_010.0, &row(4), Some(1234.0)).expect("a file");
+        let files = std::fs::read_dir(folder.path()).expect("a folder");
+        let files = files.map(|file| file.expect("a file").path());
+        let (events, others): (Vec<_>, Vec<_>) =
+            files.partition(|file| file.to_string_lossy().contains("tfevents"));
+        let steps: Vec<u8> =
+            events.iter().flat_map(|file| records(file)).filter_map(|event| step(&event)).collect();
+        assert_eq!((steps.as_slice(), others.len()), (&[1, 2, 3, 4][..], 1));
+    }
+
+    /// The step of an event, below 128: a byte that stands, with its field's number before it, behind the time.
+    fn step(event: &[u8]) -> Option<u8> {
+        (event[9] == 2 << 3).then(|| event[10])
+    }
+
+    /// The events of a file, after checking their frames.
+    fn records(path: &Path) -> Vec<Vec<u8>> {
+        let bytes = std::fs::read(path).expect("the file");
         let mut records = Vec::new();
         let mut rest = bytes.as_slice();
         while !rest.is_empty() {
@@ -206,14 +268,10 @@ mod tests {
             let (event, after) = after.split_at(usize::try_from(length).expect("a short record"));
             let (event_sum, after) = after.split_at(4);
             assert_eq!(event_sum, masked_checksum(event).to_le_bytes());
-            records.push(event);
+            records.push(event.to_vec());
             rest = after;
         }
-        assert_eq!(records.len(), 2);
-        assert!(records[0].ends_with(b"brain.Event:2"));
-        let has = |part: &[u8]| records[1].windows(part.len()).any(|window| window == part);
-        assert!(has(b"rollout/ep_rew_mean") && has(&0.03125_f32.to_le_bytes()));
-        assert!(!has(b"eval/mean_reward"), "what was not measured is not written");
+        records
     }
 
     #[test]

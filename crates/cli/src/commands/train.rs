@@ -96,7 +96,7 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
 fn learn(training: &mut Training, files: &Files, stop: &AtomicBool) -> Result<SetAside, Failure> {
     let settings = training.settings().clone();
     let per_update = settings.buffer_size() as u64;
-    let mut events = Events::create(&files.events);
+    let mut events = Events::create(&files.events, training.curve());
     let progress = Progress::new(settings.updates() * per_update, "steps");
     let mut saved = Instant::now();
     let mut last = SetAside::of(training);
@@ -138,13 +138,13 @@ fn learn(training: &mut Training, files: &Files, stop: &AtomicBool) -> Result<Se
 struct Events(Option<EventFile>);
 
 impl Events {
-    fn create(folder: &Path) -> Self {
-        Self(Self::told(EventFile::create(folder, unix_seconds())))
+    fn create(folder: &Path, so_far: &[CurveRow]) -> Self {
+        Self(Self::told(EventFile::create(folder, unix_seconds(), so_far)))
     }
 
     fn append(&mut self, row: &CurveRow, steps_per_second: f64) {
         if let Some(file) = &mut self.0
-            && Self::told(file.append(unix_seconds(), row, steps_per_second)).is_none()
+            && Self::told(file.append(unix_seconds(), row, Some(steps_per_second))).is_none()
         {
             self.0 = None;
         }
