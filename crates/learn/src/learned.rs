@@ -53,16 +53,20 @@ impl Policy for Learned {
 
     fn choose_batch(
         &mut self,
-        asked: &[(Decision, View<'_>)],
+        asked: &mut dyn Iterator<Item = (Decision, View<'_>)>,
         choices: &mut Vec<VertiportIx>,
     ) -> Result<(), PolicyError> {
-        for block in asked.chunks(BATCH) {
-            for (row, (decision, view)) in block.iter().enumerate() {
-                self.observations.write(row, decision, view, &self.scales);
+        loop {
+            let mut batch = 0;
+            for (decision, view) in asked.take(BATCH) {
+                self.observations.write(batch, &decision, &view, &self.scales);
+                batch += 1;
             }
-            choices.extend(self.infer(block.len()));
+            if batch == 0 {
+                return Ok(());
+            }
+            choices.extend(self.infer(batch));
         }
-        Ok(())
     }
 }
 

@@ -236,20 +236,24 @@ impl Plan {
 fn play_block(policy: &mut Learned, days: &[Arc<Scenario>]) -> Vec<f64> {
     let mut simulations: Vec<Simulation> =
         days.iter().map(|day| Simulation::new(Arc::clone(day))).collect();
+    let mut open = Vec::with_capacity(days.len());
     let mut choices = Vec::with_capacity(days.len());
     loop {
-        let open: Vec<(usize, _)> = simulations
-            .iter_mut()
-            .enumerate()
-            .filter_map(|(at, day)| day.next_decision().map(|decision| (at, decision)))
-            .collect();
+        open.clear();
+        open.extend(
+            simulations
+                .iter_mut()
+                .enumerate()
+                .filter_map(|(at, day)| day.next_decision().map(|decision| (at, decision))),
+        );
         if open.is_empty() {
             return simulations.iter().map(|day| day.summary().reward).collect();
         }
-        let asked: Vec<_> =
-            open.iter().map(|&(at, decision)| (decision, simulations[at].view())).collect();
         choices.clear();
-        policy.choose_batch(&asked, &mut choices).expect("a trained network always has an answer");
+        let mut asked = open.iter().map(|&(at, decision)| (decision, simulations[at].view()));
+        policy
+            .choose_batch(&mut asked, &mut choices)
+            .expect("a trained network always has an answer");
         for (&(at, _), &choice) in open.iter().zip(&choices) {
             simulations[at].apply(choice).expect("a trained network chooses from the mask");
         }

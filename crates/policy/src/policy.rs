@@ -18,15 +18,18 @@ pub trait Policy: Send {
     /// Chooses for many days at once, one choice pushed per decision asked. Learned policies answer a batch much
     /// faster than its parts; the rest answer one by one.
     ///
+    /// Views borrow their days, so a list of them cannot outlive a step in which the days move on; an iterator spares
+    /// the caller to make one anew for every step.
+    ///
     /// # Errors
     /// As [`choose`](Self::choose), for the first decision that has no answer.
     fn choose_batch(
         &mut self,
-        asked: &[(Decision, View<'_>)],
+        asked: &mut dyn Iterator<Item = (Decision, View<'_>)>,
         choices: &mut Vec<VertiportIx>,
     ) -> Result<(), PolicyError> {
         for (decision, view) in asked {
-            choices.push(self.choose(decision, view)?);
+            choices.push(self.choose(&decision, &view)?);
         }
         Ok(())
     }
