@@ -1,7 +1,7 @@
 //! How the program fails: a coded message and a hint on stderr, and an exit code.
 //!
 //! Exit code 2 is for what the user typed or wrote; 1 is for what went wrong although that was right: a disk that is
-//! full, a policy that gets stuck, a training that diverges.
+//! full, a training that diverges.
 
 use std::fmt;
 use std::process::ExitCode;
@@ -10,7 +10,7 @@ use anstream::eprintln;
 use vertifleet_core::Code;
 
 /// Codes of failures that no other input would have avoided.
-const NOT_THE_INPUT: [u16; 5] = [102, 309, 401, 405, 406];
+const NOT_THE_INPUT: [u16; 4] = [102, 309, 401, 405];
 
 /// An outcome that is none.
 #[derive(Debug)]

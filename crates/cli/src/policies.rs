@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use vertifleet_core::{Code, Scenario};
+use vertifleet_core::Scenario;
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{CurveRow, Learned, Model, Trained, shipped};
-use vertifleet_policy::{Greedy, Lookahead, PlayError, Policy, Random, Replay};
+use vertifleet_policy::{Greedy, Lookahead, Policy, Random, Replay};
 use vertifleet_sim::Trace;
 
 use crate::failure::Failure;
@@ -159,14 +159,4 @@ pub(crate) fn takes_no_weights(policy: &str) -> Failure {
 /// The network a day was drawn from, by its name: `paper` of `paper-7`.
 fn network_of(scenario: &Scenario) -> &str {
     scenario.name.strip_suffix(&format!("-{}", scenario.seed)).unwrap_or(&scenario.name)
-}
-
-/// V451: a policy got stuck on a day. Cause: the trace replayed is another day's. Fix: replay it on its own day.
-pub(crate) fn cannot_play(policy: &str, day: &str, error: &PlayError) -> Failure {
-    let hint = "replay needs the trace of the very scenario that is played";
-    Failure::expected(
-        Code(451),
-        format!("policy {policy:?} cannot play {day}: {error}"),
-        Some(hint),
-    )
 }

@@ -200,7 +200,7 @@ fn what_users_get_wrong_has_a_code_and_a_way_out() {
         ("simulate day.json --policy fastest", "V307"),
         ("simulate day.json --policy gcaps --model day.json", "V304"),
         ("simulate day.json --policy greedy --model day.json", "V450"),
-        ("simulate day.json --policy replay:other.csv", "V451"),
+        ("simulate day.json --policy replay:other.csv", "V406"),
         ("train --network paper --policy mlp --out run --set speed=9", "V302"),
         ("train --network paper --policy mlp --out run --set gamma=9", "V303"),
         ("train --network paper --policy mlp --out run --preset best", "V301"),

@@ -1,6 +1,6 @@
 //! The one interface behind which every way of deciding stands.
 
-use vertifleet_core::{AircraftIx, Time, VertiportIx};
+use vertifleet_core::{Time, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 /// Decides where an aircraft flies next.
@@ -48,15 +48,15 @@ pub enum PolicyError {
     },
     /// The trace's next row is about another aircraft or another time.
     #[error(
-        "row {row} of the trace is aircraft {found_aircraft} at {found_time}, but aircraft {aircraft} decides at {time}",
-        found_aircraft = found.0.0, found_time = found.1, aircraft = asked.0.0, time = asked.1
+        "row {row} of the trace is aircraft {found_aircraft:?} at {found_time}, but aircraft {aircraft:?} decides at {time}",
+        found_aircraft = found.0, found_time = found.1, aircraft = asked.0, time = asked.1
     )]
     TraceOfAnotherDay {
         /// Row, counted from 1 below the header.
         row: usize,
-        /// What the row says.
-        found: (AircraftIx, Time),
-        /// What the day asks.
-        asked: (AircraftIx, Time),
+        /// What the row says; the aircraft by its id.
+        found: (String, Time),
+        /// What the day asks; the aircraft by its id.
+        asked: (String, Time),
     },
 }

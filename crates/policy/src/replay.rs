@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::VertiportIx;
+use vertifleet_core::{AircraftIx, VertiportIx};
 use vertifleet_sim::{Decision, Trace, View};
 
 use crate::{Policy, PolicyError};
@@ -21,7 +21,7 @@ impl Replay {
 }
 
 impl Policy for Replay {
-    fn choose(&mut self, decision: &Decision, _: &View<'_>) -> Result<VertiportIx, PolicyError> {
+    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
         let at = decision.index as usize;
         let rows = &self.trace.rows;
         let row = rows
@@ -30,10 +30,15 @@ impl Policy for Replay {
         if (row.aircraft, row.time) != (decision.aircraft, decision.time) {
             return Err(PolicyError::TraceOfAnotherDay {
                 row: at + 1,
-                found: (row.aircraft, row.time),
-                asked: (decision.aircraft, decision.time),
+                found: (aircraft_id(row.aircraft, *view), row.time),
+                asked: (aircraft_id(decision.aircraft, *view), decision.time),
             });
         }
         Ok(row.to)
     }
+}
+
+/// The aircraft's id; its position where another day's trace has more aircraft than this day.
+fn aircraft_id(aircraft: AircraftIx, view: View<'_>) -> String {
+    view.aircraft_id(aircraft).map_or_else(|| format!("#{}", aircraft.0), str::to_owned)
 }

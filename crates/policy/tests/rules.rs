@@ -50,10 +50,18 @@ fn a_replay_repeats_the_day_to_the_bit() {
 #[test]
 fn a_replay_of_another_day_gets_stuck_and_says_where() {
     let (trace, _) = trace_of(&day(3), &mut Greedy);
-    let mut simulation = Simulation::new(day(4));
-    let error = play(&mut simulation, &mut Replay::new(Arc::new(trace.clone())), |_| ())
-        .expect_err("another day's trace");
-    assert!(!error.to_string().is_empty());
+    let stuck = |day: Arc<Scenario>, trace: Trace| {
+        let mut replay = Replay::new(Arc::new(trace));
+        let error = play(&mut Simulation::new(day), &mut replay, |_| ());
+        error.expect_err("another day's trace").to_string()
+    };
+    let refused = stuck(day(4), trace.clone());
+    assert!(refused.contains("aircraft \"A") && refused.contains("vertiport \"V"), "{refused}");
+    let later = Trace { rows: trace.rows[1..].to_vec() };
+    assert_eq!(
+        stuck(day(3), later),
+        "row 1 of the trace is aircraft \"A02\" at 06:00:00, but aircraft \"A01\" decides at 06:00:00"
+    );
 
     let short = Trace { rows: trace.rows[..10].to_vec() };
     let mut simulation = Simulation::new(day(3));

@@ -1,20 +1,37 @@
 //! Why a decision is refused. A refused decision changes nothing.
 
-/// The rule that a decision outside the mask breaks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+/// The rule that a decision outside the mask breaks. Aircraft and vertiports are named by their ids.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
     /// No aircraft has a decision left.
     #[error("the day is over: no aircraft has a decision left")]
     DayOver,
-    /// The scenario has no vertiport with that index.
-    #[error("there is no vertiport {0}: the scenario has fewer")]
-    NoSuchVertiport(u16),
+    /// The scenario has no vertiport at that position.
+    #[error("there is no vertiport at position {position}: the scenario has {vertiports}")]
+    NoSuchVertiport {
+        /// The position chosen, from 0.
+        position: u16,
+        /// Vertiports of the scenario.
+        vertiports: usize,
+    },
     /// A full battery does not reach the destination (Eq. 12).
-    #[error("vertiport {0} is out of range: the flight takes more energy than the battery holds")]
-    OutOfRange(u16),
+    #[error(
+        "aircraft {aircraft:?} cannot fly to vertiport {to:?}: the flight takes more energy than the battery holds"
+    )]
+    OutOfRange {
+        /// The aircraft that decides.
+        aircraft: String,
+        /// The vertiport chosen.
+        to: String,
+    },
     /// Every stand of the destination is taken or promised (Eq. 16).
     #[error(
-        "vertiport {0} has no stand free: every one is taken or promised to an aircraft on its way"
+        "aircraft {aircraft:?} cannot fly to vertiport {to:?}: every stand is taken or promised to an aircraft on its way"
     )]
-    NoStandFree(u16),
+    NoStandFree {
+        /// The aircraft that decides.
+        aircraft: String,
+        /// The vertiport chosen.
+        to: String,
+    },
 }

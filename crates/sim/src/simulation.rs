@@ -83,17 +83,27 @@ impl Simulation {
             return Ok(self.hold(&decision));
         }
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
-        if !self.legs.within_range(kind, decision.at).contains(choice) {
-            return Err(if choice.at() < self.place_count() {
-                Refusal::OutOfRange(choice.0)
-            } else {
-                Refusal::NoSuchVertiport(choice.0)
-            });
+        let within_range = self.legs.within_range(kind, decision.at).contains(choice);
+        if within_range && self.stands.open().contains(choice) {
+            return Ok(self.fly(&decision, choice));
         }
-        if !self.stands.open().contains(choice) {
-            return Err(Refusal::NoStandFree(choice.0));
+        Err(self.refusal(&decision, choice, within_range))
+    }
+
+    /// The rule that a choice outside the mask breaks.
+    #[cold]
+    fn refusal(&self, decision: &Decision, choice: VertiportIx, within_range: bool) -> Refusal {
+        let vertiports = &self.scenario.vertiports;
+        let Some(to) = vertiports.get(choice.at()) else {
+            return Refusal::NoSuchVertiport { position: choice.0, vertiports: vertiports.len() };
+        };
+        let to = to.id.clone();
+        let aircraft = self.scenario.aircraft[decision.aircraft.at()].id.clone();
+        if within_range {
+            Refusal::NoStandFree { aircraft, to }
+        } else {
+            Refusal::OutOfRange { aircraft, to }
         }
-        Ok(self.fly(&decision, choice))
     }
 
     fn hold(&mut self, decision: &Decision) -> TraceRow {
@@ -214,9 +224,5 @@ impl Simulation {
 
     pub(crate) fn period(&self) -> usize {
         self.period
-    }
-
-    fn place_count(&self) -> usize {
-        self.scenario.vertiports.len()
     }
 }

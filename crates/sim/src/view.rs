@@ -27,6 +27,11 @@ impl<'a> View<'a> {
         self.simulation.feasible(decision)
     }
 
+    /// The id of an aircraft, for people; none if the day has no such aircraft.
+    pub fn aircraft_id(&self, aircraft: AircraftIx) -> Option<&'a str> {
+        self.scenario().aircraft.get(aircraft.at()).map(|aircraft| aircraft.id.as_str())
+    }
+
     /// The type of an aircraft.
     #[inline]
     pub fn kind(&self, aircraft: AircraftIx) -> TypeIx {

@@ -136,7 +136,10 @@ proptest! {
                 let refusal = simulation.apply(choice).expect_err("the choice is outside the mask");
                 assert_eq!(format!("{simulation:?}"), before);
                 let exists = choice.at() < day.vertiports.len();
-                assert_eq!(refusal == Refusal::NoSuchVertiport(choice.0), !exists);
+                assert_eq!(matches!(refusal, Refusal::NoSuchVertiport { .. }), !exists);
+                let id = day.vertiports.get(choice.at()).map(|to| format!("{:?}", to.id));
+                let said = refusal.to_string();
+                assert!(id.is_none_or(|id| said.contains(&id)), "{said}");
             }
         });
     }

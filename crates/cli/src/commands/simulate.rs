@@ -20,8 +20,13 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     let mut policy = policies::for_scenario(&choice, &scenario)?;
     let mut simulation = Simulation::new(Arc::clone(&scenario));
     let mut trace = Trace::default();
-    play(&mut simulation, policy.as_mut(), |row| trace.rows.push(*row))
-        .map_err(|error| policies::cannot_play(&arguments.policy, &scenario.name, &error))?;
+    play(&mut simulation, policy.as_mut(), |row| trace.rows.push(*row)).map_err(|cause| {
+        vertifleet_study::Error::Stuck {
+            policy: arguments.policy.clone(),
+            day: scenario.name.clone(),
+            cause,
+        }
+    })?;
     if let Some(path) = &arguments.trace {
         trace.write(&scenario, path)?;
     }
