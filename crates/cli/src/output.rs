@@ -1,6 +1,10 @@
-//! Results on stdout.
+//! Results on stdout, warnings on stderr.
 
+use std::fmt;
 use std::io::{self, Write};
+
+use anstream::eprintln;
+use vertifleet_core::Code;
 
 use crate::failure::Failure;
 
@@ -14,4 +18,10 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Says what is allowed but hardly meant.
+pub(crate) fn warn(code: Code, warning: &dyn fmt::Display) {
+    let (yellow, reset) = ("\u{1b}[1;33m", "\u{1b}[0m");
+    eprintln!("{yellow}warning[{code}]{reset}: {warning}");
 }

@@ -3,13 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use vertifleet_core::Scenario;
+use vertifleet_core::{Code, Scenario};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{CurveRow, Learned, Model, Trained, shipped};
 use vertifleet_policy::{Greedy, Lookahead, Policy, Random, Replay};
 use vertifleet_sim::Trace;
+use vertifleet_study::NetworkOrigin;
 
 use crate::failure::Failure;
+use crate::output::warn;
 
 /// No learning curve of ours comes near; longer files are not read.
 const LONGEST_CURVE: u64 = 64 << 20;
@@ -30,7 +32,7 @@ pub(crate) enum Recipe {
     Greedy,
     Lookahead,
     Replay(Arc<Trace>),
-    Learned { model: Arc<Model>, curve: Vec<CurveRow> },
+    Learned { model: Arc<Model>, curve: Vec<CurveRow>, shipped: bool },
 }
 
 impl Recipe {
@@ -77,7 +79,7 @@ impl Recipe {
                 format!("{} has weights of {kind:?}, but {name:?} is asked for", path.display());
             return Err(Failure::usage(message, "name the policy as its weights do"));
         }
-        Ok(Self::Learned { model, curve: Vec::new() })
+        Ok(Self::Learned { model, curve: Vec::new(), shipped: false })
     }
 
     /// The policy of a weight file, with the learning curve that `train` left beside it.
@@ -93,7 +95,7 @@ impl Recipe {
     /// The shipped policy of a network.
     pub(crate) fn shipped(name: &str, network: &str) -> Result<Self, Failure> {
         let Trained { model, curve } = shipped(network, name)?;
-        Ok(Self::Learned { model: Arc::new(model), curve })
+        Ok(Self::Learned { model: Arc::new(model), curve, shipped: true })
     }
 
     /// Whether the policy can play this day.
@@ -101,6 +103,22 @@ impl Recipe {
         match self {
             Self::Learned { model, .. } => Ok(model.check_fits(scenario)?),
             _ => Ok(()),
+        }
+    }
+
+    /// V310: says so where shipped weights decide on a network that only bears the name of theirs. Cause: the network
+    /// was copied and changed, or the scenario was. Fix: train weights on it, or take it that these know the other one.
+    pub(crate) fn warn_if_shipped_for_another(
+        &self,
+        name: &str,
+        network: &str,
+        origin: NetworkOrigin,
+    ) {
+        if origin == NetworkOrigin::Changed && matches!(self, Self::Learned { shipped: true, .. }) {
+            let message = format!(
+                "policy {name:?} was trained on network {network:?} as it is shipped, but this is a changed copy of it; `vertifleet train` makes weights for the copy"
+            );
+            warn(Code(310), &message);
         }
     }
 
@@ -145,6 +163,12 @@ pub(crate) fn for_scenario(
         (None, None, None) => Recipe::shipped(choice.name, network_of(scenario))?,
     };
     recipe.check_fits(scenario)?;
+    let network = network_of(scenario);
+    recipe.warn_if_shipped_for_another(
+        choice.name,
+        network,
+        NetworkOrigin::of(network, [scenario]),
+    );
     Ok(recipe.make())
 }
 

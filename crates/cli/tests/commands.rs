@@ -137,6 +137,39 @@ fn a_report_is_a_folder_with_a_page_figures_and_tables() {
 }
 
 #[test]
+fn shipped_weights_and_published_figures_do_not_pass_for_those_of_a_changed_copy() {
+    let folder = folder();
+    let at = folder.path();
+    let paper = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks/paper.toml");
+    let paper = fs::read_to_string(paper).expect("the shipped network");
+    let copy = paper.replace("stands = 6", "stands = 7");
+    assert_ne!(copy, paper);
+    fs::write(at.join("copy.toml"), copy).expect("a file");
+    fs::write(at.join("same.toml"), format!("# my own remark\n{paper}")).expect("a file");
+
+    let compare = |network: &str| {
+        let compare = format!(
+            "compare --network {network} --policies greedy,gcaps --days 2 --seed 1 --json --report out"
+        );
+        let output = vertifleet(at, &compare).assert().success().get_output().clone();
+        let summary: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let page = fs::read_to_string(at.join("out/report.html")).expect("a page");
+        let said = String::from_utf8(output.stderr).expect("text");
+        let published = summary["published"].as_array().expect("a list").len();
+        (said.matches("warning[V310]").count(), published, page.contains("a changed copy"))
+    };
+    for shipped in ["paper", "same.toml"] {
+        assert_eq!(compare(shipped), (0, 3, false), "{shipped}");
+    }
+    assert_eq!(compare("copy.toml"), (1, 0, true));
+
+    stdout(at, "scenario copy.toml --seed 7 -o day.json");
+    let assert = vertifleet(at, "simulate day.json --policy gcaps").assert().success();
+    let said = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
+    assert!(said.starts_with("warning[V310]: policy \"gcaps\""), "{said}");
+}
+
+#[test]
 fn many_days_go_into_a_folder() {
     let folder = folder();
     stdout(folder.path(), "scenario paper --seed 7 --days 3 -o days");

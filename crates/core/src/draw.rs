@@ -42,6 +42,12 @@ impl Network {
         Scenario::checked(day)
     }
 
+    /// Whether this network draws exactly this day from the day's seed: one that has been changed since does not, even
+    /// if it still bears the name.
+    pub fn draws(&self, day: &Scenario) -> bool {
+        self.draw(DaySeed::of(day)) == *day
+    }
+
     /// Q(i, j, t): the nearest whole number to a draw from Eq. 1, not below 0.
     fn draw_demand(&self, demand: &mut [Matrix<u32>], random: &mut ChaCha8Rng) {
         for (period, table) in demand.iter_mut().enumerate() {

@@ -9,7 +9,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::{Error, limits};
+use crate::{Error, Scenario, limits};
 
 const VALIDATION: u64 = 1 << 40;
 const TRAINING: u64 = 1 << 41;
@@ -76,6 +76,11 @@ impl DaySeed {
         within("the training run's seed", run_seed.into(), RUNS)?;
         within("the number of the training day", day, RUN_DAYS)?;
         Ok(Self(TRAINING + u64::from(run_seed) * RUN_DAYS + day))
+    }
+
+    /// The seed that a day says it was drawn from; a checked day has one within bounds.
+    pub(crate) fn of(day: &Scenario) -> Self {
+        Self(day.seed)
     }
 
     /// The seed as a number, as it stands in the scenario file.

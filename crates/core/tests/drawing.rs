@@ -8,7 +8,7 @@
 use std::collections::HashSet;
 
 use proptest::prelude::{prop_assert, prop_assert_eq, prop_assert_ne, prop_assume, proptest};
-use vertifleet_core::{DaySeed, Matrix, Network, Purpose, VertiportIx};
+use vertifleet_core::{DaySeed, Matrix, Network, Purpose, Scenario, VertiportIx};
 
 fn paper() -> Network {
     Network::shipped("paper").expect("shipped")
@@ -54,6 +54,16 @@ fn one_seed_gives_one_day() {
         assert_ne!(one.aircraft, next.aircraft);
         assert_eq!(one.fare_usd, next.fare_usd, "fares are the same every day");
     }
+}
+
+#[test]
+fn a_network_knows_the_days_that_it_draws() {
+    let day = paper().draw(seed(7));
+    let read = Scenario::from_json(day.to_json().as_bytes(), "day.json").expect("a day");
+    assert!(paper().draws(&day) && paper().draws(&read));
+    let mut other = day.into_day();
+    other.vertiports[0].stands += 1;
+    assert!(!paper().draws(&other.check("other").expect("a day")));
 }
 
 #[test]

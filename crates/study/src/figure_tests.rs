@@ -3,6 +3,7 @@
 use resvg::usvg::roxmltree::Document;
 
 use super::{Figure, all, png, style_sheet};
+use crate::origin::NetworkOrigin;
 use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
 use crate::summary::Summary;
 
@@ -25,6 +26,7 @@ fn summary(names: &[&str], days: u32) -> Summary {
     });
     let study = Study {
         network: "small & odd".to_owned(),
+        network_origin: NetworkOrigin::Own,
         seed: 3,
         days: days as usize,
         command: "vertifleet compare".to_owned(),

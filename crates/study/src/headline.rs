@@ -1,16 +1,18 @@
 //! The comparison in one or two sentences, made from its numbers.
 
 use crate::numbers::{counted, dollars, grouped, p_statement, signed_dollars};
+use crate::origin::NetworkOrigin;
 use crate::summary::{Comparison, Summary};
 
 /// What the best policy earns, and whether its lead over the reference is more than chance.
 pub(crate) fn text(summary: &Summary) -> String {
     let best = summary.best();
     let earns = format!(
-        "{} earns {} a day on average over {} of the “{}” network",
+        "{} earns {} a day on average over {} of {}the “{}” network",
         best.name,
         dollars(best.profit_usd.mean),
         counted(summary.days, "unseen day", "unseen days"),
+        if summary.network_origin == NetworkOrigin::Changed { "a changed copy of " } else { "" },
         summary.network
     );
     match summary.best_against_reference() {

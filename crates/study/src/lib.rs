@@ -8,6 +8,7 @@ mod error;
 pub mod figure;
 mod headline;
 mod numbers;
+mod origin;
 mod page;
 pub mod published;
 pub mod record;
@@ -18,5 +19,6 @@ pub mod summary;
 pub mod table;
 
 pub use error::Error;
+pub use origin::NetworkOrigin;
 pub use record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
 pub use summary::Summary;

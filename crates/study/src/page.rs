@@ -8,6 +8,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use crate::figure::{self, Figure};
 use crate::headline;
 use crate::numbers::{counted, duration, grouped, p_statement, signed_dollars, typeset};
+use crate::origin::NetworkOrigin;
 use crate::published::{NOTE, PublishedResult};
 use crate::statistics::Estimate;
 use crate::summary::{PolicySummary, Summary};
@@ -50,17 +51,23 @@ fn style() -> String {
 
 fn opening(summary: &Summary) -> Markup {
     let (first, last) = summary.day_seeds;
+    let changed = summary.network_origin == NetworkOrigin::Changed;
     html! {
         p.program { "Vertifleet " (summary.program_version) " · comparison of policies" }
         h1 { (counted(summary.policies.len(), "policy", "policies")) " on "
             (counted(summary.days, "unseen day", "unseen days")) }
         p.headline { (headline::text(summary)) }
         dl {
-            div { dt { "Network" } dd { (summary.network) } }
+            div { dt { "Network" } dd { (summary.network) @if changed { ", changed" } } }
             div { dt { "Days" } dd { (summary.days) } }
             div { dt { "Seed" } dd { (summary.seed) } }
             div { dt { "Days drawn from seeds" } dd { (first) " to " (last) } }
             div { dt { "Program" } dd { "vertifleet " (summary.program_version) } }
+        }
+        @if changed {
+            p { "These days are of a changed copy of the network “" (summary.network) "”, not of the network that "
+                "Vertifleet ships under that name. What was published or measured of the shipped network does not apply "
+                "here, and the shipped policies were trained on days of that one." }
         }
         pre { (summary.command) }
     }

@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
-/// Name of the network that follows the paper, the only one that the published figures say anything about.
+use crate::origin::NetworkOrigin;
+
+/// Name of the shipped network that follows the paper, the only one that the published figures say anything about.
 const PAPER_NETWORK: &str = "paper";
 
 /// One method of §V.B on its authors' 100 test days.
@@ -62,18 +64,19 @@ pub const NOTE: [&str; 3] = [
      it earns beside the random and the greedy rule on the same unseen days.",
 ];
 
-/// The published results that concern this network: those of §V.B for `paper`, none for any other.
-pub fn results_for(network: &str) -> &'static [PublishedResult] {
-    if network == PAPER_NETWORK { &RESULTS } else { &[] }
+/// The published results that concern this network: those of §V.B for `paper` as it is shipped, none for any other.
+pub fn results_for(network: &str, origin: NetworkOrigin) -> &'static [PublishedResult] {
+    if network == PAPER_NETWORK && origin == NetworkOrigin::Shipped { &RESULTS } else { &[] }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::results_for;
+    use super::{NetworkOrigin, results_for};
 
     #[test]
     fn published_figures_stand_beside_the_paper_network_only() {
-        assert_eq!(results_for("paper").len(), 3);
-        assert!(results_for("new-york").is_empty());
+        assert_eq!(results_for("paper", NetworkOrigin::Shipped).len(), 3);
+        assert!(results_for("paper", NetworkOrigin::Changed).is_empty());
+        assert!(results_for("new-york", NetworkOrigin::Shipped).is_empty());
     }
 }

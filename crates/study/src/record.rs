@@ -3,6 +3,8 @@
 //! These are plain numbers, so that everything after them (statistics, figures, report) can be tested without a
 //! simulation. Days stand in the same order for every policy: that is what makes the tests paired.
 
+use crate::origin::NetworkOrigin;
+
 /// One policy's result on one day.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DayRecord {
@@ -78,6 +80,8 @@ pub struct Curve {
 pub struct Study {
     /// Name of the network that the days were drawn from.
     pub network: String,
+    /// Whether that is a shipped network.
+    pub network_origin: NetworkOrigin,
     /// Seed of the first day, as the user gave it.
     pub seed: u64,
     /// Number of days; each policy has as many records.

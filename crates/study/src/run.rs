@@ -156,7 +156,7 @@ mod tests {
 
     use super::{Contender, Contenders, LatencySummary, PolicyRecord, latency, run};
     use crate::summary::Summary;
-    use crate::{DayRecord, Study};
+    use crate::{DayRecord, NetworkOrigin, Study};
 
     fn greedy(name: &str) -> Contender<'static> {
         Contender {
@@ -203,6 +203,7 @@ mod tests {
     fn played_days_sum_up_to_a_comparison() {
         let study = Study {
             network: "paper".to_owned(),
+            network_origin: NetworkOrigin::Shipped,
             seed: 11,
             days: 6,
             command: "vertifleet compare".to_owned(),

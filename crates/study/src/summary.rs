@@ -5,6 +5,7 @@
 use serde::Serialize;
 
 use crate::error::Error;
+use crate::origin::NetworkOrigin;
 use crate::published::{self, PublishedResult};
 use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
 use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
@@ -23,6 +24,8 @@ pub struct Summary {
     pub command: String,
     /// Name of the network.
     pub network: String,
+    /// Whether that is a shipped network.
+    pub network_origin: NetworkOrigin,
     /// Seed as the user gave it.
     pub seed: u64,
     /// Number of days.
@@ -33,7 +36,7 @@ pub struct Summary {
     pub policies: Vec<PolicySummary>,
     /// Every pair of policies once, in the order of `policies`.
     pub comparisons: Vec<Comparison>,
-    /// Published results beside which these stand; empty but for the network `paper`.
+    /// Published results beside which these stand; empty but for the network `paper` as it is shipped.
     pub published: &'static [PublishedResult],
     /// Learning curves of those policies that were trained.
     #[serde(skip)]
@@ -137,12 +140,13 @@ impl Summary {
             program_version: env!("CARGO_PKG_VERSION"),
             command: study.command.clone(),
             network: study.network.clone(),
+            network_origin: study.network_origin,
             seed: study.seed,
             days: study.days,
             day_seeds,
             comparisons: compare_all(&policies),
             policies,
-            published: published::results_for(&study.network),
+            published: published::results_for(&study.network, study.network_origin),
             curves: study.curves.clone(),
         })
     }

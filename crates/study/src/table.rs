@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::numbers::{counted, duration, grouped, p_value, signed};
+use crate::origin::NetworkOrigin;
 use crate::statistics::Estimate;
 use crate::summary::{Comparison, PolicySummary, Summary};
 
@@ -17,8 +18,9 @@ enum Align {
 /// end after the last line.
 pub fn text(summary: &Summary) -> String {
     let mut text = format!(
-        "network {}, {}, seed {}\n\n",
+        "network {}{}, {}, seed {}\n\n",
         summary.network,
+        if summary.network_origin == NetworkOrigin::Changed { " (changed)" } else { "" },
         counted(summary.days, "day", "days"),
         summary.seed
     );

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use anstream::eprintln;
 use vertifleet_core::{DaySeed, Network, Scenario};
 use vertifleet_study::run::{Contender, Contenders, run as play_all};
-use vertifleet_study::{Curve, Study, Summary, report, table};
+use vertifleet_study::{Curve, NetworkOrigin, Study, Summary, report, table};
 
 use crate::args::CompareArguments;
 use crate::failure::Failure;
@@ -23,14 +23,17 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     if let Some(folder) = &arguments.report {
         vertifleet_core::create_folder(folder)?;
     }
-    for (_, recipe) in &recipes {
+    let network_origin = NetworkOrigin::of(network.name(), days.iter().map(Arc::as_ref));
+    for (name, recipe) in &recipes {
         recipe.check_fits(&days[0])?;
+        recipe.warn_if_shipped_for_another(name, network.name(), network_origin);
     }
     let progress = Progress::new((days.len() * recipes.len()) as u64, "days");
     let policies = play_all(&days, &contenders, &|| progress.advance(1));
     progress.finish();
     let study = Study {
         network: network.name().to_owned(),
+        network_origin,
         seed: arguments.seed,
         days: days.len(),
         command: command(),

@@ -1,6 +1,6 @@
 //! Made-up results of five policies, the same on every machine: for tests and the sample report.
 
-use vertifleet_study::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
+use vertifleet_study::{Curve, DayRecord, LatencySummary, NetworkOrigin, PolicyRecord, Study};
 
 /// How a made-up policy does.
 struct Outline {
@@ -76,6 +76,7 @@ pub(crate) fn study(days: usize) -> Study {
     let policies = policies.collect();
     Study {
         network: "paper".to_owned(),
+        network_origin: NetworkOrigin::Shipped,
         seed: 1,
         days,
         command: format!(

@@ -1,0 +1,55 @@
+//! Whether the days of a study are those of a shipped network, or of one that only bears its name.
+//!
+//! Whoever wants more aircraft copies `networks/paper.toml`, changes a number and leaves the name as it is. What is known
+//! of the shipped network, the published figures above all, then says nothing about the copy.
+
+use serde::Serialize;
+use vertifleet_core::{Network, Scenario};
+
+/// Where the network of some days comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NetworkOrigin {
+    /// The program ships it.
+    Shipped,
+    /// The program ships a network of that name, but draws other days from it.
+    Changed,
+    /// The program ships no network of that name.
+    Own,
+}
+
+impl NetworkOrigin {
+    /// The origin of the network of that name that these days are said to be of.
+    pub fn of<'a>(network: &str, days: impl IntoIterator<Item = &'a Scenario>) -> Self {
+        match Network::shipped(network) {
+            None => Self::Own,
+            Some(shipped) if days.into_iter().all(|day| shipped.draws(day)) => Self::Shipped,
+            Some(_) => Self::Changed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::{DaySeed, Network};
+
+    use super::NetworkOrigin;
+
+    #[test]
+    fn a_copy_is_the_shipped_network_until_a_number_of_it_changes() {
+        let text = include_str!("../../../networks/paper.toml");
+        let origin = |text: &str| {
+            let network = Network::from_toml(text, "a copy").expect("a network");
+            let day = network.draw(DaySeed::comparison(7).expect("a seed"));
+            NetworkOrigin::of(network.name(), [&day])
+        };
+        assert_eq!(origin(text), NetworkOrigin::Shipped);
+        assert_eq!(origin(&format!("{text}\n# a remark\n")), NetworkOrigin::Shipped);
+        let more_stands = text.replace("stands = 6", "stands = 7");
+        assert_ne!(more_stands, text);
+        assert_eq!(origin(&more_stands), NetworkOrigin::Changed);
+        let renamed = text.replace("name = \"paper\"", "name = \"mine\"");
+        assert_ne!(renamed, text);
+        assert_eq!(origin(&renamed), NetworkOrigin::Own);
+    }
+}
