@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo test lint bench train prepare
+.PHONY: demo test lint deny bench train prepare
 
 # The main job: the shipped policies and all rules on 100 unseen days of the paper's network.
 demo: prepare
@@ -14,6 +14,10 @@ test: prepare
 lint: prepare
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
+
+# Licences, versions and sources of the dependencies. Needs cargo-deny (`cargo install cargo-deny --locked`).
+deny:
+	cargo deny --locked check licenses bans sources
 
 bench: prepare
 	cargo bench --workspace --locked
