@@ -1,6 +1,7 @@
 //! The command line as typed.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -23,6 +24,10 @@ pub(crate) enum Command {
     Simulate(SimulateArguments),
     /// Judge a schedule by the rules, independently of the simulator
     Check(CheckArguments),
+    /// Prove how much a known day can earn at most
+    Bound(BoundArguments),
+    /// Find the best schedule for a known day, and say how far from the best it may be
+    Plan(PlanArguments),
     /// Train a policy by proximal policy optimisation
     Train(TrainArguments),
     /// Play many days with many policies and report who earns what
@@ -72,6 +77,39 @@ pub(crate) struct CheckArguments {
     /// Trace of the whole day, as simulate --trace writes it
     pub(crate) trace: PathBuf,
     /// Print the verdict as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BoundArguments {
+    /// Scenario file
+    pub(crate) scenario: PathBuf,
+    /// Minutes for which prices stay the same, 1 to 60; fewer give a tighter bound, later
+    #[arg(long, value_name = "MIN", default_value_t = 5)]
+    pub(crate) step: u32,
+    /// Print the bound as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PlanArguments {
+    /// Scenario file
+    pub(crate) scenario: PathBuf,
+    /// Write the schedule, every decision of the day, to this CSV file
+    #[arg(short, long, value_name = "TRACE")]
+    pub(crate) output: PathBuf,
+    /// Seconds to search at most
+    #[arg(long, value_name = "S", default_value = "60", value_parser = parse_seconds)]
+    pub(crate) time_limit: Duration,
+    /// Stop as soon as the gap to the certified bound is no more than this share of the bound, as 0.03
+    #[arg(long, value_name = "G", value_parser = parse_share)]
+    pub(crate) gap: Option<f64>,
+    /// Seed of the search
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Print the plan's numbers as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -161,5 +199,19 @@ fn parse_threads(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(threads @ 1..=1024) => Ok(threads),
         _ => Err("expected a number from 1 to 1024".to_owned()),
+    }
+}
+
+fn parse_seconds(text: &str) -> Result<Duration, String> {
+    match text.parse() {
+        Ok(seconds @ 0.0..=1e6) => Ok(Duration::from_secs_f64(seconds)),
+        _ => Err("expected seconds from 0 to 1000000".to_owned()),
+    }
+}
+
+fn parse_share(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(share @ 0.0..=1.0) => Ok(share),
+        _ => Err("expected a share from 0 to 1, as 0.03".to_owned()),
     }
 }

@@ -1,7 +1,9 @@
 //! One file a command, and what they share.
 
+pub(crate) mod bound;
 pub(crate) mod check;
 pub(crate) mod compare;
+pub(crate) mod plan;
 pub(crate) mod scenario;
 pub(crate) mod simulate;
 pub(crate) mod train;

@@ -64,6 +64,7 @@ macro_rules! from_coded {
 from_coded!(
     vertifleet_core::Error,
     vertifleet_sim::TraceError,
+    vertifleet_optimize::Error,
     vertifleet_learn::Error,
     vertifleet_study::Error
 );

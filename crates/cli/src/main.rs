@@ -6,9 +6,11 @@
 mod args;
 mod commands;
 mod failure;
+mod interrupt;
 mod output;
 mod policies;
 mod progress;
+mod worth;
 
 use std::process::ExitCode;
 
@@ -30,6 +32,8 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
         Command::Scenario(arguments) => commands::scenario::run(&arguments),
         Command::Simulate(arguments) => commands::simulate::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Bound(arguments) => commands::bound::run(&arguments),
+        Command::Plan(arguments) => commands::plan::run(&arguments),
         Command::Train(arguments) => commands::train::run(&arguments),
         Command::Compare(arguments) => commands::compare::run(&arguments),
     }

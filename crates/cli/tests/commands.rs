@@ -54,6 +54,48 @@ fn a_day_is_drawn_played_checked_and_replayed() {
 }
 
 #[test]
+fn a_day_is_bounded_above_what_a_rule_earns() {
+    let folder = folder();
+    let at = folder.path();
+    stdout(at, "scenario paper --seed 4 -o day.json");
+    let json =
+        |arguments: &str| -> Value { serde_json::from_str(&stdout(at, arguments)).expect("JSON") };
+    let greedy = json("simulate day.json --policy greedy --json");
+    let bound = json("bound day.json --step 15 --json");
+    let number = |value: &Value| value.as_f64().expect("a number");
+    assert!(number(&greedy["profit"]) < number(&bound["upper_bound"]));
+    assert_eq!(bound["step_s"], 900);
+    assert!(number(&bound["seconds"]) > 0.0);
+    assert_eq!(bound["stand_worth"].as_object().map(serde_json::Map::len), Some(8));
+    let people = stdout(at, "bound day.json --step 60");
+    assert!(people.contains("upper bound") && people.contains("one more stand"));
+    assert!(failure(at, "bound day.json --step 0", 2).contains("error[V501]"));
+}
+
+#[test]
+fn a_day_is_planned_between_the_best_rule_and_the_bound() {
+    let folder = folder();
+    let at = folder.path();
+    stdout(at, "scenario paper --seed 1 -o day.json");
+    let planned = stdout(at, "plan day.json --time-limit 1 --json -o plan.csv");
+    let planned: Value = serde_json::from_str(&planned).expect("JSON");
+    let number = |name: &str| planned[name].as_f64().unwrap_or_else(|| panic!("{name} is missing"));
+    assert!(number("best_rule") <= number("profit"));
+    assert!(number("profit") <= number("upper_bound"));
+    let gap = (number("upper_bound") - number("profit")) / number("upper_bound");
+    assert!((number("gap") - gap).abs() < 1e-9);
+    assert!(number("seconds") > 0.0 && planned["stand_worth"]["V1"].is_number());
+    let replayed = stdout(at, "simulate day.json --policy replay:plan.csv --json");
+    let replayed: Value = serde_json::from_str(&replayed).expect("JSON");
+    assert_eq!(replayed["profit"], planned["profit"]);
+    stdout(at, "check day.json plan.csv");
+
+    let people = stdout(at, "plan day.json --time-limit 0 -o rule.csv");
+    assert!(people.contains("gap") && people.contains("one more stand"));
+    failure(at, "plan day.json --gap 3 -o plan.csv", 2);
+}
+
+#[test]
 fn simulate_prints_every_number_of_the_day() {
     let folder = folder();
     stdout(folder.path(), "scenario paper --seed 1 -o day.json");

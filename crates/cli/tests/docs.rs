@@ -10,7 +10,7 @@ use vertifleet_learn::Settings;
 
 type Names = BTreeSet<String>;
 
-const COMMANDS: [&str; 5] = ["scenario", "simulate", "check", "train", "compare"];
+const COMMANDS: &[&str] = &["scenario", "simulate", "check", "bound", "plan", "train", "compare"];
 
 fn root() -> PathBuf {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("crates/cli is in a folder");
@@ -178,7 +178,7 @@ fn the_command_reference_lists_the_flags_that_help_lists() {
     let everywhere = flags_in_section(&section("Every command"));
     assert_eq!(flags_in_help(&help(&["--help"])), everywhere);
     let help_of_the_program = help(&["--help"]);
-    for command in COMMANDS {
+    for &command in COMMANDS {
         let section = section(&format!("vertifleet {command}"));
         let mut listed = flags_in_section(&section);
         listed.extend(everywhere.iter().cloned());
@@ -187,12 +187,12 @@ fn the_command_reference_lists_the_flags_that_help_lists() {
     }
     let (_, listed) = help_of_the_program.split_once("Commands:\n").expect("a list of commands");
     let listed = listed.lines().take_while(|line| !line.is_empty()).count();
-    assert_eq!(listed, COMMANDS.len() + 1, "the five commands and help, no other");
+    assert_eq!(listed, COMMANDS.len() + 1, "these commands and help, no other");
 }
 
 #[test]
 fn commands_in_the_pages_use_flags_that_exist() {
-    for command in COMMANDS {
+    for &command in COMMANDS {
         let known = flags_in_help(&help(&[command, "--help"]));
         for page in pages() {
             let page_text = text(&page).replace("\\\n", " ");

@@ -14,6 +14,7 @@ use vertifleet_learn::{Checkpoint, CurveRow, EventFile, Model, Plan, Settings, T
 
 use crate::args::{TrainArguments, Trainable};
 use crate::failure::Failure;
+use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
 use crate::policies::curve_beside;
 use crate::progress::Progress;
@@ -82,6 +83,7 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     } else {
         Training::start(plan)?
     };
+    // The update under way is given up then, and the run set aside as it stood before.
     let stop = stop_on_interrupt()?;
     let last = learn(&mut training, &files, &stop)?;
     files.write(&last)?;
@@ -169,21 +171,6 @@ fn plan(arguments: &TrainArguments) -> Result<Plan, Failure> {
         seed: arguments.seed,
         commit: env!("VERTIFLEET_COMMIT").to_owned(),
     })
-}
-
-/// A flag that Ctrl-C raises; then the update under way is given up and the run set aside as it stood before. A second
-/// Ctrl-C ends at once.
-fn stop_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&stop);
-    ctrlc::set_handler(move || {
-        if raised.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-        eprintln!("\nstopping; press Ctrl-C again to stop at once");
-    })
-    .map_err(|error| Failure::internal(&error))?;
-    Ok(stop)
 }
 
 fn unix_seconds() -> f64 {

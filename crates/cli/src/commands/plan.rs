@@ -1,0 +1,169 @@
+//! `vertifleet plan`: finds the best schedule it can for a known day, while a proof of what is possible runs beside it.
+
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+use vertifleet_core::Scenario;
+use vertifleet_optimize::{Bound, Budget, Error, Plan, Settings, Step, plan, upper_bound};
+
+use crate::args::PlanArguments;
+use crate::commands::read_scenario;
+use crate::failure::Failure;
+use crate::interrupt::stop_on_interrupt;
+use crate::output::print;
+use crate::progress::Progress;
+use crate::worth;
+
+/// Minutes of the bound's slices, finest first; those after the first are for days that are too large for it.
+const STEPS_MIN: [u32; 3] = [3, 5, 15];
+const COARSEST_STEP_MIN: u32 = 60;
+/// How often somebody who waits for the bound looks up.
+const GLANCE: Duration = Duration::from_millis(50);
+/// Units of the progress bar.
+const BAR: u64 = 1000;
+
+/// The bound, being proven on a thread of its own.
+struct Proof {
+    from: Receiver<Result<Bound, Error>>,
+    bound: Option<Bound>,
+}
+
+impl Proof {
+    fn begin(scenario: &Arc<Scenario>) -> Self {
+        let (to, from) = channel();
+        let scenario = Arc::clone(scenario);
+        // Not joined: whoever presses Ctrl-C need not wait for it.
+        std::thread::spawn(move || {
+            // Nobody listens any more if the plan was stopped.
+            let _ = to.send(finest_bound(&scenario));
+        });
+        Self { from, bound: None }
+    }
+
+    /// Whether it is there, after waiting for it no longer than `patience`.
+    fn is_there(&mut self, patience: Duration) -> Result<bool, Error> {
+        if self.bound.is_none() {
+            self.bound = match self.from.recv_timeout(patience) {
+                Ok(bound) => Some(bound?),
+                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => None,
+            };
+        }
+        Ok(self.bound.is_some())
+    }
+
+    /// Share of the bound by which a profit is below it.
+    fn gap(&self, profit_usd: f64) -> Option<f64> {
+        let bound_usd = self.bound.as_ref()?.upper_bound_usd();
+        Some(if bound_usd > 0.0 { (bound_usd - profit_usd) / bound_usd } else { 0.0 })
+    }
+}
+
+fn finest_bound(scenario: &Scenario) -> Result<Bound, Error> {
+    for minutes in STEPS_MIN {
+        match upper_bound(scenario, Step::from_minutes(minutes)?) {
+            Err(Error::TooManyFlights { .. }) => {}
+            outcome => return outcome,
+        }
+    }
+    upper_bound(scenario, Step::from_minutes(COARSEST_STEP_MIN)?)
+}
+
+pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
+    let scenario = Arc::new(read_scenario(&arguments.scenario)?);
+    let stop = stop_on_interrupt()?;
+    let begun = Instant::now();
+    let mut proof = Proof::begin(&scenario);
+    let mut refused = None;
+    let plan = search(arguments, &scenario, &stop, &mut |profit_usd| {
+        if let Err(error) = proof.is_there(Duration::ZERO) {
+            refused = Some(error);
+        }
+        (proof.bound.as_ref().map(Bound::upper_bound_usd), proof.gap(profit_usd))
+    });
+    let seconds = begun.elapsed().as_secs_f64();
+    // The schedule first: it is worth having whatever becomes of the bound.
+    plan.trace.write(&scenario, &arguments.output)?;
+    while refused.is_none() && !stop.load(Ordering::Relaxed) && !proof.is_there(GLANCE)? {}
+    if let Some(error) = refused {
+        return Err(error.into());
+    }
+    if arguments.json {
+        let numbers = numbers(&scenario, &plan, &proof, seconds);
+        print(&serde_json::to_string_pretty(&numbers).expect("numbers are plain data"))?;
+    } else {
+        print(&text(&scenario, &plan, &proof, seconds))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Searches until the time is over, the gap is small enough or somebody presses Ctrl-C. `judge` gives bound and gap.
+fn search(
+    arguments: &PlanArguments,
+    scenario: &Arc<Scenario>,
+    stop: &AtomicBool,
+    judge: &mut dyn FnMut(f64) -> (Option<f64>, Option<f64>),
+) -> Plan {
+    let settings = Settings {
+        budget: Budget::Time(arguments.time_limit),
+        searches: rayon::current_num_threads(),
+        seed: arguments.seed,
+    };
+    let progress = Progress::new(BAR, "‰ of the time");
+    let mut shown = 0;
+    let plan = plan(scenario, &settings, &mut |now| {
+        let (bound_usd, gap) = judge(now.profit_usd);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
+        let done = (now.share * BAR as f64) as u64;
+        progress.advance(done.saturating_sub(shown));
+        shown = done;
+        progress.say(match (bound_usd, gap) {
+            (Some(bound_usd), Some(gap)) => format!(
+                "profit ${:.0}, bound ${bound_usd:.0}, gap {:.2} %",
+                now.profit_usd,
+                100.0 * gap
+            ),
+            _ => format!("profit ${:.0}, bound not known yet", now.profit_usd),
+        });
+        let good_enough = arguments.gap.zip(gap).is_some_and(|(asked, gap)| gap <= asked);
+        !good_enough && !stop.load(Ordering::Relaxed)
+    });
+    progress.finish();
+    plan
+}
+
+fn numbers(scenario: &Scenario, plan: &Plan, proof: &Proof, seconds: f64) -> Value {
+    let bound = proof.bound.as_ref();
+    json!({
+        "profit": plan.profit_usd,
+        "best_rule": plan.best_rule_usd,
+        "upper_bound": bound.map(Bound::upper_bound_usd),
+        "gap": proof.gap(plan.profit_usd),
+        "step_s": bound.map(Bound::step_s),
+        "seconds": seconds,
+        "steps": plan.steps,
+        "stand_worth": bound.map(|bound| worth::of_stands(scenario, bound)),
+        "passenger_worth": bound.map(|bound| worth::of_passengers(scenario, bound)),
+    })
+}
+
+fn text(scenario: &Scenario, plan: &Plan, proof: &Proof, seconds: f64) -> String {
+    let mut lines = vec![
+        format!("{} planned in {seconds:.1} s", scenario.name),
+        format!("  profit          {:>12.2} $", plan.profit_usd),
+        format!("  best rule       {:>12.2} $", plan.best_rule_usd),
+    ];
+    let Some(bound) = &proof.bound else {
+        lines.push("  upper bound     not known: stopped before it was proven".to_owned());
+        return lines.join("\n");
+    };
+    let gap_percent = 100.0 * proof.gap(plan.profit_usd).unwrap_or(0.0);
+    let (bound_usd, step_s) = (bound.upper_bound_usd(), bound.step_s());
+    lines.push(format!("  upper bound     {bound_usd:>12.2} $  (steps of {step_s} s)"));
+    lines.push(format!("  gap             {gap_percent:>12.2} %"));
+    lines.extend(worth::lines(scenario, bound));
+    lines.join("\n")
+}

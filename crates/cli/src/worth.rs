@@ -1,0 +1,74 @@
+//! What one more stand or passenger is worth at a bound's prices: as JSON and as lines for people.
+
+use serde_json::{Map, Value, json};
+use vertifleet_core::{Scenario, VertiportIx};
+use vertifleet_optimize::Bound;
+
+/// Pairs and periods in the lines for people.
+const SHOWN_PASSENGERS: usize = 10;
+
+/// What one more stand is worth all day, dollars by vertiport, in file order.
+pub(crate) fn of_stands(scenario: &Scenario, bound: &Bound) -> Map<String, Value> {
+    let worth = |vertiport| (id(scenario, vertiport), json!(bound.stand_worth_usd(vertiport)));
+    VertiportIx::all(scenario.vertiports.len()).map(worth).collect()
+}
+
+/// What one more passenger is worth, by pair and period, most first; only where it is worth something.
+pub(crate) fn of_passengers(scenario: &Scenario, bound: &Bound) -> Vec<Value> {
+    let entry = |Passenger { worth_usd, period, from, to }| {
+        json!({
+            "from": id(scenario, from),
+            "to": id(scenario, to),
+            "period": scenario.periods[period].to_string(),
+            "worth": worth_usd,
+        })
+    };
+    passengers(scenario, bound).into_iter().map(entry).collect()
+}
+
+/// Both, most first, as lines for people.
+pub(crate) fn lines(scenario: &Scenario, bound: &Bound) -> Vec<String> {
+    let mut lines = vec!["one more stand, all day, is worth at the bound".to_owned()];
+    let mut stands: Vec<_> = VertiportIx::all(scenario.vertiports.len())
+        .map(|vertiport| (bound.stand_worth_usd(vertiport), vertiport))
+        .collect();
+    stands.sort_by(|one, other| other.0.total_cmp(&one.0));
+    for (worth_usd, vertiport) in stands {
+        lines.push(format!("  {:<15} {worth_usd:>12.2} $", id(scenario, vertiport)));
+    }
+    let passengers = passengers(scenario, bound);
+    if !passengers.is_empty() {
+        lines.push("one more passenger is worth at the bound, most first".to_owned());
+    }
+    for &Passenger { worth_usd, period, from, to } in passengers.iter().take(SHOWN_PASSENGERS) {
+        let pair = format!("{} -> {}", id(scenario, from), id(scenario, to));
+        lines.push(format!("  {pair:<15} {worth_usd:>12.2} $  from {}", scenario.periods[period]));
+    }
+    lines
+}
+
+struct Passenger {
+    worth_usd: f64,
+    period: usize,
+    from: VertiportIx,
+    to: VertiportIx,
+}
+
+fn passengers(scenario: &Scenario, bound: &Bound) -> Vec<Passenger> {
+    let size = scenario.vertiports.len();
+    let mut worth: Vec<Passenger> = (0..scenario.periods.len())
+        .flat_map(|period| VertiportIx::all(size).map(move |from| (period, from)))
+        .flat_map(|(period, from)| VertiportIx::all(size).map(move |to| (period, from, to)))
+        .map(|(period, from, to)| {
+            let worth_usd = bound.passenger_worth_usd(period, from, to);
+            Passenger { worth_usd, period, from, to }
+        })
+        .filter(|passenger| passenger.worth_usd > 0.0)
+        .collect();
+    worth.sort_by(|one, other| other.worth_usd.total_cmp(&one.worth_usd));
+    worth
+}
+
+fn id(scenario: &Scenario, vertiport: VertiportIx) -> String {
+    scenario.vertiports[vertiport.at()].id.clone()
+}

@@ -1,0 +1,31 @@
+//! How fast a day of `paper` is planned: a plan of so many steps, and the time until the first one.
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use vertifleet_core::{DaySeed, Network};
+use vertifleet_optimize::{Budget, FleetState, Horizon, Settings, plan, plan_ahead};
+
+fn plans(criterion: &mut Criterion) {
+    let network = Network::shipped("paper").expect("a shipped network");
+    let day = Arc::new(network.draw(DaySeed::comparison(1).expect("a seed")));
+    let mut group = criterion.benchmark_group("plan");
+    group.sample_size(10);
+    for steps in [0, 1_000] {
+        let settings = Settings { budget: Budget::Steps(steps), searches: 1, seed: 1 };
+        group.bench_function(format!("{steps} steps of a search"), |bencher| {
+            bencher.iter(|| plan(black_box(&day), &settings, &mut |_| true));
+        });
+    }
+    // Every route of the day is searched once: 40 searches of a route, and the stand prices.
+    group.bench_function("a day planned one aircraft after another", |bencher| {
+        let horizon = Horizon { end: day.operations.end, worth_at_end: None };
+        bencher
+            .iter(|| plan_ahead(black_box(&day), FleetState::at_start(&day), horizon, None, 0, 1));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, plans);
+criterion_main!(benches);

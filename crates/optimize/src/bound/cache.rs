@@ -1,0 +1,69 @@
+//! Bounds kept in files, so that a day's bound is searched for once.
+//!
+//! A file holds prices, not a bound: what they prove is worked out anew. So nothing that a file may hold, be it damaged,
+//! of another day or made up, can give a wrong bound; at worst it gives a loose one. The name is a hash of all that the prices
+//! depend on.
+
+use std::fmt::Write;
+use std::hash::Hasher;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use siphasher::sip128::{Hasher128, SipHasher24};
+use vertifleet_core::{Scenario, create_folder, read_at_most, write_atomically};
+
+use super::certificate::Certificate;
+use super::network::Network;
+use super::prices::Prices;
+use super::{Bound, Step, upper_bound};
+use crate::Error;
+
+/// Changes whenever the search would find other prices.
+const VERSION: u64 = 1;
+/// No file of ours is longer.
+const LONGEST: u64 = 256 << 20;
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Kept {
+    stand: Vec<i64>,
+    demand: Vec<i64>,
+}
+
+/// As [`upper_bound`], with the prices taken from a file in `folder` where they are there, and put there where they are not.
+///
+/// # Errors
+/// Those of [`upper_bound`], and [`Error::Core`] if the folder or the file cannot be written.
+pub fn cached_upper_bound(scenario: &Scenario, step: Step, folder: &Path) -> Result<Bound, Error> {
+    let path = path(scenario, step, folder);
+    if let Some(bound) = kept(scenario, step, &path)? {
+        return Ok(bound);
+    }
+    let bound = upper_bound(scenario, step)?;
+    let kept = Kept { stand: bound.prices.stand, demand: bound.prices.demand };
+    create_folder(folder)?;
+    write_atomically(&path, &serde_json::to_vec(&kept).expect("whole numbers are plain data"))?;
+    Ok(Bound { prices: Prices { stand: kept.stand, demand: kept.demand }, ..bound })
+}
+
+/// The bound of the prices in a file; `None` if there is no such file, or no prices for this day in it.
+fn kept(scenario: &Scenario, step: Step, path: &Path) -> Result<Option<Bound>, Error> {
+    let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
+    let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
+    let network = Network::of(scenario, step.seconds())?;
+    let Some(prices) = Prices::checked(&network, kept.stand, kept.demand) else { return Ok(None) };
+    let certificate = Certificate::new(&network);
+    Ok(Some(Bound::proven(step, network, certificate, prices)))
+}
+
+fn path(scenario: &Scenario, step: Step, folder: &Path) -> PathBuf {
+    let mut hasher = SipHasher24::new();
+    hasher.write_u64(VERSION);
+    hasher.write_u32(step.seconds());
+    hasher.write(scenario.to_json().as_bytes());
+    let mut name = String::from("bound-");
+    for byte in hasher.finish128().as_bytes() {
+        write!(name, "{byte:02x}").expect("a String takes any text");
+    }
+    folder.join(name + ".json")
+}

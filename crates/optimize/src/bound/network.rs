@@ -1,0 +1,173 @@
+//! What the aircraft of a day may do, laid out for the search of their best ways: legs, holds, earnings, limits.
+//!
+//! Aircraft of one type are alike, so there is one layer a type. What a flight earns depends on the slice in which it begins,
+//! never on the second within it.
+
+use vertifleet_core::{Matrix, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_sim::Legs;
+
+use super::money;
+use super::slices::Slices;
+use crate::Error;
+
+/// More flights than this would take more memory and time than anyone has for a bound.
+const MOST_FLIGHTS: usize = 20_000_000;
+/// The same for layers x vertiports x seconds of the day.
+const MOST_PLACES: usize = 100_000_000;
+
+/// A flight that an aircraft of some type may begin in some slice, somewhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Flight {
+    /// Where it leads.
+    pub(super) to: VertiportIx,
+    /// Seconds from the take-off until the aircraft may take off again.
+    pub(super) block_s: u32,
+    /// Place of its period and pair of vertiports in [`Network::demand`].
+    pub(super) cell: u32,
+    /// The most passengers it may carry: its seats, or all who wait where those are fewer.
+    pub(super) passengers: u32,
+    /// The least that its energy may cost, micro-dollars.
+    pub(super) energy_cost: i64,
+}
+
+/// The aircraft of one type.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Layer {
+    pub(super) kind: TypeIx,
+    pub(super) seats: u32,
+    /// Aircraft that start at each vertiport.
+    pub(super) starts: Vec<u32>,
+}
+
+/// A day, laid out.
+#[derive(Debug, Clone)]
+pub(super) struct Network {
+    pub(super) slices: Slices,
+    /// The types that have an aircraft in the fleet.
+    pub(super) layers: Vec<Layer>,
+    /// U_max by vertiport.
+    pub(super) stands: Vec<u32>,
+    /// Passengers by period, from, to.
+    pub(super) demand: Vec<u32>,
+    /// The most that a passenger may earn, by period, from, to; micro-dollars, never negative.
+    pub(super) margin: Vec<i64>,
+    /// Seconds that a hold lasts.
+    pub(super) hold_s: u32,
+    /// The shortest time from a take-off to the next one, or a hold where that is shorter; seconds, at least 1.
+    pub(super) shortest_s: u32,
+    flights: Vec<Flight>,
+    /// Where the flights from each vertiport begin, by slice, layer, vertiport.
+    offsets: Vec<usize>,
+}
+
+impl Network {
+    /// Lays out a day in slices of at most `step_s` seconds.
+    ///
+    /// # Errors
+    /// [`Error::TooManyFlights`].
+    pub(super) fn of(scenario: &Scenario, step_s: u32) -> Result<Self, Error> {
+        let legs = Legs::of(scenario);
+        let layers = layers(scenario);
+        let slices = Slices::of(scenario, step_s);
+        let flights = slices.len() * pairs(&legs, &layers, scenario.vertiports.len());
+        let places = layers.len() * scenario.vertiports.len() * slices.day_s() as usize;
+        if flights > MOST_FLIGHTS || places > MOST_PLACES {
+            return Err(Error::TooManyFlights {
+                step_s,
+                flights,
+                most_flights: MOST_FLIGHTS,
+                places,
+                most_places: MOST_PLACES,
+            });
+        }
+        let mut network = Self {
+            stands: scenario.vertiports.iter().map(|vertiport| vertiport.stands.into()).collect(),
+            demand: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
+            margin: margins(scenario),
+            hold_s: scenario.operations.hold_s,
+            shortest_s: scenario.operations.hold_s,
+            flights: Vec::with_capacity(flights),
+            offsets: vec![0],
+            slices,
+            layers,
+        };
+        network.add_flights(scenario, &legs);
+        Ok(network)
+    }
+
+    fn add_flights(&mut self, scenario: &Scenario, legs: &Legs) {
+        let size = self.size();
+        for slice in 0..self.slices.len() {
+            let first_cell = self.slices.period(slice) * size * size;
+            let times_s = (self.slices.start_s(slice), self.slices.last_s(slice));
+            for layer in &self.layers {
+                for from in VertiportIx::all(size) {
+                    for to in legs.within_range(layer.kind, from).iter() {
+                        let leg = legs.leg(layer.kind, from, to);
+                        let arrivals_s = (times_s.0 + leg.flight_s, times_s.1 + leg.flight_s);
+                        let price_usd = lowest_energy_price_usd(scenario, arrivals_s);
+                        let cell = first_cell + from.at() * size + to.at();
+                        self.flights.push(Flight {
+                            to,
+                            block_s: leg.block_s(),
+                            cell: small(cell),
+                            passengers: layer.seats.min(self.demand[cell]),
+                            energy_cost: money::down(leg.energy_kwh * price_usd),
+                        });
+                        self.shortest_s = self.shortest_s.min(leg.block_s());
+                    }
+                    self.offsets.push(self.flights.len());
+                }
+            }
+        }
+    }
+
+    /// Number of vertiports.
+    pub(super) fn size(&self) -> usize {
+        self.stands.len()
+    }
+
+    /// The flights that aircraft of a layer may begin at a vertiport in a slice.
+    pub(super) fn flights(&self, slice: usize, layer: usize, from: usize) -> &[Flight] {
+        let at = (slice * self.layers.len() + layer) * self.size() + from;
+        &self.flights[self.offsets[at]..self.offsets[at + 1]]
+    }
+}
+
+/// The types of the fleet's aircraft, in file order.
+fn layers(scenario: &Scenario) -> Vec<Layer> {
+    let all = TypeIx::all(scenario.aircraft_types.len()).map(|kind| {
+        let mut starts = vec![0; scenario.vertiports.len()];
+        for aircraft in scenario.aircraft.iter().filter(|aircraft| aircraft.kind == kind) {
+            starts[aircraft.at.at()] += 1;
+        }
+        Layer { kind, seats: scenario.aircraft_types[kind.at()].seats.into(), starts }
+    });
+    all.filter(|layer| layer.starts.iter().any(|&count| count > 0)).collect()
+}
+
+/// Flights that may begin in each slice.
+fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
+    let within_range = |layer: &Layer| -> usize {
+        VertiportIx::all(size).map(|from| legs.within_range(layer.kind, from).iter().count()).sum()
+    };
+    layers.iter().map(within_range).sum()
+}
+
+/// The most that a passenger may earn, by period and pair. To carry one at a loss is never better than to carry none.
+fn margins(scenario: &Scenario) -> Vec<i64> {
+    let fares = scenario.fare_usd.cells().iter().zip(scenario.passenger_cost_usd.cells());
+    let of_a_period: Vec<i64> = fares.map(|(fare, cost)| money::up(fare - cost).max(0)).collect();
+    of_a_period.repeat(scenario.periods.len())
+}
+
+/// The lowest price of energy at any time from the first to the second of `arrivals_s`.
+fn lowest_energy_price_usd(scenario: &Scenario, arrivals_s: (u32, u32)) -> f64 {
+    let period = |time_s| scenario.period_at(Time::from_seconds(time_s));
+    let prices = &scenario.energy_price_usd[period(arrivals_s.0)..=period(arrivals_s.1)];
+    prices.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+fn small(position: usize) -> u32 {
+    u32::try_from(position).expect("the readers bound the cells of demand at 4,000,000")
+}

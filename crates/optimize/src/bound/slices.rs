@@ -1,0 +1,96 @@
+//! Time slices: the day's take-off times cut into short intervals. Prices are constant within each.
+//!
+//! Every take-off time, up to and including the end of operations, is in exactly one slice, and a new slice begins wherever
+//! a demand period begins, so that all of a slice is in one period.
+
+use vertifleet_core::{Scenario, Time};
+
+/// The slices of a day, in order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Slices {
+    /// First second of each slice; then the second after the last take-off time, which belongs to none.
+    starts_s: Vec<u32>,
+    /// The demand period of each slice.
+    periods: Vec<usize>,
+}
+
+impl Slices {
+    /// Cuts a day into slices of at most `step_s` seconds, which is at least 1.
+    pub(super) fn of(scenario: &Scenario, step_s: u32) -> Self {
+        let first_s = scenario.operations.start.seconds();
+        let past_s = scenario.operations.end.seconds() + 1;
+        let cuts_s = scenario.periods.iter().map(|period| period.seconds());
+        let cuts_s = cuts_s.filter(|&cut| first_s < cut && cut < past_s).chain([past_s]);
+
+        let (mut starts_s, mut periods) = (Vec::new(), Vec::new());
+        let mut from_s = first_s;
+        for cut_s in cuts_s {
+            let period = scenario.period_at(Time::from_seconds(from_s));
+            for start_s in (from_s..cut_s).step_by(step_s as usize) {
+                starts_s.push(start_s);
+                periods.push(period);
+            }
+            from_s = cut_s;
+        }
+        starts_s.push(past_s);
+        Self { starts_s, periods }
+    }
+
+    /// Number of slices, at least 1.
+    pub(super) fn len(&self) -> usize {
+        self.periods.len()
+    }
+
+    /// Seconds from the first take-off time to the last, both included.
+    pub(super) fn day_s(&self) -> u32 {
+        self.start_s(self.len()) - self.start_s(0)
+    }
+
+    /// First second of a slice; for the slice past the last one, the second after the last take-off time.
+    pub(super) fn start_s(&self, slice: usize) -> u32 {
+        self.starts_s[slice]
+    }
+
+    /// Last second of a slice.
+    pub(super) fn last_s(&self, slice: usize) -> u32 {
+        self.starts_s[slice + 1] - 1
+    }
+
+    /// The demand period in which all of a slice lies.
+    pub(super) fn period(&self, slice: usize) -> usize {
+        self.periods[slice]
+    }
+
+    /// The slice that contains a time: the first one for times before it, [`Slices::len`] past the last take-off time.
+    pub(super) fn containing(&self, time_s: u32) -> usize {
+        self.starts_s.partition_point(|&start_s| start_s <= time_s).saturating_sub(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::{DaySeed, Network, Time};
+
+    use super::Slices;
+
+    #[test]
+    fn every_take_off_time_is_in_one_slice_and_every_slice_in_one_period() {
+        let network = Network::shipped("paper").expect("a shipped network");
+        let day = network.draw(DaySeed::comparison(1).expect("a seed"));
+        for step_s in [60, 300, 420, 3_600] {
+            let slices = Slices::of(&day, step_s);
+            assert_eq!(slices.day_s(), 12 * 3600 + 1, "18:00:00 is a take-off time");
+            assert_eq!(slices.last_s(slices.len() - 1), 18 * 3600);
+            for slice in 0..slices.len() {
+                let (first_s, last_s) = (slices.start_s(slice), slices.last_s(slice));
+                assert!((1..=step_s).contains(&(last_s + 1 - first_s)));
+                for time_s in [first_s, last_s] {
+                    assert_eq!(slices.containing(time_s), slice);
+                    let time = Time::from_seconds(time_s);
+                    assert_eq!(day.period_at(time), slices.period(slice));
+                }
+            }
+            assert_eq!(slices.containing(18 * 3600 + 1), slices.len());
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! What can go wrong on the exact side, with stable codes (V5xx).
+
+use vertifleet_core::Code;
+
+/// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for machines and the error index.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A file that cannot be written (V102), as `vertifleet-core` says it.
+    #[error(transparent)]
+    Core(#[from] vertifleet_core::Error),
+
+    /// V501. The step of a bound is no whole number of minutes from 1 to 60. Fix: name one that is; 5 is usual.
+    #[error("the step must be a whole number of minutes from 1 to 60, found {found}")]
+    Step {
+        /// The minutes.
+        found: u32,
+    },
+
+    /// V502. The day is too large for a bound: types x pairs of vertiports x slices, or types x vertiports x seconds. Fix:
+    /// a longer step for the first; fewer vertiports, types or hours for the second.
+    #[error(
+        "steps of {step_s} s give {flights} possible flights and {places} places and seconds, and a bound takes at most \
+         {most_flights} and {most_places}"
+    )]
+    TooManyFlights {
+        /// The step, seconds.
+        step_s: u32,
+        /// Flights in all slices.
+        flights: usize,
+        /// The most of them that a bound takes.
+        most_flights: usize,
+        /// Places of aircraft in all seconds.
+        places: usize,
+        /// The most of them that a bound takes.
+        most_places: usize,
+    },
+}
+
+impl Error {
+    /// The stable number of this error, as in `V501`.
+    pub fn code(&self) -> Code {
+        Code(match self {
+            Self::Core(error) => return error.code(),
+            Self::Step { .. } => 501,
+            Self::TooManyFlights { .. } => 502,
+        })
+    }
+
+    /// What helps beside the message, where there is more to say.
+    pub fn hint(&self) -> Option<&str> {
+        match self {
+            Self::Core(error) => error.hint(),
+            Self::TooManyFlights { .. } => Some("a longer step gives fewer possible flights"),
+            Self::Step { .. } => None,
+        }
+    }
+}

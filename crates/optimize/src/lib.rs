@@ -1,0 +1,15 @@
+//! The exact side: what a day could earn at most, and schedules that come close to it.
+//!
+//! [`upper_bound`] proves that no schedule of a known day earns more than so much; the planner looks for the schedule
+//! that earns the most, and the two together say how far it is from the best.
+
+mod bound;
+pub mod error;
+mod plan;
+
+pub use bound::{Bound, Step, cached_upper_bound, upper_bound};
+pub use error::Error;
+pub use plan::{
+    AircraftState, Budget, FleetState, Horizon, Outlook, Plan, PlannedFlight, Progress, Settings,
+    WorthAtEnd, plan, plan_ahead,
+};

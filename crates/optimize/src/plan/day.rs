@@ -1,0 +1,130 @@
+//! What every flight of a day takes and earns, in the form that the search reads fastest.
+
+use vertifleet_core::{AircraftIx, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_sim::Legs;
+
+/// One way to go on from a vertiport for aircraft of one type.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hop {
+    pub(super) to: VertiportIx,
+    /// Seconds from take-off to arrival.
+    pub(super) flight_s: u32,
+    /// Seconds from take-off until ready again.
+    pub(super) block_s: u32,
+    pub(super) energy_kwh: f64,
+    /// Fare less passenger cost, dollars a passenger.
+    pub(super) margin_usd: f64,
+}
+
+/// The numbers of a day, by aircraft type and vertiport.
+#[derive(Debug)]
+pub(super) struct Day {
+    pub(super) vertiports: usize,
+    /// Last second at which the plan decides, inclusive.
+    pub(super) end_s: u32,
+    pub(super) hold_s: u32,
+    /// First second of each demand period.
+    pub(super) period_starts_s: Vec<u32>,
+    pub(super) energy_price_usd: Vec<f64>,
+    /// U_max of each vertiport.
+    pub(super) stands: Vec<u16>,
+    /// The type of each aircraft.
+    kind_of: Vec<TypeIx>,
+    seats: Vec<u16>,
+    /// By type, then from: the pairs within range.
+    hops: Vec<Vec<Hop>>,
+}
+
+impl Day {
+    /// The numbers of `scenario`, with decisions up to and including `end`.
+    pub(super) fn new(scenario: &Scenario, end: Time) -> Self {
+        let legs = Legs::of(scenario);
+        let vertiports = scenario.vertiports.len();
+        let mut hops = Vec::with_capacity(scenario.aircraft_types.len() * vertiports);
+        for kind in TypeIx::all(scenario.aircraft_types.len()) {
+            for from in VertiportIx::all(vertiports) {
+                let hop = |to: VertiportIx| {
+                    let leg = legs.leg(kind, from, to);
+                    Hop {
+                        to,
+                        flight_s: leg.flight_s,
+                        block_s: leg.block_s(),
+                        energy_kwh: leg.energy_kwh,
+                        margin_usd: scenario.fare_usd[(from, to)]
+                            - scenario.passenger_cost_usd[(from, to)],
+                    }
+                };
+                hops.push(legs.within_range(kind, from).iter().map(hop).collect());
+            }
+        }
+        Self {
+            vertiports,
+            end_s: end.min(scenario.operations.end).seconds(),
+            hold_s: scenario.operations.hold_s,
+            period_starts_s: scenario.periods.iter().map(|start| start.seconds()).collect(),
+            energy_price_usd: scenario.energy_price_usd.clone(),
+            stands: scenario.vertiports.iter().map(|vertiport| vertiport.stands).collect(),
+            kind_of: scenario.aircraft.iter().map(|aircraft| aircraft.kind).collect(),
+            seats: scenario.aircraft_types.iter().map(|kind| kind.seats).collect(),
+            hops,
+        }
+    }
+
+    pub(super) fn fleet(&self) -> impl ExactSizeIterator<Item = AircraftIx> + use<> {
+        AircraftIx::all(self.kind_of.len())
+    }
+
+    #[inline]
+    pub(super) fn kind(&self, aircraft: AircraftIx) -> TypeIx {
+        self.kind_of[aircraft.at()]
+    }
+
+    pub(super) fn kinds(&self) -> impl ExactSizeIterator<Item = TypeIx> + use<> {
+        TypeIx::all(self.seats.len())
+    }
+
+    #[inline]
+    pub(super) fn seats_of(&self, kind: TypeIx) -> u16 {
+        self.seats[kind.at()]
+    }
+
+    #[inline]
+    pub(super) fn seats(&self, aircraft: AircraftIx) -> i64 {
+        i64::from(self.seats_of(self.kind(aircraft)))
+    }
+
+    /// The flights that aircraft of a type can make from a vertiport.
+    #[inline]
+    pub(super) fn hops(&self, kind: TypeIx, from: VertiportIx) -> &[Hop] {
+        &self.hops[kind.at() * self.vertiports + from.at()]
+    }
+
+    /// The flight of a type between two vertiports within range.
+    pub(super) fn hop(&self, kind: TypeIx, from: VertiportIx, to: VertiportIx) -> &Hop {
+        let hops = self.hops(kind, from);
+        let at = hops.binary_search_by_key(&to, |hop| hop.to);
+        &hops[at.expect("only pairs within range are flown")]
+    }
+
+    /// The demand period that contains a second, which is not before that of `earliest`.
+    #[inline]
+    pub(super) fn period_from(&self, earliest: usize, time_s: u32) -> usize {
+        let mut period = earliest;
+        while self.period_starts_s.get(period + 1).is_some_and(|&start| start <= time_s) {
+            period += 1;
+        }
+        period
+    }
+
+    /// The demand of a pair in a period, as a position in the table of what is left.
+    #[inline]
+    pub(super) fn cell(&self, period: usize, from: VertiportIx, to: VertiportIx) -> usize {
+        (period * self.vertiports + from.at()) * self.vertiports + to.at()
+    }
+
+    /// Cost of charging after a flight that takes off in `period` and lands at `arrival_s`, dollars.
+    #[inline]
+    pub(super) fn energy_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
+        hop.energy_kwh * self.energy_price_usd[self.period_from(period, arrival_s)]
+    }
+}

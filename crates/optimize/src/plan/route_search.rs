@@ -1,0 +1,263 @@
+//! The best way on for one aircraft while all others keep their flights.
+//!
+//! A longest path over labels (vertiport, second at which the aircraft is ready): from each, the aircraft flies to any
+//! vertiport that has a stand for it from take-off until it is ready again, or holds. Labels are settled forward in time.
+//! Of the labels of one vertiport within one minute only the best is kept, which bounds the work; each is exact to the
+//! second, so that what comes out is feasible.
+
+use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
+
+use super::day::Hop;
+use super::problem::Problem;
+use super::schedule::{Flight, Schedule};
+use super::stand_times::{Moment, Window};
+
+/// Seconds of which only the best label of a vertiport is kept. No flight and no hold is shorter, so every label leads to
+/// a later slot.
+pub(super) const SLOT_S: u32 = 60;
+
+/// What makes one search differ from the next, so that a route is not always completed in the same way.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Bias {
+    /// Seconds, below [`SLOT_S`], by which slots begin earlier; another of several close labels is kept then.
+    pub(super) shift_s: u32,
+    /// Share of the stand prices that the aircraft is made to pay, so that it leaves scarce stands to others.
+    pub(super) rent_share: f64,
+}
+
+/// The best known way to be ready at a vertiport within a slot.
+#[derive(Debug, Clone, Copy)]
+struct Label {
+    value_usd: f64,
+    ready_s: u32,
+    /// The label before, as a position in the table.
+    before: u32,
+}
+
+/// Stands for the label before the first one.
+const NONE: u32 = u32::MAX;
+const UNREACHED: Label = Label { value_usd: f64::NEG_INFINITY, ready_s: 0, before: NONE };
+
+/// The best way found to the plan's end: its last label, and the flight from there that passes the end, if one does.
+#[derive(Debug, Clone, Copy)]
+struct Finish {
+    value_usd: f64,
+    label: u32,
+    last_to: Option<VertiportIx>,
+}
+
+/// The search's memory, kept from one route to the next.
+#[derive(Debug, Default)]
+pub(super) struct RouteSearch {
+    /// By slot, then vertiport.
+    labels: Vec<Label>,
+    /// When each vertiport has a stand for one more: lists one after another, each closed by a window that never opens.
+    windows: Vec<Window>,
+    /// Where in `windows` the first one of each vertiport is that has not closed yet.
+    current: Vec<usize>,
+    best: Option<Finish>,
+}
+
+/// The route to be completed.
+struct Task<'a> {
+    problem: &'a Problem<'a>,
+    schedule: &'a Schedule,
+    aircraft: AircraftIx,
+    kind: TypeIx,
+    seats: i64,
+    /// First second of the first slot.
+    origin_s: u32,
+    rent_share: f64,
+}
+
+/// A label that is being settled: the aircraft decides there and then.
+#[derive(Clone, Copy)]
+struct Choice {
+    label: u32,
+    place: VertiportIx,
+    time_s: u32,
+    moment: Moment,
+    value_usd: f64,
+    /// The demand period of now.
+    period: usize,
+    /// The stand prices' minute of now.
+    minute: usize,
+}
+
+impl RouteSearch {
+    /// Writes to `flights` those that complete the route of `aircraft` best. Returns whether there are any: there are
+    /// none where others have taken every stand that the aircraft could stay at.
+    pub(super) fn complete(
+        &mut self,
+        problem: &Problem<'_>,
+        schedule: &Schedule,
+        aircraft: AircraftIx,
+        bias: Bias,
+        flights: &mut Vec<Flight>,
+    ) -> bool {
+        debug_assert!(!schedule.is_whole(aircraft), "a whole route is complete");
+        flights.clear();
+        let day = &problem.day;
+        let (place, ready_s) = schedule.open_end(day, aircraft);
+        let task = Task {
+            problem,
+            schedule,
+            aircraft,
+            kind: day.kind(aircraft),
+            seats: day.seats(aircraft),
+            origin_s: ready_s.saturating_sub(bias.shift_s),
+            rent_share: bias.rent_share,
+        };
+        self.prepare(&task);
+        self.enter(&task, place, Label { value_usd: 0.0, ready_s, before: NONE });
+        self.settle(&task);
+        let Some(finish) = self.best else { return false };
+        self.read_back(day.vertiports, &finish, flights);
+        true
+    }
+
+    fn prepare(&mut self, task: &Task<'_>) {
+        let day = &task.problem.day;
+        self.best = None;
+        self.windows.clear();
+        self.current.clear();
+        for vertiport in VertiportIx::all(day.vertiports) {
+            self.current.push(self.windows.len());
+            task.schedule.stands.append_windows(vertiport, &mut self.windows);
+            self.windows.push(Window { opens: Moment::NEVER, closes: Moment::NEVER });
+        }
+        let slots = (day.end_s - task.origin_s) / SLOT_S + 1;
+        self.labels.clear();
+        self.labels.resize(slots as usize * day.vertiports, UNREACHED);
+    }
+
+    #[inline]
+    fn enter(&mut self, task: &Task<'_>, place: VertiportIx, label: Label) {
+        let slot = ((label.ready_s - task.origin_s) / SLOT_S) as usize;
+        let known = &mut self.labels[slot * task.problem.day.vertiports + place.at()];
+        if label.value_usd > known.value_usd {
+            *known = label;
+        }
+    }
+
+    fn settle(&mut self, task: &Task<'_>) {
+        let day = &task.problem.day;
+        let mut slot_s = task.origin_s;
+        let mut slot_period = 0;
+        for first in (0..self.labels.len()).step_by(day.vertiports) {
+            slot_period = day.period_from(slot_period, slot_s);
+            for current in &mut self.current {
+                while self.windows[*current].closes <= Moment::of(slot_s, AircraftIx(0)) {
+                    *current += 1;
+                }
+            }
+            for place in VertiportIx::all(day.vertiports) {
+                let at = first + place.at();
+                let Label { value_usd, ready_s: time_s, .. } = self.labels[at];
+                if value_usd == f64::NEG_INFINITY {
+                    continue;
+                }
+                self.decide(
+                    task,
+                    &Choice {
+                        label: u32::try_from(at).expect("a day has fewer than 2^32 labels"),
+                        place,
+                        time_s,
+                        moment: Moment::of(time_s, task.aircraft),
+                        value_usd,
+                        period: day.period_from(slot_period, time_s),
+                        minute: task.problem.prices.minute(time_s),
+                    },
+                );
+            }
+            slot_s += SLOT_S;
+        }
+    }
+
+    #[inline]
+    fn decide(&mut self, task: &Task<'_>, choice: &Choice) {
+        self.hold(task, choice);
+        for hop in task.problem.day.hops(task.kind, choice.place) {
+            self.fly(task, choice, hop);
+        }
+    }
+
+    #[inline]
+    fn hold(&mut self, task: &Task<'_>, choice: &Choice) {
+        // The stand is the aircraft's own at least until it decides.
+        let Some(window) = self.window(choice.place, choice.moment) else { return };
+        let ready_s = choice.time_s + task.problem.day.hold_s;
+        self.reach(task, choice, choice.place, window, ready_s, 0.0);
+    }
+
+    #[inline]
+    fn fly(&mut self, task: &Task<'_>, choice: &Choice, hop: &Hop) {
+        let Some(window) = self.window(hop.to, choice.moment) else { return };
+        let day = &task.problem.day;
+        let cell = day.cell(choice.period, choice.place, hop.to);
+        let passengers = task.schedule.boarding(cell, task.seats);
+        let energy_usd = day.energy_cost_usd(hop, choice.period, choice.time_s + hop.flight_s);
+        let profit_usd = passengers as f64 * hop.margin_usd - energy_usd;
+        self.reach(task, choice, hop.to, window, choice.time_s + hop.block_s, profit_usd);
+    }
+
+    /// The window of a vertiport that contains a moment, which is not before the slot being settled.
+    #[inline]
+    fn window(&self, vertiport: VertiportIx, moment: Moment) -> Option<Window> {
+        let mut at = self.current[vertiport.at()];
+        while self.windows[at].closes <= moment {
+            at += 1;
+        }
+        let window = self.windows[at];
+        (window.opens <= moment).then_some(window)
+    }
+
+    /// Enters that the aircraft can be ready at `place` at `ready_s`, if there is a stand for it until then.
+    #[inline]
+    fn reach(
+        &mut self,
+        task: &Task<'_>,
+        choice: &Choice,
+        place: VertiportIx,
+        window: Window,
+        ready_s: u32,
+        profit_usd: f64,
+    ) {
+        let Problem { day, prices, .. } = task.problem;
+        let rent_usd = prices.rent_usd(place, choice.minute, prices.minute(ready_s));
+        let value_usd = choice.value_usd + profit_usd - task.rent_share * rent_usd;
+        if ready_s <= day.end_s {
+            if Moment::of(ready_s, task.aircraft) < window.closes {
+                self.enter(task, place, Label { value_usd, ready_s, before: choice.label });
+            }
+        } else if window.closes == Moment::NEVER {
+            let worth_usd = task.problem.worth_at_end_usd(task.kind, place, ready_s);
+            let value_usd = value_usd + worth_usd;
+            if self.best.is_none_or(|best| value_usd > best.value_usd) {
+                let last_to = (place != choice.place).then_some(place);
+                self.best = Some(Finish { value_usd, label: choice.label, last_to });
+            }
+        }
+    }
+
+    fn read_back(&self, vertiports: usize, finish: &Finish, flights: &mut Vec<Flight>) {
+        let place = |label: u32| VertiportIx::new(label as usize % vertiports);
+        let take_off_s = |label: u32| self.labels[label as usize].ready_s;
+        let mut at = finish.label;
+        flights.extend(finish.last_to.map(|to| Flight {
+            take_off_s: take_off_s(at),
+            from: place(at),
+            to,
+        }));
+        while self.labels[at as usize].before != NONE {
+            let before = self.labels[at as usize].before;
+            if place(before) != place(at) {
+                let flight =
+                    Flight { take_off_s: take_off_s(before), from: place(before), to: place(at) };
+                flights.push(flight);
+            }
+            at = before;
+        }
+        flights.reverse();
+    }
+}

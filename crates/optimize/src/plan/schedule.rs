@@ -1,0 +1,184 @@
+//! A schedule: the flights of each aircraft. When it holds, who boards and what stands are taken follow from them.
+//!
+//! The passengers of a pair and period are min(demand, seats of its flights) in total, whoever boards first; so what one
+//! flight more or less earns is exact whatever the order in which flights are entered.
+
+use vertifleet_core::{AircraftIx, VertiportIx};
+
+use super::day::Day;
+use super::problem::Problem;
+use super::stand_times::{Moment, StandTimes};
+
+/// One flight of a known aircraft.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Flight {
+    pub(super) take_off_s: u32,
+    pub(super) from: VertiportIx,
+    pub(super) to: VertiportIx,
+}
+
+/// What one aircraft does. A route is *whole* once it reaches the end of the plan; before that its aircraft vanishes when
+/// it is ready after its last flight, and its stand is free from then on.
+#[derive(Debug, Clone)]
+pub(super) struct Route {
+    place: VertiportIx,
+    ready_s: u32,
+    pub(super) flights: Vec<Flight>,
+    whole: bool,
+}
+
+/// The flights of the fleet, with the stands they take, the demand they leave and what they earn.
+#[derive(Debug, Clone)]
+pub(super) struct Schedule {
+    routes: Vec<Route>,
+    pub(super) stands: StandTimes,
+    /// Demand less seats flown, by period, then from, then to; below zero where seats stay empty.
+    left: Vec<i64>,
+    value_usd: f64,
+}
+
+impl Schedule {
+    /// No flights yet. Routes wait to be completed, but for aircraft that are not ready before the plan's end.
+    pub(super) fn unplanned(problem: &Problem<'_>) -> Self {
+        let Problem { day, state, .. } = problem;
+        let mut stands = StandTimes::empty(&day.stands);
+        let mut routes = Vec::with_capacity(state.aircraft.len());
+        for (aircraft, entry) in day.fleet().zip(&state.aircraft) {
+            let ready_s = entry.ready_at.seconds();
+            stands.take_at_first(entry.place);
+            let whole = ready_s > day.end_s;
+            if !whole {
+                stands.free(entry.place, Moment::of(ready_s, aircraft));
+            }
+            routes.push(Route { place: entry.place, ready_s, flights: Vec::new(), whole });
+        }
+        let left = state.demand_left.iter().map(|&left| i64::from(left)).collect();
+        let mut schedule = Self { routes, stands, left, value_usd: 0.0 };
+        schedule.value_usd = day
+            .fleet()
+            .filter(|&aircraft| schedule.is_whole(aircraft))
+            .map(|aircraft| schedule.worth_at_end_usd(problem, aircraft))
+            .sum();
+        schedule
+    }
+
+    /// What the flights earn, and what the plan's end is worth to the aircraft whose routes are whole, dollars.
+    #[inline]
+    pub(super) fn value_usd(&self) -> f64 {
+        self.value_usd
+    }
+
+    #[inline]
+    pub(super) fn flights(&self, aircraft: AircraftIx) -> &[Flight] {
+        &self.routes[aircraft.at()].flights
+    }
+
+    /// Whether the aircraft's route reaches the end of the plan.
+    #[inline]
+    pub(super) fn is_whole(&self, aircraft: AircraftIx) -> bool {
+        self.routes[aircraft.at()].whole
+    }
+
+    /// Passengers that one more flight with `seats` finds in a cell of the demand.
+    #[inline]
+    pub(super) fn boarding(&self, cell: usize, seats: i64) -> i64 {
+        self.left[cell].clamp(0, seats)
+    }
+
+    /// Where the aircraft is after its last flight, and when it is ready there.
+    pub(super) fn open_end(&self, day: &Day, aircraft: AircraftIx) -> (VertiportIx, u32) {
+        let route = &self.routes[aircraft.at()];
+        match route.flights.last() {
+            None => (route.place, route.ready_s),
+            Some(last) => {
+                let hop = day.hop(day.kind(aircraft), last.from, last.to);
+                (last.to, last.take_off_s + hop.block_s)
+            }
+        }
+    }
+
+    /// Takes the flights from the one at `first` on out of a whole route and appends them to `taken_out`.
+    pub(super) fn cut(
+        &mut self,
+        problem: &Problem<'_>,
+        aircraft: AircraftIx,
+        first: usize,
+        taken_out: &mut Vec<Flight>,
+    ) {
+        debug_assert!(self.is_whole(aircraft), "a route is cut once");
+        let day = &problem.day;
+        self.value_usd -= self.worth_at_end_usd(problem, aircraft);
+        let begin = taken_out.len();
+        taken_out.extend_from_slice(&self.flights(aircraft)[first..]);
+        for &flight in &taken_out[begin..] {
+            let moment = Moment::of(flight.take_off_s, aircraft);
+            self.stands.take_back(flight.from, moment);
+            self.stands.take_back(flight.to, moment);
+            self.value_usd -= self.enter_account(day, aircraft, flight, -1);
+        }
+        self.routes[aircraft.at()].flights.truncate(first);
+        let (place, ready_s) = self.open_end(day, aircraft);
+        if ready_s <= day.end_s {
+            self.stands.free(place, Moment::of(ready_s, aircraft));
+            self.routes[aircraft.at()].whole = false;
+        } else {
+            self.value_usd += self.worth_at_end_usd(problem, aircraft);
+        }
+    }
+
+    /// Appends flights to a route that is not whole; that makes it whole.
+    pub(super) fn complete(
+        &mut self,
+        problem: &Problem<'_>,
+        aircraft: AircraftIx,
+        flights: &[Flight],
+    ) {
+        let day = &problem.day;
+        if self.is_whole(aircraft) {
+            debug_assert!(flights.is_empty(), "a whole route takes no more flights");
+            return;
+        }
+        let (place, ready_s) = self.open_end(day, aircraft);
+        self.stands.take_back(place, Moment::of(ready_s, aircraft));
+        for &flight in flights {
+            let moment = Moment::of(flight.take_off_s, aircraft);
+            self.stands.free(flight.from, moment);
+            self.stands.take(flight.to, moment);
+            self.value_usd += self.enter_account(day, aircraft, flight, 1);
+        }
+        let route = &mut self.routes[aircraft.at()];
+        route.flights.extend_from_slice(flights);
+        route.whole = true;
+        self.value_usd += self.worth_at_end_usd(problem, aircraft);
+    }
+
+    /// What the plan's end is worth to an aircraft that stays where its last flight takes it, dollars.
+    fn worth_at_end_usd(&self, problem: &Problem<'_>, aircraft: AircraftIx) -> f64 {
+        let Day { end_s, hold_s, .. } = problem.day;
+        let (place, ready_s) = self.open_end(&problem.day, aircraft);
+        // It is asked again after every hold until the first time past the end.
+        let holds = (end_s + 1).saturating_sub(ready_s).div_ceil(hold_s);
+        let kind = problem.day.kind(aircraft);
+        problem.worth_at_end_usd(kind, place, ready_s + holds * hold_s)
+    }
+
+    /// Enters a flight into the demand (`sign` 1) or takes it out (-1). Returns what it is worth, dollars.
+    fn enter_account(&mut self, day: &Day, aircraft: AircraftIx, flight: Flight, sign: i64) -> f64 {
+        let hop = day.hop(day.kind(aircraft), flight.from, flight.to);
+        let period = day.period_from(0, flight.take_off_s);
+        let cell = day.cell(period, flight.from, flight.to);
+        let seats = day.seats(aircraft);
+        let before = self.left[cell];
+        let after = before - sign * seats;
+        self.left[cell] = after;
+        // Passengers of the pair are demand less what is left of it, never less than none left.
+        let passengers = (before.max(0) - after.max(0)).abs();
+        let energy_usd = day.energy_cost_usd(hop, period, flight.take_off_s + hop.flight_s);
+        passengers as f64 * hop.margin_usd - energy_usd
+    }
+
+    /// Sets the account to an amount known from before, so that undoing a change leaves no rounding behind.
+    pub(super) fn set_value_usd(&mut self, value_usd: f64) {
+        self.value_usd = value_usd;
+    }
+}

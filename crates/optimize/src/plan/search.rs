@@ -1,0 +1,168 @@
+//! Large-neighbourhood search with annealing: take the rest of the day out of a few aircraft's routes, complete the routes
+//! one by one in the best way, and keep the outcome if it is better, or worse by little.
+//!
+//! P. Shaw, *Using constraint programming and local search methods to solve vehicle routing problems* (1998), for the
+//! neighbourhood; S. Ropke and D. Pisinger, *An adaptive large neighborhood search heuristic for the pickup and delivery
+//! problem with time windows* (2006), for acceptance by annealing.
+
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use vertifleet_core::AircraftIx;
+
+use super::problem::Problem;
+use super::route_search::{Bias, RouteSearch, SLOT_S};
+use super::schedule::{Flight, Schedule};
+
+/// Most aircraft whose routes are changed at once.
+const MOST_TAKEN_OUT: usize = 4;
+/// How often routes are taken out from the morning on; else from any moment of the day on.
+const WHOLE_DAYS: f64 = 0.1;
+
+/// One search: where it stands, the best schedule it has met, and its memory.
+#[derive(Debug)]
+pub(super) struct Search {
+    pub(super) current: Schedule,
+    pub(super) best: Schedule,
+    random: Xoshiro256PlusPlus,
+    routes: RouteSearch,
+    taken_out: TakenOut,
+    way_on: Vec<Flight>,
+}
+
+/// What has been taken out of the schedule and may have to be put back.
+#[derive(Debug, Default)]
+struct TakenOut {
+    aircraft: Vec<AircraftIx>,
+    /// How many flights each keeps.
+    kept: Vec<usize>,
+    /// The others, one aircraft's after another's, and where each one's end.
+    flights: Vec<Flight>,
+    ends: Vec<usize>,
+}
+
+impl Search {
+    /// A search from a schedule whose routes are all whole.
+    pub(super) fn new(schedule: Schedule, seed: u64) -> Self {
+        Self {
+            best: schedule.clone(),
+            current: schedule,
+            random: Xoshiro256PlusPlus::seed_from_u64(seed),
+            routes: RouteSearch::default(),
+            taken_out: TakenOut::default(),
+            way_on: Vec::new(),
+        }
+    }
+
+    /// Tries one neighbour; a loss is accepted with probability exp(-loss / `temperature_usd`).
+    pub(super) fn step(&mut self, problem: &Problem<'_>, temperature_usd: f64) {
+        let profit_usd = self.current.value_usd();
+        self.choose(problem);
+        self.take_out(problem);
+        let whole = self.put_back(problem);
+        // 1 - u is never 0, so the logarithm is finite.
+        let luck = (1.0 - self.random.random::<f64>()).ln();
+        if whole && self.current.value_usd() - profit_usd >= temperature_usd * luck {
+            if self.current.value_usd() > self.best.value_usd() {
+                self.best.clone_from(&self.current);
+            }
+        } else {
+            self.undo(problem);
+            self.current.set_value_usd(profit_usd);
+        }
+    }
+
+    /// Chooses aircraft and a moment; flights that take off before it stay.
+    fn choose(&mut self, problem: &Problem<'_>) {
+        let TakenOut { aircraft, kept, .. } = &mut self.taken_out;
+        aircraft.clear();
+        kept.clear();
+        let fleet = problem.day.fleet().len();
+        let count = self.random.random_range(1..=MOST_TAKEN_OUT.min(fleet));
+        let from_s = if self.random.random_bool(WHOLE_DAYS) {
+            0
+        } else {
+            self.random.random_range(problem.first_s..=problem.day.end_s)
+        };
+        while aircraft.len() < count {
+            let one = AircraftIx::new(self.random.random_range(0..fleet));
+            if !aircraft.contains(&one) {
+                aircraft.push(one);
+                let flights = self.current.flights(one);
+                kept.push(flights.partition_point(|flight| flight.take_off_s < from_s));
+            }
+        }
+    }
+
+    fn take_out(&mut self, problem: &Problem<'_>) {
+        let TakenOut { aircraft, kept, flights, ends } = &mut self.taken_out;
+        flights.clear();
+        ends.clear();
+        for (&aircraft, &kept) in aircraft.iter().zip(kept.iter()) {
+            self.current.cut(problem, aircraft, kept, flights);
+            ends.push(flights.len());
+        }
+    }
+
+    /// Completes the routes in the order in which they were chosen. Returns whether all could be.
+    fn put_back(&mut self, problem: &Problem<'_>) -> bool {
+        let rent_share = self.random.random::<f64>();
+        for &aircraft in &self.taken_out.aircraft {
+            // Its last flight stays, and it is not ready again before the plan's end.
+            if self.current.is_whole(aircraft) {
+                continue;
+            }
+            let bias = Bias { shift_s: self.random.random_range(0..SLOT_S), rent_share };
+            let found =
+                self.routes.complete(problem, &self.current, aircraft, bias, &mut self.way_on);
+            if !found {
+                return false;
+            }
+            self.current.complete(problem, aircraft, &self.way_on);
+        }
+        true
+    }
+
+    /// Gives every chosen aircraft its flights back. Those that have others by now lose them first.
+    fn undo(&mut self, problem: &Problem<'_>) {
+        let TakenOut { aircraft, kept, flights, ends } = &self.taken_out;
+        for (&aircraft, &kept) in aircraft.iter().zip(kept) {
+            if self.current.is_whole(aircraft) {
+                self.way_on.clear();
+                self.current.cut(problem, aircraft, kept, &mut self.way_on);
+            }
+        }
+        let mut begin = 0;
+        for (&aircraft, &end) in aircraft.iter().zip(ends) {
+            self.current.complete(problem, aircraft, &flights[begin..end]);
+            begin = end;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use vertifleet_core::{DaySeed, Network};
+
+    use super::Search;
+    use crate::plan::problem::Problem;
+    use crate::plan::start;
+
+    #[test]
+    fn the_account_of_many_changes_is_the_simulators() {
+        let network = Network::shipped("paper").expect("a shipped network");
+        let day = Arc::new(network.draw(DaySeed::validation(9).expect("a seed")));
+        let problem = Problem::of_day(&day);
+        let mut search = Search::new(start::one_by_one(&problem), 3);
+        for step in 0..300 {
+            // Hot and cold, so that steps are kept as well as undone.
+            search.step(&problem, f64::from(step % 5) * 20.0 + 0.1);
+            assert!(search.current.stands.suffice(), "step {step}");
+        }
+        for schedule in [&search.current, &search.best] {
+            let (_, profit_usd) = start::flown(&day, schedule);
+            assert!((schedule.value_usd() - profit_usd).abs() < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,245 @@
+//! What the bound promises, on small days of every kind and on days of the `paper` network.
+
+mod common;
+
+use std::fs;
+use std::sync::Arc;
+
+use common::{Size, any_day};
+use rayon::prelude::*;
+use vertifleet_core::{DaySeed, Matrix, Network, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_optimize::{Error, Step, cached_upper_bound, upper_bound};
+use vertifleet_policy::{Greedy, Lookahead, Policy, Random, play};
+use vertifleet_sim::Simulation;
+
+fn paper_day(seed: u64) -> Scenario {
+    let network = Network::shipped("paper").expect("a shipped network");
+    network.draw(DaySeed::validation(seed).expect("a seed"))
+}
+
+fn minutes(minutes: u32) -> Step {
+    Step::from_minutes(minutes).expect("a step")
+}
+
+fn bound_usd(day: &Scenario, step: u32) -> f64 {
+    upper_bound(day, minutes(step)).expect("a small day").upper_bound_usd()
+}
+
+fn earned_usd(day: &Arc<Scenario>, rule: &mut dyn Policy) -> f64 {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    play(&mut simulation, rule, |_| ()).expect("rules always answer");
+    simulation.ledger().profit_usd()
+}
+
+/// The most that any sequence of decisions earns, by trying them all; `None` where there are more than `most` of them.
+fn best_of_all(simulation: &mut Simulation, most: &mut u32) -> Option<f64> {
+    let Some(decision) = simulation.next_decision() else {
+        *most = most.checked_sub(1)?;
+        return Some(simulation.ledger().profit_usd());
+    };
+    let mask = simulation.view().feasible(&decision);
+    let mut best = f64::NEG_INFINITY;
+    for choice in mask.iter() {
+        let mut after = simulation.clone();
+        after.apply(choice).expect("a choice from the mask");
+        best = best.max(best_of_all(&mut after, most)?);
+    }
+    Some(best)
+}
+
+#[test]
+fn no_sequence_of_decisions_of_a_tiny_day_earns_more_than_its_bound() {
+    let compared = (0..200_u32).into_par_iter().filter(|&number| {
+        let day = any_day(number.into(), Size { vertiports: 3, fleet: 3, hours: 2 });
+        let Some(best) = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000) else {
+            return false;
+        };
+        let bound = bound_usd(&day, [1, 5, 13, 60][number as usize % 4]);
+        assert!(bound >= best, "day {number}: bound {bound}, possible {best}");
+        true
+    });
+    assert!(compared.count() >= 40, "enough days have few sequences");
+}
+
+#[test]
+fn where_nothing_is_scarce_the_bound_is_the_optimum() {
+    let mut compared = 0;
+    for number in 0..100 {
+        let day = any_day(number, Size { vertiports: 3, fleet: 1, hours: 4 });
+        let mut ample = Scenario::clone(&day).into_day();
+        for table in &mut ample.demand {
+            let size = table.size();
+            *table = Matrix::from_fn(size, |from, to| if from == to { 0 } else { 1_000 });
+        }
+        ample.energy_price_usd.fill(0.25);
+        let day = Arc::new(ample.check("ample").expect("a day within the rules"));
+        let Some(best) = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 20_000) else {
+            continue;
+        };
+        let bound = bound_usd(&day, 60);
+        assert!((bound - best).abs() < 0.01, "day {number}: bound {bound}, optimum {best}");
+        compared += 1;
+    }
+    assert!(compared >= 40, "{compared} days have few enough sequences");
+}
+
+#[test]
+fn no_rule_earns_more_than_the_bound_on_200_networks() {
+    (1_000..1_200_u32).into_par_iter().for_each(|number| {
+        let day = any_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 5 });
+        let bound = bound_usd(&day, [5, 7, 15, 30, 60][number as usize % 5]);
+        let rules: [&mut dyn Policy; 3] = [&mut Random::new(1), &mut Greedy, &mut Lookahead];
+        for rule in rules {
+            let earned = earned_usd(&day, rule);
+            assert!(bound >= earned, "day {number}: bound {bound}, earned {earned}");
+        }
+    });
+}
+
+#[test]
+fn a_bound_of_paper_is_near_what_can_be_earned_and_the_same_each_time() {
+    let day = Arc::new(paper_day(1));
+    let bound = bound_usd(&day, 15);
+    let earned = earned_usd(&day, &mut Greedy);
+    assert!(earned < bound && bound < 1.2 * earned, "greedy earns {earned}, the bound is {bound}");
+    assert_eq!(bound, bound_usd(&day, 15));
+}
+
+#[test]
+fn a_day_without_anything_to_earn_has_a_bound_of_nothing() {
+    let nothing = |day: Result<Scenario, _>| {
+        let bound = bound_usd(&day.expect("a day within the rules"), 60);
+        assert!((0.0..0.01).contains(&bound), "{bound}");
+    };
+    let mut idle = paper_day(4).into_day();
+    idle.demand.iter_mut().for_each(|table| table.cells_mut().fill(0));
+    nothing(idle.check("no demand"));
+
+    let mut stuck = paper_day(4).into_day();
+    let size = stuck.vertiports.len();
+    stuck.distance_mi = Matrix::from_fn(size, |from, to| if from == to { 0.0 } else { 900.0 });
+    nothing(stuck.check("out of range"));
+
+    let mut dear = paper_day(4).into_day();
+    dear.passenger_cost_usd = dear.fare_usd.clone();
+    nothing(dear.check("nothing left of a fare"));
+}
+
+#[test]
+fn a_day_of_one_instant_is_bounded_by_its_only_flights() {
+    let mut day = paper_day(5).into_day();
+    day.operations.end = day.operations.start;
+    let day = Arc::new(day.check("one instant").expect("a day within the rules"));
+    let (bound, earned) = (bound_usd(&day, 5), earned_usd(&day, &mut Greedy));
+    assert!(0.0 < earned && earned <= bound, "greedy earns {earned}, the bound is {bound}");
+}
+
+#[test]
+fn stands_and_passengers_have_prices_where_they_are_scarce() {
+    let day = paper_day(6);
+    let bound = upper_bound(&day, minutes(15)).expect("a small day");
+    assert_eq!(bound.step_s(), 900);
+    let size = day.vertiports.len();
+    let worth: f64 = VertiportIx::all(size).map(|place| bound.stand_worth_usd(place)).sum();
+    assert!(worth > 0.0, "48 stands for 40 aircraft are scarce");
+    let (kind, place) = (TypeIx::new(0), VertiportIx::new(0));
+    let worth_at = |time| bound.worth_usd(kind, place, time).expect("the type flies");
+    assert!(worth_at(day.operations.start) > worth_at(Time::from_seconds(17 * 3600)));
+    let after = Time::from_seconds(30 * 3600);
+    assert_eq!((worth_at(after), bound.stand_price_usd(place, after)), (0.0, 0.0));
+    assert_eq!(bound.worth_usd(TypeIx::new(1), place, after), None);
+
+    let mut scarce = day.into_day();
+    for table in &mut scarce.demand {
+        table.cells_mut().iter_mut().for_each(|passengers| *passengers = (*passengers).min(1));
+    }
+    let scarce = scarce.check("one passenger a period").expect("a day within the rules");
+    let bound = upper_bound(&scarce, minutes(15)).expect("a small day");
+    let pairs =
+        VertiportIx::all(size).flat_map(|from| VertiportIx::all(size).map(move |to| (from, to)));
+    let dearest =
+        pairs.map(|(from, to)| bound.passenger_worth_usd(0, from, to)).fold(0.0, f64::max);
+    assert!(dearest > 0.0, "single passengers are scarce");
+}
+
+#[test]
+fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
+    let day = any_day(7, Size { vertiports: 5, fleet: 9, hours: 4 });
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path().join("bounds");
+    let files = || -> Vec<_> {
+        let entries = fs::read_dir(&folder).expect("a folder of ours");
+        entries.map(|entry| entry.expect("an entry").path()).collect()
+    };
+    let cached = |day: &Scenario, step| {
+        let bound = cached_upper_bound(day, minutes(step), &folder).expect("a folder of ours");
+        bound.upper_bound_usd()
+    };
+    let found = bound_usd(&day, 30);
+    assert_eq!(cached(&day, 30), found);
+    assert_eq!(cached(&day, 30), found);
+    let file = &files()[0];
+    let whole = fs::read(file).expect("the file is there");
+    for damaged in [&b""[..], &whole[..whole.len() / 2], br#"{"stand":[1],"demand":[]}"#] {
+        fs::write(file, damaged).expect("a folder of ours");
+        assert_eq!(cached(&day, 30), found);
+        assert_eq!(fs::read(file).expect("the file is there"), whole);
+    }
+    // Prices of nothing are prices: what they prove is loose, and true.
+    let nothing = String::from_utf8(whole).expect("text");
+    let numbers = |c: char| c.is_ascii_digit();
+    let nothing: Vec<&str> = nothing.split(numbers).collect();
+    fs::write(file, nothing.join("0")).expect("a folder of ours");
+    assert!(cached(&day, 30) >= found);
+    assert_eq!(files().len(), 1);
+
+    cached(&any_day(8, Size { vertiports: 5, fleet: 9, hours: 4 }), 30);
+    cached(&day, 60);
+    assert_eq!(files().len(), 3, "another day and another step have files of their own");
+}
+
+#[test]
+fn a_step_is_a_whole_number_of_minutes_up_to_an_hour() {
+    for wrong in [0, 61] {
+        let error = Step::from_minutes(wrong).expect_err("no step");
+        assert_eq!(error.code().to_string(), "V501");
+        assert!(error.to_string().contains(&wrong.to_string()));
+    }
+    assert_eq!(minutes(5), Step::default());
+}
+
+#[test]
+fn a_day_too_large_is_refused_with_what_helps() {
+    let mut large = paper_day(1).into_day();
+    let kinds: Vec<_> = (0..64)
+        .map(|number| {
+            let mut kind = large.aircraft_types[0].clone();
+            kind.id = format!("T{number}");
+            kind
+        })
+        .collect();
+    for (number, aircraft) in large.aircraft.iter_mut().enumerate() {
+        aircraft.kind = TypeIx::new(number);
+    }
+    large.aircraft_types = kinds;
+    large.operations.end = Time::from_seconds(36 * 3600);
+    let size = 40;
+    let first = large.vertiports[0].clone();
+    large.vertiports = (0..size)
+        .map(|number| {
+            let mut vertiport = first.clone();
+            vertiport.id = format!("V{number}");
+            vertiport.stands = 40;
+            vertiport
+        })
+        .collect();
+    let flat = Matrix::from_fn(size, |from, to| if from == to { 0.0 } else { 10.0 });
+    (large.distance_mi, large.fare_usd, large.passenger_cost_usd) =
+        (flat.clone(), flat.clone(), flat);
+    large.demand.iter_mut().for_each(|table| *table = Matrix::from_fn(size, |_, _| 0));
+    let large = large.check("large").expect("a day within the rules");
+    let error = upper_bound(&large, minutes(1)).expect_err("too large");
+    assert!(matches!(error, Error::TooManyFlights { .. }));
+    assert_eq!(error.code().to_string(), "V502");
+    assert!(error.hint().is_some());
+}

@@ -1,0 +1,97 @@
+//! Small days of every kind, drawn from a number.
+
+use std::sync::Arc;
+
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use vertifleet_core::{
+    Aircraft, AircraftType, Day, Matrix, Operations, Scenario, Time, TypeIx, Vertiport, VertiportIx,
+};
+
+/// How large a day may be.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Size {
+    pub(crate) vertiports: usize,
+    pub(crate) fleet: usize,
+    pub(crate) hours: u32,
+}
+
+/// A day with up to as many vertiports, aircraft and hours, with one or two types of aircraft, scarce stands, scarce or
+/// ample demand, changing prices, periods of any length, and pairs that are out of range.
+pub(crate) fn any_day(number: u64, most: Size) -> Arc<Scenario> {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(number);
+    let size = random.random_range(1..=most.vertiports);
+    let types = random.random_range(1..=2_usize);
+    let hours = random.random_range(1..=most.hours);
+    let start_s = 6 * 3600;
+    let end_s = start_s + hours * 3600 + random.random_range(0..1800);
+    let fleet = random.random_range(1..=most.fleet);
+    let aircraft: Vec<Aircraft> = (1..=fleet)
+        .map(|number| Aircraft {
+            id: format!("A{number}"),
+            kind: TypeIx::new(random.random_range(0..types)),
+            at: VertiportIx::new(random.random_range(0..size)),
+        })
+        .collect();
+    let vertiports: Vec<Vertiport> = (0..size)
+        .map(|at| {
+            let standing = aircraft.iter().filter(|one| one.at.at() == at).count();
+            Vertiport {
+                id: format!("V{at}"),
+                x_mi: random.random_range(0.0..30.0),
+                y_mi: random.random_range(0.0..30.0),
+                stands: u16::try_from(standing).expect("few").max(1) + random.random_range(0..=1),
+                busy: false,
+            }
+        })
+        .collect();
+    let distance_mi = Matrix::from_fn(size, |from, to| {
+        let (from, to) = (&vertiports[from.at()], &vertiports[to.at()]);
+        (from.x_mi - to.x_mi).hypot(from.y_mi - to.y_mi)
+    });
+    let mut periods = vec![start_s];
+    while periods.last().is_some_and(|&last| last < end_s) && periods.len() < 6 {
+        periods.push(periods[periods.len() - 1] + random.random_range(600..5400));
+    }
+    let most_waiting = random.random_range(1..14);
+    let demand = periods
+        .iter()
+        .map(|_| {
+            Matrix::from_fn(size, |from, to| {
+                if from == to { 0 } else { random.random_range(0..=most_waiting) }
+            })
+        })
+        .collect();
+    let energy_price_usd = periods.iter().map(|_| random.random_range(0.0..0.8)).collect();
+    let day = Day {
+        name: format!("small-{number}"),
+        seed: number,
+        operations: Operations {
+            start: Time::from_seconds(start_s),
+            end: Time::from_seconds(end_s),
+            takeoff_s: random.random_range(30..900),
+            landing_s: random.random_range(30..900),
+            hold_s: random.random_range(300..1800),
+        },
+        aircraft_types: (0..types)
+            .map(|kind| AircraftType {
+                id: format!("T{kind}"),
+                seats: [4, 2][kind],
+                speed_mph: [74.5, 150.0][kind],
+                battery_kwh: [110.0, 60.0][kind],
+                energy_kwh_per_mi: [2.2, 3.0][kind],
+                charge_kw: 150.0,
+                self_discharge_per_h: [0.0, 0.01][kind],
+            })
+            .collect(),
+        fare_usd: Matrix::from_fn(size, |from, to| 2.0 * distance_mi[(from, to)] + 1.25),
+        passenger_cost_usd: Matrix::from_fn(size, |from, to| 0.64 * distance_mi[(from, to)]),
+        distance_mi,
+        periods: periods.into_iter().map(Time::from_seconds).collect(),
+        demand,
+        energy_price_usd,
+        vertiports,
+        aircraft,
+    };
+    Arc::new(day.check("small day").expect("a day within the rules"))
+}

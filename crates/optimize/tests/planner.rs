@@ -1,0 +1,165 @@
+//! What the planner promises, on small days of every kind and on days of the `paper` network.
+
+mod common;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use common::{Size, any_day};
+use vertifleet_core::{DaySeed, Matrix, Network, Scenario};
+use vertifleet_optimize::{Budget, FleetState, Horizon, Plan, Settings, plan, plan_ahead};
+use vertifleet_policy::{Greedy, Lookahead, Policy, Random, play};
+use vertifleet_sim::{Simulation, check::check};
+
+fn paper_day(seed: u64) -> Arc<Scenario> {
+    let network = Network::shipped("paper").expect("a shipped network");
+    Arc::new(network.draw(DaySeed::validation(seed).expect("a seed")))
+}
+
+fn planned(day: &Arc<Scenario>, steps: u64) -> Plan {
+    let settings = Settings { budget: Budget::Steps(steps), searches: 2, seed: 5 };
+    plan(day, &settings, &mut |_| true)
+}
+
+/// The most that any sequence of decisions earns, by trying them all; `None` where there are more than `most` of them.
+fn best_of_all(simulation: &mut Simulation, most: &mut u32) -> Option<f64> {
+    let Some(decision) = simulation.next_decision() else {
+        *most = most.checked_sub(1)?;
+        return Some(simulation.ledger().profit_usd());
+    };
+    let mask = simulation.view().feasible(&decision);
+    let mut best = f64::NEG_INFINITY;
+    for choice in mask.iter() {
+        let mut after = simulation.clone();
+        after.apply(choice).expect("a choice from the mask");
+        best = best.max(best_of_all(&mut after, most)?);
+    }
+    Some(best)
+}
+
+#[test]
+fn a_tiny_day_is_planned_as_well_as_any_sequence_of_decisions_allows() {
+    let tiny = Size { vertiports: 3, fleet: 3, hours: 2 };
+    let mut compared = 0;
+    for number in 0..100 {
+        let day = any_day(number, tiny);
+        let best = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000);
+        let Some(best) = best.filter(|&best| best > 0.0) else { continue };
+        let found = planned(&day, 200).profit_usd;
+        assert!((found - best).abs() < 1e-6, "day {number}: planned {found}, possible {best}");
+        compared += 1;
+    }
+    assert!(compared >= 20, "{compared} days have few enough sequences");
+}
+
+#[test]
+fn a_plan_keeps_every_rule_and_earns_no_less_than_any_simple_one() {
+    let small = Size { vertiports: 6, fleet: 9, hours: 6 };
+    for number in 100..160 {
+        let day = any_day(number, small);
+        let plan = planned(&day, 60);
+        let report = check(&day, &plan.trace);
+        assert!(report.is_valid(), "day {number}: {report}");
+        assert!((report.totals.profit - plan.profit_usd).abs() < 1e-6, "day {number}");
+        let rules: [&mut dyn Policy; 3] = [&mut Random::new(0), &mut Greedy, &mut Lookahead];
+        for rule in rules {
+            let mut simulation = Simulation::new(Arc::clone(&day));
+            play(&mut simulation, rule, |_| ()).expect("rules always answer");
+            let earned = simulation.ledger().profit_usd();
+            assert!(plan.profit_usd >= earned, "day {number}: {} < {earned}", plan.profit_usd);
+        }
+    }
+}
+
+#[test]
+fn a_plan_of_paper_gets_better_with_more_steps_and_keeps_every_rule() {
+    let day = paper_day(1);
+    let (few, more) = (planned(&day, 100), planned(&day, 1_000));
+    assert!(few.best_rule_usd < few.profit_usd, "the best rule's day can be improved");
+    assert!(few.profit_usd < more.profit_usd);
+    assert!(check(&day, &more.trace).is_valid());
+}
+
+#[test]
+fn the_same_settings_give_the_same_plan_on_any_number_of_threads() {
+    let day = paper_day(2);
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| planned(&day, 300))
+    };
+    let one = on(1);
+    assert_eq!(one, on(2));
+    let other_seed = Settings { budget: Budget::Steps(300), searches: 2, seed: 6 };
+    assert_ne!(one, plan(&day, &other_seed, &mut |_| true), "chance follows the seed");
+}
+
+#[test]
+fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
+    let day = paper_day(3);
+    let settings = Settings { budget: Budget::Time(Duration::from_mins(10)), searches: 1, seed: 1 };
+    let mut looks = 0;
+    let stopped = plan(&day, &settings, &mut |progress| {
+        looks += 1;
+        assert!((0.0..=1.0).contains(&progress.share));
+        looks < 4
+    });
+    assert!(check(&day, &stopped.trace).is_valid());
+    let at_once = Settings { budget: Budget::Time(Duration::ZERO), ..settings };
+    let rule = plan(&day, &at_once, &mut |_| true);
+    assert_eq!((rule.steps, rule.profit_usd), (0, rule.best_rule_usd));
+}
+
+#[test]
+fn nobody_flies_where_nothing_can_be_earned() {
+    let mut idle = Scenario::clone(&paper_day(4)).into_day();
+    idle.demand.iter_mut().for_each(|table| table.cells_mut().fill(0));
+    let idle = Arc::new(idle.check("no demand").expect("a day without demand is a day"));
+    let plan = planned(&idle, 20);
+    assert_eq!(plan.profit_usd, 0.0);
+    assert!(plan.trace.rows.iter().all(|row| row.from == row.to));
+
+    let mut stuck = Scenario::clone(&paper_day(4)).into_day();
+    let size = stuck.vertiports.len();
+    stuck.distance_mi = Matrix::from_fn(size, |from, to| if from == to { 0.0 } else { 900.0 });
+    let stuck = Arc::new(stuck.check("out of range").expect("nobody has to be able to fly"));
+    assert_eq!(planned(&stuck, 20).profit_usd, 0.0);
+}
+
+/// Plays rules for a while, then follows outlooks to the day's end, planning anew every `every` decisions.
+fn follow(day: &Arc<Scenario>, played: u32, every: u32) {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    let mut outlook = None;
+    let mut expected = f64::NEG_INFINITY;
+    while let Some(decision) = simulation.next_decision() {
+        let view = simulation.view();
+        if decision.index < played {
+            let choice = Greedy.choose(&decision, &view).expect("greedy always answers");
+            simulation.apply(choice).expect("a choice from the mask");
+            continue;
+        }
+        if (decision.index - played).is_multiple_of(every) {
+            let state = FleetState::at_decision(&decision, &view);
+            let horizon = Horizon { end: day.operations.end, worth_at_end: None };
+            let ahead = plan_ahead(day, state, horizon, outlook.as_ref(), 3, 1);
+            let in_all = simulation.ledger().profit_usd() + ahead.value_usd;
+            assert!(in_all >= expected - 1e-6, "an outlook goes on from the one before");
+            expected = in_all;
+            outlook = Some(ahead);
+        }
+        let ahead = outlook.as_ref().expect("planned at the first decision");
+        let choice = ahead.choice(decision.aircraft, decision.at, decision.time);
+        simulation.apply(choice).expect("an outlook keeps every rule");
+    }
+    if outlook.is_some() {
+        assert!((simulation.ledger().profit_usd() - expected).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn the_rest_of_a_day_can_be_planned_from_any_moment_of_it() {
+    for number in 200..230 {
+        let day = any_day(number, Size { vertiports: 5, fleet: 8, hours: 6 });
+        follow(&day, u32::try_from(number % 17).expect("small"), 7);
+    }
+    follow(&paper_day(5), 150, 40);
+}
