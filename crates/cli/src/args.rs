@@ -53,7 +53,7 @@ pub(crate) struct ScenarioArguments {
 pub(crate) struct SimulateArguments {
     /// Scenario file
     pub(crate) scenario: PathBuf,
-    /// random, greedy, lookahead, gcaps, mlp, or replay:TRACE
+    /// random, greedy, lookahead, rolling, gcaps, mlp, or replay:TRACE
     #[arg(long)]
     pub(crate) policy: String,
     /// Seed of the random policy
@@ -166,7 +166,8 @@ pub(crate) struct CompareArguments {
     /// Network file, or the name of a shipped network (paper)
     #[arg(long)]
     pub(crate) network: String,
-    /// Policies, separated by commas: random, greedy, lookahead, gcaps, mlp, and names given by --model
+    /// Policies, separated by commas: random, greedy, lookahead, rolling, gcaps, mlp, names given by --model, and plan,
+    /// the planner, which knows the days beforehand
     #[arg(long, value_delimiter = ',', required = true)]
     pub(crate) policies: Vec<String>,
     /// Number of days
@@ -178,6 +179,12 @@ pub(crate) struct CompareArguments {
     /// Weights for a policy name; may be given several times
     #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_pair)]
     pub(crate) models: Vec<(String, String)>,
+    /// Prove an upper bound of every day and show each policy's share of it
+    #[arg(long)]
+    pub(crate) bound: bool,
+    /// Minutes for which the bound's prices stay the same, 1 to 60; fewer give a tighter bound, later
+    #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound")]
+    pub(crate) step: u32,
     /// Print the results as JSON
     #[arg(long)]
     pub(crate) json: bool,

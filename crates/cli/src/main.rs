@@ -5,8 +5,10 @@
 
 mod args;
 mod commands;
+mod entrants;
 mod failure;
 mod interrupt;
+mod kept_bounds;
 mod output;
 mod policies;
 mod progress;

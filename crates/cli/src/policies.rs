@@ -6,6 +6,7 @@ use std::sync::Arc;
 use vertifleet_core::{Code, Scenario};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{CurveRow, Learned, Model, Trained, shipped};
+use vertifleet_optimize::Rolling;
 use vertifleet_policy::{Greedy, Lookahead, Policy, Random, Replay};
 use vertifleet_sim::Trace;
 use vertifleet_study::NetworkOrigin;
@@ -31,6 +32,7 @@ pub(crate) enum Recipe {
     Random(u64),
     Greedy,
     Lookahead,
+    Rolling,
     Replay(Arc<Trace>),
     Learned { model: Arc<Model>, curve: Vec<CurveRow>, shipped: bool },
 }
@@ -41,6 +43,7 @@ impl Recipe {
             Self::Random(seed) => Box::new(Random::new(*seed)),
             Self::Greedy => Box::new(Greedy),
             Self::Lookahead => Box::new(Lookahead),
+            Self::Rolling => Box::new(Rolling::default()),
             Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
             Self::Learned { model, .. } => Box::new(Learned::new(Arc::clone(model))),
         }
@@ -52,6 +55,7 @@ impl Recipe {
             Self::Random(_) => "draws evenly among the feasible vertiports (Feas-RND)".to_owned(),
             Self::Greedy => "takes the flight with the highest profit per hour".to_owned(),
             Self::Lookahead => "takes the first of the best two flights in a row".to_owned(),
+            Self::Rolling => "plans the rest of the day anew at every decision".to_owned(),
             Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
             Self::Learned { model, .. } => {
                 let header = model.header();
@@ -66,6 +70,7 @@ impl Recipe {
             "random" => Some(Self::Random(seed)),
             "greedy" => Some(Self::Greedy),
             "lookahead" => Some(Self::Lookahead),
+            "rolling" => Some(Self::Rolling),
             _ => None,
         }
     }

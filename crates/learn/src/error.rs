@@ -119,9 +119,9 @@ impl Error {
             Self::BadCheckpoint { .. } => Some(
                 "resume with the settings the run was started with, or start anew in another folder",
             ),
-            Self::NotShipped { .. } => {
-                Some("name a rule (random, greedy, lookahead) or give weights with --model")
-            }
+            Self::NotShipped { .. } => Some(
+                "name a rule (random, greedy, lookahead, rolling) or give weights with --model",
+            ),
             Self::BadCurve { .. } => Some(
                 "`vertifleet train` writes the curve beside the weights; remove the file to go without",
             ),

@@ -1,11 +1,12 @@
 //! The exact side: what a day could earn at most, and schedules that come close to it.
 //!
 //! [`upper_bound`] proves that no schedule of a known day earns more than so much; the planner looks for the schedule
-//! that earns the most, and the two together say how far it is from the best.
+//! that earns the most, and the two together say how far it is from the best. [`Rolling`] plans while the day goes on.
 
 mod bound;
 pub mod error;
 mod plan;
+mod rolling;
 
 pub use bound::{Bound, Step, cached_upper_bound, upper_bound};
 pub use error::Error;
@@ -13,3 +14,4 @@ pub use plan::{
     AircraftState, Budget, FleetState, Horizon, Outlook, Plan, PlannedFlight, Progress, Settings,
     WorthAtEnd, plan, plan_ahead,
 };
+pub use rolling::Rolling;

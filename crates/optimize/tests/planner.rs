@@ -140,7 +140,7 @@ fn follow(day: &Arc<Scenario>, played: u32, every: u32) {
         if (decision.index - played).is_multiple_of(every) {
             let state = FleetState::at_decision(&decision, &view);
             let horizon = Horizon { end: day.operations.end, worth_at_end: None };
-            let ahead = plan_ahead(day, state, horizon, outlook.as_ref(), 3, 1);
+            let ahead = plan_ahead(view, state, horizon, outlook.as_ref(), 3, 1);
             let in_all = simulation.ledger().profit_usd() + ahead.value_usd;
             assert!(in_all >= expected - 1e-6, "an outlook goes on from the one before");
             expected = in_all;

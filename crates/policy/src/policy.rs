@@ -5,9 +5,11 @@ use vertifleet_sim::{Decision, View};
 
 /// Decides where an aircraft flies next.
 ///
-/// A choice depends on the decision, the view and the policy's own settings, and on nothing else: a policy carries no
-/// memory from one decision to the next. So one policy can play many days at once, in any order, on any number of
-/// threads, with the same outcome. `&mut` is for scratch space only.
+/// A choice depends on the decision, the view and the policy's own settings, and on nothing that the policy did on another
+/// day. So days that are played from their first decision to their last have the same outcome in any order, on any number
+/// of threads. Most policies remember nothing, and can play many days by turns with that outcome too. One that plans ahead
+/// may remember the day it is playing, to go on from its plan; it forgets it at the next day's first decision
+/// ([`Decision::index`] 0), and must be able to take up any day in its middle without.
 pub trait Policy: Send {
     /// Chooses a vertiport of [`View::feasible`]; the aircraft's own vertiport means hold.
     ///

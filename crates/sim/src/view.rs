@@ -41,7 +41,13 @@ impl<'a> View<'a> {
     /// What aircraft of a type can do.
     #[inline]
     pub fn aircraft_type(&self, kind: TypeIx) -> &'a AircraftType {
-        &self.scenario().aircraft_types[kind.at()]
+        &self.aircraft_types()[kind.at()]
+    }
+
+    /// The types of aircraft there are.
+    #[inline]
+    pub fn aircraft_types(&self) -> &'a [AircraftType] {
+        &self.scenario().aircraft_types
     }
 
     /// What a flight takes.
@@ -92,6 +98,12 @@ impl<'a> View<'a> {
         self.scenario().period_at(time)
     }
 
+    /// When each demand period begins, in order.
+    #[inline]
+    pub fn period_starts(&self) -> &'a [Time] {
+        &self.scenario().periods
+    }
+
     /// Passengers who still want to fly from one vertiport to another in a period, as forecast.
     #[inline]
     pub fn demand_left(&self, period: usize, from: VertiportIx, to: VertiportIx) -> u32 {
@@ -120,6 +132,12 @@ impl<'a> View<'a> {
     #[inline]
     pub fn energy_price_usd(&self) -> f64 {
         self.scenario().energy_price_usd[self.period()]
+    }
+
+    /// E in every demand period, dollars per kWh.
+    #[inline]
+    pub fn energy_prices_usd(&self) -> &'a [f64] {
+        &self.scenario().energy_price_usd
     }
 
     /// What a flight decided at `time` (not before now) would earn with `waiting` passengers there: dollars, fares

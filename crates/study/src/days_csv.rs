@@ -23,6 +23,8 @@ struct Row<'a> {
     passengers: u64,
     spilled_passengers: u64,
     load_factor: f64,
+    upper_bound_usd: Option<f64>,
+    bound_share: Option<f64>,
 }
 
 impl<'a> Row<'a> {
@@ -45,6 +47,8 @@ impl<'a> Row<'a> {
             passengers: day.passengers,
             spilled_passengers: day.spilled_passengers,
             load_factor: day.load_factor,
+            upper_bound_usd: day.upper_bound_usd,
+            bound_share: day.bound_share(),
         }
     }
 }

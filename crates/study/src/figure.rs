@@ -1,4 +1,4 @@
-//! The figures of a comparison as SVG: learning curves (Fig. 3), reward (Fig. 4), profit (Fig. 5), day by day.
+//! The figures of a comparison as SVG: learning curves (Fig. 3), reward (Fig. 4), profit (Fig. 5), share of the bound, day by day.
 //!
 //! Every figure names its marks in words and tells its series apart by marker, dash or place as well as by colour, so
 //! that it reads the same in grey. Colours are set twice: as attributes for the file on its own, and as classes that a
@@ -32,6 +32,7 @@ pub struct Figure {
 pub fn all(summary: &Summary) -> Vec<Figure> {
     let figures = [
         Some(box_plot::daily_profit(summary)),
+        box_plot::bound_share(summary),
         Some(box_plot::episode_reward(summary)),
         day_differences::figure(summary),
         learning_curves::figure(summary),

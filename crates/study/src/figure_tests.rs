@@ -11,11 +11,26 @@ use crate::summary::Summary;
 const HOSTILE: &str = "a<b>&\"c'\u{0}\u{ffff} with a name much longer than any row";
 
 fn summary(names: &[&str], days: u32) -> Summary {
+    Summary::of(&study(names, days)).expect("a sound study")
+}
+
+/// The same with an upper bound of every day.
+fn bounded(names: &[&str], days: u32) -> Summary {
+    let mut study = study(names, days);
+    study.bound_step_s = Some(180);
+    for day in study.policies.iter_mut().flat_map(|policy| &mut policy.days) {
+        day.upper_bound_usd = Some(3_500.0 + day.profit_usd / 10.0);
+    }
+    Summary::of(&study).expect("a sound study")
+}
+
+fn study(names: &[&str], days: u32) -> Study {
     let policies = names.iter().zip(0u32..).map(|(&name, policy)| PolicyRecord {
         name: name.to_owned(),
         description: String::new(),
         days: (0..days).map(|day| record(policy, day)).collect(),
-        decision_ns: LatencySummary::default(),
+        // One that knows the day is among any three.
+        decision_ns: (policy % 3 != 2).then(LatencySummary::default),
     });
     let curves = names.iter().zip(0u32..).map(|(&name, policy)| Curve {
         name: name.to_owned(),
@@ -24,16 +39,16 @@ fn summary(names: &[&str], days: u32) -> Summary {
             .chain([(9_999, f64::NAN)])
             .collect(),
     });
-    let study = Study {
+    Study {
         network: "small & odd".to_owned(),
         network_origin: NetworkOrigin::Own,
         seed: 3,
         days: days as usize,
+        bound_step_s: None,
         command: "vertifleet compare".to_owned(),
         curves: curves.collect(),
         policies: policies.collect(),
-    };
-    Summary::of(&study).expect("a sound study")
+    }
 }
 
 /// The last policy earns most; the third day is an outlier.
@@ -58,6 +73,7 @@ fn record(policy: u32, day: u32) -> DayRecord {
         passengers: 100,
         spilled_passengers: 10,
         load_factor: 0.8,
+        upper_bound_usd: None,
     }
 }
 
@@ -85,7 +101,7 @@ fn any_name_and_any_number_of_days_make_well_formed_pictures() {
     for (names, days) in
         [(vec![HOSTILE, "greedy"], 5), (many, 3), (vec!["alone"], 1), (vec!["a", "b"], 450)]
     {
-        for figure in all(&summary(&names, days)) {
+        for figure in all(&bounded(&names, days)) {
             let document = Document::parse(&figure.svg).expect("well-formed XML");
             for text in document.descendants().filter(|node| node.has_tag_name("text")) {
                 let place = |name| text.attribute(name).and_then(|value| value.parse::<f64>().ok());
@@ -103,6 +119,11 @@ fn a_figure_is_drawn_only_where_there_are_numbers_for_it() {
     let whole =
         ["figure-5-profit", "figure-4-reward", "figure-day-by-day", "figure-3-learning-curves"];
     assert_eq!(slugs(&all(&full)), whole);
+
+    let with_bounds = all(&bounded(&["random", "greedy"], 4));
+    let with_bounds = slugs(&with_bounds);
+    assert_eq!(with_bounds[1], "figure-bound-share");
+    assert_eq!([&with_bounds[..1], &with_bounds[2..]].concat(), whole);
 
     let untrained = Summary { curves: Vec::new(), ..full };
     assert_eq!(slugs(&all(&untrained)), whole[..3]);

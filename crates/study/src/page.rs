@@ -7,7 +7,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::figure::{self, Figure};
 use crate::headline;
-use crate::numbers::{counted, duration, grouped, p_statement, signed_dollars, typeset};
+use crate::numbers::{counted, dollars, duration, grouped, p_statement, signed_dollars, typeset};
 use crate::origin::NetworkOrigin;
 use crate::published::{NOTE, PublishedResult};
 use crate::statistics::Estimate;
@@ -62,6 +62,9 @@ fn opening(summary: &Summary) -> Markup {
             div { dt { "Days" } dd { (summary.days) } }
             div { dt { "Seed" } dd { (summary.seed) } }
             div { dt { "Days drawn from seeds" } dd { (first) " to " (last) } }
+            @if let Some(bound) = &summary.bound {
+                div { dt { "Upper bound a day" } dd { (dollars(bound.upper_bound_usd.mean)) } }
+            }
             div { dt { "Program" } dd { "vertifleet " (summary.program_version) } }
         }
         @if changed {
@@ -77,12 +80,20 @@ fn results(summary: &Summary) -> Markup {
     html! {
         h2 { "Results" }
         p.lead { "Means a day, highest profit first. ± is the 95 % interval of the mean (Student’s t), sd the standard "
-            "deviation between days." }
+            "deviation between days."
+            @if let Some(bound) = &summary.bound {
+                " Of bound: profit as a share of what is proven that no schedule of the day earns more than (steps of "
+                (bound.step_s) " s)."
+            }
+            @if summary.policies.iter().any(PolicySummary::is_offline) {
+                " What knows the day plans it as a whole, beforehand: a reference, no policy."
+            } }
         div.wide { table {
             thead { tr {
                 th scope="col" { "policy" }
                 th scope="col" { "profit, $" }
                 th scope="col" { "sd, $" }
+                @if summary.bound.is_some() { th scope="col" { "of bound, %" } }
                 th scope="col" { "reward" }
                 th scope="col" { "sd" }
                 th scope="col" { "flights" }
@@ -93,7 +104,7 @@ fn results(summary: &Summary) -> Markup {
                 th scope="col" { "time per decision" br; small { "median / 99 %" } }
             } }
             tbody { @for (position, policy) in summary.policies.iter().enumerate() {
-                tr.best[position == 0] { (result_cells(policy)) }
+                tr.best[position == summary.best_position()] { (result_cells(policy)) }
             } }
         } }
         ul.descriptions { @for policy in &summary.policies {
@@ -103,11 +114,16 @@ fn results(summary: &Summary) -> Markup {
 }
 
 fn result_cells(policy: &PolicySummary) -> Markup {
-    let latency = policy.decision_ns;
     html! {
-        th scope="row" title=(policy.name) { (policy.name) }
+        th scope="row" title=(policy.name) {
+            (policy.name)
+            @if policy.is_offline() { br; small { "knows the day" } }
+        }
         td { (estimate(&policy.profit_usd, |value| grouped(value, 0))) }
         td { (policy.profit_usd.standard_deviation.map_or("n/a".to_owned(), |value| grouped(value, 0))) }
+        @if let Some(share) = &policy.bound_share {
+            td { (estimate(share, |value| grouped(100.0 * value, 2))) }
+        }
         td { (estimate(&policy.reward, |value| format!("{value:.4}"))) }
         td { (policy.reward.standard_deviation.map_or("n/a".to_owned(), |value| format!("{value:.5}"))) }
         td { (grouped(policy.flights, 1)) }
@@ -115,7 +131,11 @@ fn result_cells(policy: &PolicySummary) -> Markup {
         td { (grouped(policy.holds, 1)) }
         td { (grouped(policy.passengers, 1)) }
         td { (format!("{:.3}", policy.load_factor)) }
-        td { (duration(latency.median)) small { " / " (duration(latency.p99)) } }
+        @if let Some(latency) = policy.decision_ns {
+            td { (duration(latency.median)) small { " / " (duration(latency.p99)) } }
+        } @else {
+            td { "n/a" }
+        }
     }
 }
 

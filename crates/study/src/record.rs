@@ -42,6 +42,22 @@ pub struct DayRecord {
     pub spilled_passengers: u64,
     /// Passenger-miles over seat-miles, 0 to 1.
     pub load_factor: f64,
+    /// What no schedule of the day earns more than, in dollars, where that was asked for.
+    pub upper_bound_usd: Option<f64>,
+}
+
+impl DayRecord {
+    /// Profit as a share of the day's upper bound, where there is one. Where nothing can be earned, earning nothing is all
+    /// of it, and a loss is nothing of it.
+    pub fn bound_share(&self) -> Option<f64> {
+        self.upper_bound_usd.map(|bound_usd| {
+            if bound_usd > 0.0 {
+                self.profit_usd / bound_usd
+            } else {
+                f64::from(u8::from(self.profit_usd >= 0.0))
+            }
+        })
+    }
 }
 
 /// Time that one decision takes.
@@ -62,8 +78,9 @@ pub struct PolicyRecord {
     pub description: String,
     /// One record a day, in the study's order of days.
     pub days: Vec<DayRecord>,
-    /// Time that one decision of this policy takes.
-    pub decision_ns: LatencySummary,
+    /// Time that one decision of this policy takes; `None` for an offline reference, whose days were planned as a whole by
+    /// somebody who knew them.
+    pub decision_ns: Option<LatencySummary>,
 }
 
 /// How a policy's training went (Fig. 3).
@@ -86,6 +103,8 @@ pub struct Study {
     pub seed: u64,
     /// Number of days; each policy has as many records.
     pub days: usize,
+    /// Length of the steps of the days' upper bounds, in seconds, where those were asked for.
+    pub bound_step_s: Option<u32>,
     /// Command that made the study, as it would be typed.
     pub command: String,
     /// Every policy's record, no two of the same name: [`Contenders`](crate::run::Contenders) sees to that.

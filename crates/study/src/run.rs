@@ -1,6 +1,6 @@
 //! Plays every policy on every day of a comparison, on all threads that there are.
 //!
-//! A policy's choice depends on the decision and the view alone, so the records are the same on any number of threads.
+//! A policy plays a day the same way whatever else it plays, so the records are the same on any number of threads.
 //! Only the times per decision are measurements of this machine, taken while its other threads play too.
 
 use std::sync::Arc;
@@ -8,23 +8,42 @@ use std::time::Instant;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use vertifleet_core::{Scenario, VertiportIx};
-use vertifleet_policy::{Policy, PolicyError, play};
-use vertifleet_sim::{Decision, Simulation, View};
+use vertifleet_policy::{Policy, PolicyError, Replay, play};
+use vertifleet_sim::{Decision, Simulation, Trace, View};
 
 use crate::error::Error;
 use crate::record::{DayRecord, LatencySummary, PolicyRecord};
 
-/// A policy that takes part: its name and how to make one for each thread.
+/// A day of a comparison.
+pub struct Day {
+    /// What everybody meets.
+    pub scenario: Arc<Scenario>,
+    /// What no schedule of it earns more than, dollars, where that is asked for.
+    pub upper_bound_usd: Option<f64>,
+}
+
+/// Who takes part: its name and how it comes to its decisions.
 pub struct Contender<'a> {
     /// Name as the user gave it.
     pub name: String,
-    /// What the policy does, in one short sentence.
+    /// What it does, in one short sentence.
     pub description: String,
-    /// Makes the policy anew.
-    pub make: Box<dyn Fn() -> Box<dyn Policy> + Sync + 'a>,
+    /// How it comes to its decisions.
+    pub way: Way<'a>,
 }
 
-/// The policies that take part, no two of the same name: everything after this tells them apart by it.
+/// How a contender comes to its decisions.
+pub enum Way<'a> {
+    /// A policy, made anew for each thread, decides while the day goes on.
+    Online(Box<dyn Fn() -> Box<dyn Policy> + Sync + 'a>),
+    /// Somebody who knows the whole day plans it: a reference for those who do not.
+    Offline(Planner<'a>),
+}
+
+/// The whole schedule of a day that is known.
+pub type Planner<'a> = Box<dyn Fn(&Arc<Scenario>) -> Trace + Sync + 'a>;
+
+/// Those who take part, no two of the same name: everything after this tells them apart by it.
 pub struct Contenders<'a>(Vec<Contender<'a>>);
 
 impl<'a> Contenders<'a> {
@@ -47,7 +66,7 @@ impl<'a> Contenders<'a> {
 /// # Errors
 /// [`Error::Stuck`] if a policy cannot play a day to its end.
 pub fn run(
-    days: &[Arc<Scenario>],
+    days: &[Day],
     contenders: &Contenders<'_>,
     played: &(impl Fn() + Sync),
 ) -> Result<Vec<PolicyRecord>, Error> {
@@ -62,23 +81,42 @@ pub fn run(
 fn play_days(
     position: usize,
     contender: &Contender<'_>,
-    days: &[Arc<Scenario>],
+    days: &[Day],
     played: &(impl Fn() + Sync),
 ) -> Result<PolicyRecord, Error> {
-    let results: Vec<(DayRecord, Vec<u64>)> = days
-        .par_iter()
-        .map_init(&contender.make, |policy, day| {
-            let result = play_day(position, contender, policy.as_mut(), day);
-            played();
-            result
-        })
-        .collect::<Result<_, Error>>()?;
-    let (records, nanoseconds): (Vec<DayRecord>, Vec<Vec<u64>>) = results.into_iter().unzip();
+    let (records, decision_ns) = match &contender.way {
+        Way::Online(make) => {
+            let results: Vec<(DayRecord, Vec<u64>)> = days
+                .par_iter()
+                .map_init(make, |policy, day| {
+                    let mut timed = Timed { policy: policy.as_mut(), nanoseconds: Vec::new() };
+                    let record = play_day(position, contender, &mut timed, day)?;
+                    played();
+                    Ok((record, timed.nanoseconds))
+                })
+                .collect::<Result<_, Error>>()?;
+            let (records, nanoseconds): (Vec<DayRecord>, Vec<Vec<u64>>) =
+                results.into_iter().unzip();
+            (records, Some(latency(nanoseconds.concat())))
+        }
+        Way::Offline(plan) => {
+            let records = days
+                .par_iter()
+                .map(|day| {
+                    let mut planned = Replay::new(Arc::new(plan(&day.scenario)));
+                    let record = play_day(position, contender, &mut planned, day)?;
+                    played();
+                    Ok(record)
+                })
+                .collect::<Result<_, Error>>()?;
+            (records, None)
+        }
+    };
     Ok(PolicyRecord {
         name: contender.name.clone(),
         description: contender.description.clone(),
         days: records,
-        decision_ns: latency(nanoseconds.concat()),
+        decision_ns,
     })
 }
 
@@ -86,24 +124,22 @@ fn play_day(
     position: usize,
     contender: &Contender<'_>,
     policy: &mut dyn Policy,
-    day: &Arc<Scenario>,
-) -> Result<(DayRecord, Vec<u64>), Error> {
-    let mut simulation = Simulation::new(Arc::clone(day));
-    let mut timed = Timed { policy, nanoseconds: Vec::new() };
-    play(&mut simulation, &mut timed, |_| ()).map_err(|cause| Error::Stuck {
+    day: &Day,
+) -> Result<DayRecord, Error> {
+    let mut simulation = Simulation::new(Arc::clone(&day.scenario));
+    play(&mut simulation, policy, |_| ()).map_err(|cause| Error::Stuck {
         policy: contender.name.clone(),
-        day: day.name.clone(),
+        day: day.scenario.name.clone(),
         cause,
     })?;
-    let nanoseconds = timed.nanoseconds;
-    Ok((record(position, day, &simulation.summary()), nanoseconds))
+    Ok(record(position, day, &simulation.summary()))
 }
 
-fn record(policy: usize, day: &Scenario, summary: &vertifleet_sim::Summary) -> DayRecord {
+fn record(policy: usize, day: &Day, summary: &vertifleet_sim::Summary) -> DayRecord {
     DayRecord {
         policy,
-        day: day.name.clone(),
-        seed: day.seed,
+        day: day.scenario.name.clone(),
+        seed: day.scenario.seed,
         profit_usd: summary.profit,
         revenue_usd: summary.revenue,
         passenger_cost_usd: summary.passenger_cost,
@@ -118,6 +154,7 @@ fn record(policy: usize, day: &Scenario, summary: &vertifleet_sim::Summary) -> D
         passengers: summary.passengers,
         spilled_passengers: summary.spilled_passengers,
         load_factor: summary.load_factor,
+        upper_bound_usd: day.upper_bound_usd,
     }
 }
 
@@ -148,13 +185,13 @@ fn latency(mut nanoseconds: Vec<u64>) -> LatencySummary {
 
 #[cfg(test)]
 mod tests {
-    use vertifleet_policy::{Greedy, Random};
-
     use std::sync::Arc;
 
     use vertifleet_core::{DaySeed, Network};
+    use vertifleet_policy::{Greedy, Random, play};
+    use vertifleet_sim::{Simulation, Trace};
 
-    use super::{Contender, Contenders, LatencySummary, PolicyRecord, latency, run};
+    use super::{Contender, Contenders, Day, LatencySummary, PolicyRecord, Way, latency, run};
     use crate::summary::Summary;
     use crate::{DayRecord, NetworkOrigin, Study};
 
@@ -162,7 +199,7 @@ mod tests {
         Contender {
             name: name.to_owned(),
             description: String::new(),
-            make: Box::new(|| Box::new(Greedy)),
+            way: Way::Online(Box::new(|| Box::new(Greedy))),
         }
     }
 
@@ -170,9 +207,20 @@ mod tests {
         let random = Contender {
             name: "random".to_owned(),
             description: String::new(),
-            make: Box::new(|| Box::new(Random::new(7))),
+            way: Way::Online(Box::new(|| Box::new(Random::new(7)))),
         };
-        Contenders::new(vec![random, greedy("greedy")]).expect("different names")
+        // Knows no more than greedy does, but that is no matter here.
+        let plan = Contender {
+            name: "plan".to_owned(),
+            description: String::new(),
+            way: Way::Offline(Box::new(|day| {
+                let mut trace = Trace::default();
+                let mut simulation = Simulation::new(Arc::clone(day));
+                play(&mut simulation, &mut Greedy, |row| trace.rows.push(*row)).expect("a day");
+                trace
+            })),
+        };
+        Contenders::new(vec![random, plan, greedy("greedy")]).expect("different names")
     }
 
     #[test]
@@ -186,7 +234,9 @@ mod tests {
     fn played_on(threads: usize) -> Vec<PolicyRecord> {
         let network = Network::shipped("paper").expect("a shipped network");
         let seeds = (11..17).map(|seed| DaySeed::comparison(seed).expect("a seed for comparison"));
-        let days: Vec<_> = seeds.map(|seed| Arc::new(network.draw(seed))).collect();
+        let day =
+            |seed| Day { scenario: Arc::new(network.draw(seed)), upper_bound_usd: Some(50_000.0) };
+        let days: Vec<Day> = seeds.map(day).collect();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| run(&days, &contenders(), &|| ())).expect("every day is played")
     }
@@ -206,14 +256,20 @@ mod tests {
             network_origin: NetworkOrigin::Shipped,
             seed: 11,
             days: 6,
+            bound_step_s: Some(300),
             command: "vertifleet compare".to_owned(),
             policies: played_on(2),
             curves: Vec::new(),
         };
         let summary = Summary::of(&study).expect("records of one run");
         assert_eq!(summary.day_seeds, (11, 16));
-        assert_eq!(summary.best().name, "greedy");
-        assert!(summary.policies.iter().all(|policy| policy.decision_ns.p99 > 0));
+        let [plan, greedy, random] = &summary.policies[..] else { panic!("three took part") };
+        assert_eq!(plan.profit_usd, greedy.profit_usd, "its days are greedy's, flown once more");
+        assert!(plan.is_offline() && plan.decision_ns.is_none());
+        for policy in [greedy, random] {
+            assert!(policy.decision_ns.is_some_and(|time| time.p99 > 0));
+        }
+        assert_eq!(summary.best().name, "greedy", "a reference that knows the day is no policy");
         for day in study.policies.iter().flat_map(|policy| &policy.days) {
             assert_eq!(day.decisions, day.flights + day.holds);
         }

@@ -32,6 +32,8 @@ pub struct Summary {
     pub days: usize,
     /// Smallest and largest seed that a day was drawn from.
     pub day_seeds: (u64, u64),
+    /// The days' upper bounds, where those were asked for.
+    pub bound: Option<BoundSummary>,
     /// Every policy, highest mean profit first.
     pub policies: Vec<PolicySummary>,
     /// Every pair of policies once, in the order of `policies`.
@@ -41,6 +43,15 @@ pub struct Summary {
     /// Learning curves of those policies that were trained.
     #[serde(skip)]
     pub curves: Vec<Curve>,
+}
+
+/// What the days could earn at most.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BoundSummary {
+    /// Length of the bounds' steps, in seconds.
+    pub step_s: u32,
+    /// Upper bound of a day's profit, in dollars.
+    pub upper_bound_usd: Estimate,
 }
 
 /// One policy over all days. Counts and amounts are means a day.
@@ -54,6 +65,10 @@ pub struct PolicySummary {
     pub profit_usd: Estimate,
     /// Box plot of the daily profit (Fig. 5).
     pub profit_box_usd: BoxSummary,
+    /// Daily profit as a share of the day's upper bound, where bounds were asked for.
+    pub bound_share: Option<Estimate>,
+    /// Box plot of the same.
+    pub bound_share_box: Option<BoxSummary>,
     /// Episode reward.
     pub reward: Estimate,
     /// Box plot of the episode reward (Fig. 4).
@@ -82,14 +97,17 @@ pub struct PolicySummary {
     pub spilled_passengers: f64,
     /// Mean of the days' load factors, 0 to 1.
     pub load_factor: f64,
-    /// Time of one decision.
-    pub decision_ns: Latency,
+    /// Time of one decision; `None` for an offline reference, which knows the whole day.
+    pub decision_ns: Option<Latency>,
     /// Profit of each day, in the study's order of days.
     #[serde(skip)]
     pub daily_profit_usd: Vec<f64>,
     /// Reward of each day, in the study's order of days.
     #[serde(skip)]
     pub daily_reward: Vec<f64>,
+    /// Share of the upper bound of each day, in the study's order of days; empty where bounds were not asked for.
+    #[serde(skip)]
+    pub daily_bound_share: Vec<f64>,
 }
 
 /// Time of one decision, as written.
@@ -134,6 +152,12 @@ impl Summary {
         // Stable, so that equal policies stay in the order in which they were named.
         policies.sort_by(|a, b| b.profit_usd.mean.total_cmp(&a.profit_usd.mean));
         let seeds = || study.policies.iter().flat_map(|policy| &policy.days).map(|day| day.seed);
+        let bounds_usd: Option<Vec<f64>> =
+            study.policies[0].days.iter().map(|day| day.upper_bound_usd).collect();
+        let bound = |(step_s, bounds_usd): (u32, Vec<f64>)| BoundSummary {
+            step_s,
+            upper_bound_usd: Estimate::of(&bounds_usd),
+        };
         let day_seeds = seeds().min().zip(seeds().max()).ok_or_else(|| empty(study))?;
         Ok(Self {
             format: FORMAT,
@@ -144,6 +168,7 @@ impl Summary {
             seed: study.seed,
             days: study.days,
             day_seeds,
+            bound: study.bound_step_s.zip(bounds_usd).map(bound),
             comparisons: compare_all(&policies),
             policies,
             published: published::results_for(&study.network, study.network_origin),
@@ -159,36 +184,59 @@ impl Summary {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
 
-    /// The policy with the highest mean profit.
+    /// The policy with the highest mean profit. An offline reference is no policy, unless there is nothing else.
     ///
     /// # Panics
     /// Never: a summary has at least one policy.
     pub fn best(&self) -> &PolicySummary {
-        self.policies.first().expect("a summary has at least one policy")
+        self.policies.get(self.best_position()).expect("a summary has at least one policy")
     }
 
-    /// The comparison that says most about the best policy: with `greedy`, or with the second best if `greedy` is
-    /// the best or was not run. `None` if there is only one policy.
+    /// The position of the best policy.
+    pub(crate) fn best_position(&self) -> usize {
+        self.policies.iter().position(|policy| !policy.is_offline()).unwrap_or(0)
+    }
+
+    /// The comparison that says most about the best policy: with `greedy`, or with the next best if `greedy` is the best
+    /// or was not run. `None` if no policy earns less than the best.
     pub fn best_against_reference(&self) -> Option<&Comparison> {
-        let reference = self.policies.iter().skip(1).position(|policy| policy.name == "greedy");
-        let second = reference.map_or(1, |position| position + 1);
-        self.comparisons.iter().find(|comparison| comparison.pair == (0, second))
+        let best = self.best_position();
+        let others =
+            || (best + 1..self.policies.len()).filter(|&at| !self.policies[at].is_offline());
+        let second =
+            others().find(|&at| self.policies[at].name == "greedy").or_else(|| others().next())?;
+        self.comparisons.iter().find(|comparison| comparison.pair == (best, second))
     }
 }
 
 impl PolicySummary {
+    /// Whether the days were planned by somebody who knew them.
+    pub fn is_offline(&self) -> bool {
+        self.decision_ns.is_none()
+    }
+
     fn of(policy: &PolicyRecord) -> Option<Self> {
         let column =
             |value: fn(&DayRecord) -> f64| policy.days.iter().map(value).collect::<Vec<f64>>();
         let average = |value: fn(&DayRecord) -> f64| mean(&column(value));
         let daily_profit_usd = column(|day| day.profit_usd);
         let daily_reward = column(|day| day.reward);
-        let LatencySummary { median_ns, p99_ns } = policy.decision_ns;
+        let daily_bound_share: Vec<f64> = policy
+            .days
+            .iter()
+            .map(DayRecord::bound_share)
+            .collect::<Option<_>>()
+            .unwrap_or_default();
+        let bound_share_box = BoxSummary::of(&daily_bound_share);
+        let latency =
+            |LatencySummary { median_ns, p99_ns }| Latency { median: median_ns, p99: p99_ns };
         Some(Self {
             name: policy.name.clone(),
             description: policy.description.clone(),
             profit_usd: Estimate::of(&daily_profit_usd),
             profit_box_usd: BoxSummary::of(&daily_profit_usd)?,
+            bound_share: bound_share_box.is_some().then(|| Estimate::of(&daily_bound_share)),
+            bound_share_box,
             reward: Estimate::of(&daily_reward),
             reward_box: BoxSummary::of(&daily_reward)?,
             revenue_usd: average(|day| day.revenue_usd),
@@ -203,9 +251,10 @@ impl PolicySummary {
             passengers: average(|day| day.passengers as f64),
             spilled_passengers: average(|day| day.spilled_passengers as f64),
             load_factor: average(|day| day.load_factor),
-            decision_ns: Latency { median: median_ns, p99: p99_ns },
+            decision_ns: policy.decision_ns.map(latency),
             daily_profit_usd,
             daily_reward,
+            daily_bound_share,
         })
     }
 }
@@ -276,6 +325,7 @@ fn check_finite(policy: &str, day: &DayRecord) -> Result<(), Error> {
         ("potential_usd", day.potential_usd),
         ("reward", day.reward),
         ("load_factor", day.load_factor),
+        ("upper_bound_usd", day.upper_bound_usd.unwrap_or(0.0)),
     ];
     match members.into_iter().find(|(_, value)| !value.is_finite()) {
         None => Ok(()),

@@ -7,6 +7,11 @@ use crate::origin::NetworkOrigin;
 use crate::statistics::Estimate;
 use crate::summary::{Comparison, PolicySummary, Summary};
 
+/// Where the share of the bound stands in a row.
+const SHARE_COLUMN: usize = 3;
+/// Behind the name of an offline reference.
+const OFFLINE_MARK: char = '*';
+
 /// Which side of its column a cell's text keeps to.
 #[derive(Clone, Copy)]
 enum Align {
@@ -28,6 +33,7 @@ pub fn text(summary: &Summary) -> String {
         "policy",
         "profit, $ a day",
         "sd, $",
+        "of bound, %",
         "reward",
         "sd",
         "flights",
@@ -39,8 +45,25 @@ pub fn text(summary: &Summary) -> String {
         "p99",
     ])];
     policies.extend(summary.policies.iter().map(policy_row));
+    if summary.bound.is_none() {
+        for row in &mut policies {
+            row.remove(SHARE_COLUMN);
+        }
+    }
     append_aligned(&mut text, &policies);
     text.push_str("means a day; ± is the 95 % interval of the mean");
+    if let Some(bound) = &summary.bound {
+        let amount = estimate(&bound.upper_bound_usd, |value| grouped(value, 0));
+        let _ = write!(
+            text,
+            "\nno schedule earns more than $ {amount} a day: the bound, steps of {} s",
+            bound.step_s
+        );
+    }
+    if summary.policies.iter().any(PolicySummary::is_offline) {
+        let _ =
+            write!(text, "\n{OFFLINE_MARK} knows the whole day beforehand: a reference, no policy");
+    }
     if summary.comparisons.is_empty() {
         return text;
     }
@@ -58,10 +81,14 @@ fn heading<const N: usize>(cells: [&str; N]) -> Vec<String> {
 }
 
 fn policy_row(policy: &PolicySummary) -> Vec<String> {
+    let mark = if policy.is_offline() { format!(" {OFFLINE_MARK}") } else { String::new() };
+    let time = |time: Option<u64>| time.map_or("n/a".to_owned(), duration);
+    let share = |share: &Estimate| estimate(share, |value| grouped(100.0 * value, 2));
     vec![
-        policy.name.clone(),
+        policy.name.clone() + &mark,
         estimate(&policy.profit_usd, |value| grouped(value, 0)),
         policy.profit_usd.standard_deviation.map_or("n/a".to_owned(), |value| grouped(value, 0)),
+        policy.bound_share.as_ref().map_or("n/a".to_owned(), share),
         estimate(&policy.reward, |value| format!("{value:.4}")),
         policy.reward.standard_deviation.map_or("n/a".to_owned(), |value| format!("{value:.5}")),
         grouped(policy.flights, 1),
@@ -69,8 +96,8 @@ fn policy_row(policy: &PolicySummary) -> Vec<String> {
         grouped(policy.holds, 1),
         grouped(policy.passengers, 1),
         format!("{:.3}", policy.load_factor),
-        duration(policy.decision_ns.median),
-        duration(policy.decision_ns.p99),
+        time(policy.decision_ns.map(|time| time.median)),
+        time(policy.decision_ns.map(|time| time.p99)),
     ]
 }
 

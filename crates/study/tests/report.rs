@@ -4,7 +4,7 @@ mod made_up;
 
 use std::path::Path;
 
-use vertifleet_study::{Error, Study, Summary, report, table};
+use vertifleet_study::{Error, PolicyRecord, Study, Summary, report, table};
 
 fn read(path: &Path) -> String {
     std::fs::read_to_string(path).expect("a written file")
@@ -27,6 +27,67 @@ fn the_table_of_one_policy_on_one_day_leaves_undefined_numbers_out() {
     let mut study = made_up::study(1);
     study.policies.truncate(1);
     insta::assert_snapshot!(table::text(&Summary::of(&study).expect("a sound study")));
+}
+
+/// Five policies on days with upper bounds, and a reference that knows the days.
+fn bounded(days: usize) -> Study {
+    let mut study = made_up::study(days);
+    let best = study.policies[4].clone();
+    let mut plan = PolicyRecord { name: "plan".to_owned(), decision_ns: None, ..best };
+    for (day, number) in plan.days.iter_mut().zip(0_u32..) {
+        day.policy = study.policies.len();
+        day.profit_usd += 1_000.0 + f64::from(number % 5);
+    }
+    let bounds_usd: Vec<f64> = plan.days.iter().map(|day| day.profit_usd / 0.97).collect();
+    study.policies.push(plan);
+    study.bound_step_s = Some(180);
+    for policy in &mut study.policies {
+        for (day, bound_usd) in policy.days.iter_mut().zip(&bounds_usd) {
+            day.upper_bound_usd = Some(*bound_usd);
+        }
+    }
+    study
+}
+
+#[test]
+fn the_table_of_five_policies_a_reference_and_the_bound() {
+    let summary = Summary::of(&bounded(20)).expect("a sound study");
+    insta::assert_snapshot!(table::text(&summary));
+}
+
+#[test]
+fn shares_of_the_bound_stand_in_page_days_and_numbers_for_machines() {
+    let (_folder, paths) = written(&bounded(12));
+    let page = read(&paths.report);
+    assert!(page.contains("of bound, %") && page.contains("knows the day"));
+    assert!(page.contains("gcaps earns"), "a reference is not the best policy");
+    let summary: serde_json::Value = serde_json::from_str(&read(&paths.summary)).expect("JSON");
+    assert_eq!(summary["bound"]["step_s"], 180);
+    let plan = &summary["policies"][0];
+    assert_eq!((&plan["name"], &plan["decision_ns"]), (&"plan".into(), &serde_json::Value::Null));
+    let share = plan["bound_share"]["mean"].as_f64().expect("a share");
+    assert!((share - 0.97).abs() < 1e-9, "{share}");
+    let mut days = csv::Reader::from_path(&paths.days).expect("a CSV file");
+    let column = days.headers().expect("names").iter().position(|name| name == "bound_share");
+    let column = column.expect("a column of shares");
+    for row in days.records() {
+        let share: f64 = row.expect("a row")[column].parse().expect("a share");
+        assert!((0.5..=0.98).contains(&share), "{share}");
+    }
+    let (_folder, paths) = written(&made_up::study(12));
+    assert!(!read(&paths.report).contains("of bound, %"));
+}
+
+#[test]
+fn where_nothing_can_be_earned_nothing_earned_is_all_of_it() {
+    let mut day = made_up::study(1).policies[0].days[0].clone();
+    let mut share = |profit_usd, upper_bound_usd| {
+        (day.profit_usd, day.upper_bound_usd) = (profit_usd, upper_bound_usd);
+        day.bound_share()
+    };
+    assert_eq!(share(90.0, None), None);
+    assert_eq!(share(90.0, Some(100.0)), Some(0.9));
+    assert_eq!((share(0.0, Some(0.0)), share(-5.0, Some(0.0))), (Some(1.0), Some(0.0)));
 }
 
 #[test]

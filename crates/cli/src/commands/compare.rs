@@ -1,34 +1,38 @@
 //! `vertifleet compare`: many days, many policies, one table and one report.
 
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use anstream::eprintln;
+use rayon::prelude::*;
 use vertifleet_core::{DaySeed, Network, Scenario};
-use vertifleet_study::run::{Contender, Contenders, run as play_all};
-use vertifleet_study::{Curve, NetworkOrigin, Study, Summary, report, table};
+use vertifleet_optimize::Step;
+use vertifleet_study::run::{Day, run as play_all};
+use vertifleet_study::{NetworkOrigin, Study, Summary, report, table};
 
 use crate::args::CompareArguments;
+use crate::entrants::{self, Entrant};
 use crate::failure::Failure;
+use crate::kept_bounds::KeptBounds;
 use crate::output::print;
-use crate::policies::{self, Recipe};
 use crate::progress::Progress;
 
 pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     let network = Network::find(&arguments.network)?;
-    let recipes = recipes(arguments, network.name())?;
-    let contenders = contenders(&recipes)?;
-    let days = draw(&network, arguments)?;
+    let step = arguments.bound.then(|| Step::from_minutes(arguments.step)).transpose()?;
+    let entrants = Entrant::all(arguments, network.name())?;
+    let contenders = entrants::contenders(&entrants)?;
+    let scenarios = draw(&network, arguments)?;
     if let Some(folder) = &arguments.report {
         vertifleet_core::create_folder(folder)?;
     }
-    let network_origin = NetworkOrigin::of(network.name(), days.iter().map(Arc::as_ref));
-    for (name, recipe) in &recipes {
-        recipe.check_fits(&days[0])?;
-        recipe.warn_if_shipped_for_another(name, network.name(), network_origin);
+    let network_origin = NetworkOrigin::of(network.name(), scenarios.iter().map(Arc::as_ref));
+    for (entrant, recipe) in entrants.iter().filter_map(|one| Some((one, one.recipe()?))) {
+        recipe.check_fits(&scenarios[0])?;
+        recipe.warn_if_shipped_for_another(&entrant.name, network.name(), network_origin);
     }
-    let progress = Progress::new((days.len() * recipes.len()) as u64, "days");
+    let days = bounded(scenarios, step)?;
+    let progress = Progress::new((days.len() * entrants.len()) as u64, "days");
     let policies = play_all(&days, &contenders, &|| progress.advance(1));
     progress.finish();
     let study = Study {
@@ -36,9 +40,10 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
         network_origin,
         seed: arguments.seed,
         days: days.len(),
+        bound_step_s: step.map(Step::seconds),
         command: command(),
         policies: policies?,
-        curves: curves(&recipes),
+        curves: entrants.iter().filter_map(Entrant::curve).collect(),
     };
     let summary = Summary::of(&study)?;
     if arguments.json {
@@ -53,36 +58,22 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The policies by name: weights given by --model first, then rules, then the network's shipped weights.
-fn recipes(arguments: &CompareArguments, network: &str) -> Result<Vec<(String, Recipe)>, Failure> {
-    let models: Vec<String> = arguments.models.iter().map(|(name, _)| name.clone()).collect();
-    if let Some(twice) = first_repeated(&models) {
-        return Err(Failure::usage(
-            format!("--model names {twice:?} twice"),
-            "give each name one path",
-        ));
-    }
-    if let Some(unused) = models.iter().find(|name| !arguments.policies.contains(name)) {
-        return Err(Failure::usage(
-            format!("--model names {unused:?}, which is not among --policies"),
-            "add the name to --policies",
-        ));
-    }
-    let recipe = |name: &String| {
-        let given = arguments.models.iter().find(|(given, _)| given == name);
-        let recipe = match (given, Recipe::rule(name, arguments.seed)) {
-            (Some(_), Some(_)) => return Err(policies::takes_no_weights(name)),
-            (Some((_, path)), None) => Recipe::of_file_with_curve(name, Path::new(path))?,
-            (None, Some(rule)) => rule,
-            (None, None) => Recipe::shipped(name, network)?,
-        };
-        Ok((name.clone(), recipe))
+/// The days with their upper bounds, where a step for them is given.
+fn bounded(scenarios: Vec<Arc<Scenario>>, step: Option<Step>) -> Result<Vec<Day>, Failure> {
+    let Some(step) = step else {
+        let unbounded = |scenario| Day { scenario, upper_bound_usd: None };
+        return Ok(scenarios.into_iter().map(unbounded).collect());
     };
-    arguments.policies.iter().map(recipe).collect()
-}
-
-fn first_repeated(names: &[String]) -> Option<&String> {
-    names.iter().enumerate().find(|(at, name)| names[..*at].contains(name)).map(|(_, name)| name)
+    let kept = KeptBounds::of_this_user();
+    let progress = Progress::new(scenarios.len() as u64, "bounds");
+    let bound = |scenario: Arc<Scenario>| {
+        let upper_bound_usd = kept.upper_bound_usd(&scenario, step)?;
+        progress.advance(1);
+        Ok(Day { scenario, upper_bound_usd: Some(upper_bound_usd) })
+    };
+    let days = scenarios.into_par_iter().map(bound).collect();
+    progress.finish();
+    days
 }
 
 fn draw(network: &Network, arguments: &CompareArguments) -> Result<Vec<Arc<Scenario>>, Failure> {
@@ -90,24 +81,6 @@ fn draw(network: &Network, arguments: &CompareArguments) -> Result<Vec<Arc<Scena
     let seed = |day: u32| DaySeed::comparison(arguments.seed.saturating_add(u64::from(day)));
     seed(arguments.days - 1)?;
     (0..arguments.days).map(|day| Ok(Arc::new(network.draw(seed(day)?)))).collect()
-}
-
-fn contenders(recipes: &[(String, Recipe)]) -> Result<Contenders<'_>, Failure> {
-    let contenders = recipes.iter().map(|(name, recipe)| Contender {
-        name: name.clone(),
-        description: recipe.description(),
-        make: Box::new(|| recipe.make()),
-    });
-    Ok(Contenders::new(contenders.collect())?)
-}
-
-/// The learning curves of the learned policies that have one.
-fn curves(recipes: &[(String, Recipe)]) -> Vec<Curve> {
-    let curve = |(name, recipe): &(String, Recipe)| {
-        let points = recipe.curve();
-        (!points.is_empty()).then(|| Curve { name: name.clone(), points })
-    };
-    recipes.iter().filter_map(curve).collect()
 }
 
 /// The command as anyone can type it, wherever the program lies.

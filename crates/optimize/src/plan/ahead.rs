@@ -1,6 +1,7 @@
 //! The rest of a day, planned from any moment of it: for who decides while the day goes on.
 
-use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Time, VertiportIx};
+use vertifleet_sim::View;
 
 use super::fleet_state::FleetState;
 use super::problem::{Problem, WorthAtEnd};
@@ -8,8 +9,9 @@ use super::schedule::{Flight, Schedule};
 use super::search::Search;
 use super::start;
 
-/// Temperature of the search, dollars: warm starts are good, and heat would only undo them.
-const TEMPERATURE_USD: f64 = 1.0;
+/// Temperature of the search, dollars. Days that were planned anew at every decision earned more with it than with $1, and
+/// as much as with one that falls in the course of each plan.
+const TEMPERATURE_USD: f64 = 12.0;
 
 /// How far ahead to plan.
 #[derive(Clone, Copy)]
@@ -43,7 +45,7 @@ pub struct Outlook {
 impl Outlook {
     /// Where an aircraft that is ready at a vertiport at a time is to go; its own vertiport means hold.
     pub fn choice(&self, aircraft: AircraftIx, at: VertiportIx, time: Time) -> VertiportIx {
-        let flights = &self.flights[aircraft.at()];
+        let flights = self.flights.get(aircraft.at()).map_or(&[][..], Vec::as_slice);
         let next = flights.partition_point(|flight| flight.take_off < time);
         let now = flights.get(next).filter(|flight| flight.take_off == time && flight.from == at);
         now.map_or(at, |flight| flight.to)
@@ -66,14 +68,14 @@ impl Outlook {
 /// Plans the rest of a day from `state` on with so many steps of search. `before`, an earlier outlook on the same day, is
 /// where the search starts if it still fits the state. Same input, same outlook.
 pub fn plan_ahead(
-    scenario: &Scenario,
+    view: View<'_>,
     state: FleetState,
     horizon: Horizon<'_>,
     before: Option<&Outlook>,
     steps: u64,
     seed: u64,
 ) -> Outlook {
-    let problem = Problem::new(scenario, state, horizon.end, horizon.worth_at_end);
+    let problem = Problem::new(view, state, horizon.end, horizon.worth_at_end);
     let first = before
         .and_then(|before| continued(&problem, before))
         .unwrap_or_else(|| start::one_by_one(&problem));
@@ -84,7 +86,8 @@ pub fn plan_ahead(
     Outlook::of(&problem, &search.best)
 }
 
-/// What is left of an earlier outlook and within the horizon, if the fleet stands as that outlook had it.
+/// What is left of an earlier outlook and within the horizon, if the fleet stands as that outlook had it. An outlook of
+/// another day does not fit, and does no harm.
 fn continued(problem: &Problem<'_>, before: &Outlook) -> Option<Schedule> {
     let mut schedule = Schedule::unplanned(problem);
     for aircraft in problem.day.fleet() {
@@ -102,7 +105,8 @@ fn continued(problem: &Problem<'_>, before: &Outlook) -> Option<Schedule> {
             if flight.from != place || waited_s % problem.day.hold_s != 0 {
                 return None;
             }
-            let hop = problem.day.hop(problem.day.kind(aircraft), flight.from, flight.to);
+            let hops = problem.day.hops(problem.day.kind(aircraft), flight.from);
+            let hop = hops.iter().find(|hop| hop.to == flight.to)?;
             (place, ready_s) = (flight.to, take_off_s + hop.block_s);
             flights.push(Flight { take_off_s, from: flight.from, to: flight.to });
         }

@@ -1,7 +1,7 @@
 //! What every flight of a day takes and earns, in the form that the search reads fastest.
 
-use vertifleet_core::{AircraftIx, Scenario, Time, TypeIx, VertiportIx};
-use vertifleet_sim::Legs;
+use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
+use vertifleet_sim::View;
 
 /// One way to go on from a vertiport for aircraft of one type.
 #[derive(Debug, Clone, Copy)]
@@ -36,36 +36,37 @@ pub(super) struct Day {
 }
 
 impl Day {
-    /// The numbers of `scenario`, with decisions up to and including `end`.
-    pub(super) fn new(scenario: &Scenario, end: Time) -> Self {
-        let legs = Legs::of(scenario);
-        let vertiports = scenario.vertiports.len();
-        let mut hops = Vec::with_capacity(scenario.aircraft_types.len() * vertiports);
-        for kind in TypeIx::all(scenario.aircraft_types.len()) {
+    /// The numbers that a view shows, with decisions up to and including `end`.
+    pub(super) fn of(view: View<'_>, end: Time) -> Self {
+        let vertiports = view.vertiports();
+        let types = view.aircraft_types();
+        let mut hops = Vec::with_capacity(types.len() * vertiports);
+        for kind in TypeIx::all(types.len()) {
             for from in VertiportIx::all(vertiports) {
+                let (fares_usd, costs_usd) = (view.fares_usd(from), view.passenger_costs_usd(from));
                 let hop = |to: VertiportIx| {
-                    let leg = legs.leg(kind, from, to);
+                    let leg = view.leg(kind, from, to);
                     Hop {
                         to,
                         flight_s: leg.flight_s,
                         block_s: leg.block_s(),
                         energy_kwh: leg.energy_kwh,
-                        margin_usd: scenario.fare_usd[(from, to)]
-                            - scenario.passenger_cost_usd[(from, to)],
+                        margin_usd: fares_usd[to.at()] - costs_usd[to.at()],
                     }
                 };
-                hops.push(legs.within_range(kind, from).iter().map(hop).collect());
+                hops.push(view.within_range(kind, from).iter().map(hop).collect());
             }
         }
+        let fleet = AircraftIx::all(view.places().len());
         Self {
             vertiports,
-            end_s: end.min(scenario.operations.end).seconds(),
-            hold_s: scenario.operations.hold_s,
-            period_starts_s: scenario.periods.iter().map(|start| start.seconds()).collect(),
-            energy_price_usd: scenario.energy_price_usd.clone(),
-            stands: scenario.vertiports.iter().map(|vertiport| vertiport.stands).collect(),
-            kind_of: scenario.aircraft.iter().map(|aircraft| aircraft.kind).collect(),
-            seats: scenario.aircraft_types.iter().map(|kind| kind.seats).collect(),
+            end_s: end.min(view.day_end()).seconds(),
+            hold_s: view.hold_s(),
+            period_starts_s: view.period_starts().iter().map(|start| start.seconds()).collect(),
+            energy_price_usd: view.energy_prices_usd().to_vec(),
+            stands: VertiportIx::all(vertiports).map(|vertiport| view.stands(vertiport)).collect(),
+            kind_of: fleet.map(|aircraft| view.kind(aircraft)).collect(),
+            seats: types.iter().map(|kind| kind.seats).collect(),
             hops,
         }
     }

@@ -1,6 +1,9 @@
 //! What all searches of one plan share: the day's numbers, the stand prices, and what the plan's end is worth.
 
+use std::sync::Arc;
+
 use vertifleet_core::{Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_sim::{Simulation, View};
 
 use super::day::Day;
 use super::fleet_state::FleetState;
@@ -21,18 +24,20 @@ pub(super) struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     /// A whole day.
-    pub(super) fn of_day(scenario: &Scenario) -> Self {
-        Self::new(scenario, FleetState::at_start(scenario), scenario.operations.end, None)
+    pub(super) fn of_day(scenario: &Arc<Scenario>) -> Self {
+        let simulation = Simulation::new(Arc::clone(scenario));
+        let end = scenario.operations.end;
+        Self::new(simulation.view(), FleetState::at_start(scenario), end, None)
     }
 
     /// The rest of a day from `state` on, with decisions up to and including `end`.
     pub(super) fn new(
-        scenario: &Scenario,
+        view: View<'_>,
         state: FleetState,
         end: Time,
         worth_at_end: Option<WorthAtEnd<'a>>,
     ) -> Self {
-        let day = Day::new(scenario, end);
+        let day = Day::of(view, end);
         let worth = |kind, place, ready_s| worth_usd(worth_at_end, kind, place, ready_s);
         let ready_s = state.aircraft.iter().map(|aircraft| aircraft.ready_at.seconds());
         let first_s = ready_s.min().unwrap_or(day.end_s).min(day.end_s);

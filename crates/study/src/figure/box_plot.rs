@@ -1,4 +1,4 @@
-//! Box plots of what every policy earned on each day (Fig. 4 and Fig. 5).
+//! Box plots of what every policy earned on each day (Fig. 4 and Fig. 5), also as a share of the upper bound.
 //!
 //! Boxes lie, one row a policy, so that names can be read and every day has its dot below the box. Rows are named, so
 //! colour carries nothing that is not also said in words.
@@ -21,6 +21,9 @@ const LONGEST_NAME: usize = 22;
 
 /// With more days the dots run into each other and say less than the box.
 const MOST_DOTS: usize = 400;
+
+/// Below the name of an offline reference.
+const OFFLINE_REMARK: &str = "knows the day";
 
 /// What a box plot shows of a policy.
 struct Measure {
@@ -74,6 +77,25 @@ pub(super) fn episode_reward(summary: &Summary) -> Figure {
     )
 }
 
+/// Profit of each day as a share of what it could earn at most; `None` where bounds were not asked for.
+pub(super) fn bound_share(summary: &Summary) -> Option<Figure> {
+    let bound = summary.bound?;
+    summary.policies.iter().all(|policy| policy.bound_share_box.is_some()).then_some(())?;
+    let measure = Measure {
+        slug: "figure-bound-share",
+        title: "Share of the upper bound",
+        subtitle: subtitle(summary),
+        axis: "profit a day as a share of what no schedule earns more than, %",
+        daily: |policy| &policy.daily_bound_share,
+        boxed: |policy| policy.bound_share_box.as_ref().expect("every policy has shares"),
+        mean: |policy| policy.bound_share.map_or(0.0, |share| share.mean),
+        written: |value| typeset(&grouped(100.0 * value, 2)) + " %",
+        tick: |value, decimals| typeset(&grouped(100.0 * value, decimals.saturating_sub(2))),
+    };
+    let source = format!("Bounds are proven with steps of {} s.", bound.step_s);
+    Some(draw(summary, &measure, &source))
+}
+
 fn subtitle(summary: &Summary) -> String {
     let days = counted(summary.days, "day", "days");
     format!(
@@ -86,7 +108,9 @@ fn draw(summary: &Summary, measure: &Measure, source: &str) -> Figure {
     let policies = &summary.policies;
     let bottom = TOP + ROW * policies.len() as f64;
     let names = policies.iter().map(|policy| shortened(&policy.name, LONGEST_NAME));
-    let left = names.map(|name| text_width(&name, 13.0)).fold(60.0, f64::max) + 32.0;
+    let remark = policies.iter().any(PolicySummary::is_offline).then_some(OFFLINE_REMARK);
+    let least = remark.map_or(60.0, |remark| text_width(remark, 12.0));
+    let left = names.map(|name| text_width(&name, 13.0)).fold(least, f64::max) + 32.0;
     let values = policies.iter().flat_map(|policy| (measure.daily)(policy).iter().copied());
     let scale = Scale::around(values, (left, WIDTH - RIGHT), 9);
 
@@ -101,6 +125,10 @@ fn draw(summary: &Summary, measure: &Measure, source: &str) -> Figure {
         let name = shortened(&policy.name, LONGEST_NAME);
         let lettering = Lettering::LABEL.bold().anchored(Anchor::End);
         canvas.text((left - 14.0, middle + 4.5), lettering, &name);
+        if policy.is_offline() {
+            let lettering = Lettering::SMALL.anchored(Anchor::End);
+            canvas.text((left - 14.0, middle + 19.0), lettering, OFFLINE_REMARK);
+        }
         let mean = (measure.written)((measure.mean)(policy));
         canvas.text((WIDTH - 16.0, middle + 4.5), Lettering::LABEL.anchored(Anchor::End), &mean);
         if dots {

@@ -71,7 +71,7 @@ pub(crate) fn study(days: usize) -> Study {
             .zip(0..)
             .map(|(&season, day)| record(position, outline, day, season, &mut noise))
             .collect(),
-        decision_ns: outline.decision_ns,
+        decision_ns: Some(outline.decision_ns),
     });
     let policies = policies.collect();
     Study {
@@ -79,6 +79,7 @@ pub(crate) fn study(days: usize) -> Study {
         network_origin: NetworkOrigin::Shipped,
         seed: 1,
         days,
+        bound_step_s: None,
         command: format!(
             "vertifleet compare --network paper --policies random,greedy,lookahead,mlp,gcaps --days {days} --seed 1 --report out"
         ),
@@ -113,6 +114,7 @@ fn record(policy: usize, outline: &Outline, day: u64, season: f64, noise: &mut N
         passengers: u64::from(flights * 4 - 60),
         spilled_passengers: 29_000,
         load_factor: f64::from(flights * 4 - 60) / f64::from(flights * 4),
+        upper_bound_usd: None,
     }
 }
 

@@ -1,0 +1,106 @@
+//! Who enters a comparison: policies by their names, and the planner as a reference that knows the days.
+
+use std::path::Path;
+
+use vertifleet_optimize::{Budget, Settings, plan};
+use vertifleet_study::Curve;
+use vertifleet_study::run::{Contender, Contenders, Way};
+
+use crate::args::CompareArguments;
+use crate::failure::Failure;
+use crate::policies::{self, Recipe};
+
+/// Steps of the planner a day: no time limit, so that the plan is the same everywhere. On `paper` they take about a quarter
+/// of a minute on one core.
+const PLAN_STEPS: u64 = 200_000;
+
+/// Somebody who takes part, with its name.
+pub(crate) struct Entrant {
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
+}
+
+/// How an entrant comes to its decisions.
+pub(crate) enum Kind {
+    Policy(Recipe),
+    /// The planner, with the seed of its search.
+    Plan(u64),
+}
+
+impl Entrant {
+    /// Those that are asked for: weights given by --model first, then rules, then the network's shipped weights.
+    pub(crate) fn all(arguments: &CompareArguments, network: &str) -> Result<Vec<Self>, Failure> {
+        let models: Vec<&String> = arguments.models.iter().map(|(name, _)| name).collect();
+        if let Some(twice) = first_repeated(&models) {
+            return Err(Failure::usage(
+                format!("--model names {twice:?} twice"),
+                "give each name one path",
+            ));
+        }
+        if let Some(unused) = models.iter().find(|name| !arguments.policies.contains(name)) {
+            return Err(Failure::usage(
+                format!("--model names {unused:?}, which is not among --policies"),
+                "add the name to --policies",
+            ));
+        }
+        arguments.policies.iter().map(|name| Self::named(name, arguments, network)).collect()
+    }
+
+    fn named(name: &str, arguments: &CompareArguments, network: &str) -> Result<Self, Failure> {
+        let given = arguments.models.iter().find(|(given, _)| given == name);
+        let weights = given.map(|(_, path)| Path::new(path));
+        let rule = match name {
+            "plan" => Some(Kind::Plan(arguments.seed)),
+            _ => Recipe::rule(name, arguments.seed).map(Kind::Policy),
+        };
+        let kind = match (weights, rule) {
+            (Some(_), Some(_)) => return Err(policies::takes_no_weights(name)),
+            (Some(path), None) => Kind::Policy(Recipe::of_file_with_curve(name, path)?),
+            (None, Some(rule)) => rule,
+            (None, None) => Kind::Policy(Recipe::shipped(name, network)?),
+        };
+        Ok(Self { name: name.to_owned(), kind })
+    }
+
+    /// What it is made of, where it is a policy.
+    pub(crate) fn recipe(&self) -> Option<&Recipe> {
+        match &self.kind {
+            Kind::Policy(recipe) => Some(recipe),
+            Kind::Plan(_) => None,
+        }
+    }
+
+    /// Its learning curve, where it was trained.
+    pub(crate) fn curve(&self) -> Option<Curve> {
+        let points = self.recipe()?.curve();
+        (!points.is_empty()).then(|| Curve { name: self.name.clone(), points })
+    }
+
+    fn contender(&self) -> Contender<'_> {
+        let (description, way) = match &self.kind {
+            Kind::Policy(recipe) => (recipe.description(), Way::Online(Box::new(|| recipe.make()))),
+            Kind::Plan(seed) => (
+                format!(
+                    "knows the day beforehand and searches for its best schedule in {PLAN_STEPS} steps"
+                ),
+                planned(*seed),
+            ),
+        };
+        Contender { name: self.name.clone(), description, way }
+    }
+}
+
+/// Days take turns on the threads, so each plan needs but one search.
+fn planned(seed: u64) -> Way<'static> {
+    let settings = Settings { budget: Budget::Steps(PLAN_STEPS), searches: 1, seed };
+    Way::Offline(Box::new(move |day| plan(day, &settings, &mut |_| true).trace))
+}
+
+/// Everybody, for the comparison.
+pub(crate) fn contenders(entrants: &[Entrant]) -> Result<Contenders<'_>, Failure> {
+    Ok(Contenders::new(entrants.iter().map(Entrant::contender).collect())?)
+}
+
+fn first_repeated<'a>(names: &[&'a String]) -> Option<&'a String> {
+    names.iter().enumerate().find(|(at, name)| names[..*at].contains(name)).map(|(_, name)| *name)
+}

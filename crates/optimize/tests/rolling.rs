@@ -1,0 +1,109 @@
+//! What the rolling horizon promises as a policy, on small days of every kind.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{Size, any_day};
+use rayon::prelude::*;
+use vertifleet_core::Scenario;
+use vertifleet_optimize::Rolling;
+use vertifleet_policy::{Greedy, Policy, play};
+use vertifleet_sim::{Simulation, Trace, check::check};
+
+const SMALL: Size = Size { vertiports: 5, fleet: 8, hours: 5 };
+
+/// A day played from its first decision to its last.
+fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> (Trace, f64) {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    let trace = finished(&mut simulation, policy);
+    (trace, simulation.ledger().profit_usd())
+}
+
+/// Plays what is left of a day.
+fn finished(simulation: &mut Simulation, policy: &mut dyn Policy) -> Trace {
+    let mut trace = Trace::default();
+    play(simulation, policy, |row| trace.rows.push(*row)).expect("every choice is feasible");
+    trace
+}
+
+#[test]
+fn days_keep_every_rule_and_earn_more_than_greedys() {
+    let (mut rolling_usd, mut greedy_usd) = (0.0, 0.0);
+    let mut rolling = Rolling::default();
+    for number in 300..310 {
+        let day = any_day(number, SMALL);
+        let (trace, profit_usd) = played(&day, &mut rolling);
+        let report = check(&day, &trace);
+        assert!(report.is_valid(), "day {number}: {report}");
+        rolling_usd += profit_usd;
+        greedy_usd += played(&day, &mut Greedy).1;
+    }
+    assert!(rolling_usd > greedy_usd, "{rolling_usd} is not more than {greedy_usd}");
+}
+
+#[test]
+fn a_day_has_one_outcome_whatever_was_played_before_and_on_how_many_threads() {
+    let days: Vec<_> = (320..326).map(|number| any_day(number, SMALL)).collect();
+    let in_order = |days: &mut dyn Iterator<Item = &Arc<Scenario>>| {
+        let mut policy = Rolling::default();
+        days.map(|day| played(day, &mut policy)).collect::<Vec<_>>()
+    };
+    let forwards = in_order(&mut days.iter());
+    let mut backwards = in_order(&mut days.iter().rev());
+    backwards.reverse();
+    assert_eq!(forwards, backwards);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
+    let on_two: Vec<_> = pool.install(|| {
+        days.par_iter().map_init(Rolling::default, |policy, day| played(day, policy)).collect()
+    });
+    assert_eq!(forwards, on_two);
+}
+
+#[test]
+fn a_day_can_be_taken_up_in_its_middle_whatever_is_remembered() {
+    for number in 340..350 {
+        let day = any_day(number, SMALL);
+        // Another day of the same seed, so that its plan is taken for one of this day until it turns out not to fit.
+        let mut other = Scenario::clone(&any_day(number + 50, SMALL)).into_day();
+        other.seed = day.seed;
+        let other = Arc::new(other.check("another day").expect("a seed is a number"));
+        let mut simulation = Simulation::new(Arc::clone(&day));
+        let mut elsewhere = Simulation::new(other);
+        let mut remembers_another = Rolling::default();
+        for _ in 0..number % 20 {
+            let (Some(decision), Some(there)) =
+                (simulation.next_decision(), elsewhere.next_decision())
+            else {
+                break;
+            };
+            let choice = Greedy.choose(&decision, &simulation.view()).expect("an answer");
+            simulation.apply(choice).expect("a choice from the mask");
+            let choice =
+                remembers_another.choose(&there, &elsewhere.view()).expect("plans have answers");
+            elsewhere.apply(choice).expect("a choice from the mask");
+        }
+        finished(&mut simulation.clone(), &mut remembers_another);
+        let once = finished(&mut simulation.clone(), &mut Rolling::default());
+        assert_eq!(once, finished(&mut simulation, &mut Rolling::default()), "day {number}");
+    }
+}
+
+#[test]
+fn days_can_be_played_by_turns() {
+    let days = [360, 361].map(|number| any_day(number, Size { hours: 2, ..SMALL }));
+    let mut simulations = days.map(Simulation::new);
+    let mut policy = Rolling::default();
+    loop {
+        let mut over = true;
+        for simulation in &mut simulations {
+            let Some(decision) = simulation.next_decision() else { continue };
+            let choice = policy.choose(&decision, &simulation.view()).expect("an answer");
+            simulation.apply(choice).expect("a choice from the mask");
+            over = false;
+        }
+        if over {
+            break;
+        }
+    }
+}
