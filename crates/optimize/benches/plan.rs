@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vertifleet_core::{DaySeed, Network};
-use vertifleet_optimize::{Budget, FleetState, Horizon, Settings, plan, plan_ahead};
+use vertifleet_optimize::{Budget, Settings, plan, plan_ahead};
 use vertifleet_sim::Simulation;
 
 fn plans(criterion: &mut Criterion) {
@@ -22,10 +22,8 @@ fn plans(criterion: &mut Criterion) {
     // Every route of the day is searched once: 40 searches of a route, and the stand prices.
     let simulation = Simulation::new(Arc::clone(&day));
     group.bench_function("a day planned one aircraft after another", |bencher| {
-        let horizon = Horizon { end: day.operations.end, worth_at_end: None };
         let view = simulation.view();
-        bencher
-            .iter(|| plan_ahead(black_box(view), FleetState::at_start(&day), horizon, None, 0, 1));
+        bencher.iter(|| plan_ahead(black_box(view), None, 0, 1));
     });
     group.finish();
 }

@@ -10,8 +10,5 @@ mod rolling;
 
 pub use bound::{Bound, Step, cached_upper_bound, upper_bound};
 pub use error::Error;
-pub use plan::{
-    AircraftState, Budget, FleetState, Horizon, Outlook, Plan, PlannedFlight, Progress, Settings,
-    WorthAtEnd, plan, plan_ahead,
-};
+pub use plan::{Budget, Outlook, Plan, PlannedFlight, Progress, Settings, plan, plan_ahead};
 pub use rolling::Rolling;

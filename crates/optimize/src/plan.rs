@@ -26,9 +26,7 @@ use vertifleet_sim::Trace;
 use problem::Problem;
 use search::Search;
 
-pub use ahead::{Horizon, Outlook, PlannedFlight, plan_ahead};
-pub use fleet_state::{AircraftState, FleetState};
-pub use problem::WorthAtEnd;
+pub use ahead::{Outlook, PlannedFlight, plan_ahead};
 
 /// Steps that a search takes between two looks at what the others found.
 const STEPS_A_ROUND: u64 = 50;

@@ -9,7 +9,7 @@ use vertifleet_core::{Time, VertiportIx};
 use vertifleet_policy::{Policy, PolicyError, draw};
 use vertifleet_sim::{Decision, View};
 
-use crate::plan::{FleetState, Horizon, Outlook, plan_ahead};
+use crate::plan::{Outlook, plan_ahead};
 
 /// Steps of search where there is no plan to go on from: in the morning, or when a day is taken up in its middle.
 const FIRST_STEPS: u64 = 4_000;
@@ -39,11 +39,9 @@ impl Latest {
     /// A plan from `decision` on, continuing the one before if there is one that fits.
     fn made(decision: &Decision, view: View<'_>, before: Option<&Outlook>) -> Self {
         let day_seed = view.day_seed();
-        let horizon = Horizon { end: view.day_end(), worth_at_end: None };
         let steps = if before.is_some() { STEPS } else { FIRST_STEPS };
         let seed = draw(SEED, day_seed, decision.index);
-        let state = FleetState::at_decision(decision, &view);
-        let outlook = plan_ahead(view, state, horizon, before, steps, seed);
+        let outlook = plan_ahead(view, before, steps, seed);
         Self { day_seed, next: decision.index, made_at: decision.time, outlook }
     }
 

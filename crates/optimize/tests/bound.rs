@@ -1,11 +1,13 @@
 //! What the bound promises, on small days of every kind and on days of the `paper` network.
 
 mod common;
+mod exhaustive;
 
 use std::fs;
 use std::sync::Arc;
 
 use common::{Size, any_day};
+use exhaustive::best_of_all;
 use rayon::prelude::*;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario, Time, TypeIx, VertiportIx};
 use vertifleet_optimize::{Error, Step, cached_upper_bound, upper_bound};
@@ -29,22 +31,6 @@ fn earned_usd(day: &Arc<Scenario>, rule: &mut dyn Policy) -> f64 {
     let mut simulation = Simulation::new(Arc::clone(day));
     play(&mut simulation, rule, |_| ()).expect("rules always answer");
     simulation.ledger().profit_usd()
-}
-
-/// The most that any sequence of decisions earns, by trying them all; `None` where there are more than `most` of them.
-fn best_of_all(simulation: &mut Simulation, most: &mut u32) -> Option<f64> {
-    let Some(decision) = simulation.next_decision() else {
-        *most = most.checked_sub(1)?;
-        return Some(simulation.ledger().profit_usd());
-    };
-    let mask = simulation.view().feasible(&decision);
-    let mut best = f64::NEG_INFINITY;
-    for choice in mask.iter() {
-        let mut after = simulation.clone();
-        after.apply(choice).expect("a choice from the mask");
-        best = best.max(best_of_all(&mut after, most)?);
-    }
-    Some(best)
 }
 
 #[test]

@@ -1,13 +1,15 @@
 //! What the planner promises, on small days of every kind and on days of the `paper` network.
 
 mod common;
+mod exhaustive;
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use common::{Size, any_day};
+use exhaustive::best_of_all;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario};
-use vertifleet_optimize::{Budget, FleetState, Horizon, Plan, Settings, plan, plan_ahead};
+use vertifleet_optimize::{Budget, Plan, Settings, plan, plan_ahead};
 use vertifleet_policy::{Greedy, Lookahead, Policy, Random, play};
 use vertifleet_sim::{Simulation, check::check};
 
@@ -19,22 +21,6 @@ fn paper_day(seed: u64) -> Arc<Scenario> {
 fn planned(day: &Arc<Scenario>, steps: u64) -> Plan {
     let settings = Settings { budget: Budget::Steps(steps), searches: 2, seed: 5 };
     plan(day, &settings, &mut |_| true)
-}
-
-/// The most that any sequence of decisions earns, by trying them all; `None` where there are more than `most` of them.
-fn best_of_all(simulation: &mut Simulation, most: &mut u32) -> Option<f64> {
-    let Some(decision) = simulation.next_decision() else {
-        *most = most.checked_sub(1)?;
-        return Some(simulation.ledger().profit_usd());
-    };
-    let mask = simulation.view().feasible(&decision);
-    let mut best = f64::NEG_INFINITY;
-    for choice in mask.iter() {
-        let mut after = simulation.clone();
-        after.apply(choice).expect("a choice from the mask");
-        best = best.max(best_of_all(&mut after, most)?);
-    }
-    Some(best)
 }
 
 #[test]
@@ -138,9 +124,7 @@ fn follow(day: &Arc<Scenario>, played: u32, every: u32) {
             continue;
         }
         if (decision.index - played).is_multiple_of(every) {
-            let state = FleetState::at_decision(&decision, &view);
-            let horizon = Horizon { end: day.operations.end, worth_at_end: None };
-            let ahead = plan_ahead(view, state, horizon, outlook.as_ref(), 3, 1);
+            let ahead = plan_ahead(view, outlook.as_ref(), 3, 1);
             let in_all = simulation.ledger().profit_usd() + ahead.value_usd;
             assert!(in_all >= expected - 1e-6, "an outlook goes on from the one before");
             expected = in_all;

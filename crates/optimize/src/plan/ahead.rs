@@ -3,8 +3,7 @@
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_sim::View;
 
-use super::fleet_state::FleetState;
-use super::problem::{Problem, WorthAtEnd};
+use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 use super::search::Search;
 use super::start;
@@ -12,15 +11,6 @@ use super::start;
 /// Temperature of the search, dollars. Days that were planned anew at every decision earned more with it than with $1, and
 /// as much as with one that falls in the course of each plan.
 const TEMPERATURE_USD: f64 = 12.0;
-
-/// How far ahead to plan.
-#[derive(Clone, Copy)]
-pub struct Horizon<'a> {
-    /// Last instant of planned decisions, inclusive; no later than the end of operations.
-    pub end: Time,
-    /// What it is worth to be ready somewhere past the horizon; nothing if not given.
-    pub worth_at_end: Option<WorthAtEnd<'a>>,
-}
 
 /// A flight to be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +26,7 @@ pub struct PlannedFlight {
 /// The flights that each aircraft is to make from now on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outlook {
-    /// What the flights earn and what their end is worth, dollars.
+    /// What the flights earn, dollars.
     pub value_usd: f64,
     /// By aircraft, in order of take-off.
     pub flights: Vec<Vec<PlannedFlight>>,
@@ -51,7 +41,7 @@ impl Outlook {
         now.map_or(at, |flight| flight.to)
     }
 
-    fn of(problem: &Problem<'_>, schedule: &Schedule) -> Self {
+    fn of(problem: &Problem, schedule: &Schedule) -> Self {
         let planned = |flight: &Flight| PlannedFlight {
             take_off: Time::from_seconds(flight.take_off_s),
             from: flight.from,
@@ -65,17 +55,10 @@ impl Outlook {
     }
 }
 
-/// Plans the rest of a day from `state` on with so many steps of search. `before`, an earlier outlook on the same day, is
-/// where the search starts if it still fits the state. Same input, same outlook.
-pub fn plan_ahead(
-    view: View<'_>,
-    state: FleetState,
-    horizon: Horizon<'_>,
-    before: Option<&Outlook>,
-    steps: u64,
-    seed: u64,
-) -> Outlook {
-    let problem = Problem::new(view, state, horizon.end, horizon.worth_at_end);
+/// Plans the rest of a day as a view shows it, with so many steps of search. `before`, an earlier outlook on the same day, is
+/// where the search starts if it still fits. Same input, same outlook.
+pub fn plan_ahead(view: View<'_>, before: Option<&Outlook>, steps: u64, seed: u64) -> Outlook {
+    let problem = Problem::of(view);
     let first = before
         .and_then(|before| continued(&problem, before))
         .unwrap_or_else(|| start::one_by_one(&problem));
@@ -86,9 +69,9 @@ pub fn plan_ahead(
     Outlook::of(&problem, &search.best)
 }
 
-/// What is left of an earlier outlook and within the horizon, if the fleet stands as that outlook had it. An outlook of
+/// What is left of an earlier outlook, if the fleet stands as that outlook had it. An outlook of
 /// another day does not fit, and does no harm.
-fn continued(problem: &Problem<'_>, before: &Outlook) -> Option<Schedule> {
+fn continued(problem: &Problem, before: &Outlook) -> Option<Schedule> {
     let mut schedule = Schedule::unplanned(problem);
     for aircraft in problem.day.fleet() {
         let (mut place, mut ready_s) = schedule.open_end(&problem.day, aircraft);

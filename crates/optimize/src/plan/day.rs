@@ -1,6 +1,6 @@
 //! What every flight of a day takes and earns, in the form that the search reads fastest.
 
-use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
+use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 /// One way to go on from a vertiport for aircraft of one type.
@@ -20,7 +20,7 @@ pub(super) struct Hop {
 #[derive(Debug)]
 pub(super) struct Day {
     pub(super) vertiports: usize,
-    /// Last second at which the plan decides, inclusive.
+    /// Last second at which anyone decides, inclusive.
     pub(super) end_s: u32,
     pub(super) hold_s: u32,
     /// First second of each demand period.
@@ -36,8 +36,8 @@ pub(super) struct Day {
 }
 
 impl Day {
-    /// The numbers that a view shows, with decisions up to and including `end`.
-    pub(super) fn of(view: View<'_>, end: Time) -> Self {
+    /// The numbers that a view shows.
+    pub(super) fn of(view: View<'_>) -> Self {
         let vertiports = view.vertiports();
         let types = view.aircraft_types();
         let mut hops = Vec::with_capacity(types.len() * vertiports);
@@ -60,7 +60,7 @@ impl Day {
         let fleet = AircraftIx::all(view.places().len());
         Self {
             vertiports,
-            end_s: end.min(view.day_end()).seconds(),
+            end_s: view.day_end().seconds(),
             hold_s: view.hold_s(),
             period_starts_s: view.period_starts().iter().map(|start| start.seconds()).collect(),
             energy_price_usd: view.energy_prices_usd().to_vec(),

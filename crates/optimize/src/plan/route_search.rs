@@ -60,7 +60,7 @@ pub(super) struct RouteSearch {
 
 /// The route to be completed.
 struct Task<'a> {
-    problem: &'a Problem<'a>,
+    problem: &'a Problem,
     schedule: &'a Schedule,
     aircraft: AircraftIx,
     kind: TypeIx,
@@ -89,7 +89,7 @@ impl RouteSearch {
     /// none where others have taken every stand that the aircraft could stay at.
     pub(super) fn complete(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &Problem,
         schedule: &Schedule,
         aircraft: AircraftIx,
         bias: Bias,
@@ -230,13 +230,11 @@ impl RouteSearch {
             if Moment::of(ready_s, task.aircraft) < window.closes {
                 self.enter(task, place, Label { value_usd, ready_s, before: choice.label });
             }
-        } else if window.closes == Moment::NEVER {
-            let worth_usd = task.problem.worth_at_end_usd(task.kind, place, ready_s);
-            let value_usd = value_usd + worth_usd;
-            if self.best.is_none_or(|best| value_usd > best.value_usd) {
-                let last_to = (place != choice.place).then_some(place);
-                self.best = Some(Finish { value_usd, label: choice.label, last_to });
-            }
+        } else if window.closes == Moment::NEVER
+            && self.best.is_none_or(|best| value_usd > best.value_usd)
+        {
+            let last_to = (place != choice.place).then_some(place);
+            self.best = Some(Finish { value_usd, label: choice.label, last_to });
         }
     }
 

@@ -39,7 +39,7 @@ pub(super) struct Schedule {
 
 impl Schedule {
     /// No flights yet. Routes wait to be completed, but for aircraft that are not ready before the plan's end.
-    pub(super) fn unplanned(problem: &Problem<'_>) -> Self {
+    pub(super) fn unplanned(problem: &Problem) -> Self {
         let Problem { day, state, .. } = problem;
         let mut stands = StandTimes::empty(&day.stands);
         let mut routes = Vec::with_capacity(state.aircraft.len());
@@ -53,16 +53,10 @@ impl Schedule {
             routes.push(Route { place: entry.place, ready_s, flights: Vec::new(), whole });
         }
         let left = state.demand_left.iter().map(|&left| i64::from(left)).collect();
-        let mut schedule = Self { routes, stands, left, value_usd: 0.0 };
-        schedule.value_usd = day
-            .fleet()
-            .filter(|&aircraft| schedule.is_whole(aircraft))
-            .map(|aircraft| schedule.worth_at_end_usd(problem, aircraft))
-            .sum();
-        schedule
+        Self { routes, stands, left, value_usd: 0.0 }
     }
 
-    /// What the flights earn, and what the plan's end is worth to the aircraft whose routes are whole, dollars.
+    /// What the flights earn, dollars.
     #[inline]
     pub(super) fn value_usd(&self) -> f64 {
         self.value_usd
@@ -100,14 +94,13 @@ impl Schedule {
     /// Takes the flights from the one at `first` on out of a whole route and appends them to `taken_out`.
     pub(super) fn cut(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &Problem,
         aircraft: AircraftIx,
         first: usize,
         taken_out: &mut Vec<Flight>,
     ) {
         debug_assert!(self.is_whole(aircraft), "a route is cut once");
         let day = &problem.day;
-        self.value_usd -= self.worth_at_end_usd(problem, aircraft);
         let begin = taken_out.len();
         taken_out.extend_from_slice(&self.flights(aircraft)[first..]);
         for &flight in &taken_out[begin..] {
@@ -121,18 +114,11 @@ impl Schedule {
         if ready_s <= day.end_s {
             self.stands.free(place, Moment::of(ready_s, aircraft));
             self.routes[aircraft.at()].whole = false;
-        } else {
-            self.value_usd += self.worth_at_end_usd(problem, aircraft);
         }
     }
 
     /// Appends flights to a route that is not whole; that makes it whole.
-    pub(super) fn complete(
-        &mut self,
-        problem: &Problem<'_>,
-        aircraft: AircraftIx,
-        flights: &[Flight],
-    ) {
+    pub(super) fn complete(&mut self, problem: &Problem, aircraft: AircraftIx, flights: &[Flight]) {
         let day = &problem.day;
         if self.is_whole(aircraft) {
             debug_assert!(flights.is_empty(), "a whole route takes no more flights");
@@ -149,17 +135,6 @@ impl Schedule {
         let route = &mut self.routes[aircraft.at()];
         route.flights.extend_from_slice(flights);
         route.whole = true;
-        self.value_usd += self.worth_at_end_usd(problem, aircraft);
-    }
-
-    /// What the plan's end is worth to an aircraft that stays where its last flight takes it, dollars.
-    fn worth_at_end_usd(&self, problem: &Problem<'_>, aircraft: AircraftIx) -> f64 {
-        let Day { end_s, hold_s, .. } = problem.day;
-        let (place, ready_s) = self.open_end(&problem.day, aircraft);
-        // It is asked again after every hold until the first time past the end.
-        let holds = (end_s + 1).saturating_sub(ready_s).div_ceil(hold_s);
-        let kind = problem.day.kind(aircraft);
-        problem.worth_at_end_usd(kind, place, ready_s + holds * hold_s)
     }
 
     /// Enters a flight into the demand (`sign` 1) or takes it out (-1). Returns what it is worth, dollars.

@@ -54,7 +54,7 @@ impl Search {
     }
 
     /// Tries one neighbour; a loss is accepted with probability exp(-loss / `temperature_usd`).
-    pub(super) fn step(&mut self, problem: &Problem<'_>, temperature_usd: f64) {
+    pub(super) fn step(&mut self, problem: &Problem, temperature_usd: f64) {
         let profit_usd = self.current.value_usd();
         self.choose(problem);
         self.take_out(problem);
@@ -72,7 +72,7 @@ impl Search {
     }
 
     /// Chooses aircraft and a moment; flights that take off before it stay.
-    fn choose(&mut self, problem: &Problem<'_>) {
+    fn choose(&mut self, problem: &Problem) {
         let TakenOut { aircraft, kept, .. } = &mut self.taken_out;
         aircraft.clear();
         kept.clear();
@@ -93,7 +93,7 @@ impl Search {
         }
     }
 
-    fn take_out(&mut self, problem: &Problem<'_>) {
+    fn take_out(&mut self, problem: &Problem) {
         let TakenOut { aircraft, kept, flights, ends } = &mut self.taken_out;
         flights.clear();
         ends.clear();
@@ -104,7 +104,7 @@ impl Search {
     }
 
     /// Completes the routes in the order in which they were chosen. Returns whether all could be.
-    fn put_back(&mut self, problem: &Problem<'_>) -> bool {
+    fn put_back(&mut self, problem: &Problem) -> bool {
         let rent_share = self.random.random::<f64>();
         for &aircraft in &self.taken_out.aircraft {
             // Its last flight stays, and it is not ready again before the plan's end.
@@ -123,7 +123,7 @@ impl Search {
     }
 
     /// Gives every chosen aircraft its flights back. Those that have others by now lose them first.
-    fn undo(&mut self, problem: &Problem<'_>) {
+    fn undo(&mut self, problem: &Problem) {
         let TakenOut { aircraft, kept, flights, ends } = &self.taken_out;
         for (&aircraft, &kept) in aircraft.iter().zip(kept) {
             if self.current.is_whole(aircraft) {

@@ -49,13 +49,8 @@ impl StandPrices {
     }
 
     /// Prices that balance what a fleet asks for against the stands there are, from `origin_s` on.
-    pub(super) fn balancing(
-        day: &Day,
-        state: &FleetState,
-        origin_s: u32,
-        worth_at_end_usd: &dyn Fn(TypeIx, VertiportIx, u32) -> f64,
-    ) -> Self {
-        Balance::new(day, state, origin_s).run(worth_at_end_usd)
+    pub(super) fn balancing(day: &Day, state: &FleetState, origin_s: u32) -> Self {
+        Balance::new(day, state, origin_s).run()
     }
 }
 
@@ -71,7 +66,8 @@ struct Balance<'a> {
     /// Stands asked for beyond those there are, by vertiport, then slot: of this pass, and as a running mean.
     excess: Vec<f64>,
     mean_excess: Vec<f64>,
-    /// What being ready is worth, by vertiport, then slot boundary; and the best way on, by vertiport, then slot.
+    /// What being ready is worth, by vertiport, then slot boundary, nothing at the last; and the best way on, by vertiport,
+    /// then slot.
     value_usd: Vec<f64>,
     way_on: Vec<WayOn>,
 }
@@ -103,12 +99,12 @@ impl<'a> Balance<'a> {
         }
     }
 
-    fn run(mut self, worth_at_end_usd: &dyn Fn(TypeIx, VertiportIx, u32) -> f64) -> StandPrices {
+    fn run(mut self) -> StandPrices {
         let mut best_usd = f64::INFINITY;
         let mut best_price_usd = self.price_usd.clone();
         let (mut step, mut worse) = (1.0, 0);
         for pass in 0..PASSES {
-            let bound_usd = self.pass(worth_at_end_usd);
+            let bound_usd = self.pass();
             if bound_usd < best_usd {
                 best_usd = bound_usd;
                 best_price_usd.clone_from(&self.price_usd);
@@ -157,7 +153,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Lets every aircraft take its best way at the current prices; sets `excess`. Returns the relaxation's value.
-    fn pass(&mut self, worth_at_end_usd: &dyn Fn(TypeIx, VertiportIx, u32) -> f64) -> f64 {
+    fn pass(&mut self) -> f64 {
         self.sum_up();
         let slots = self.slots;
         let mut bound_usd = 0.0;
@@ -167,7 +163,7 @@ impl<'a> Balance<'a> {
             self.excess[at] = -stands;
         }
         for kind in self.day.kinds() {
-            self.value_ways_on(kind, worth_at_end_usd);
+            self.value_ways_on(kind);
             for aircraft in self.day.fleet().filter(|&aircraft| self.day.kind(aircraft) == kind) {
                 bound_usd += self.send(aircraft);
             }
@@ -187,16 +183,8 @@ impl<'a> Balance<'a> {
     }
 
     /// The best way on for aircraft of a type from everywhere, and what it is worth.
-    fn value_ways_on(
-        &mut self,
-        kind: TypeIx,
-        worth_at_end_usd: &dyn Fn(TypeIx, VertiportIx, u32) -> f64,
-    ) {
+    fn value_ways_on(&mut self, kind: TypeIx) {
         let slots = self.slots;
-        for place in VertiportIx::all(self.day.vertiports) {
-            self.value_usd[place.at() * (slots + 1) + slots] =
-                worth_at_end_usd(kind, place, self.day.end_s + 1);
-        }
         for slot in (0..slots).rev() {
             let time_s = self.origin_s + slot_seconds(slot);
             let period = self.day.period_from(0, time_s);

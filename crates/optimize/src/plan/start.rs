@@ -27,7 +27,7 @@ pub(super) fn best_rule(scenario: &Arc<Scenario>) -> (Trace, f64) {
 }
 
 /// The flights of a whole day's trace.
-pub(super) fn schedule_of(problem: &Problem<'_>, trace: &Trace) -> Schedule {
+pub(super) fn schedule_of(problem: &Problem, trace: &Trace) -> Schedule {
     let mut schedule = Schedule::unplanned(problem);
     let mut flights = vec![Vec::new(); problem.day.fleet().len()];
     for row in trace.rows.iter().filter(|row| row.from != row.to) {
@@ -42,7 +42,7 @@ pub(super) fn schedule_of(problem: &Problem<'_>, trace: &Trace) -> Schedule {
 
 /// A schedule to start from where nothing is known: aircraft after aircraft, earliest first, takes its best way. If they
 /// leave no stand for one of them, all stay where they are, which is always possible.
-pub(super) fn one_by_one(problem: &Problem<'_>) -> Schedule {
+pub(super) fn one_by_one(problem: &Problem) -> Schedule {
     let mut schedule = Schedule::unplanned(problem);
     let mut order: Vec<_> =
         problem.day.fleet().filter(|&aircraft| !schedule.is_whole(aircraft)).collect();
