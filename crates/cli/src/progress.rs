@@ -1,37 +1,44 @@
 //! Progress bars with time left, on stderr, for people who watch. Nothing is drawn where stderr is no terminal, and
 //! nothing for work that is over in a moment.
 
-use std::time::{Duration, Instant};
+use std::fmt::Write;
+use std::thread;
+use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 /// How long work must last before it gets a bar.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// How often a bar is drawn anew while nothing else changes, so that its times go on.
+const TICK: Duration = Duration::from_secs(1);
+const TEMPLATE: &str =
+    "{bar:30} {human_pos}/{human_len} {prefix}  {elapsed} gone, {left} left  {msg}";
 
-/// A bar that appears once the work has lasted a while.
+/// A bar that appears once the work has lasted a while, and goes away with this value.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    begun: Instant,
 }
 
 impl Progress {
-    /// A bar over `total` units, named in the plural.
-    pub(crate) fn new(total: u64, unit: &str) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
-        let template = format!(
-            "{{bar:30}} {{human_pos}}/{{human_len}} {unit}  {{elapsed}} gone, {{eta}} left  {{msg}}"
-        );
-        bar.set_style(
-            ProgressStyle::with_template(&template).expect("a template without mistakes"),
-        );
-        Self { bar, begun: Instant::now() }
+    /// A bar over `total` units of work that take about the same time each; `units` names them.
+    pub(crate) fn new(total: u64, units: impl Into<String>) -> Self {
+        let style = ProgressStyle::with_template(TEMPLATE).expect("a template without mistakes");
+        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden())
+            .with_prefix(units.into())
+            .with_style(style.with_key("left", time_left));
+        let late = bar.clone();
+        thread::spawn(move || {
+            thread::sleep(PATIENCE);
+            if !late.is_finished() {
+                late.set_draw_target(ProgressDrawTarget::stderr());
+                late.enable_steady_tick(TICK);
+            }
+        });
+        Self { bar }
     }
 
     /// `units` more are done.
     pub(crate) fn advance(&self, units: u64) {
-        if self.bar.is_hidden() && self.begun.elapsed() > PATIENCE {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
         self.bar.inc(units);
     }
 
@@ -45,9 +52,20 @@ impl Progress {
     pub(crate) fn say(&self, message: String) {
         self.bar.set_message(message);
     }
+}
 
-    /// Takes the bar away.
-    pub(crate) fn finish(&self) {
+impl Drop for Progress {
+    fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// Nobody knows before the first unit is done.
+fn time_left(state: &ProgressState, text: &mut dyn Write) {
+    let written = if state.pos() == 0 {
+        text.write_char('?')
+    } else {
+        write!(text, "{:#}", HumanDuration(state.eta()))
+    };
+    written.expect("a String takes any text");
 }

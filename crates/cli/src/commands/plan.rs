@@ -19,12 +19,11 @@ use crate::progress::Progress;
 use crate::worth;
 
 /// Minutes of the bound's slices, finest first; those after the first are for days that are too large for it.
-const STEPS_MIN: [u32; 3] = [3, 5, 15];
-const COARSEST_STEP_MIN: u32 = 60;
+const STEPS_MIN: [u32; 4] = [3, 5, 15, 60];
 /// How often somebody who waits for the bound looks up.
 const GLANCE: Duration = Duration::from_millis(50);
 /// Units of the progress bar.
-const BAR: u64 = 1000;
+const BAR: u64 = 100;
 
 /// The bound, being proven on a thread of its own.
 struct Proof {
@@ -62,14 +61,15 @@ impl Proof {
     }
 }
 
+/// The bound with the finest slices that the day is not too large for.
 fn finest_bound(scenario: &Scenario) -> Result<Bound, Error> {
-    for minutes in STEPS_MIN {
-        match upper_bound(scenario, Step::from_minutes(minutes)?) {
-            Err(Error::TooManyFlights { .. }) => {}
-            outcome => return outcome,
-        }
-    }
-    upper_bound(scenario, Step::from_minutes(COARSEST_STEP_MIN)?)
+    let bound = |minutes| upper_bound(scenario, Step::from_minutes(minutes)?);
+    let too_large =
+        |outcome: &Result<Bound, Error>| matches!(outcome, Err(Error::TooManyFlights { .. }));
+    let [finest, coarser @ ..] = STEPS_MIN;
+    coarser.into_iter().fold(bound(finest), |outcome, minutes| {
+        if too_large(&outcome) { bound(minutes) } else { outcome }
+    })
 }
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
@@ -112,9 +112,9 @@ fn search(
         searches: rayon::current_num_threads(),
         seed: arguments.seed,
     };
-    let progress = Progress::new(BAR, "‰ of the time");
+    let progress = Progress::new(BAR, "% of the time");
     let mut shown = 0;
-    let plan = plan(scenario, &settings, &mut |now| {
+    plan(scenario, &settings, &mut |now| {
         let (bound_usd, gap) = judge(now.profit_usd);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
         let done = (now.share * BAR as f64) as u64;
@@ -130,9 +130,7 @@ fn search(
         });
         let good_enough = arguments.gap.zip(gap).is_some_and(|(asked, gap)| gap <= asked);
         !good_enough && !stop.load(Ordering::Relaxed)
-    });
-    progress.finish();
-    plan
+    })
 }
 
 fn numbers(scenario: &Scenario, plan: &Plan, proof: &Proof, seconds: f64) -> Value {

@@ -37,6 +37,5 @@ fn draw_days(network: &Network, seed: u64, days: u32, folder: &Path) -> Result<(
         scenario.write(folder.join(format!("{}.json", scenario.name)))?;
         progress.advance(1);
     }
-    progress.finish();
     Ok(())
 }
