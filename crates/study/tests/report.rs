@@ -206,6 +206,21 @@ fn a_report_that_cannot_be_written_names_the_file() {
     assert!(error.to_string().contains("taken"), "{error}");
 }
 
+#[test]
+fn a_folder_is_checked_without_a_trace() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    report::check_folder(&folder.path().join("new/folder")).expect("a folder that can be made");
+    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0);
+    report::check_folder(folder.path()).expect("a folder that is there");
+    assert!(folder.path().exists(), "it stays");
+    let file = folder.path().join("taken");
+    std::fs::write(&file, "").expect("a file");
+    for taken in [file.clone(), file.join("below")] {
+        assert_eq!(report::check_folder(&taken).expect_err("a file").code().0, 401);
+    }
+    assert!(file.exists());
+}
+
 /// What a change to a sound study of five policies on four days is refused with.
 fn refusal(change: impl FnOnce(&mut Study)) -> (String, String) {
     let mut study = made_up::study(4);

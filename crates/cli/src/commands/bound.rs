@@ -9,10 +9,12 @@ use vertifleet_optimize::{Step, upper_bound};
 use crate::args::BoundArguments;
 use crate::commands::read_scenario;
 use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
 use crate::output::print;
 use crate::worth;
 
 pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
     let step = Step::from_minutes(arguments.step)?;
     let scenario = read_scenario(&arguments.scenario)?;
     let begun = Instant::now();

@@ -13,18 +13,20 @@ use vertifleet_study::{NetworkOrigin, PolicyRecord, Study, Summary, report, tabl
 use crate::args::CompareArguments;
 use crate::entrants::{self, Entrant};
 use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
 use crate::kept_bounds::KeptBounds;
 use crate::output::print;
 use crate::progress::Progress;
 
 pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
     let network = Network::find(&arguments.network)?;
     let step = arguments.bound.then(|| Step::from_minutes(arguments.step)).transpose()?;
     let entrants = Entrant::all(arguments, network.name())?;
     let contenders = entrants::contenders(&entrants)?;
     let scenarios = draw(&network, arguments)?;
     if let Some(folder) = &arguments.report {
-        vertifleet_core::create_folder(folder)?;
+        report::check_folder(folder)?;
     }
     let network_origin = NetworkOrigin::of(network.name(), scenarios.iter().map(Arc::as_ref));
     for (entrant, recipe) in entrants.iter().filter_map(|one| Some((one, one.recipe()?))) {

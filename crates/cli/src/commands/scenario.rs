@@ -7,10 +7,12 @@ use vertifleet_core::{DaySeed, Network};
 
 use crate::args::ScenarioArguments;
 use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
 use crate::output::print;
 use crate::progress::Progress;
 
 pub(crate) fn run(arguments: &ScenarioArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
     let network = Network::find(&arguments.network)?;
     match (arguments.days, &arguments.output) {
         (None, None) => {
