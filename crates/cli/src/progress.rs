@@ -2,8 +2,9 @@
 //! nothing for work that is over in a moment.
 
 use std::fmt::Write;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
@@ -17,11 +18,21 @@ const TEMPLATE: &str =
 /// A bar that appears once the work has lasted a while, and goes away with this value.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    pace: Arc<Mutex<Pace>>,
 }
 
 impl Progress {
     /// A bar over `total` units of work that take about the same time each; `units` names them.
     pub(crate) fn new(total: u64, units: impl Into<String>) -> Self {
+        let pace = Arc::new(Mutex::new(Pace::begin(total)));
+        let shown = Arc::clone(&pace);
+        let time_left = move |_: &ProgressState, text: &mut dyn Write| {
+            let written = match locked(&shown).time_left(Instant::now()) {
+                Some(left) => write!(text, "{:#}", HumanDuration(left)),
+                None => text.write_char('?'),
+            };
+            written.expect("a String takes any text");
+        };
         let style = ProgressStyle::with_template(TEMPLATE).expect("a template without mistakes");
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden())
             .with_prefix(units.into())
@@ -34,18 +45,19 @@ impl Progress {
                 late.enable_steady_tick(TICK);
             }
         });
-        Self { bar }
+        Self { bar, pace }
     }
 
     /// `units` more are done.
     pub(crate) fn advance(&self, units: u64) {
+        locked(&self.pace).advance(units, Instant::now());
         self.bar.inc(units);
     }
 
     /// Work already done in an earlier run, not counted into the time left.
     pub(crate) fn already_done(&self, units: u64) {
+        locked(&self.pace).skip(units);
         self.bar.set_position(units);
-        self.bar.reset_eta();
     }
 
     /// Says something beside the bar.
@@ -60,12 +72,61 @@ impl Drop for Progress {
     }
 }
 
-/// Nobody knows before the first unit is done.
-fn time_left(state: &ProgressState, text: &mut dyn Write) {
-    let written = if state.pos() == 0 {
-        text.write_char('?')
-    } else {
-        write!(text, "{:#}", HumanDuration(state.eta()))
-    };
-    written.expect("a String takes any text");
+fn locked(pace: &Mutex<Pace>) -> MutexGuard<'_, Pace> {
+    pace.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The mean time of a unit so far. The bar's own estimate forgets a unit within seconds, and units may last minutes.
+struct Pace {
+    begun: Instant,
+    /// When the last unit was done.
+    last: Instant,
+    done: u64,
+    remaining: u64,
+}
+
+impl Pace {
+    fn begin(total: u64) -> Self {
+        let now = Instant::now();
+        Self { begun: now, last: now, done: 0, remaining: total }
+    }
+
+    fn advance(&mut self, units: u64, now: Instant) {
+        self.done += units;
+        self.remaining = self.remaining.saturating_sub(units);
+        self.last = now;
+    }
+
+    fn skip(&mut self, units: u64) {
+        self.remaining = self.remaining.saturating_sub(units);
+    }
+
+    /// Nobody knows before the first unit is done.
+    fn time_left(&self, now: Instant) -> Option<Duration> {
+        if self.done == 0 {
+            return None;
+        }
+        let unit_s = (self.last - self.begun).as_secs_f64() / self.done as f64;
+        let left_s = unit_s * self.remaining as f64 - (now - self.last).as_secs_f64();
+        Some(Duration::from_secs_f64(left_s.max(0.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::Pace;
+
+    #[test]
+    fn the_time_left_follows_the_units_done_and_counts_down_between_them() {
+        let mut pace = Pace::begin(8);
+        let at = |seconds| pace.begun + Duration::from_secs(seconds);
+        let (first, soon, late) = (at(30), at(40), at(500));
+        assert_eq!(pace.time_left(first), None);
+        pace.advance(2, first);
+        assert_eq!(pace.time_left(first), Some(Duration::from_secs(90)));
+        assert_eq!(pace.time_left(soon), Some(Duration::from_secs(80)));
+        assert_eq!(pace.time_left(late), Some(Duration::ZERO));
+    }
 }
