@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use indicatif::HumanCount;
 use vertifleet_core::{Code, Scenario};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{CurveRow, Learned, Model, Trained, shipped};
@@ -59,7 +60,7 @@ impl Recipe {
             Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
             Self::Learned { model, .. } => {
                 let header = model.header();
-                format!("learned on {} from {} decisions", header.network, header.steps)
+                format!("learned on {} from {} decisions", header.network, HumanCount(header.steps))
             }
         }
     }

@@ -93,10 +93,11 @@ impl Pace {
 
     fn advance(&mut self, units: u64, now: Instant) {
         self.done += units;
-        self.remaining = self.remaining.saturating_sub(units);
+        self.skip(units);
         self.last = now;
     }
 
+    /// Units that are not to be done.
     fn skip(&mut self, units: u64) {
         self.remaining = self.remaining.saturating_sub(units);
     }

@@ -61,6 +61,8 @@ fn shares_of_the_bound_stand_in_page_days_and_numbers_for_machines() {
     let page = read(&paths.report);
     assert!(page.contains("of bound, %") && page.contains("knows the day"));
     assert!(page.contains("gcaps earns"), "a reference is not the best policy");
+    assert!(page.contains("% of the proven upper bound, "));
+    assert!(page.contains("5 policies and 1 reference on 12 unseen days"));
     let summary: serde_json::Value = serde_json::from_str(&read(&paths.summary)).expect("JSON");
     assert_eq!(summary["bound"]["step_s"], 180);
     let plan = &summary["policies"][0];

@@ -33,9 +33,9 @@ pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
         let mut lines = vec![
             format!("{} bounded in {seconds:.1} s", scenario.name),
             format!(
-                "  upper bound     {:>12.2} $  (steps of {} s)",
+                "  upper bound     {:>12.2} $    no schedule earns more (steps of {} min)",
                 bound.upper_bound_usd(),
-                bound.step_s()
+                arguments.step
             ),
         ];
         lines.extend(worth::lines(&scenario, &bound));

@@ -152,16 +152,20 @@ fn text(scenario: &Scenario, plan: &Plan, proof: &Proof, seconds: f64) -> String
     let mut lines = vec![
         format!("{} planned in {seconds:.1} s", scenario.name),
         format!("  profit          {:>12.2} $", plan.profit_usd),
-        format!("  best rule       {:>12.2} $", plan.best_rule_usd),
+        format!("  best rule       {:>12.2} $    where the search began", plan.best_rule_usd),
     ];
     let Some(bound) = &proof.bound else {
         lines.push("  upper bound     not known: stopped before it was proven".to_owned());
         return lines.join("\n");
     };
     let gap_percent = 100.0 * proof.gap(plan.profit_usd).unwrap_or(0.0);
-    let (bound_usd, step_s) = (bound.upper_bound_usd(), bound.step_s());
-    lines.push(format!("  upper bound     {bound_usd:>12.2} $  (steps of {step_s} s)"));
-    lines.push(format!("  gap             {gap_percent:>12.2} %"));
+    let (bound_usd, step_min) = (bound.upper_bound_usd(), bound.step_s() / 60);
+    lines.push(format!(
+        "  upper bound     {bound_usd:>12.2} $    no schedule earns more (steps of {step_min} min)"
+    ));
+    lines.push(format!(
+        "  gap             {gap_percent:>12.2} %    of the bound: the best schedule is at most so far ahead"
+    ));
     lines.extend(worth::lines(scenario, bound));
     lines.join("\n")
 }
