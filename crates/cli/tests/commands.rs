@@ -293,6 +293,8 @@ fn what_users_get_wrong_has_a_code_and_a_way_out() {
         assert!(said.starts_with(&format!("error[{code}")), "{arguments}: {said}");
     }
     assert!(!at.join("twice").exists(), "what is refused leaves nothing behind");
+    let taken = "compare --network paper --policies greedy --days 1 --seed 1 --report day.json";
+    assert!(failure(at, taken, 1).starts_with("error[V401]"), "no fault of the input");
     failure(at, "simulate", 2);
     failure(at, "fly", 2);
 }
