@@ -26,7 +26,8 @@ pub struct Decision {
 #[derive(Debug, Clone)]
 pub struct Simulation {
     scenario: Arc<Scenario>,
-    legs: Legs,
+    /// Shared by all who imagine the day from some moment on.
+    legs: Arc<Legs>,
     stands: Stands,
     demand: Demand,
     queue: ReadyQueue,
@@ -42,7 +43,7 @@ impl Simulation {
     /// The day before its first decision.
     pub fn new(scenario: Arc<Scenario>) -> Self {
         Self {
-            legs: Legs::of(&scenario),
+            legs: Arc::new(Legs::of(&scenario)),
             stands: Stands::at_start(&scenario),
             demand: Demand::of(&scenario),
             queue: ReadyQueue::new(scenario.aircraft.len(), scenario.operations.start),

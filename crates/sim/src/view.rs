@@ -1,5 +1,7 @@
 //! What a policy may look at when it decides: the present, the forecast, and what any flight would take.
 
+use std::sync::Arc;
+
 use vertifleet_core::{AircraftIx, AircraftType, Scenario, Time, TypeIx, VertiportIx};
 
 use crate::{Decision, Leg, Simulation, VertiportSet};
@@ -9,6 +11,19 @@ use crate::{Decision, Leg, Simulation, VertiportSet};
 pub struct View<'a> {
     simulation: &'a Simulation,
 }
+
+/// Tells one day from every other, and shows nothing of it. Two keys are equal if they are of the same scenario in memory;
+/// while a key lives, no other day can take its place.
+#[derive(Debug, Clone)]
+pub struct DayKey(Arc<Scenario>);
+
+impl PartialEq for DayKey {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Eq for DayKey {}
 
 impl<'a> View<'a> {
     pub(crate) fn of(simulation: &'a Simulation) -> Self {
@@ -179,6 +194,17 @@ impl<'a> View<'a> {
     #[inline]
     pub fn stands(&self, vertiport: VertiportIx) -> u16 {
         self.scenario().vertiports[vertiport.at()].stands
+    }
+
+    /// The day itself, to be told from every other.
+    #[inline]
+    pub fn day(&self) -> DayKey {
+        DayKey(Arc::clone(self.simulation.scenario()))
+    }
+
+    /// The day from this moment on as anyone may imagine it: where choices can be tried out.
+    pub fn imagined(&self) -> Simulation {
+        self.simulation.clone()
     }
 
     /// The seed the day was drawn with.

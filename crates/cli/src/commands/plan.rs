@@ -139,7 +139,7 @@ fn search(
 fn numbers(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -> Value {
     json!({
         "profit": plan.profit_usd,
-        "best_rule": plan.best_rule_usd,
+        "best_policy": plan.best_policy_usd,
         "upper_bound": bound.map(Bound::upper_bound_usd),
         "gap": bound.map(|bound| gap(bound, plan.profit_usd)),
         "step_s": bound.map(Bound::step_s),
@@ -154,7 +154,7 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
     let mut lines = vec![
         format!("{} planned in {seconds:.1} s", scenario.name),
         format!("  profit          {:>12.2} $", plan.profit_usd),
-        format!("  best rule       {:>12.2} $    where the search began", plan.best_rule_usd),
+        format!("  best policy     {:>12.2} $    where the search began", plan.best_policy_usd),
     ];
     let Some(bound) = bound else {
         lines.push("  upper bound     not known: stopped before it was proven".to_owned());
