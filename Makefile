@@ -2,10 +2,10 @@
 
 .PHONY: demo test lint deny bench train prepare
 
-# The main job: the shipped policies and all rules on 100 unseen days of the paper's network.
+# The main job: all policies on 100 unseen days of the paper's network.
 demo: prepare
 	cargo build --release --locked -p vertifleet-cli
-	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,mlp,gcaps --days 100 --seed 1 --report out/report
+	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,prices,rolling,mlp,gcaps --days 100 --seed 1 --report out/report
 
 test: prepare
 	cargo test --workspace --locked

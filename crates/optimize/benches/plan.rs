@@ -1,11 +1,14 @@
-//! How fast a day of `paper` is planned: a plan of so many steps, of which 0 is the best day of the policies.
+//! How fast a day of `paper` is planned: a plan of so many steps, of which 0 is the best day of the policies; and a day of
+//! the rolling horizon.
 
 use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vertifleet_core::{DaySeed, Network};
-use vertifleet_optimize::{Budget, Settings, plan};
+use vertifleet_optimize::{Budget, Rolling, Settings, plan};
+use vertifleet_policy::play;
+use vertifleet_sim::Simulation;
 
 fn plans(criterion: &mut Criterion) {
     let network = Network::shipped("paper").expect("a shipped network");
@@ -18,6 +21,13 @@ fn plans(criterion: &mut Criterion) {
             bencher.iter(|| plan(black_box(&day), &settings, &mut |_| true));
         });
     }
+    group.bench_function("rolling, one day", |bencher| {
+        bencher.iter(|| {
+            let mut simulation = Simulation::new(Arc::clone(&day));
+            play(&mut simulation, &mut Rolling::default(), |_| ()).expect("rolling always answers");
+            simulation
+        });
+    });
     group.finish();
 }
 

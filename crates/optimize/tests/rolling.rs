@@ -64,7 +64,7 @@ fn a_day_has_one_outcome_whatever_was_played_before_and_on_how_many_threads() {
 fn a_day_can_be_taken_up_in_its_middle_whatever_is_remembered() {
     for number in 340..350 {
         let day = any_day(number, SMALL);
-        // Another day of the same seed, so that its plan is taken for one of this day until it turns out not to fit.
+        // Another day of the same seed: nothing but the day itself tells the two apart.
         let mut other = Scenario::clone(&any_day(number + 50, SMALL)).into_day();
         other.seed = day.seed;
         let other = Arc::new(other.check("another day").expect("a seed is a number"));
@@ -79,8 +79,7 @@ fn a_day_can_be_taken_up_in_its_middle_whatever_is_remembered() {
             };
             let choice = Greedy.choose(&decision, &simulation.view()).expect("an answer");
             simulation.apply(choice).expect("a choice from the mask");
-            let choice =
-                remembers_another.choose(&there, &elsewhere.view()).expect("plans have answers");
+            let choice = remembers_another.choose(&there, &elsewhere.view()).expect("an answer");
             elsewhere.apply(choice).expect("a choice from the mask");
         }
         finished(&mut simulation.clone(), &mut remembers_another);

@@ -7,9 +7,9 @@ use vertifleet_sim::{Decision, View};
 ///
 /// A choice depends on the decision, the view and the policy's own settings, and on nothing that the policy did on another
 /// day. So days that are played from their first decision to their last have the same outcome in any order, on any number
-/// of threads. Most policies remember nothing, and can play many days by turns with that outcome too. One that plans ahead
-/// may remember the day it is playing, to go on from its plan; it forgets it at the next day's first decision
-/// ([`Decision::index`] 0), and must be able to take up any day in its middle without.
+/// of threads. Most policies remember nothing, and can play many days by turns with that outcome too. One that looks
+/// ahead may remember the day it is playing ([`DayMemory`](crate::DayMemory)), to go on from what it worked out before; it
+/// must be able to take up any day in its middle without.
 pub trait Policy: Send {
     /// Chooses a vertiport of [`View::feasible`]; the aircraft's own vertiport means hold.
     ///

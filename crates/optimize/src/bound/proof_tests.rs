@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
 use vertifleet_core::{AircraftIx, DaySeed, Network as Days, Scenario, Time};
-use vertifleet_policy::{Greedy, Lookahead, Policy, Random, draw, play};
+use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, draw, play};
 use vertifleet_sim::{Simulation, Trace};
 
 use super::certificate::Certificate;
@@ -27,11 +27,12 @@ fn scarce_day(seed: u64, hours: u32) -> Arc<Scenario> {
 }
 
 fn traces(day: &Arc<Scenario>) -> Vec<Trace> {
-    let rules: [&mut dyn Policy; 3] = [&mut Random::new(3), &mut Greedy, &mut Lookahead];
-    let played = rules.into_iter().map(|rule| {
+    let policies: [&mut dyn Policy; 4] =
+        [&mut Random::new(3), &mut Greedy, &mut Lookahead, &mut Priced::default()];
+    let played = policies.into_iter().map(|policy| {
         let mut trace = Trace::default();
         let mut simulation = Simulation::new(Arc::clone(day));
-        play(&mut simulation, rule, |row| trace.rows.push(*row)).expect("rules always answer");
+        play(&mut simulation, policy, |row| trace.rows.push(*row)).expect("these always answer");
         trace
     });
     played.collect()
