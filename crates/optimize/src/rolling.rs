@@ -74,9 +74,11 @@ impl Policy for Rolling {
                 Latest::made(decision, *view, before)
             }
         };
-        let choice = latest.choice(decision);
+        // A plan does not know of separate chargers, and may count on a place that is not free.
+        let mask = view.feasible(decision);
+        let choice = Some(latest.choice(decision)).filter(|&choice| mask.contains(choice));
         latest.next = decision.index + 1;
         self.latest = Some(latest);
-        Ok(choice)
+        Ok(choice.unwrap_or(decision.at))
     }
 }

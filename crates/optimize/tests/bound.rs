@@ -107,7 +107,7 @@ fn a_day_without_anything_to_earn_has_a_bound_of_nothing() {
     nothing(stuck.check("out of range"));
 
     let mut dear = paper_day(4).into_day();
-    dear.passenger_cost_usd = dear.fare_usd.clone();
+    dear.passenger_cost_usd = dear.fare_usd.in_period(0).clone();
     nothing(dear.check("nothing left of a fare"));
 }
 
@@ -221,7 +221,7 @@ fn a_day_too_large_is_refused_with_what_helps() {
         .collect();
     let flat = Matrix::from_fn(size, |from, to| if from == to { 0.0 } else { 10.0 });
     (large.distance_mi, large.fare_usd, large.passenger_cost_usd) =
-        (flat.clone(), flat.clone(), flat);
+        (flat.clone(), flat.clone().into(), flat);
     large.demand.iter_mut().for_each(|table| *table = Matrix::from_fn(size, |_, _| 0));
     let large = large.check("large").expect("a day within the rules");
     let error = upper_bound(&large, minutes(1)).expect_err("too large");

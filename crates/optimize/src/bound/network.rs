@@ -3,7 +3,7 @@
 //! Aircraft of one type are alike, so there is one layer a type. What a flight earns depends on the slice in which it begins,
 //! never on the second within it.
 
-use vertifleet_core::{Matrix, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_core::{Matrix, Scenario, Time, TypeIx, Vertiport, VertiportIx};
 use vertifleet_sim::Legs;
 
 use super::money;
@@ -81,7 +81,7 @@ impl Network {
             });
         }
         let mut network = Self {
-            stands: scenario.vertiports.iter().map(|vertiport| vertiport.stands.into()).collect(),
+            stands: scenario.vertiports.iter().map(room).collect(),
             demand: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
             margin: margins(scenario),
             hold_s: scenario.operations.hold_s,
@@ -134,6 +134,11 @@ impl Network {
     }
 }
 
+/// Aircraft that may be at a vertiport or on their way to it. Where chargers are separate, one has a charger or a stand.
+fn room(vertiport: &Vertiport) -> u32 {
+    u32::from(vertiport.stands) + vertiport.chargers.map_or(0, u32::from)
+}
+
 /// The types of the fleet's aircraft, in file order.
 fn layers(scenario: &Scenario) -> Vec<Layer> {
     let all = TypeIx::all(scenario.aircraft_types.len()).map(|kind| {
@@ -156,9 +161,10 @@ fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
 
 /// The most that a passenger may earn, by period and pair. To carry one at a loss is never better than to carry none.
 fn margins(scenario: &Scenario) -> Vec<i64> {
-    let fares = scenario.fare_usd.cells().iter().zip(scenario.passenger_cost_usd.cells());
-    let of_a_period: Vec<i64> = fares.map(|(fare, cost)| money::up(fare - cost).max(0)).collect();
-    of_a_period.repeat(scenario.periods.len())
+    let costs = scenario.passenger_cost_usd.cells();
+    let fares = (0..scenario.periods.len())
+        .flat_map(|period| scenario.fare_usd.in_period(period).cells().iter().zip(costs));
+    fares.map(|(fare, cost)| money::up(fare - cost).max(0)).collect()
 }
 
 /// The lowest price of energy at any time from the first to the second of `arrivals_s`.

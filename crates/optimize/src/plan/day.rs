@@ -12,8 +12,6 @@ pub(super) struct Hop {
     /// Seconds from take-off until ready again.
     pub(super) block_s: u32,
     pub(super) energy_kwh: f64,
-    /// Fare less passenger cost, dollars a passenger.
-    pub(super) margin_usd: f64,
 }
 
 /// The numbers of a day, by aircraft type and vertiport.
@@ -26,13 +24,15 @@ pub(super) struct Day {
     /// First second of each demand period.
     pub(super) period_starts_s: Vec<u32>,
     pub(super) energy_price_usd: Vec<f64>,
-    /// U_max of each vertiport.
+    /// U_max of each vertiport; chargers and stands together where they are separate.
     pub(super) stands: Vec<u16>,
     /// The type of each aircraft.
     kind_of: Vec<TypeIx>,
     seats: Vec<u16>,
     /// By type, then from: the pairs within range.
     hops: Vec<Vec<Hop>>,
+    /// Fare less passenger cost by period, from, to; dollars a passenger.
+    margins_usd: Vec<f64>,
 }
 
 impl Day {
@@ -43,7 +43,6 @@ impl Day {
         let mut hops = Vec::with_capacity(types.len() * vertiports);
         for kind in TypeIx::all(types.len()) {
             for from in VertiportIx::all(vertiports) {
-                let (fares_usd, costs_usd) = (view.fares_usd(from), view.passenger_costs_usd(from));
                 let hop = |to: VertiportIx| {
                     let leg = view.leg(kind, from, to);
                     Hop {
@@ -51,12 +50,12 @@ impl Day {
                         flight_s: leg.flight_s,
                         block_s: leg.block_s(),
                         energy_kwh: leg.energy_kwh,
-                        margin_usd: fares_usd[to.at()] - costs_usd[to.at()],
                     }
                 };
                 hops.push(view.within_range(kind, from).iter().map(hop).collect());
             }
         }
+        let places = |vertiport| view.stands(vertiport) + view.parked(vertiport).1;
         let fleet = AircraftIx::all(view.places().len());
         Self {
             vertiports,
@@ -64,10 +63,11 @@ impl Day {
             hold_s: view.hold_s(),
             period_starts_s: view.period_starts().iter().map(|start| start.seconds()).collect(),
             energy_price_usd: view.energy_prices_usd().to_vec(),
-            stands: VertiportIx::all(vertiports).map(|vertiport| view.stands(vertiport)).collect(),
+            stands: VertiportIx::all(vertiports).map(places).collect(),
             kind_of: fleet.map(|aircraft| view.kind(aircraft)).collect(),
             seats: types.iter().map(|kind| kind.seats).collect(),
             hops,
+            margins_usd: margins_usd(view),
         }
     }
 
@@ -123,9 +123,28 @@ impl Day {
         (period * self.vertiports + from.at()) * self.vertiports + to.at()
     }
 
+    /// What a passenger of a [cell](Self::cell) of the demand earns, dollars.
+    #[inline]
+    pub(super) fn margin_usd(&self, cell: usize) -> f64 {
+        self.margins_usd[cell]
+    }
+
     /// Cost of charging after a flight that takes off in `period` and lands at `arrival_s`, dollars.
     #[inline]
     pub(super) fn energy_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
         hop.energy_kwh * self.energy_price_usd[self.period_from(period, arrival_s)]
     }
+}
+
+/// Fare less passenger cost by period, from, to.
+fn margins_usd(view: View<'_>) -> Vec<f64> {
+    let mut margins_usd = Vec::new();
+    for period in 0..view.period_starts().len() {
+        for from in VertiportIx::all(view.vertiports()) {
+            let fares_usd = view.fares_usd(period, from).iter();
+            let costs_usd = view.passenger_costs_usd(from);
+            margins_usd.extend(fares_usd.zip(costs_usd).map(|(fare, cost)| fare - cost));
+        }
+    }
+    margins_usd
 }

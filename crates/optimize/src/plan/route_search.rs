@@ -197,7 +197,7 @@ impl RouteSearch {
         let cell = day.cell(choice.period, choice.place, hop.to);
         let passengers = task.schedule.boarding(cell, task.seats);
         let energy_usd = day.energy_cost_usd(hop, choice.period, choice.time_s + hop.flight_s);
-        let profit_usd = passengers as f64 * hop.margin_usd - energy_usd;
+        let profit_usd = passengers as f64 * day.margin_usd(cell) - energy_usd;
         self.reach(task, choice, hop.to, window, choice.time_s + hop.block_s, profit_usd);
     }
 

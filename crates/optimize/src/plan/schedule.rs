@@ -149,7 +149,7 @@ impl Schedule {
         // Passengers of the pair are demand less what is left of it, never less than none left.
         let passengers = (before.max(0) - after.max(0)).abs();
         let energy_usd = day.energy_cost_usd(hop, period, flight.take_off_s + hop.flight_s);
-        passengers as f64 * hop.margin_usd - energy_usd
+        passengers as f64 * day.margin_usd(cell) - energy_usd
     }
 
     /// Sets the account to an amount known from before, so that undoing a change leaves no rounding behind.

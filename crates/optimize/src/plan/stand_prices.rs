@@ -198,7 +198,7 @@ impl<'a> Balance<'a> {
                     let seats = u32::from(self.day.seats_of(kind));
                     let passengers = self.state.demand_left[cell].min(seats);
                     let energy_usd = self.day.energy_cost_usd(hop, period, time_s + hop.flight_s);
-                    let value_usd = f64::from(passengers) * hop.margin_usd - energy_usd
+                    let value_usd = f64::from(passengers) * self.day.margin_usd(cell) - energy_usd
                         + self.on_arrival_usd(slot, way_on);
                     if value_usd > best_usd {
                         (best, best_usd) = (way_on, value_usd);

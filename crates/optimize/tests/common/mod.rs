@@ -5,7 +5,8 @@ use std::sync::Arc;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use vertifleet_core::{
-    Aircraft, AircraftType, Day, Matrix, Operations, Scenario, Time, TypeIx, Vertiport, VertiportIx,
+    Aircraft, AircraftType, Day, Disturbances, Matrix, Operations, Scenario, Time, TypeIx,
+    Vertiport, VertiportIx,
 };
 
 /// How large a day may be.
@@ -41,6 +42,7 @@ pub(crate) fn any_day(number: u64, most: Size) -> Arc<Scenario> {
                 x_mi: random.random_range(0.0..30.0),
                 y_mi: random.random_range(0.0..30.0),
                 stands: u16::try_from(standing).expect("few").max(1) + random.random_range(0..=1),
+                chargers: None,
                 busy: false,
             }
         })
@@ -84,12 +86,14 @@ pub(crate) fn any_day(number: u64, most: Size) -> Arc<Scenario> {
                 self_discharge_per_h: [0.0, 0.01][kind],
             })
             .collect(),
-        fare_usd: Matrix::from_fn(size, |from, to| 2.0 * distance_mi[(from, to)] + 1.25),
+        fare_usd: Matrix::from_fn(size, |from, to| 2.0 * distance_mi[(from, to)] + 1.25).into(),
         passenger_cost_usd: Matrix::from_fn(size, |from, to| 0.64 * distance_mi[(from, to)]),
         distance_mi,
+        corridors: None,
         periods: periods.into_iter().map(Time::from_seconds).collect(),
         demand,
         energy_price_usd,
+        disturbances: Disturbances::default(),
         vertiports,
         aircraft,
     };
