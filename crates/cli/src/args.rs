@@ -53,7 +53,7 @@ pub(crate) struct ScenarioArguments {
 pub(crate) struct SimulateArguments {
     /// Scenario file
     pub(crate) scenario: PathBuf,
-    /// random, greedy, lookahead, rolling, gcaps, mlp, or replay:TRACE
+    /// random, greedy, lookahead, prices, rolling, gcaps, mlp, or replay:TRACE
     #[arg(long)]
     pub(crate) policy: String,
     /// Seed of the random policy
@@ -166,7 +166,7 @@ pub(crate) struct CompareArguments {
     /// Network file, or the name of a shipped network (paper)
     #[arg(long)]
     pub(crate) network: String,
-    /// Policies, separated by commas: random, greedy, lookahead, rolling, gcaps, mlp, names given by --model, and plan,
+    /// Policies, separated by commas: random, greedy, lookahead, prices, rolling, gcaps, mlp, names given by --model, and plan,
     /// the planner, which knows the days beforehand
     #[arg(long, value_delimiter = ',', required = true)]
     pub(crate) policies: Vec<String>,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use indicatif::HumanCount;
 use vertifleet_optimize::{Budget, Settings, plan};
 use vertifleet_study::Curve;
 use vertifleet_study::run::{Contender, Contenders, Way};
@@ -81,7 +82,8 @@ impl Entrant {
             Kind::Policy(recipe) => (recipe.description(), Way::Online(Box::new(|| recipe.make()))),
             Kind::Plan(seed) => (
                 format!(
-                    "knows the day beforehand and searches for its best schedule in {PLAN_STEPS} steps"
+                    "knows the day beforehand and searches for its best schedule in {} steps",
+                    HumanCount(PLAN_STEPS)
                 ),
                 planned(*seed),
             ),

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use indicatif::HumanCount;
 use vertifleet_core::{Code, Scenario};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{CurveRow, Learned, Model, Trained, shipped};
 use vertifleet_optimize::Rolling;
-use vertifleet_policy::{Greedy, Lookahead, Policy, Random, Replay};
+use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, Replay};
 use vertifleet_sim::Trace;
 use vertifleet_study::NetworkOrigin;
 
@@ -32,6 +33,7 @@ pub(crate) enum Recipe {
     Random(u64),
     Greedy,
     Lookahead,
+    Priced,
     Rolling,
     Replay(Arc<Trace>),
     Learned { model: Arc<Model>, curve: Vec<CurveRow>, shipped: bool },
@@ -43,6 +45,7 @@ impl Recipe {
             Self::Random(seed) => Box::new(Random::new(*seed)),
             Self::Greedy => Box::new(Greedy),
             Self::Lookahead => Box::new(Lookahead),
+            Self::Priced => Box::new(Priced::default()),
             Self::Rolling => Box::new(Rolling::default()),
             Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
             Self::Learned { model, .. } => Box::new(Learned::new(Arc::clone(model))),
@@ -55,11 +58,12 @@ impl Recipe {
             Self::Random(_) => "draws evenly among the feasible vertiports (Feas-RND)".to_owned(),
             Self::Greedy => "takes the flight with the highest profit per hour".to_owned(),
             Self::Lookahead => "takes the first of the best two flights in a row".to_owned(),
-            Self::Rolling => "plans the rest of the day anew at every decision".to_owned(),
+            Self::Priced => "takes what is worth most at the day's prices".to_owned(),
+            Self::Rolling => "tries out what is worth most at the day's prices".to_owned(),
             Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
             Self::Learned { model, .. } => {
                 let header = model.header();
-                format!("learned on {} from {} decisions", header.network, header.steps)
+                format!("learned on {} from {} decisions", header.network, HumanCount(header.steps))
             }
         }
     }
@@ -70,6 +74,7 @@ impl Recipe {
             "random" => Some(Self::Random(seed)),
             "greedy" => Some(Self::Greedy),
             "lookahead" => Some(Self::Lookahead),
+            "prices" => Some(Self::Priced),
             "rolling" => Some(Self::Rolling),
             _ => None,
         }

@@ -1,53 +1,133 @@
 //! Progress bars with time left, on stderr, for people who watch. Nothing is drawn where stderr is no terminal, and
 //! nothing for work that is over in a moment.
 
+use std::fmt::Write;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 /// How long work must last before it gets a bar.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// How often a bar is drawn anew while nothing else changes, so that its times go on.
+const TICK: Duration = Duration::from_secs(1);
+const TEMPLATE: &str =
+    "{bar:30} {human_pos}/{human_len} {prefix}  {elapsed} gone, {left} left  {msg}";
 
-/// A bar that appears once the work has lasted a while.
+/// A bar that appears once the work has lasted a while, and goes away with this value.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    begun: Instant,
+    pace: Arc<Mutex<Pace>>,
 }
 
 impl Progress {
-    /// A bar over `total` units, named in the plural.
-    pub(crate) fn new(total: u64, unit: &str) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
-        let template = format!(
-            "{{bar:30}} {{human_pos}}/{{human_len}} {unit}  {{elapsed}} gone, {{eta}} left  {{msg}}"
-        );
-        bar.set_style(
-            ProgressStyle::with_template(&template).expect("a template without mistakes"),
-        );
-        Self { bar, begun: Instant::now() }
+    /// A bar over `total` units of work that take about the same time each; `units` names them.
+    pub(crate) fn new(total: u64, units: impl Into<String>) -> Self {
+        let pace = Arc::new(Mutex::new(Pace::begin(total)));
+        let shown = Arc::clone(&pace);
+        let time_left = move |_: &ProgressState, text: &mut dyn Write| {
+            let written = match locked(&shown).time_left(Instant::now()) {
+                Some(left) => write!(text, "{:#}", HumanDuration(left)),
+                None => text.write_char('?'),
+            };
+            written.expect("a String takes any text");
+        };
+        let style = ProgressStyle::with_template(TEMPLATE).expect("a template without mistakes");
+        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden())
+            .with_prefix(units.into())
+            .with_style(style.with_key("left", time_left));
+        let late = bar.clone();
+        thread::spawn(move || {
+            thread::sleep(PATIENCE);
+            if !late.is_finished() {
+                late.set_draw_target(ProgressDrawTarget::stderr());
+                late.enable_steady_tick(TICK);
+            }
+        });
+        Self { bar, pace }
     }
 
     /// `units` more are done.
     pub(crate) fn advance(&self, units: u64) {
-        if self.bar.is_hidden() && self.begun.elapsed() > PATIENCE {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
+        locked(&self.pace).advance(units, Instant::now());
         self.bar.inc(units);
     }
 
     /// Work already done in an earlier run, not counted into the time left.
     pub(crate) fn already_done(&self, units: u64) {
+        locked(&self.pace).skip(units);
         self.bar.set_position(units);
-        self.bar.reset_eta();
     }
 
     /// Says something beside the bar.
     pub(crate) fn say(&self, message: String) {
         self.bar.set_message(message);
     }
+}
 
-    /// Takes the bar away.
-    pub(crate) fn finish(&self) {
+impl Drop for Progress {
+    fn drop(&mut self) {
         self.bar.finish_and_clear();
+    }
+}
+
+fn locked(pace: &Mutex<Pace>) -> MutexGuard<'_, Pace> {
+    pace.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The mean time of a unit so far. The bar's own estimate forgets a unit within seconds, and units may last minutes.
+struct Pace {
+    begun: Instant,
+    /// When the last unit was done.
+    last: Instant,
+    done: u64,
+    remaining: u64,
+}
+
+impl Pace {
+    fn begin(total: u64) -> Self {
+        let now = Instant::now();
+        Self { begun: now, last: now, done: 0, remaining: total }
+    }
+
+    fn advance(&mut self, units: u64, now: Instant) {
+        self.done += units;
+        self.skip(units);
+        self.last = now;
+    }
+
+    /// Units that are not to be done.
+    fn skip(&mut self, units: u64) {
+        self.remaining = self.remaining.saturating_sub(units);
+    }
+
+    /// Nobody knows before the first unit is done.
+    fn time_left(&self, now: Instant) -> Option<Duration> {
+        if self.done == 0 {
+            return None;
+        }
+        let unit_s = (self.last - self.begun).as_secs_f64() / self.done as f64;
+        let left_s = unit_s * self.remaining as f64 - (now - self.last).as_secs_f64();
+        Some(Duration::from_secs_f64(left_s.max(0.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::Pace;
+
+    #[test]
+    fn the_time_left_follows_the_units_done_and_counts_down_between_them() {
+        let mut pace = Pace::begin(8);
+        let at = |seconds| pace.begun + Duration::from_secs(seconds);
+        let (first, soon, late) = (at(30), at(40), at(500));
+        assert_eq!(pace.time_left(first), None);
+        pace.advance(2, first);
+        assert_eq!(pace.time_left(first), Some(Duration::from_secs(90)));
+        assert_eq!(pace.time_left(soon), Some(Duration::from_secs(80)));
+        assert_eq!(pace.time_left(late), Some(Duration::ZERO));
     }
 }

@@ -28,7 +28,7 @@ pub(crate) fn of_passengers(scenario: &Scenario, bound: &Bound) -> Vec<Value> {
 
 /// Both, most first, as lines for people.
 pub(crate) fn lines(scenario: &Scenario, bound: &Bound) -> Vec<String> {
-    let mut lines = vec!["one more stand, all day, is worth at the bound".to_owned()];
+    let mut lines = vec!["one more stand, all day, raises the upper bound by at most".to_owned()];
     let mut stands: Vec<_> = VertiportIx::all(scenario.vertiports.len())
         .map(|vertiport| (bound.stand_worth_usd(vertiport), vertiport))
         .collect();
@@ -38,11 +38,14 @@ pub(crate) fn lines(scenario: &Scenario, bound: &Bound) -> Vec<String> {
     }
     let passengers = passengers(scenario, bound);
     if !passengers.is_empty() {
-        lines.push("one more passenger is worth at the bound, most first".to_owned());
+        lines.push("one more passenger raises it by at most".to_owned());
     }
     for &Passenger { worth_usd, period, from, to } in passengers.iter().take(SHOWN_PASSENGERS) {
         let pair = format!("{} -> {}", id(scenario, from), id(scenario, to));
-        lines.push(format!("  {pair:<15} {worth_usd:>12.2} $  from {}", scenario.periods[period]));
+        lines.push(format!(
+            "  {pair:<15} {worth_usd:>12.2} $  period from {}",
+            scenario.periods[period]
+        ));
     }
     lines
 }

@@ -34,7 +34,7 @@ fn a_day_is_drawn_played_checked_and_replayed() {
     let folder = folder();
     let at = folder.path();
     stdout(at, "scenario paper --seed 7 -o day.json");
-    for policy in ["random", "greedy", "lookahead", "rolling", "gcaps", "mlp"] {
+    for policy in ["random", "greedy", "lookahead", "prices", "rolling", "gcaps", "mlp"] {
         let played = stdout(
             at,
             &format!("simulate day.json --policy {policy} --seed 3 --trace {policy}.csv --json"),
@@ -73,14 +73,14 @@ fn a_day_is_bounded_above_what_a_rule_earns() {
 }
 
 #[test]
-fn a_day_is_planned_between_the_best_rule_and_the_bound() {
+fn a_day_is_planned_between_the_best_policy_and_the_bound() {
     let folder = folder();
     let at = folder.path();
     stdout(at, "scenario paper --seed 1 -o day.json");
     let planned = stdout(at, "plan day.json --time-limit 1 --json -o plan.csv");
     let planned: Value = serde_json::from_str(&planned).expect("JSON");
     let number = |name: &str| planned[name].as_f64().unwrap_or_else(|| panic!("{name} is missing"));
-    assert!(number("best_rule") <= number("profit"));
+    assert!(number("best_policy") <= number("profit"));
     assert!(number("profit") <= number("upper_bound"));
     let gap = (number("upper_bound") - number("profit")) / number("upper_bound");
     assert!((number("gap") - gap).abs() < 1e-9);
@@ -293,6 +293,8 @@ fn what_users_get_wrong_has_a_code_and_a_way_out() {
         assert!(said.starts_with(&format!("error[{code}")), "{arguments}: {said}");
     }
     assert!(!at.join("twice").exists(), "what is refused leaves nothing behind");
+    let taken = "compare --network paper --policies greedy --days 1 --seed 1 --report day.json";
+    assert!(failure(at, taken, 1).starts_with("error[V401]"), "no fault of the input");
     failure(at, "simulate", 2);
     failure(at, "fly", 2);
 }

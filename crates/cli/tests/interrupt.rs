@@ -1,11 +1,12 @@
-//! Ctrl-C of a training: it ends cleanly, and the run goes on as if nothing had happened.
+//! Ctrl-C: a training ends cleanly, and the run goes on as if nothing had happened; a comparison and a proof end at once and
+//! leave nothing half done.
 #![cfg(unix)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use vertifleet_learn::Checkpoint;
 
@@ -13,11 +14,39 @@ use vertifleet_learn::Checkpoint;
 const TRAIN: &str = "train --network paper --policy mlp --seed 5 --steps 6000 --set n_envs=4 --set n_steps=25 \
                      --set batch_size=100 --set n_epochs=1 --set eval_days=1 --set eval_every=20 --threads 1";
 
-fn train(folder: &Path, more: &str) -> Command {
+fn vertifleet(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_vertifleet"));
-    command.current_dir(folder).args(TRAIN.split_whitespace()).args(more.split_whitespace());
+    command.current_dir(folder).args(arguments.split_whitespace());
+    command.env("XDG_CACHE_HOME", folder.join("kept"));
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
+}
+
+fn train(folder: &Path, more: &str) -> Command {
+    vertifleet(folder, &format!("{TRAIN} {more}"))
+}
+
+/// What a person at the keyboard does.
+fn press_ctrl_c(child: &Child) {
+    let signal = format!("kill -INT {}", child.id());
+    assert!(Command::new("sh").args(["-c", &signal]).status().expect("a shell").success());
+}
+
+/// Ctrl-C ends this one with the exit code of an interrupted program, nothing on stdout, and soon.
+fn ends_at_once(child: Child) {
+    press_ctrl_c(&child);
+    let pressed = Instant::now();
+    let Output { status, stdout, stderr } = child.wait_with_output().expect("the program ends");
+    let said = String::from_utf8_lossy(&stderr);
+    assert_eq!(status.code(), Some(130), "{said}");
+    assert!(stdout.is_empty() && said.contains("stopped"), "{said}");
+    assert!(pressed.elapsed() < Duration::from_secs(2), "{:?}", pressed.elapsed());
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let name = |entry: std::io::Result<fs::DirEntry>| entry.expect("an entry").file_name();
+    entries.map(|entry| name(entry).to_string_lossy().into_owned()).collect()
 }
 
 /// The event files of the run in `out`.
@@ -50,8 +79,7 @@ fn a_training_ended_by_ctrl_c_goes_on_to_the_same_weights() {
 
     let mut child = train(at, "--out cut").spawn().expect("the program runs");
     wait_for_first_update(&mut child, &at.join("cut"));
-    let signal = format!("kill -INT {}", child.id());
-    assert!(Command::new("sh").args(["-c", &signal]).status().expect("a shell").success());
+    press_ctrl_c(&child);
     let cut = child.wait_with_output().expect("the program ends");
     let said = String::from_utf8_lossy(&cut.stderr);
     assert_eq!(cut.status.code(), Some(0), "{said}");
@@ -67,4 +95,55 @@ fn a_training_ended_by_ctrl_c_goes_on_to_the_same_weights() {
     assert!(file("cut/mlp.safetensors") == file("whole/mlp.safetensors"), "the same weights");
     assert!(curve("cut/mlp-curve.csv") == all, "the same curve");
     assert_eq!(event_files(&at.join("cut")).len(), 1, "each step is in TensorBoard's files once");
+}
+
+#[test]
+fn a_comparison_ended_by_ctrl_c_leaves_whole_bounds_and_no_report() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let kept = folder.path().join("kept/vertifleet");
+    let asked = "compare --network paper --policies rolling --days 400 --seed 1 --bound --step 60";
+    let compare = |report: &str| vertifleet(folder.path(), &format!("{asked} --report {report}"));
+    let mut child = compare("new/report").spawn().expect("the program runs");
+    // It is in the middle of its bounds when some of them are there, and has long listened for signals.
+    while names(&kept).iter().filter(|name| name.starts_with("bound-")).count() < 5 {
+        assert!(child.try_wait().expect("a child").is_none(), "it ended before it began");
+        sleep(Duration::from_millis(1));
+    }
+    ends_at_once(child);
+    assert_eq!(names(folder.path()), ["kept"], "no folder for a report that there is none of");
+    for name in names(&kept) {
+        let text = fs::read_to_string(kept.join(&name)).expect("a kept bound");
+        assert!(name.starts_with("bound-") && text.ends_with('}'), "{name} is half a file");
+    }
+}
+
+/// Runs a command that reads a file called `pipe`, and gives it this text for it. When it has read it, it listens for signals
+/// and begins to work.
+fn begin(folder: &Path, arguments: &str, text: &[u8]) -> Child {
+    let pipe = folder.join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("a command").success());
+    let mut child = vertifleet(folder, arguments).spawn().expect("the program runs");
+    fs::write(&pipe, text).expect("a reader");
+    sleep(Duration::from_millis(300));
+    assert!(child.try_wait().expect("a child").is_none(), "it is at work");
+    child
+}
+
+#[test]
+fn policies_and_plans_at_work_are_ended_by_ctrl_c() {
+    let paper = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks/paper.toml");
+    let paper = fs::read(paper).expect("the shipped network");
+    for policy in ["rolling", "plan"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let compare = format!("compare --network pipe --policies {policy} --days 400 --seed 1");
+        ends_at_once(begin(folder.path(), &compare, &paper));
+    }
+}
+
+#[test]
+fn a_proof_ended_by_ctrl_c_says_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn = vertifleet(folder.path(), "scenario paper --seed 1").output();
+    let day = drawn.expect("the program runs").stdout;
+    ends_at_once(begin(folder.path(), "bound pipe --step 1", &day));
 }

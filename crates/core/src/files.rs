@@ -3,8 +3,12 @@
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::Path;
+use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 use crate::Error;
+
+/// Held for reading by whoever writes a file, and for writing by whoever ends the process between two of them.
+static WRITING: RwLock<()> = RwLock::new(());
 
 /// The longest scenario file that is read. Every scenario that obeys the rules is shorter when written.
 pub(crate) const LONGEST_SCENARIO: u64 = 64 << 20;
@@ -58,6 +62,16 @@ pub fn write_atomically(path: &Path, contents: &[u8]) -> Result<(), Error> {
     write(path, contents).map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
 }
 
+/// Waits for the files that are being written by [`write_atomically`]; as long as the result lives, no other is begun. For
+/// whoever ends the process while its threads are at work, so that no file in between is left behind.
+pub fn between_files() -> RwLockWriteGuard<'static, ()> {
+    WRITING.write().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn writing() -> RwLockReadGuard<'static, ()> {
+    WRITING.read().unwrap_or_else(PoisonError::into_inner)
+}
+
 fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let former = fs::metadata(&target).ok();
@@ -69,6 +83,8 @@ fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
         _ => Path::new("."),
     };
     fs::metadata(folder)?;
+    // Not for pipes, above: whoever waits for their reader may be ended.
+    let _writing = writing();
     // The name of the file in between would only confuse a message, so the kind of error must do.
     let mut file = new_file_in(folder).map_err(|error| io::Error::from(error.kind()))?;
     file.write_all(contents)?;

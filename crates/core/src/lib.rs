@@ -36,7 +36,7 @@ pub use disturbances::{Closure, Disturbances, Outage, Route, TakeoffDelays};
 pub use error::Error;
 pub use fares::Fares;
 pub use feature_scales::FeatureScales;
-pub use files::{create_folder, read_at_most, write_atomically};
+pub use files::{between_files, create_folder, read_at_most, write_atomically};
 pub use ix::{AircraftIx, TypeIx, VertiportIx};
 pub use matrix::Matrix;
 pub use network::Network;

@@ -1,7 +1,7 @@
 //! The exact side: what a day could earn at most, and schedules that come close to it.
 //!
 //! [`upper_bound`] proves that no schedule of a known day earns more than so much; the planner looks for the schedule
-//! that earns the most, and the two together say how far it is from the best. [`Rolling`] plans while the day goes on.
+//! that earns the most, and the two together say how far it is from the best. [`Rolling`] decides while the day goes on.
 
 mod bound;
 pub mod error;
@@ -10,5 +10,5 @@ mod rolling;
 
 pub use bound::{Bound, Step, cached_upper_bound, upper_bound};
 pub use error::Error;
-pub use plan::{Budget, Outlook, Plan, PlannedFlight, Progress, Settings, plan, plan_ahead};
+pub use plan::{Budget, Plan, Progress, Settings, plan};
 pub use rolling::Rolling;

@@ -1,84 +1,78 @@
-//! `rolling`: plans the rest of the day anew whenever an aircraft decides, and flies the first flight of that plan.
+//! `rolling`: at every decision, tries out the best choices at the day's prices, and takes the one after which the fleet
+//! stands best.
 //!
-//! A rolling horizon whose end is the day's: the forecast reaches that far, and shorter horizons earned less. The plan is
-//! [`plan_ahead`]'s, from the fleet as it stands, is in the air and on charge, and with the demand that the view forecasts; it
-//! goes on from the plan before, which is all that the policy remembers. Aircraft that decide at one instant share a plan.
-//! Planning takes a number of steps and never looks at a clock, so the same day has the same outcome everywhere.
+//! A rolling horizon in two parts. To the end of the day, the fleet's programme is solved anew every quarter of an hour from
+//! where it stands, is in the air and on charge, with its stands and passengers priced out ([`DayPrices`]). For the next
+//! hour, each of a few choices is played out in the simulator, everybody else choosing by prices; what the fleet has earned
+//! and is worth by then decides. Nothing looks at a clock, so the same day has the same outcome everywhere.
 
-use vertifleet_core::{Time, VertiportIx};
-use vertifleet_policy::{Policy, PolicyError, draw};
+use vertifleet_core::{AircraftIx, Time, VertiportIx};
+use vertifleet_policy::{DayMemory, DayPrices, Policy, PolicyError};
 use vertifleet_sim::{Decision, View};
 
-use crate::plan::{Outlook, plan_ahead};
+/// Choices that are tried out. More of them earned no more on days of `paper`.
+const MOST_TRIED: usize = 3;
+/// A choice so much worse than the best one at the prices is not tried, dollars.
+const TOO_BAD_USD: f64 = 30.0;
+/// How far a choice is played out, seconds. Half an hour and two hours earned as much; to the end of the day, chance
+/// decides, and days earned less than without trying.
+const HORIZON_S: u32 = 3_600;
 
-/// Steps of search where there is no plan to go on from: in the morning, or when a day is taken up in its middle.
-const FIRST_STEPS: u64 = 4_000;
-/// Steps of search where there is one. 500 earned 0.4 % less on days of `paper`.
-const STEPS: u64 = 1_000;
-/// What chance follows, beside day and decision.
-const SEED: u64 = 0;
-
-/// Plans ahead at every decision. Remembers one day at a time: asked about several by turns, it plans each decision as
-/// though it took the day up there.
+/// Prices the rest of the day and tries its choices out. Remembers one day at a time.
 #[derive(Debug, Clone, Default)]
 pub struct Rolling {
-    latest: Option<Latest>,
-}
-
-/// The latest plan, and what it was made for.
-#[derive(Debug, Clone)]
-struct Latest {
-    day_seed: u64,
-    /// Index of the decision that follows the one just taken.
-    next: u32,
-    made_at: Time,
-    outlook: Outlook,
-}
-
-impl Latest {
-    /// A plan from `decision` on, continuing the one before if there is one that fits.
-    fn made(decision: &Decision, view: View<'_>, before: Option<&Outlook>) -> Self {
-        let day_seed = view.day_seed();
-        let steps = if before.is_some() { STEPS } else { FIRST_STEPS };
-        let seed = draw(SEED, day_seed, decision.index);
-        let outlook = plan_ahead(view, before, steps, seed);
-        Self { day_seed, next: decision.index, made_at: decision.time, outlook }
-    }
-
-    /// Whether the decision before this one of the same day was taken by this plan.
-    fn leads_to(&self, decision: &Decision, view: View<'_>) -> bool {
-        self.day_seed == view.day_seed() && self.next == decision.index
-    }
-
-    fn choice(&self, decision: &Decision) -> VertiportIx {
-        self.outlook.choice(decision.aircraft, decision.at, decision.time)
-    }
-
-    /// Whether the plan was made at this instant and can still be followed.
-    fn holds(&self, decision: &Decision, view: View<'_>) -> bool {
-        self.made_at == decision.time && view.feasible(decision).contains(self.choice(decision))
-    }
+    day: DayMemory<DayPrices>,
+    /// Choices, and what they are worth at the prices.
+    ranked: Vec<(f64, VertiportIx)>,
 }
 
 impl Policy for Rolling {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
-        // A day's first decision follows none, so nothing of another day is ever taken over.
-        let before = self
-            .latest
-            .take()
-            .filter(|latest| decision.index > 0 && latest.leads_to(decision, *view));
-        let mut latest = match before {
-            Some(latest) if latest.holds(decision, *view) => latest,
-            before => {
-                let before = before.as_ref().map(|latest| &latest.outlook);
-                Latest::made(decision, *view, before)
+        let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
+        prices.keep_up(*view, decision.time);
+        self.ranked.clear();
+        let choices = view.feasible(decision);
+        self.ranked.extend(choices.iter().map(|to| (prices.choice_usd(*view, decision, to), to)));
+        // A stable sort: among equals the vertiport listed first.
+        self.ranked.sort_by(|one, other| other.0.total_cmp(&one.0));
+        let least_usd = self.ranked[0].0 - TOO_BAD_USD;
+        let tried = self.ranked.iter().take(MOST_TRIED).filter(|choice| choice.0 >= least_usd);
+        if tried.clone().count() == 1 {
+            return Ok(self.ranked[0].1);
+        }
+        let mut best = (f64::NEG_INFINITY, decision.at);
+        for &(priced_usd, to) in tried {
+            // Each says what the choice is worth to the fleet: one looks at everybody for an hour, one at the aircraft alone.
+            let usd = priced_usd + tried_out_usd(prices, *view, decision, to);
+            if usd > best.0 {
+                best = (usd, to);
             }
-        };
-        // A plan does not know of separate chargers, and may count on a place that is not free.
-        let mask = view.feasible(decision);
-        let choice = Some(latest.choice(decision)).filter(|&choice| mask.contains(choice));
-        latest.next = decision.index + 1;
-        self.latest = Some(latest);
-        Ok(choice.unwrap_or(decision.at))
+        }
+        Ok(best.1)
     }
+}
+
+/// What the fleet has earned and is worth an hour after a choice, dollars.
+fn tried_out_usd(prices: &DayPrices, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
+    let mut imagined = view.imagined();
+    let until = decision.time + HORIZON_S;
+    imagined.apply(to).expect("only feasible choices are tried");
+    while let Some(next) = imagined.next_decision() {
+        if next.time > until {
+            return imagined.ledger().profit_usd()
+                + fleet_worth_usd(prices, imagined.view(), next.time);
+        }
+        let choice = prices.best_choice(imagined.view(), &next);
+        imagined.apply(choice).expect("prices choose from the mask");
+    }
+    imagined.ledger().profit_usd()
+}
+
+/// What it is worth that every aircraft is where it is, less the rent of its stand until it is ready, dollars.
+fn fleet_worth_usd(prices: &DayPrices, view: View<'_>, now: Time) -> f64 {
+    let worth_usd = |aircraft: AircraftIx| {
+        let (place, ready) = (view.places()[aircraft.at()], view.ready_at(aircraft));
+        prices.worth_usd(view.kind(aircraft), place, ready) - prices.rent_usd(place, now, ready)
+    };
+    AircraftIx::all(view.places().len()).map(worth_usd).sum()
 }

@@ -9,8 +9,8 @@ use std::time::Duration;
 use common::{Size, any_day};
 use exhaustive::best_of_all;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario};
-use vertifleet_optimize::{Budget, Plan, Settings, plan, plan_ahead};
-use vertifleet_policy::{Greedy, Lookahead, Policy, Random, play};
+use vertifleet_optimize::{Budget, Plan, Settings, plan};
+use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, play};
 use vertifleet_sim::{Simulation, check::check};
 
 fn paper_day(seed: u64) -> Arc<Scenario> {
@@ -47,7 +47,8 @@ fn a_plan_keeps_every_rule_and_earns_no_less_than_any_simple_one() {
         let report = check(&day, &plan.trace);
         assert!(report.is_valid(), "day {number}: {report}");
         assert!((report.totals.profit - plan.profit_usd).abs() < 1e-6, "day {number}");
-        let rules: [&mut dyn Policy; 3] = [&mut Random::new(0), &mut Greedy, &mut Lookahead];
+        let rules: [&mut dyn Policy; 4] =
+            [&mut Random::new(0), &mut Greedy, &mut Lookahead, &mut Priced::default()];
         for rule in rules {
             let mut simulation = Simulation::new(Arc::clone(&day));
             play(&mut simulation, rule, |_| ()).expect("rules always answer");
@@ -60,9 +61,9 @@ fn a_plan_keeps_every_rule_and_earns_no_less_than_any_simple_one() {
 #[test]
 fn a_plan_of_paper_gets_better_with_more_steps_and_keeps_every_rule() {
     let day = paper_day(1);
-    let (few, more) = (planned(&day, 100), planned(&day, 1_000));
-    assert!(few.best_rule_usd < few.profit_usd, "the best rule's day can be improved");
-    assert!(few.profit_usd < more.profit_usd);
+    let (none, few, more) = (planned(&day, 0), planned(&day, 500), planned(&day, 3_000));
+    assert_eq!(none.profit_usd, none.best_policy_usd, "the search begins at the best policy's day");
+    assert!(none.profit_usd <= few.profit_usd && few.profit_usd < more.profit_usd);
     assert!(check(&day, &more.trace).is_valid());
 }
 
@@ -91,8 +92,8 @@ fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
     });
     assert!(check(&day, &stopped.trace).is_valid());
     let at_once = Settings { budget: Budget::Time(Duration::ZERO), ..settings };
-    let rule = plan(&day, &at_once, &mut |_| true);
-    assert_eq!((rule.steps, rule.profit_usd), (0, rule.best_rule_usd));
+    let policy = plan(&day, &at_once, &mut |_| true);
+    assert_eq!((policy.steps, policy.profit_usd), (0, policy.best_policy_usd));
 }
 
 #[test]
@@ -109,41 +110,4 @@ fn nobody_flies_where_nothing_can_be_earned() {
     stuck.distance_mi = Matrix::from_fn(size, |from, to| if from == to { 0.0 } else { 900.0 });
     let stuck = Arc::new(stuck.check("out of range").expect("nobody has to be able to fly"));
     assert_eq!(planned(&stuck, 20).profit_usd, 0.0);
-}
-
-/// Plays rules for a while, then follows outlooks to the day's end, planning anew every `every` decisions.
-fn follow(day: &Arc<Scenario>, played: u32, every: u32) {
-    let mut simulation = Simulation::new(Arc::clone(day));
-    let mut outlook = None;
-    let mut expected = f64::NEG_INFINITY;
-    while let Some(decision) = simulation.next_decision() {
-        let view = simulation.view();
-        if decision.index < played {
-            let choice = Greedy.choose(&decision, &view).expect("greedy always answers");
-            simulation.apply(choice).expect("a choice from the mask");
-            continue;
-        }
-        if (decision.index - played).is_multiple_of(every) {
-            let ahead = plan_ahead(view, outlook.as_ref(), 3, 1);
-            let in_all = simulation.ledger().profit_usd() + ahead.value_usd;
-            assert!(in_all >= expected - 1e-6, "an outlook goes on from the one before");
-            expected = in_all;
-            outlook = Some(ahead);
-        }
-        let ahead = outlook.as_ref().expect("planned at the first decision");
-        let choice = ahead.choice(decision.aircraft, decision.at, decision.time);
-        simulation.apply(choice).expect("an outlook keeps every rule");
-    }
-    if outlook.is_some() {
-        assert!((simulation.ledger().profit_usd() - expected).abs() < 1e-6);
-    }
-}
-
-#[test]
-fn the_rest_of_a_day_can_be_planned_from_any_moment_of_it() {
-    for number in 200..230 {
-        let day = any_day(number, Size { vertiports: 5, fleet: 8, hours: 6 });
-        follow(&day, u32::try_from(number % 17).expect("small"), 7);
-    }
-    follow(&paper_day(5), 150, 40);
 }

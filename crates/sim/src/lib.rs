@@ -26,4 +26,4 @@ pub use legs::{Leg, Legs};
 pub use simulation::{Decision, Simulation};
 pub use trace::{Trace, TraceError, TraceRow};
 pub use vertiport_set::VertiportSet;
-pub use view::View;
+pub use view::{DayKey, View};

@@ -28,7 +28,8 @@ pub struct Decision {
 #[derive(Debug, Clone)]
 pub struct Simulation {
     scenario: Arc<Scenario>,
-    legs: Legs,
+    /// Shared by all who imagine the day from some moment on.
+    legs: Arc<Legs>,
     stands: Stands,
     demand: Demand,
     queue: ReadyQueue,
@@ -50,7 +51,7 @@ impl Simulation {
     /// The day before its first decision.
     pub fn new(scenario: Arc<Scenario>) -> Self {
         Self {
-            legs: Legs::of(&scenario),
+            legs: Arc::new(Legs::of(&scenario)),
             stands: Stands::at_start(&scenario),
             demand: Demand::of(&scenario),
             queue: ReadyQueue::new(scenario.aircraft.len(), scenario.operations.start),
@@ -102,7 +103,8 @@ impl Simulation {
             return Ok(self.hold(&decision));
         }
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
-        if self.within_range(kind, decision.at).contains(choice)
+        if self.legs.within_range(kind, decision.at).contains(choice)
+            && !self.closures.from(decision.at).contains(choice)
             && self.stands.open().contains(choice)
         {
             return Ok(self.fly(&decision, choice));
@@ -210,17 +212,12 @@ impl Simulation {
         self.scenario.energy_price_usd[self.period + periods_on]
     }
 
-    /// Where a flight from a vertiport may lead now: by a corridor, within range, along a route that is not closed.
-    #[inline]
-    pub(crate) fn within_range(&self, kind: TypeIx, from: VertiportIx) -> VertiportSet {
-        self.legs.within_range(kind, from).without(&self.closures.from(from))
-    }
-
     /// The vertiports the deciding aircraft may choose: its own, and each other within range that has a stand free.
     #[inline]
     pub(crate) fn feasible(&self, decision: &Decision) -> VertiportSet {
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
-        let mut mask = self.within_range(kind, decision.at).and(self.stands.open());
+        let mut mask = self.legs.within_range(kind, decision.at).and(self.stands.open());
+        mask = mask.without(&self.closures.from(decision.at));
         mask.insert(decision.at);
         mask
     }
@@ -287,6 +284,10 @@ impl Simulation {
 
     pub(crate) fn demand(&self) -> &Demand {
         &self.demand
+    }
+
+    pub(crate) fn closures(&self) -> &Closures {
+        &self.closures
     }
 
     pub(crate) fn places(&self) -> &[VertiportIx] {

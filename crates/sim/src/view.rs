@@ -1,5 +1,7 @@
 //! What a policy may look at when it decides: the present, the forecast, and what any flight would take.
 
+use std::sync::Arc;
+
 use vertifleet_core::{AircraftIx, AircraftType, Scenario, Time, TypeIx, VertiportIx};
 
 use crate::{Decision, Imagined, Leg, Simulation, VertiportSet};
@@ -9,6 +11,19 @@ use crate::{Decision, Imagined, Leg, Simulation, VertiportSet};
 pub struct View<'a> {
     simulation: &'a Simulation,
 }
+
+/// Tells one day from every other, and shows nothing of it. Two keys are equal if they are of the same scenario in memory;
+/// while a key lives, no other day can take its place.
+#[derive(Debug, Clone)]
+pub struct DayKey(Arc<Scenario>);
+
+impl PartialEq for DayKey {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Eq for DayKey {}
 
 impl<'a> View<'a> {
     pub(crate) fn of(simulation: &'a Simulation) -> Self {
@@ -62,10 +77,16 @@ impl<'a> View<'a> {
         self.simulation.legs().legs_from(kind, from)
     }
 
-    /// The other vertiports that a full battery reaches, by corridors and routes that are not closed now.
+    /// The other vertiports that a corridor leads to and a full battery reaches, routes that are closed now included.
     #[inline]
-    pub fn within_range(&self, kind: TypeIx, from: VertiportIx) -> VertiportSet {
-        self.simulation.within_range(kind, from)
+    pub fn within_range(&self, kind: TypeIx, from: VertiportIx) -> &'a VertiportSet {
+        self.simulation.legs().within_range(kind, from)
+    }
+
+    /// Where flights from a vertiport may not go now, because the route is closed.
+    #[inline]
+    pub fn closed(&self, from: VertiportIx) -> VertiportSet {
+        self.simulation.closures().from(from)
     }
 
     /// Where each aircraft stands or will land.
@@ -193,6 +214,12 @@ impl<'a> View<'a> {
     /// The rest of the day as it can be imagined from here, to be played out.
     pub fn imagined(&self) -> Imagined {
         Imagined::of(self.simulation.imagined())
+    }
+
+    /// The day itself, to be told from every other.
+    #[inline]
+    pub fn day(&self) -> DayKey {
+        DayKey(Arc::clone(self.simulation.scenario()))
     }
 
     /// The seed the day was drawn with.

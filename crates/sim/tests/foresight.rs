@@ -13,7 +13,7 @@ use common::extended::extended_day;
 /// Everything that a view shows at a decision, as text.
 fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     let mut shown = vec![format!(
-        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
         view.feasible(decision),
         view.places(),
         view.stands_taken(),
@@ -25,6 +25,7 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         (view.day_start(), view.day_end(), view.hold_s(), view.day_seed()),
         view.vertiports(),
         view.period_at(decision.time + 1800),
+        view.day() == view.day(),
     )];
     for aircraft in AircraftIx::all(view.places().len()) {
         let kind = view.kind(aircraft);
@@ -32,7 +33,7 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         shown.push(format!("{of_it:?}"));
     }
     for from in VertiportIx::all(view.vertiports()) {
-        shown.push(format!("{:?} {:?}", view.stands(from), view.parked(from)));
+        shown.push(format!("{:?} {:?}", view.stands(from), (view.parked(from), view.closed(from))));
         shown.push(format!("{:?}", view.passenger_costs_usd(from)));
         for kind in TypeIx::all(view.aircraft_types().len()) {
             shown.push(format!(

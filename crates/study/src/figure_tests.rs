@@ -121,6 +121,9 @@ fn a_figure_is_drawn_only_where_there_are_numbers_for_it() {
     assert_eq!(slugs(&all(&full)), whole);
 
     let with_bounds = all(&bounded(&["random", "greedy"], 4));
+    assert!(
+        with_bounds[1].svg.contains(">bound</text>") && with_bounds[1].svg.contains(">100</text>")
+    );
     let with_bounds = slugs(&with_bounds);
     assert_eq!(with_bounds[1], "figure-bound-share");
     assert_eq!([&with_bounds[..1], &with_bounds[2..]].concat(), whole);

@@ -2,23 +2,31 @@
 
 use crate::numbers::{counted, dollars, grouped, p_statement, signed_dollars};
 use crate::origin::NetworkOrigin;
-use crate::summary::{Comparison, Summary};
+use crate::summary::{Comparison, PolicySummary, Summary};
 
 /// What the best policy earns, and whether its lead over the reference is more than chance.
 pub(crate) fn text(summary: &Summary) -> String {
     let best = summary.best();
     let earns = format!(
-        "{} earns {} a day on average over {} of {}the “{}” network",
+        "{} earns {} a day on average over {} of {}the “{}” network{}",
         best.name,
         dollars(best.profit_usd.mean),
         counted(summary.days, "unseen day", "unseen days"),
         if summary.network_origin == NetworkOrigin::Changed { "a changed copy of " } else { "" },
-        summary.network
+        summary.network,
+        of_bound(best)
     );
     match summary.best_against_reference() {
         None => format!("{earns}."),
         Some(comparison) => format!("{earns}{}", lead(summary, comparison)),
     }
+}
+
+/// `, 95.2 % of the proven upper bound`, where bounds were asked for.
+fn of_bound(policy: &PolicySummary) -> String {
+    policy.bound_share.map_or_else(String::new, |share| {
+        format!(", {} % of the proven upper bound", grouped(100.0 * share.mean, 1))
+    })
 }
 
 fn lead(summary: &Summary, comparison: &Comparison) -> String {

@@ -76,6 +76,11 @@ pub(crate) fn duration(nanoseconds: u64) -> String {
     format!("{scaled:.decimals$} {unit}")
 }
 
+/// The length of a bound's steps, which are of whole minutes: `3 min`.
+pub(crate) fn minutes(seconds: u32) -> String {
+    format!("{} min", seconds / 60)
+}
+
 /// A noun with its number: `1 day`, `100 days`.
 pub(crate) fn counted(count: usize, singular: &str, plural: &str) -> String {
     format!("{} {}", grouped(count as f64, 0), if count == 1 { singular } else { plural })

@@ -7,7 +7,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::figure::{self, Figure};
 use crate::headline;
-use crate::numbers::{counted, dollars, duration, grouped, p_statement, signed_dollars, typeset};
+use crate::numbers::{
+    counted, dollars, duration, grouped, minutes, p_statement, signed_dollars, typeset,
+};
 use crate::origin::NetworkOrigin;
 use crate::published::{NOTE, PublishedResult};
 use crate::statistics::Estimate;
@@ -54,8 +56,7 @@ fn opening(summary: &Summary) -> Markup {
     let changed = summary.network_origin == NetworkOrigin::Changed;
     html! {
         p.program { "Vertifleet " (summary.program_version) " · comparison of policies" }
-        h1 { (counted(summary.policies.len(), "policy", "policies")) " on "
-            (counted(summary.days, "unseen day", "unseen days")) }
+        h1 { (contenders(summary)) " on " (counted(summary.days, "unseen day", "unseen days")) }
         p.headline { (headline::text(summary)) }
         dl {
             div { dt { "Network" } dd { (summary.network) @if changed { ", changed" } } }
@@ -65,7 +66,6 @@ fn opening(summary: &Summary) -> Markup {
             @if let Some(bound) = &summary.bound {
                 div { dt { "Upper bound a day" } dd { (dollars(bound.upper_bound_usd.mean)) } }
             }
-            div { dt { "Program" } dd { "vertifleet " (summary.program_version) } }
         }
         @if changed {
             p { "These days are of a changed copy of the network “" (summary.network) "”, not of the network that "
@@ -76,6 +76,18 @@ fn opening(summary: &Summary) -> Markup {
     }
 }
 
+/// `4 policies and 1 reference`.
+fn contenders(summary: &Summary) -> String {
+    let references = summary.policies.iter().filter(|policy| policy.is_offline()).count();
+    let policies = summary.policies.len() - references;
+    let counts = [
+        (policies, counted(policies, "policy", "policies")),
+        (references, counted(references, "reference", "references")),
+    ];
+    let present = counts.into_iter().filter(|(count, _)| *count > 0).map(|(_, text)| text);
+    present.collect::<Vec<_>>().join(" and ")
+}
+
 fn results(summary: &Summary) -> Markup {
     html! {
         h2 { "Results" }
@@ -83,7 +95,7 @@ fn results(summary: &Summary) -> Markup {
             "deviation between days."
             @if let Some(bound) = &summary.bound {
                 " Of bound: profit as a share of what is proven that no schedule of the day earns more than (steps of "
-                (bound.step_s) " s)."
+                (minutes(bound.step_s)) ")."
             }
             @if summary.policies.iter().any(PolicySummary::is_offline) {
                 " What knows the day plans it as a whole, beforehand: a reference, no policy."

@@ -1,5 +1,6 @@
 //! Writes a comparison to a folder: page, figures, table of days, numbers for machines.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use vertifleet_core::write_atomically;
@@ -22,6 +23,23 @@ pub struct Paths {
     pub figures: Vec<PathBuf>,
 }
 
+/// Whether there is or can be a folder of this name for a report, asked before the days are played. Leaves none behind that
+/// was not there.
+///
+/// # Errors
+/// [`Error::CannotMakeFolder`].
+pub fn check_folder(folder: &Path) -> Result<(), Error> {
+    let missing =
+        folder.ancestors().take_while(|path| !path.as_os_str().is_empty() && !path.exists());
+    let missing: Vec<&Path> = missing.collect();
+    let made = make(folder);
+    for path in missing {
+        // Somebody else may have put something into it by now; then it stays.
+        let _ = fs::remove_dir(path);
+    }
+    made
+}
+
 /// Writes the whole report of a study into `folder`, which is made if it is not there.
 ///
 /// Every file is replaced at once or not at all; the page comes last, so that it never links to what is not there.
@@ -31,14 +49,14 @@ pub struct Paths {
 /// after the last of these nothing is written.
 pub fn write(study: &Study, folder: &Path) -> Result<Paths, Error> {
     let summary = Summary::of(study)?;
-    std::fs::create_dir_all(folder)
-        .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })?;
     let figures = figure::all(&summary);
+    let pngs: Vec<Vec<u8>> = figures.iter().map(|figure| figure::png(&figure.svg)).collect();
+    // Only now, so that a program that is ended before leaves no empty folder.
+    make(folder)?;
     let mut pictures = Vec::with_capacity(2 * figures.len());
-    for figure in &figures {
-        let (svg, png) = (format!("{}.svg", figure.slug), format!("{}.png", figure.slug));
-        pictures.push(put(folder, &svg, figure.svg.as_bytes())?);
-        pictures.push(put(folder, &png, &figure::png(&figure.svg))?);
+    for (figure, png) in figures.iter().zip(&pngs) {
+        pictures.push(put(folder, &format!("{}.svg", figure.slug), figure.svg.as_bytes())?);
+        pictures.push(put(folder, &format!("{}.png", figure.slug), png)?);
     }
     Ok(Paths {
         days: put(folder, "days.csv", days_csv::text(study).as_bytes())?,
@@ -46,6 +64,11 @@ pub fn write(study: &Study, folder: &Path) -> Result<Paths, Error> {
         figures: pictures,
         report: put(folder, "report.html", page::text(&summary, &figures).as_bytes())?,
     })
+}
+
+fn make(folder: &Path) -> Result<(), Error> {
+    fs::create_dir_all(folder)
+        .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })
 }
 
 fn put(folder: &Path, name: &str, contents: &[u8]) -> Result<PathBuf, Error> {

@@ -61,21 +61,20 @@ impl<'a> Contenders<'a> {
     }
 }
 
-/// Plays all days with every contender; `played` is called after each day of each of them, from any thread.
+/// Plays all days with every contender, one contender after the other. `begin` is given the name of the one that begins, and
+/// gives what is called after each of its days, from any thread.
 ///
 /// # Errors
 /// [`Error::Stuck`] if a policy cannot play a day to its end.
-pub fn run(
+pub fn run<Played: Fn() + Sync>(
     days: &[Day],
     contenders: &Contenders<'_>,
-    played: &(impl Fn() + Sync),
+    mut begin: impl FnMut(&str) -> Played,
 ) -> Result<Vec<PolicyRecord>, Error> {
-    contenders
-        .0
-        .iter()
-        .enumerate()
-        .map(|(position, contender)| play_days(position, contender, days, played))
-        .collect()
+    let mut play = |(position, contender): (usize, &Contender<'_>)| {
+        play_days(position, contender, days, &begin(&contender.name))
+    };
+    contenders.0.iter().enumerate().map(&mut play).collect()
 }
 
 fn play_days(
@@ -238,7 +237,7 @@ mod tests {
             |seed| Day { scenario: Arc::new(network.draw(seed)), upper_bound_usd: Some(50_000.0) };
         let days: Vec<Day> = seeds.map(day).collect();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| run(&days, &contenders(), &|| ())).expect("every day is played")
+        pool.install(|| run(&days, &contenders(), |_| || ())).expect("every day is played")
     }
 
     #[test]

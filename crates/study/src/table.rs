@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::numbers::{counted, duration, grouped, p_value, signed};
+use crate::numbers::{counted, duration, grouped, minutes, p_value, signed};
 use crate::origin::NetworkOrigin;
 use crate::statistics::Estimate;
 use crate::summary::{Comparison, PolicySummary, Summary};
@@ -56,8 +56,8 @@ pub fn text(summary: &Summary) -> String {
         let amount = estimate(&bound.upper_bound_usd, |value| grouped(value, 0));
         let _ = write!(
             text,
-            "\nno schedule earns more than $ {amount} a day: the bound, steps of {} s",
-            bound.step_s
+            "\nof bound: share of what no schedule of the day earns more than, $ {amount} (steps of {})",
+            minutes(bound.step_s)
         );
     }
     if summary.policies.iter().any(PolicySummary::is_offline) {

@@ -61,6 +61,8 @@ fn shares_of_the_bound_stand_in_page_days_and_numbers_for_machines() {
     let page = read(&paths.report);
     assert!(page.contains("of bound, %") && page.contains("knows the day"));
     assert!(page.contains("gcaps earns"), "a reference is not the best policy");
+    assert!(page.contains("% of the proven upper bound, "));
+    assert!(page.contains("5 policies and 1 reference on 12 unseen days"));
     let summary: serde_json::Value = serde_json::from_str(&read(&paths.summary)).expect("JSON");
     assert_eq!(summary["bound"]["step_s"], 180);
     let plan = &summary["policies"][0];
@@ -204,6 +206,21 @@ fn a_report_that_cannot_be_written_names_the_file() {
     let error = report::write(&made_up::study(3), &file).expect_err("a file is no folder");
     assert_eq!(error.code().0, 401);
     assert!(error.to_string().contains("taken"), "{error}");
+}
+
+#[test]
+fn a_folder_is_checked_without_a_trace() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    report::check_folder(&folder.path().join("new/folder")).expect("a folder that can be made");
+    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0);
+    report::check_folder(folder.path()).expect("a folder that is there");
+    assert!(folder.path().exists(), "it stays");
+    let file = folder.path().join("taken");
+    std::fs::write(&file, "").expect("a file");
+    for taken in [file.clone(), file.join("below")] {
+        assert_eq!(report::check_folder(&taken).expect_err("a file").code().0, 401);
+    }
+    assert!(file.exists());
 }
 
 /// What a change to a sound study of five policies on four days is refused with.

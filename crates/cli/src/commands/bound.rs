@@ -9,10 +9,12 @@ use vertifleet_optimize::{Step, upper_bound};
 use crate::args::BoundArguments;
 use crate::commands::read_scenario;
 use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
 use crate::output::print;
 use crate::worth;
 
 pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
     let step = Step::from_minutes(arguments.step)?;
     let scenario = read_scenario(&arguments.scenario)?;
     let begun = Instant::now();
@@ -31,9 +33,9 @@ pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
         let mut lines = vec![
             format!("{} bounded in {seconds:.1} s", scenario.name),
             format!(
-                "  upper bound     {:>12.2} $  (steps of {} s)",
+                "  upper bound     {:>12.2} $    no schedule earns more (steps of {} min)",
                 bound.upper_bound_usd(),
-                bound.step_s()
+                arguments.step
             ),
         ];
         lines.extend(worth::lines(&scenario, &bound));

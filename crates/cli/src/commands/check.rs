@@ -7,9 +7,11 @@ use vertifleet_sim::{Trace, check::check};
 use crate::args::CheckArguments;
 use crate::commands::read_scenario;
 use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
 use crate::output::print;
 
 pub(crate) fn run(arguments: &CheckArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
     let scenario = read_scenario(&arguments.scenario)?;
     let trace = Trace::read(&arguments.trace, &scenario)?;
     let report = check(&scenario, &trace);

@@ -7,24 +7,26 @@ use anstream::eprintln;
 use rayon::prelude::*;
 use vertifleet_core::{DaySeed, Network, Scenario};
 use vertifleet_optimize::Step;
-use vertifleet_study::run::{Day, run as play_all};
-use vertifleet_study::{NetworkOrigin, Study, Summary, report, table};
+use vertifleet_study::run::{Contenders, Day, run as play_all};
+use vertifleet_study::{NetworkOrigin, PolicyRecord, Study, Summary, report, table};
 
 use crate::args::CompareArguments;
 use crate::entrants::{self, Entrant};
 use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
 use crate::kept_bounds::KeptBounds;
 use crate::output::print;
 use crate::progress::Progress;
 
 pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
     let network = Network::find(&arguments.network)?;
     let step = arguments.bound.then(|| Step::from_minutes(arguments.step)).transpose()?;
     let entrants = Entrant::all(arguments, network.name())?;
     let contenders = entrants::contenders(&entrants)?;
     let scenarios = draw(&network, arguments)?;
     if let Some(folder) = &arguments.report {
-        vertifleet_core::create_folder(folder)?;
+        report::check_folder(folder)?;
     }
     let network_origin = NetworkOrigin::of(network.name(), scenarios.iter().map(Arc::as_ref));
     for (entrant, recipe) in entrants.iter().filter_map(|one| Some((one, one.recipe()?))) {
@@ -32,9 +34,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
         recipe.warn_if_shipped_for_another(&entrant.name, network.name(), network_origin);
     }
     let days = bounded(scenarios, step)?;
-    let progress = Progress::new((days.len() * entrants.len()) as u64, "days");
-    let policies = play_all(&days, &contenders, &|| progress.advance(1));
-    progress.finish();
+    let policies = play(&days, &contenders, entrants.len())?;
     let study = Study {
         network: network.name().to_owned(),
         network_origin,
@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
         days: days.len(),
         bound_step_s: step.map(Step::seconds),
         command: command(),
-        policies: policies?,
+        policies,
         curves: entrants.iter().filter_map(Entrant::curve).collect(),
     };
     let summary = Summary::of(&study)?;
@@ -58,6 +58,23 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Plays every day with everybody. A bar for each, since a day of one may take a million times as long as that of another:
+/// how long those take that come later is not known.
+fn play(
+    days: &[Day],
+    contenders: &Contenders<'_>,
+    number: usize,
+) -> Result<Vec<PolicyRecord>, Failure> {
+    let mut begun = 0;
+    let policies = play_all(days, contenders, |name| {
+        begun += 1;
+        let units = format!("days of {name} ({begun} of {number} policies)");
+        let progress = Progress::new(days.len() as u64, units);
+        move || progress.advance(1)
+    })?;
+    Ok(policies)
+}
+
 /// The days with their upper bounds, where a step for them is given.
 fn bounded(scenarios: Vec<Arc<Scenario>>, step: Option<Step>) -> Result<Vec<Day>, Failure> {
     let Some(step) = step else {
@@ -71,9 +88,7 @@ fn bounded(scenarios: Vec<Arc<Scenario>>, step: Option<Step>) -> Result<Vec<Day>
         progress.advance(1);
         Ok(Day { scenario, upper_bound_usd: Some(upper_bound_usd) })
     };
-    let days = scenarios.into_par_iter().map(bound).collect();
-    progress.finish();
-    days
+    scenarios.into_par_iter().map(bound).collect()
 }
 
 fn draw(network: &Network, arguments: &CompareArguments) -> Result<Vec<Arc<Scenario>>, Failure> {

@@ -19,17 +19,16 @@ use crate::progress::Progress;
 use crate::worth;
 
 /// Minutes of the bound's slices, finest first; those after the first are for days that are too large for it.
-const STEPS_MIN: [u32; 3] = [3, 5, 15];
-const COARSEST_STEP_MIN: u32 = 60;
+const STEPS_MIN: [u32; 4] = [3, 5, 15, 60];
 /// How often somebody who waits for the bound looks up.
 const GLANCE: Duration = Duration::from_millis(50);
 /// Units of the progress bar.
-const BAR: u64 = 1000;
+const BAR: u64 = 100;
 
 /// The bound, being proven on a thread of its own.
 struct Proof {
     from: Receiver<Result<Bound, Error>>,
-    bound: Option<Bound>,
+    outcome: Option<Result<Bound, Error>>,
 }
 
 impl Proof {
@@ -41,35 +40,43 @@ impl Proof {
             // Nobody listens any more if the plan was stopped.
             let _ = to.send(finest_bound(&scenario));
         });
-        Self { from, bound: None }
+        Self { from, outcome: None }
     }
 
-    /// Whether it is there, after waiting for it no longer than `patience`.
-    fn is_there(&mut self, patience: Duration) -> Result<bool, Error> {
-        if self.bound.is_none() {
-            self.bound = match self.from.recv_timeout(patience) {
-                Ok(bound) => Some(bound?),
-                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => None,
+    /// Waits for the outcome, but no longer than `patience`.
+    fn wait(&mut self, patience: Duration) {
+        if self.outcome.is_none() {
+            self.outcome = match self.from.recv_timeout(patience) {
+                Ok(outcome) => Some(outcome),
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => {
+                    panic!("a proof ends with a bound or with an error")
+                }
             };
         }
-        Ok(self.bound.is_some())
     }
 
-    /// Share of the bound by which a profit is below it.
-    fn gap(&self, profit_usd: f64) -> Option<f64> {
-        let bound_usd = self.bound.as_ref()?.upper_bound_usd();
-        Some(if bound_usd > 0.0 { (bound_usd - profit_usd) / bound_usd } else { 0.0 })
+    /// The bound, if it is proven by now.
+    fn bound(&self) -> Option<&Bound> {
+        self.outcome.as_ref()?.as_ref().ok()
     }
 }
 
+/// Share of the bound by which a profit is below it.
+fn gap(bound: &Bound, profit_usd: f64) -> f64 {
+    let bound_usd = bound.upper_bound_usd();
+    if bound_usd > 0.0 { (bound_usd - profit_usd) / bound_usd } else { 0.0 }
+}
+
+/// The bound with the finest slices that the day is not too large for.
 fn finest_bound(scenario: &Scenario) -> Result<Bound, Error> {
-    for minutes in STEPS_MIN {
-        match upper_bound(scenario, Step::from_minutes(minutes)?) {
-            Err(Error::TooManyFlights { .. }) => {}
-            outcome => return outcome,
-        }
-    }
-    upper_bound(scenario, Step::from_minutes(COARSEST_STEP_MIN)?)
+    let bound = |minutes| upper_bound(scenario, Step::from_minutes(minutes)?);
+    let too_large =
+        |outcome: &Result<Bound, Error>| matches!(outcome, Err(Error::TooManyFlights { .. }));
+    let [finest, coarser @ ..] = STEPS_MIN;
+    coarser.into_iter().fold(bound(finest), |outcome, minutes| {
+        if too_large(&outcome) { bound(minutes) } else { outcome }
+    })
 }
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
@@ -77,71 +84,64 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let stop = stop_on_interrupt()?;
     let begun = Instant::now();
     let mut proof = Proof::begin(&scenario);
-    let mut refused = None;
-    let plan = search(arguments, &scenario, &stop, &mut |profit_usd| {
-        if let Err(error) = proof.is_there(Duration::ZERO) {
-            refused = Some(error);
-        }
-        (proof.bound.as_ref().map(Bound::upper_bound_usd), proof.gap(profit_usd))
-    });
+    let plan = search(arguments, &scenario, &stop, &mut proof);
     let seconds = begun.elapsed().as_secs_f64();
     // The schedule first: it is worth having whatever becomes of the bound.
     plan.trace.write(&scenario, &arguments.output)?;
-    while refused.is_none() && !stop.load(Ordering::Relaxed) && !proof.is_there(GLANCE)? {}
-    if let Some(error) = refused {
-        return Err(error.into());
+    while proof.outcome.is_none() && !stop.load(Ordering::Relaxed) {
+        proof.wait(GLANCE);
     }
+    let bound = proof.outcome.transpose()?;
     if arguments.json {
-        let numbers = numbers(&scenario, &plan, &proof, seconds);
+        let numbers = numbers(&scenario, &plan, bound.as_ref(), seconds);
         print(&serde_json::to_string_pretty(&numbers).expect("numbers are plain data"))?;
     } else {
-        print(&text(&scenario, &plan, &proof, seconds))?;
+        print(&text(&scenario, &plan, bound.as_ref(), seconds))?;
     }
     Ok(ExitCode::SUCCESS)
 }
 
-/// Searches until the time is over, the gap is small enough or somebody presses Ctrl-C. `judge` gives bound and gap.
+/// Searches until the time is over, the gap is small enough or somebody presses Ctrl-C.
 fn search(
     arguments: &PlanArguments,
     scenario: &Arc<Scenario>,
     stop: &AtomicBool,
-    judge: &mut dyn FnMut(f64) -> (Option<f64>, Option<f64>),
+    proof: &mut Proof,
 ) -> Plan {
     let settings = Settings {
         budget: Budget::Time(arguments.time_limit),
         searches: rayon::current_num_threads(),
         seed: arguments.seed,
     };
-    let progress = Progress::new(BAR, "‰ of the time");
+    let progress = Progress::new(BAR, "% of the time");
     let mut shown = 0;
-    let plan = plan(scenario, &settings, &mut |now| {
-        let (bound_usd, gap) = judge(now.profit_usd);
+    plan(scenario, &settings, &mut |now| {
+        proof.wait(Duration::ZERO);
+        let known =
+            proof.bound().map(|bound| (bound.upper_bound_usd(), gap(bound, now.profit_usd)));
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
         let done = (now.share * BAR as f64) as u64;
         progress.advance(done.saturating_sub(shown));
         shown = done;
-        progress.say(match (bound_usd, gap) {
-            (Some(bound_usd), Some(gap)) => format!(
+        progress.say(match known {
+            Some((bound_usd, gap)) => format!(
                 "profit ${:.0}, bound ${bound_usd:.0}, gap {:.2} %",
                 now.profit_usd,
                 100.0 * gap
             ),
-            _ => format!("profit ${:.0}, bound not known yet", now.profit_usd),
+            None => format!("profit ${:.0}, bound not known yet", now.profit_usd),
         });
-        let good_enough = arguments.gap.zip(gap).is_some_and(|(asked, gap)| gap <= asked);
+        let good_enough = arguments.gap.zip(known).is_some_and(|(asked, (_, gap))| gap <= asked);
         !good_enough && !stop.load(Ordering::Relaxed)
-    });
-    progress.finish();
-    plan
+    })
 }
 
-fn numbers(scenario: &Scenario, plan: &Plan, proof: &Proof, seconds: f64) -> Value {
-    let bound = proof.bound.as_ref();
+fn numbers(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -> Value {
     json!({
         "profit": plan.profit_usd,
-        "best_rule": plan.best_rule_usd,
+        "best_policy": plan.best_policy_usd,
         "upper_bound": bound.map(Bound::upper_bound_usd),
-        "gap": proof.gap(plan.profit_usd),
+        "gap": bound.map(|bound| gap(bound, plan.profit_usd)),
         "step_s": bound.map(Bound::step_s),
         "seconds": seconds,
         "steps": plan.steps,
@@ -150,20 +150,24 @@ fn numbers(scenario: &Scenario, plan: &Plan, proof: &Proof, seconds: f64) -> Val
     })
 }
 
-fn text(scenario: &Scenario, plan: &Plan, proof: &Proof, seconds: f64) -> String {
+fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -> String {
     let mut lines = vec![
         format!("{} planned in {seconds:.1} s", scenario.name),
         format!("  profit          {:>12.2} $", plan.profit_usd),
-        format!("  best rule       {:>12.2} $", plan.best_rule_usd),
+        format!("  best policy     {:>12.2} $    where the search began", plan.best_policy_usd),
     ];
-    let Some(bound) = &proof.bound else {
+    let Some(bound) = bound else {
         lines.push("  upper bound     not known: stopped before it was proven".to_owned());
         return lines.join("\n");
     };
-    let gap_percent = 100.0 * proof.gap(plan.profit_usd).unwrap_or(0.0);
-    let (bound_usd, step_s) = (bound.upper_bound_usd(), bound.step_s());
-    lines.push(format!("  upper bound     {bound_usd:>12.2} $  (steps of {step_s} s)"));
-    lines.push(format!("  gap             {gap_percent:>12.2} %"));
+    let gap_percent = 100.0 * gap(bound, plan.profit_usd);
+    let (bound_usd, step_min) = (bound.upper_bound_usd(), bound.step_s() / 60);
+    lines.push(format!(
+        "  upper bound     {bound_usd:>12.2} $    no schedule earns more (steps of {step_min} min)"
+    ));
+    lines.push(format!(
+        "  gap             {gap_percent:>12.2} %    of the bound: the best schedule is at most so far ahead"
+    ));
     lines.extend(worth::lines(scenario, bound));
     lines.join("\n")
 }

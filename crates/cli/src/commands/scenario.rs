@@ -7,10 +7,12 @@ use vertifleet_core::{DaySeed, Network};
 
 use crate::args::ScenarioArguments;
 use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
 use crate::output::print;
 use crate::progress::Progress;
 
 pub(crate) fn run(arguments: &ScenarioArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
     let network = Network::find(&arguments.network)?;
     match (arguments.days, &arguments.output) {
         (None, None) => {
@@ -37,6 +39,5 @@ fn draw_days(network: &Network, seed: u64, days: u32, folder: &Path) -> Result<(
         scenario.write(folder.join(format!("{}.json", scenario.name)))?;
         progress.advance(1);
     }
-    progress.finish();
     Ok(())
 }

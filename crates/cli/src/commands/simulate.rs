@@ -10,10 +10,12 @@ use vertifleet_sim::{Simulation, Summary, Trace};
 use crate::args::SimulateArguments;
 use crate::commands::read_scenario;
 use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
 use crate::output::print;
 use crate::policies::{self, Choice};
 
 pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
     let scenario = Arc::new(read_scenario(&arguments.scenario)?);
     let choice =
         Choice { name: &arguments.policy, seed: arguments.seed, model: arguments.model.as_deref() };

@@ -132,7 +132,6 @@ fn learn(training: &mut Training, files: &Files, stop: &AtomicBool) -> Result<Se
             saved = Instant::now();
         }
     }
-    progress.finish();
     Ok(last)
 }
 

@@ -80,10 +80,6 @@ impl Day {
         self.kind_of[aircraft.at()]
     }
 
-    pub(super) fn kinds(&self) -> impl ExactSizeIterator<Item = TypeIx> + use<> {
-        TypeIx::all(self.seats.len())
-    }
-
     #[inline]
     pub(super) fn seats_of(&self, kind: TypeIx) -> u16 {
         self.seats[kind.at()]

@@ -2,35 +2,39 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::Scenario;
-use vertifleet_sim::{Simulation, View};
+use vertifleet_core::{Matrix, Scenario, VertiportIx};
+use vertifleet_policy::DayPrices;
+use vertifleet_sim::Simulation;
 
 use super::day::Day;
-use super::fleet_state::FleetState;
 use super::stand_prices::StandPrices;
 
 /// A planning problem, ready to be searched.
 pub(super) struct Problem {
     pub(super) day: Day,
-    pub(super) state: FleetState,
+    /// Where each aircraft is when operations start.
+    pub(super) places: Vec<VertiportIx>,
+    /// Passengers by period, then from, then to.
+    pub(super) demand: Vec<u32>,
     pub(super) prices: StandPrices,
-    /// When the first aircraft decides, or the day's end if that is earlier.
+    /// When operations start.
     pub(super) first_s: u32,
 }
 
 impl Problem {
-    /// A whole day.
-    pub(super) fn of_day(scenario: &Arc<Scenario>) -> Self {
-        Self::of(Simulation::new(Arc::clone(scenario)).view())
-    }
-
-    /// The rest of a day.
-    pub(super) fn of(view: View<'_>) -> Self {
+    /// A day that is known.
+    pub(super) fn of(scenario: &Arc<Scenario>) -> Self {
+        let simulation = Simulation::new(Arc::clone(scenario));
+        let view = simulation.view();
         let day = Day::of(view);
-        let state = FleetState::of(view);
-        let ready_s = state.aircraft.iter().map(|aircraft| aircraft.ready_at.seconds());
-        let first_s = ready_s.min().unwrap_or(day.end_s).min(day.end_s);
-        let prices = StandPrices::balancing(&day, &state, first_s);
-        Self { day, state, prices, first_s }
+        let start = scenario.operations.start;
+        let prices = StandPrices::of(&day, &DayPrices::of(view, start), start);
+        Self {
+            day,
+            places: view.places().to_vec(),
+            demand: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
+            prices,
+            first_s: start.seconds(),
+        }
     }
 }

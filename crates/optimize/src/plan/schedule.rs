@@ -38,21 +38,17 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    /// No flights yet. Routes wait to be completed, but for aircraft that are not ready before the plan's end.
+    /// No flights yet. Every route waits to be completed.
     pub(super) fn unplanned(problem: &Problem) -> Self {
-        let Problem { day, state, .. } = problem;
+        let Problem { day, places, demand, first_s, .. } = problem;
         let mut stands = StandTimes::empty(&day.stands);
-        let mut routes = Vec::with_capacity(state.aircraft.len());
-        for (aircraft, entry) in day.fleet().zip(&state.aircraft) {
-            let ready_s = entry.ready_at.seconds();
-            stands.take_at_first(entry.place);
-            let whole = ready_s > day.end_s;
-            if !whole {
-                stands.free(entry.place, Moment::of(ready_s, aircraft));
-            }
-            routes.push(Route { place: entry.place, ready_s, flights: Vec::new(), whole });
+        let mut routes = Vec::with_capacity(places.len());
+        for (aircraft, &place) in day.fleet().zip(places) {
+            stands.take_at_first(place);
+            stands.free(place, Moment::of(*first_s, aircraft));
+            routes.push(Route { place, ready_s: *first_s, flights: Vec::new(), whole: false });
         }
-        let left = state.demand_left.iter().map(|&left| i64::from(left)).collect();
+        let left = demand.iter().map(|&passengers| i64::from(passengers)).collect();
         Self { routes, stands, left, value_usd: 0.0 }
     }
 

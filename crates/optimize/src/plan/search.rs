@@ -5,6 +5,7 @@
 //! neighbourhood; S. Ropke and D. Pisinger, *An adaptive large neighborhood search heuristic for the pickup and delivery
 //! problem with time windows* (2006), for acceptance by annealing.
 
+use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use vertifleet_core::AircraftIx;
@@ -15,6 +16,11 @@ use super::schedule::{Flight, Schedule};
 
 /// Most aircraft whose routes are changed at once.
 const MOST_TAKEN_OUT: usize = 4;
+/// How often the aircraft are such as leave one vertiport at about the same time; else any. Of days of `paper`, 50,000 steps
+/// without such choices earned 0.1 % less.
+const TOGETHER: f64 = 0.5;
+/// What is about the same time, seconds.
+const SAME_TIME_S: u32 = 1_800;
 /// How often routes are taken out from the morning on; else from any moment of the day on.
 const WHOLE_DAYS: f64 = 0.1;
 
@@ -27,6 +33,8 @@ pub(super) struct Search {
     routes: RouteSearch,
     taken_out: TakenOut,
     way_on: Vec<Flight>,
+    /// Aircraft that may be changed together with the one chosen first.
+    others: Vec<AircraftIx>,
 }
 
 /// What has been taken out of the schedule and may have to be put back.
@@ -50,6 +58,7 @@ impl Search {
             routes: RouteSearch::default(),
             taken_out: TakenOut::default(),
             way_on: Vec::new(),
+            others: Vec::new(),
         }
     }
 
@@ -73,24 +82,37 @@ impl Search {
 
     /// Chooses aircraft and a moment; flights that take off before it stay.
     fn choose(&mut self, problem: &Problem) {
-        let TakenOut { aircraft, kept, .. } = &mut self.taken_out;
-        aircraft.clear();
-        kept.clear();
-        let fleet = problem.day.fleet().len();
-        let count = self.random.random_range(1..=MOST_TAKEN_OUT.min(fleet));
         let from_s = if self.random.random_bool(WHOLE_DAYS) {
-            0
+            problem.first_s
         } else {
             self.random.random_range(problem.first_s..=problem.day.end_s)
         };
-        while aircraft.len() < count {
-            let one = AircraftIx::new(self.random.random_range(0..fleet));
-            if !aircraft.contains(&one) {
-                aircraft.push(one);
-                let flights = self.current.flights(one);
-                kept.push(flights.partition_point(|flight| flight.take_off_s < from_s));
-            }
+        let fleet = problem.day.fleet();
+        let one = AircraftIx::new(self.random.random_range(0..fleet.len()));
+        let leaves = self.next_flight(one, from_s);
+        let mut others = std::mem::take(&mut self.others);
+        others.clear();
+        others.extend(fleet.filter(|&other| other != one));
+        if self.random.random_bool(TOGETHER) {
+            others.retain(|&other| leave_together(leaves, self.next_flight(other, from_s)));
         }
+        let count = self.random.random_range(0..MOST_TAKEN_OUT).min(others.len());
+        let (chosen, _) = others.partial_shuffle(&mut self.random, count);
+
+        let TakenOut { aircraft, kept, .. } = &mut self.taken_out;
+        aircraft.clear();
+        kept.clear();
+        aircraft.push(one);
+        aircraft.extend_from_slice(chosen);
+        let flights = aircraft.iter().map(|&one| self.current.flights(one));
+        kept.extend(flights.map(|all| all.partition_point(|flight| flight.take_off_s < from_s)));
+        self.others = others;
+    }
+
+    /// The first flight of an aircraft that does not take off before a time.
+    fn next_flight(&self, aircraft: AircraftIx, from_s: u32) -> Option<Flight> {
+        let flights = self.current.flights(aircraft);
+        flights.get(flights.partition_point(|flight| flight.take_off_s < from_s)).copied()
     }
 
     fn take_out(&mut self, problem: &Problem) {
@@ -139,6 +161,13 @@ impl Search {
     }
 }
 
+/// Whether two flights leave one vertiport at about the same time.
+fn leave_together(one: Option<Flight>, other: Option<Flight>) -> bool {
+    one.zip(other).is_some_and(|(one, other)| {
+        one.from == other.from && one.take_off_s.abs_diff(other.take_off_s) <= SAME_TIME_S
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
@@ -153,8 +182,9 @@ mod tests {
     fn the_account_of_many_changes_is_the_simulators() {
         let network = Network::shipped("paper").expect("a shipped network");
         let day = Arc::new(network.draw(DaySeed::validation(9).expect("a seed")));
-        let problem = Problem::of_day(&day);
-        let mut search = Search::new(start::one_by_one(&problem), 3);
+        let problem = Problem::of(&day);
+        let (trace, _) = start::best_policy(&day);
+        let mut search = Search::new(start::schedule_of(&problem, &trace), 3);
         for step in 0..300 {
             // Hot and cold, so that steps are kept as well as undone.
             search.step(&problem, f64::from(step % 5) * 20.0 + 0.1);

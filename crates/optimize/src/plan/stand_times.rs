@@ -107,6 +107,7 @@ impl StandTimes {
     }
 
     /// Whether the stands suffice at every moment.
+    #[cfg(test)]
     pub(super) fn suffice(&self) -> bool {
         self.changes.iter().enumerate().all(|(vertiport, changes)| {
             let mut taken = self.taken_at_first[vertiport];

@@ -1,29 +1,35 @@
-//! Schedules to start from: days that rules have played, as traces.
+//! Schedules to start from: days that policies have played, as traces.
 
 use std::sync::Arc;
 
 use vertifleet_core::Scenario;
-use vertifleet_policy::{Greedy, Lookahead, Policy, Random, play};
+use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, play};
 use vertifleet_sim::{Simulation, Trace};
 
 use super::problem::Problem;
-use super::route_search::{Bias, RouteSearch};
 use super::schedule::{Flight, Schedule};
+use crate::Rolling;
 
-/// A day played by one rule.
+/// A day played by one policy.
 pub(super) fn played(scenario: &Arc<Scenario>, policy: &mut dyn Policy) -> (Trace, f64) {
     let mut simulation = Simulation::new(Arc::clone(scenario));
     let mut trace = Trace::default();
     play(&mut simulation, policy, |row| trace.rows.push(*row))
-        .expect("rules always answer, and from the mask");
+        .expect("these policies always answer, and from the mask");
     (trace, simulation.ledger().profit_usd())
 }
 
-/// The best day of the rules that need no learning.
-pub(super) fn best_rule(scenario: &Arc<Scenario>) -> (Trace, f64) {
-    let rules: [&mut dyn Policy; 3] = [&mut Lookahead, &mut Greedy, &mut Random::new(0)];
-    let days = rules.map(|rule| played(scenario, rule));
-    days.into_iter().max_by(|one, other| one.1.total_cmp(&other.1)).expect("there are three rules")
+/// The best day of the policies that need no learning.
+pub(super) fn best_policy(scenario: &Arc<Scenario>) -> (Trace, f64) {
+    let policies: [&mut dyn Policy; 5] = [
+        &mut Rolling::default(),
+        &mut Priced::default(),
+        &mut Lookahead,
+        &mut Greedy,
+        &mut Random::new(0),
+    ];
+    let days = policies.map(|policy| played(scenario, policy));
+    days.into_iter().max_by(|one, other| one.1.total_cmp(&other.1)).expect("there are policies")
 }
 
 /// The flights of a whole day's trace.
@@ -36,29 +42,6 @@ pub(super) fn schedule_of(problem: &Problem, trace: &Trace) -> Schedule {
     }
     for (aircraft, flights) in problem.day.fleet().zip(&flights) {
         schedule.complete(problem, aircraft, flights);
-    }
-    schedule
-}
-
-/// A schedule to start from where nothing is known: aircraft after aircraft, earliest first, takes its best way. If they
-/// leave no stand for one of them, all stay where they are, which is always possible.
-pub(super) fn one_by_one(problem: &Problem) -> Schedule {
-    let mut schedule = Schedule::unplanned(problem);
-    let mut order: Vec<_> =
-        problem.day.fleet().filter(|&aircraft| !schedule.is_whole(aircraft)).collect();
-    order.sort_by_key(|aircraft| problem.state.aircraft[aircraft.at()].ready_at);
-    let mut routes = RouteSearch::default();
-    let mut way_on = Vec::new();
-    let bias = Bias { shift_s: 0, rent_share: 1.0 };
-    for &aircraft in &order {
-        if !routes.complete(problem, &schedule, aircraft, bias, &mut way_on) {
-            schedule = Schedule::unplanned(problem);
-            for &aircraft in &order {
-                schedule.complete(problem, aircraft, &[]);
-            }
-            return schedule;
-        }
-        schedule.complete(problem, aircraft, &way_on);
     }
     schedule
 }

@@ -7,7 +7,7 @@ use super::Figure;
 use super::axis::Scale;
 use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened, text_width};
 use super::palette::Paint;
-use crate::numbers::{counted, dollars, grouped, typeset};
+use crate::numbers::{counted, dollars, grouped, minutes, typeset};
 use crate::statistics::BoxSummary;
 use crate::summary::{PolicySummary, Summary};
 
@@ -37,6 +37,8 @@ struct Measure {
     written: fn(f64) -> String,
     /// Values of the axis with this many decimals.
     tick: fn(f64, usize) -> String,
+    /// What no value passes, with its name; drawn as a line.
+    limit: Option<(f64, &'static str)>,
 }
 
 /// Fig. 5: profit per day.
@@ -53,6 +55,7 @@ pub(super) fn daily_profit(summary: &Summary) -> Figure {
             mean: |policy| policy.profit_usd.mean,
             written: dollars,
             tick: |value, _| dollars(value),
+            limit: None,
         },
         "Corresponds to Fig. 5 of the paper.",
     )
@@ -72,6 +75,7 @@ pub(super) fn episode_reward(summary: &Summary) -> Figure {
             mean: |policy| policy.reward.mean,
             written: |value| typeset(&grouped(value, 4)),
             tick: |value, decimals| typeset(&grouped(value, decimals)),
+            limit: None,
         },
         "Corresponds to Fig. 4 of the paper.",
     )
@@ -85,14 +89,18 @@ pub(super) fn bound_share(summary: &Summary) -> Option<Figure> {
         slug: "figure-bound-share",
         title: "Share of the upper bound",
         subtitle: subtitle(summary),
-        axis: "profit a day as a share of what no schedule earns more than, %",
+        axis: "daily profit as a share of the day’s upper bound, %",
         daily: |policy| &policy.daily_bound_share,
         boxed: |policy| policy.bound_share_box.as_ref().expect("every policy has shares"),
         mean: |policy| policy.bound_share.map_or(0.0, |share| share.mean),
         written: |value| typeset(&grouped(100.0 * value, 2)) + " %",
         tick: |value, decimals| typeset(&grouped(100.0 * value, decimals.saturating_sub(2))),
+        limit: Some((1.0, "bound")),
     };
-    let source = format!("Bounds are proven with steps of {} s.", bound.step_s);
+    let source = format!(
+        "No schedule of a day earns more than its upper bound, the line at 100 % (proven with steps of {}).",
+        minutes(bound.step_s)
+    );
     Some(draw(summary, &measure, &source))
 }
 
@@ -112,7 +120,8 @@ fn draw(summary: &Summary, measure: &Measure, source: &str) -> Figure {
     let least = remark.map_or(60.0, |remark| text_width(remark, 12.0));
     let left = names.map(|name| text_width(&name, 13.0)).fold(least, f64::max) + 32.0;
     let values = policies.iter().flat_map(|policy| (measure.daily)(policy).iter().copied());
-    let scale = Scale::around(values, (left, WIDTH - RIGHT), 9);
+    let limit = measure.limit.map(|(limit, _)| limit);
+    let scale = Scale::around(values.chain(limit), (left, WIDTH - RIGHT), 9);
 
     let mut canvas = Canvas::new(WIDTH, bottom + BOTTOM, measure.title, &measure.subtitle);
     let dots = summary.days <= MOST_DOTS;
@@ -120,6 +129,9 @@ fn draw(summary: &Summary, measure: &Measure, source: &str) -> Figure {
     let mean_heading = Lettering::SMALL.anchored(Anchor::End);
     canvas.text((WIDTH - 16.0, TOP - 8.0), mean_heading, "mean");
     draw_axis(&mut canvas, &scale, measure, (left, bottom));
+    if let Some((limit, name)) = measure.limit {
+        draw_limit(&mut canvas, scale.pixel(limit), name, bottom);
+    }
     for (position, policy) in policies.iter().enumerate() {
         let middle = TOP + ROW * (position as f64 + 0.42);
         let name = shortened(&policy.name, LONGEST_NAME);
@@ -159,6 +171,12 @@ fn draw_axis(canvas: &mut Canvas, scale: &Scale, measure: &Measure, (left, botto
     canvas.line((left, bottom), (WIDTH - RIGHT, bottom), Stroke::solid(Paint::Muted, 1.0));
     let middle = f64::midpoint(left, WIDTH - RIGHT);
     canvas.text((middle, bottom + 38.0), Lettering::SMALL.anchored(Anchor::Middle), measure.axis);
+}
+
+fn draw_limit(canvas: &mut Canvas, x: f64, name: &str, bottom: f64) {
+    let stroke = Stroke { paint: Paint::Ink, width: 1.4, dash: Some("6 4") };
+    canvas.line((x, TOP), (x, bottom), stroke);
+    canvas.text((x, TOP - 8.0), Lettering::SMALL.anchored(Anchor::Middle), name);
 }
 
 fn draw_box(canvas: &mut Canvas, scale: &Scale, summary: &BoxSummary, middle: f64, paint: Paint) {

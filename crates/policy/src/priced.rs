@@ -1,0 +1,21 @@
+//! `prices`: the choice that is worth most at the prices of the day, which are found anew every quarter of an hour.
+
+use vertifleet_core::VertiportIx;
+use vertifleet_sim::{Decision, View};
+
+use crate::{DayMemory, DayPrices, Policy, PolicyError};
+
+/// Decides by bid prices ([`DayPrices`]): a flight's profit, what it is worth to be ready where and when it ends, less what
+/// its passengers and its stand cost.
+#[derive(Debug, Clone, Default)]
+pub struct Priced {
+    day: DayMemory<DayPrices>,
+}
+
+impl Policy for Priced {
+    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
+        prices.keep_up(*view, decision.time);
+        Ok(prices.best_choice(*view, decision))
+    }
+}

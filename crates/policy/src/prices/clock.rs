@@ -1,0 +1,50 @@
+//! The day cut into slots, in each of which a price stays the same.
+
+use vertifleet_sim::View;
+
+/// Length of a slot, seconds. Prices of shorter slots took longer and earned no more, those of 5 minutes 0.3 % less.
+pub(super) const SLOT_S: u32 = 180;
+
+/// Where in the table of slots a time is: a boundary between two slots, and how far from it to the next.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) slot: usize,
+    pub(super) share: f64,
+}
+
+/// The slots of a day; the last one contains the end of operations.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Clock {
+    pub(super) start_s: u32,
+    pub(super) end_s: u32,
+    pub(super) slots: usize,
+}
+
+impl Clock {
+    pub(super) fn of(view: View<'_>) -> Self {
+        let (start_s, end_s) = (view.day_start().seconds(), view.day_end().seconds());
+        Self { start_s, end_s, slots: ((end_s - start_s) / SLOT_S + 1) as usize }
+    }
+
+    /// First second of a slot.
+    #[inline]
+    pub(super) fn begin_s(&self, slot: usize) -> u32 {
+        self.start_s + SLOT_S * u32::try_from(slot).expect("a day has few slots")
+    }
+
+    /// The slot that contains a time, or their number past the last one.
+    #[inline]
+    pub(super) fn slot(&self, time_s: u32) -> usize {
+        (((time_s - self.start_s) / SLOT_S) as usize).min(self.slots)
+    }
+
+    #[inline]
+    pub(super) fn place(&self, time_s: u32) -> Place {
+        let since_s = time_s - self.start_s;
+        let slot = (since_s / SLOT_S) as usize;
+        if slot >= self.slots {
+            return Place { slot: self.slots - 1, share: 1.0 };
+        }
+        Place { slot, share: f64::from(since_s % SLOT_S) / f64::from(SLOT_S) }
+    }
+}

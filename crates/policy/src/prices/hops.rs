@@ -1,0 +1,133 @@
+//! The flights that aircraft of each type may make from each vertiport, and what they earn in each demand period.
+
+use std::ops::Range;
+
+use vertifleet_core::{TypeIx, VertiportIx};
+use vertifleet_sim::View;
+
+use super::clock::SLOT_S;
+
+/// A flight from one vertiport to another, in slots of the clock.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hop {
+    pub(super) to: VertiportIx,
+    pub(super) block_s: u32,
+    /// Whole slots from take-off until ready again, and the part of a slot beside them.
+    pub(super) slots: usize,
+    pub(super) share: f64,
+    energy_kwh: f64,
+    seats: u32,
+    /// Place of the pair among all pairs of vertiports.
+    pub(super) pair: usize,
+}
+
+/// All hops of a day, by type, then from.
+#[derive(Debug, Clone)]
+pub(super) struct Hops {
+    vertiports: usize,
+    all: Vec<Hop>,
+    /// Where the hops of each type and vertiport begin, and where the last end.
+    begins: Vec<usize>,
+    /// By period, then hop: what it earns before its passengers are paid for, dollars, and how many they are.
+    profit_usd: Vec<f64>,
+    passengers: Vec<f64>,
+    /// The same at the prices of passengers that were set last.
+    gain_usd: Vec<f64>,
+}
+
+impl Hops {
+    pub(super) fn of(view: View<'_>) -> Self {
+        let vertiports = view.vertiports();
+        let (mut hops, mut begins) = (Vec::new(), vec![0]);
+        for kind in TypeIx::all(view.aircraft_types().len()) {
+            let seats = view.aircraft_type(kind).seats.into();
+            for from in VertiportIx::all(vertiports) {
+                hops.extend(view.within_range(kind, from).iter().map(|to| {
+                    let leg = view.leg(kind, from, to);
+                    let block_s = leg.block_s();
+                    Hop {
+                        to,
+                        block_s,
+                        slots: (block_s / SLOT_S) as usize,
+                        share: f64::from(block_s % SLOT_S) / f64::from(SLOT_S),
+                        energy_kwh: leg.energy_kwh,
+                        seats,
+                        pair: from.at() * vertiports + to.at(),
+                    }
+                }));
+                begins.push(hops.len());
+            }
+        }
+        let cells = view.period_starts().len() * hops.len();
+        Self {
+            vertiports,
+            all: hops,
+            begins,
+            profit_usd: vec![0.0; cells],
+            passengers: vec![0.0; cells],
+            gain_usd: vec![0.0; cells],
+        }
+    }
+
+    /// Reads what every flight from now on would carry and earn. Energy is charged at the price of the period of
+    /// take-off, which is that of the arrival but for flights across its end.
+    pub(super) fn take_up(&mut self, view: View<'_>) {
+        let count = self.all.len();
+        for period in view.period()..view.period_starts().len() {
+            let energy_price_usd = view.energy_prices_usd()[period];
+            for (at, hop) in self.all.iter().enumerate() {
+                let from = VertiportIx::new(hop.pair / self.vertiports);
+                let waiting = view.demand_left(period, from, hop.to);
+                let passengers = f64::from(waiting.min(hop.seats));
+                let margin_usd =
+                    view.fares_usd(period, from)[hop.to.at()] - view.passenger_costs_usd(from)[hop.to.at()];
+                self.passengers[period * count + at] = passengers;
+                self.profit_usd[period * count + at] =
+                    passengers * margin_usd - hop.energy_kwh * energy_price_usd;
+            }
+        }
+    }
+
+    /// Lets flights of the periods from `first` on pay for their passengers; prices by period, then pair.
+    pub(super) fn charge(&mut self, first: usize, price_usd: &[f64]) {
+        let (count, pairs) = (self.all.len(), self.vertiports * self.vertiports);
+        for (period, price_usd) in price_usd.chunks_exact(pairs).enumerate().skip(first) {
+            let row = period * count..(period + 1) * count;
+            let earned = self.profit_usd[row.clone()].iter().zip(&self.passengers[row.clone()]);
+            for ((gain_usd, hop), (profit_usd, passengers)) in
+                self.gain_usd[row].iter_mut().zip(&self.all).zip(earned)
+            {
+                *gain_usd = profit_usd - passengers * price_usd[hop.pair];
+            }
+        }
+    }
+
+    /// Positions of the hops of a type from a vertiport.
+    #[inline]
+    pub(super) fn range(&self, kind: TypeIx, from: VertiportIx) -> Range<usize> {
+        let at = kind.at() * self.vertiports + from.at();
+        self.begins[at]..self.begins[at + 1]
+    }
+
+    #[inline]
+    pub(super) fn hop(&self, at: usize) -> &Hop {
+        &self.all[at]
+    }
+
+    /// The hops at some positions, each with what it gains in a period.
+    #[inline]
+    pub(super) fn gains(
+        &self,
+        period: usize,
+        range: Range<usize>,
+    ) -> impl Iterator<Item = (&Hop, f64)> {
+        let gains = &self.gain_usd[period * self.all.len()..];
+        self.all[range.clone()].iter().zip(gains[range].iter().copied())
+    }
+
+    /// Passengers of a hop in a period.
+    #[inline]
+    pub(super) fn passengers(&self, period: usize, at: usize) -> f64 {
+        self.passengers[period * self.all.len() + at]
+    }
+}

@@ -1,0 +1,133 @@
+//! Good prices, found step by step: the volume algorithm.
+//!
+//! F. Barahona and R. Anbil, *The volume algorithm: producing primal solutions with a subgradient method*, Mathematical
+//! Programming 87, 2000. Where more is asked for than there is, the price rises; elsewhere it falls. Because all aircraft of
+//! a place ask for the same, what is asked for is not taken at face value but as a running mean over the passes.
+
+use super::relaxation::Relaxation;
+
+/// Weight of a pass in the running mean.
+const MEAN_WEIGHT: f64 = 0.1;
+/// How far below the lowest value so far the prices aim, as a share of it.
+const AIM: f64 = 0.05;
+/// Passes without a lower value after which steps get shorter, and by what factor.
+const PATIENCE: u32 = 20;
+const SHORTER: f64 = 0.7;
+
+/// How much to search.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Effort {
+    pub(super) passes: u32,
+    /// Length of the first step; 1 would reach the aim if the excess stayed what it is.
+    pub(super) step: f64,
+}
+
+/// The search's memory: the best prices so far, and the running mean of the excess.
+#[derive(Debug, Clone)]
+pub(super) struct Volume {
+    stand_usd: Vec<f64>,
+    passenger_usd: Vec<f64>,
+    stand_mean: Vec<f64>,
+    passenger_mean: Vec<f64>,
+}
+
+impl Volume {
+    pub(super) fn new(relaxation: &Relaxation) -> Self {
+        Self {
+            stand_usd: relaxation.stand_usd.clone(),
+            passenger_usd: relaxation.passenger_usd.clone(),
+            stand_mean: vec![0.0; relaxation.stand_usd.len()],
+            passenger_mean: vec![0.0; relaxation.passenger_usd.len()],
+        }
+    }
+
+    /// Leaves the relaxation at the best prices that are met on the way from those it has.
+    pub(super) fn search(&mut self, relaxation: &mut Relaxation, effort: Effort) {
+        let mut lowest_usd = f64::INFINITY;
+        let (mut step, mut failures) = (effort.step, 0);
+        for pass in 0..effort.passes {
+            let usd = relaxation.evaluate();
+            if usd < lowest_usd {
+                lowest_usd = usd;
+                failures = 0;
+                self.keep(relaxation);
+            } else {
+                failures += 1;
+                if failures == PATIENCE {
+                    failures = 0;
+                    step *= SHORTER;
+                }
+            }
+            let weight = if pass == 0 { 1.0 } else { MEAN_WEIGHT };
+            let square = self.average(relaxation, weight);
+            if square == 0.0 {
+                break;
+            }
+            let length = step * (usd - (1.0 - AIM) * lowest_usd).max(0.0) / square;
+            self.step(relaxation, length);
+        }
+        let (stand, passenger) = relaxation.begins();
+        relaxation.stand_usd[stand..].copy_from_slice(&self.stand_usd[stand..]);
+        relaxation.passenger_usd[passenger..].copy_from_slice(&self.passenger_usd[passenger..]);
+        relaxation.evaluate();
+    }
+
+    fn keep(&mut self, relaxation: &Relaxation) {
+        let (stand, passenger) = relaxation.begins();
+        self.stand_usd[stand..].copy_from_slice(&relaxation.stand_usd[stand..]);
+        self.passenger_usd[passenger..].copy_from_slice(&relaxation.passenger_usd[passenger..]);
+    }
+
+    /// Moves the mean of the excess towards that of this pass. Returns the sum of its squares, but for what is free and
+    /// left over.
+    fn average(&mut self, relaxation: &Relaxation, weight: f64) -> f64 {
+        let (stand, passenger) = relaxation.begins();
+        let stands = average(
+            &mut self.stand_mean[stand..],
+            &relaxation.stand_excess[stand..],
+            &self.stand_usd[stand..],
+            weight,
+        );
+        let passengers = average(
+            &mut self.passenger_mean[passenger..],
+            &relaxation.passenger_excess[passenger..],
+            &self.passenger_usd[passenger..],
+            weight,
+        );
+        stands + passengers
+    }
+
+    /// Prices a step from the best ones.
+    fn step(&self, relaxation: &mut Relaxation, length: f64) {
+        let (stand, passenger) = relaxation.begins();
+        step(
+            &mut relaxation.stand_usd[stand..],
+            &self.stand_usd[stand..],
+            &self.stand_mean[stand..],
+            length,
+        );
+        step(
+            &mut relaxation.passenger_usd[passenger..],
+            &self.passenger_usd[passenger..],
+            &self.passenger_mean[passenger..],
+            length,
+        );
+    }
+}
+
+fn average(mean: &mut [f64], excess: &[f64], price_usd: &[f64], weight: f64) -> f64 {
+    let mut square = 0.0;
+    for ((mean, excess), &price_usd) in mean.iter_mut().zip(excess).zip(price_usd) {
+        *mean += weight * (excess - *mean);
+        if *mean > 0.0 || price_usd > 0.0 {
+            square += *mean * *mean;
+        }
+    }
+    square
+}
+
+fn step(price_usd: &mut [f64], from_usd: &[f64], mean: &[f64], length: f64) {
+    for ((price_usd, &from_usd), &mean) in price_usd.iter_mut().zip(from_usd).zip(mean) {
+        *price_usd = (from_usd + length * mean).max(0.0);
+    }
+}

@@ -1,0 +1,124 @@
+//! What prices of the day promise, and the rule that decides by them.
+
+use std::sync::Arc;
+
+use vertifleet_core::{AircraftIx, DaySeed, Network, Scenario, TypeIx, VertiportIx};
+use vertifleet_policy::{DayPrices, Greedy, Policy, Priced, play};
+use vertifleet_sim::{Simulation, Trace, check::check};
+
+fn day(seed: u64) -> Arc<Scenario> {
+    let network = Network::shipped("paper").expect("a shipped network");
+    Arc::new(network.draw(DaySeed::validation(seed).expect("a seed")))
+}
+
+/// The day with other numbers of aircraft and stands.
+fn changed(seed: u64, aircraft: usize, stands: u16) -> Arc<Scenario> {
+    let mut day = Scenario::clone(&day(seed)).into_day();
+    day.aircraft.truncate(aircraft);
+    day.vertiports.iter_mut().for_each(|vertiport| vertiport.stands = stands);
+    Arc::new(day.check("a changed day").expect("a day"))
+}
+
+fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> (Trace, f64) {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    let mut trace = Trace::default();
+    play(&mut simulation, policy, |row| trace.rows.push(*row)).expect("the policy plays the day");
+    (trace, simulation.ledger().profit_usd())
+}
+
+fn prices_of(day: &Arc<Scenario>) -> DayPrices {
+    DayPrices::of(Simulation::new(Arc::clone(day)).view(), day.operations.start)
+}
+
+/// What all stands of a day cost together.
+fn all_rents_usd(day: &Scenario, prices: &DayPrices) -> f64 {
+    let (start, end) = (day.operations.start, day.operations.end);
+    let vertiports = VertiportIx::all(day.vertiports.len());
+    vertiports.map(|vertiport| prices.rent_usd(vertiport, start, end)).sum()
+}
+
+#[test]
+fn what_nobody_lacks_is_free() {
+    let roomy = changed(1, 8, 40);
+    let prices = prices_of(&roomy);
+    assert_eq!(all_rents_usd(&roomy, &prices), 0.0, "40 stands suffice for 8 aircraft");
+    let crowded = day(1);
+    let prices = prices_of(&crowded);
+    assert!(all_rents_usd(&crowded, &prices) > 100.0, "48 stands are few for 40 aircraft");
+}
+
+#[test]
+fn prices_are_never_negative_and_worth_falls_to_nothing_at_the_end() {
+    let day = day(2);
+    let prices = prices_of(&day);
+    let (start, end) = (day.operations.start, day.operations.end);
+    for vertiport in VertiportIx::all(day.vertiports.len()) {
+        for minute in 0..720 {
+            let from = start + 60 * minute;
+            assert!(prices.rent_usd(vertiport, from, from + 60) >= 0.0);
+        }
+        let worth = |time| prices.worth_usd(TypeIx(0), vertiport, time);
+        assert!(worth(start) > 500.0, "an aircraft earns some hundred dollars a day");
+        assert!(worth(end) > 0.0, "a last flight is allowed");
+        assert_eq!(worth(end + 1), 0.0);
+        for to in VertiportIx::all(day.vertiports.len()) {
+            for period in 0..day.periods.len() {
+                assert!(prices.passenger_usd(period, vertiport, to) >= 0.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn alone_and_with_room_an_aircraft_earns_what_its_prices_say() {
+    for seed in 0..5 {
+        let alone = changed(seed, 1, 1);
+        let start = alone.operations.start;
+        let said_usd =
+            prices_of(&alone).worth_usd(TypeIx(0), alone.aircraft[AircraftIx(0).at()].at, start);
+        let (_, profit_usd) = played(&alone, &mut Priced::default());
+        // Worth is linear within a slot of three minutes, and no waiting is worth anything here.
+        let off = (profit_usd - said_usd).abs() / said_usd;
+        assert!(off < 0.01, "day {seed}: {profit_usd} earned, {said_usd} said");
+    }
+}
+
+#[test]
+fn the_rule_keeps_every_rule_of_the_world_and_earns_more_than_greedy() {
+    for seed in 3..6 {
+        let day = day(seed);
+        let (trace, profit_usd) = played(&day, &mut Priced::default());
+        let report = check(&day, &trace);
+        assert!(report.is_valid(), "{report}");
+        let (_, greedy_usd) = played(&day, &mut Greedy);
+        assert!(profit_usd > 1.02 * greedy_usd, "day {seed}: {profit_usd}, greedy {greedy_usd}");
+    }
+}
+
+#[test]
+fn a_day_has_one_outcome_whatever_was_played_before() {
+    let (one, other) = (day(7), day(8));
+    let mut policy = Priced::default();
+    let first = played(&one, &mut policy);
+    played(&other, &mut policy);
+    assert_eq!(played(&one, &mut policy), first);
+    assert_eq!(played(&one, &mut policy), first, "the same day once more begins anew");
+}
+
+#[test]
+fn days_played_by_turns_are_not_mixed_up() {
+    // Of the same seed, so that nothing but the days themselves tells them apart.
+    let days = [changed(9, 40, 6), changed(9, 40, 7)];
+    let mut simulations = days.clone().map(Simulation::new);
+    let mut policy = Priced::default();
+    for _ in 0..30 {
+        for simulation in &mut simulations {
+            let decision = simulation.next_decision().expect("the day is young");
+            let turn = policy.choose(&decision, &simulation.view());
+            // What this policy remembers of the other day does not matter.
+            let fresh = Priced::default().choose(&decision, &simulation.view());
+            assert_eq!(turn, fresh);
+            simulation.apply(turn.expect("an answer")).expect("a choice from the mask");
+        }
+    }
+}
