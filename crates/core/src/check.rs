@@ -267,12 +267,12 @@ impl Check<'_> {
     fn money(&self) -> Result<(), Error> {
         let day = self.day;
         let fares = day.fare_usd.tables();
-        if fares.len() != 1 {
-            self.per_period("fare", fares.len())?;
+        let tables = fares.clone().count();
+        if tables != 1 {
+            self.per_period("fare", tables)?;
         }
-        for (period, table) in fares.iter().enumerate() {
-            let member =
-                if fares.len() == 1 { "fare".to_owned() } else { format!("fare[{period}]") };
+        for (period, table) in fares.enumerate() {
+            let member = if tables == 1 { "fare".to_owned() } else { format!("fare[{period}]") };
             self.square(table, || member.clone())?;
             self.cells(table, &limits::MONEY_USD, &member)?;
         }

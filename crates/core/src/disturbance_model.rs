@@ -10,7 +10,8 @@ use crate::limits::{self, Limits};
 use crate::raw::{Positions, each};
 use crate::raw_disturbances::RawRoute;
 use crate::{
-    AircraftIx, Closure, Error, Matrix, Operations, Outage, Route, TakeoffDelays, Time, VertiportIx,
+    AircraftIx, Closure, Error, Matrix, Operations, Outage, Route, TakeoffDelays, Time,
+    VertiportIx, check,
 };
 
 /// What may disturb a network's days; nothing by default.
@@ -254,6 +255,11 @@ impl RawDisturbanceModel {
         vertiports: usize,
         origin: &str,
     ) -> Result<DisturbanceModel, Error> {
+        let routes: usize = self.closures.iter().map(|closure| closure.routes.len()).sum();
+        if routes > 0 {
+            let member = "disturbances: closures, counted by routes,";
+            check::entry_count(origin, member, routes, limits::entries::CLOSURES)?;
+        }
         let delays = self.takeoff_delays.map(|raw| raw.check(places, vertiports, origin));
         Ok(DisturbanceModel {
             forecast_error: self.forecast_error.map(|raw| raw.check(origin)).transpose()?,

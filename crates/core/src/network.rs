@@ -10,7 +10,12 @@ use crate::{
 };
 
 /// The networks inside the program, by name.
-const SHIPPED: &[(&str, &str)] = &[("paper", include_str!("../../../networks/paper.toml"))];
+const SHIPPED: &[(&str, &str)] = &[
+    ("paper", include_str!("../../../networks/paper.toml")),
+    ("disrupted", include_str!("../../../networks/disrupted.toml")),
+    ("new-york", include_str!("../../../networks/new-york.toml")),
+    ("as-coded", include_str!("../../../networks/as-coded.toml")),
+];
 
 /// A checked network: every day drawn from it is a valid [`Scenario`].
 #[derive(Debug, Clone)]

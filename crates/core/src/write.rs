@@ -47,10 +47,11 @@ impl Scenario {
 
     fn fares_json(&self) -> String {
         let fares = |fares: &Matrix<f64>, indent| table(fares, indent, |&cell| number(cell));
-        match self.fare_usd.tables() {
-            [all_day] => fares(all_day, 2),
-            by_period => lines(by_period.iter().map(|table| fares(table, 4)), 2),
+        let tables = self.fare_usd.tables();
+        if tables.clone().count() == 1 {
+            return fares(self.fare_usd.in_period(0), 2);
         }
+        lines(tables.map(|table| fares(table, 4)), 2)
     }
 
     fn operations_json(&self) -> String {

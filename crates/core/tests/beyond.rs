@@ -210,3 +210,46 @@ fn fares_and_energy_prices_follow_the_periods_of_the_network() {
     assert!((fare(2) - 1.5 * fare(1)).abs() < 1e-12);
     assert!((day.energy_price_usd[2] - 0.3).abs() < 1e-12);
 }
+
+fn shipped(name: &str) -> Network {
+    Network::shipped(name).expect("a shipped network")
+}
+
+#[test]
+fn every_shipped_network_draws_days_that_obey_every_rule() {
+    for name in Network::shipped_names() {
+        for number in 0..20 {
+            let day = shipped(name).draw(seed(number));
+            assert_eq!(day.warnings(), [], "{name}");
+            let again = day.clone().into_day().check(name).expect("a drawn day is a good day");
+            assert_eq!(again, day);
+        }
+    }
+}
+
+#[test]
+fn disrupted_is_paper_with_disturbances() {
+    let (paper, disrupted) = (shipped("paper").draw(seed(5)), shipped("disrupted").draw(seed(5)));
+    let (paper, mut disrupted) = (paper.into_day(), disrupted.into_day());
+    let disturbances = std::mem::take(&mut disrupted.disturbances);
+    disrupted.demand = disturbances.forecast.expect("a forecast");
+    disrupted.name.clone_from(&paper.name);
+    disrupted.fare_usd.clone_from(&paper.fare_usd);
+    disrupted.energy_price_usd.clone_from(&paper.energy_price_usd);
+    assert_eq!(disrupted, paper);
+}
+
+/// As `networks/new-york.toml` says.
+#[test]
+fn the_pairs_of_new_york_are_2_to_40_miles_apart_and_18_on_the_mean() {
+    let day = shipped("new-york").draw(seed(1));
+    let between: Vec<f64> =
+        day.distance_mi.cells().iter().copied().filter(|&miles| miles > 0.0).collect();
+    assert_eq!(between.len(), 72);
+    let shortest = between.iter().copied().fold(f64::INFINITY, f64::min);
+    let longest = between.iter().copied().fold(0.0, f64::max);
+    let mean = between.iter().sum::<f64>() / 72.0;
+    for (found, due) in [(shortest, 2.0), (longest, 39.6), (mean, 18.0)] {
+        assert!((found - due).abs() < 0.06, "{found} and not {due}");
+    }
+}

@@ -49,7 +49,6 @@ impl Closures {
     }
 
     /// Carries out what happens up to and at `time`.
-    #[inline]
     pub(crate) fn advance(&mut self, time: Time) {
         while let Some(change) = self.changes.get(self.next).filter(|change| change.time <= time) {
             let Change { closes, from, to, .. } = *change;
@@ -73,8 +72,14 @@ impl Closures {
         self.next = 0;
     }
 
-    /// Where flights from a vertiport may not go now.
+    /// Whether the day has no closures at all.
     #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.closed.is_empty()
+    }
+
+    /// Where flights from a vertiport may not go now.
+    #[cold]
     pub(crate) fn from(&self, from: VertiportIx) -> VertiportSet {
         self.closed.get(from.at()).copied().unwrap_or(VertiportSet::EMPTY)
     }

@@ -50,8 +50,11 @@ impl Outages {
     }
 
     /// Enters a hold that is over at `ready`: it ends no outage and meets none.
+    #[cold]
     pub(crate) fn hold(&mut self, aircraft: AircraftIx, ready: Time) {
-        self.landings[aircraft.at()] = (NONE, ready);
+        if let Some(landing) = self.landings.get_mut(aircraft.at()) {
+            *landing = (NONE, ready);
+        }
     }
 
     /// When an aircraft will be ready, reckoned with the outages that have begun by `now`.

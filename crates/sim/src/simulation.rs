@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 
 use crate::closures::Closures;
 use crate::demand::Demand;
@@ -40,8 +40,10 @@ pub struct Simulation {
     outages: Outages,
     /// Whether anything may yet happen that nobody expects; never on an imagined day.
     surprises: bool,
-    /// Time of the latest decision asked for, the start of operations before the first.
+    /// Time of the latest decision asked for, the start of operations before the first; not kept without surprises.
     now: Time,
+    /// The latest demand period whose actual demand is known; not kept without surprises.
+    known_period: usize,
     /// Demand period of the latest decision asked for; time never runs back.
     period: usize,
     potential_usd: f64,
@@ -61,6 +63,7 @@ impl Simulation {
             outages: Outages::of(&scenario),
             surprises: !scenario.disturbances.is_none(),
             now: scenario.operations.start,
+            known_period: 0,
             period: 0,
             potential_usd: scenario.potential_usd(),
             scenario,
@@ -76,13 +79,9 @@ impl Simulation {
         }
         while self.scenario.periods.get(self.period + 1).is_some_and(|&start| start <= time) {
             self.period += 1;
-            if self.surprises && self.scenario.disturbances.forecast.is_some() {
-                self.demand.begin(self.period, &self.scenario.demand[self.period]);
-            }
         }
-        self.now = time;
         if self.surprises {
-            self.closures.advance(time);
+            self.discover(time);
         }
         Some(Decision {
             time,
@@ -90,6 +89,17 @@ impl Simulation {
             at: self.place[aircraft.at()],
             index: self.ledger.decisions(),
         })
+    }
+
+    /// What comes to be known up to and at `time`: the demand of periods that have begun, routes that close or open.
+    #[cold]
+    fn discover(&mut self, time: Time) {
+        self.now = time;
+        while self.known_period < self.period {
+            self.known_period += 1;
+            self.demand.begin(self.known_period, &self.scenario.demand[self.known_period]);
+        }
+        self.closures.advance(time);
     }
 
     /// Sends the aircraft that decides now to `choice`; its own vertiport means hold. Returns what that came to.
@@ -104,8 +114,8 @@ impl Simulation {
         }
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
         if self.legs.within_range(kind, decision.at).contains(choice)
-            && !self.closures.from(decision.at).contains(choice)
             && self.stands.open().contains(choice)
+            && (self.closures.is_empty() || !self.closures.from(decision.at).contains(choice))
         {
             return Ok(self.fly(&decision, choice));
         }
@@ -137,7 +147,7 @@ impl Simulation {
         let ready = decision.time + self.scenario.operations.hold_s;
         self.queue.set(decision.aircraft, ready);
         self.stands.hold(decision.aircraft, decision.at);
-        if !self.outages.is_empty() {
+        if self.surprises {
             self.outages.hold(decision.aircraft, ready);
         }
         self.ledger.holds += 1;
@@ -192,6 +202,7 @@ impl Simulation {
     }
 
     /// When a flight arrives and its aircraft is ready, if it should be at these times.
+    #[cold]
     fn disturbed(&mut self, decision: &Decision, arrival: Time, ready: Time) -> (Time, Time) {
         let Decision { time, aircraft, at: from, .. } = *decision;
         let start = self.scenario.operations.start;
@@ -217,7 +228,9 @@ impl Simulation {
     pub(crate) fn feasible(&self, decision: &Decision) -> VertiportSet {
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
         let mut mask = self.legs.within_range(kind, decision.at).and(self.stands.open());
-        mask = mask.without(&self.closures.from(decision.at));
+        if !self.closures.is_empty() {
+            mask = mask.without(&self.closures.from(decision.at));
+        }
         mask.insert(decision.at);
         mask
     }

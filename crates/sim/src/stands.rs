@@ -98,19 +98,32 @@ impl Stands {
         if self.taken[to.at()] == self.limit[to.at()] {
             self.open.remove(to);
         }
-        if let Some(parking) = &mut self.parking
-            && std::mem::take(&mut parking.waits[aircraft.at()])
-        {
-            parking.taken[from.at()] -= 1;
+        if self.parking.is_some() && self.leave_stand(aircraft, from) {
             return;
         }
         self.taken[from.at()] -= 1;
         self.open.insert(from);
     }
 
+    /// Frees the stand of an aircraft that waits on one beside chargers; `false` if it does not.
+    #[cold]
+    fn leave_stand(&mut self, aircraft: AircraftIx, from: VertiportIx) -> bool {
+        let Some(parking) = &mut self.parking else { return false };
+        let waits = std::mem::take(&mut parking.waits[aircraft.at()]);
+        parking.taken[from.at()] -= u16::from(waits);
+        waits
+    }
+
     /// An aircraft holds: from a charger it moves to a stand, if one is free.
     #[inline]
     pub(crate) fn hold(&mut self, aircraft: AircraftIx, at: VertiportIx) {
+        if self.parking.is_some() {
+            self.park(aircraft, at);
+        }
+    }
+
+    #[cold]
+    fn park(&mut self, aircraft: AircraftIx, at: VertiportIx) {
         let Some(parking) = &mut self.parking else { return };
         if parking.waits[aircraft.at()] || parking.taken[at.at()] == parking.limit[at.at()] {
             return;
