@@ -4,7 +4,7 @@ mod common;
 
 use std::sync::Arc;
 
-use proptest::prelude::{ProptestConfig, any, prop, prop_assert_eq, proptest};
+use proptest::prelude::{ProptestConfig, any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_core::{AircraftIx, Closure, Outage, Route, Scenario, Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, Simulation, View};
 
@@ -136,7 +136,7 @@ fn course(day: &Arc<Scenario>, draws: &[u32], count: usize) -> (Vec<Vec<String>>
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(500))]
 
     #[test]
     fn a_view_does_not_change_when_the_future_does(
@@ -147,8 +147,9 @@ proptest! {
         known.disturbances.forecast.get_or_insert_with(|| day.demand.clone());
         let known = Arc::new(known.check("known").expect("a day within the rules"));
         let (shown, now) = course(&known, &draws, count);
-        let (again, _) = course(&with_another_future(&known, now, change), &draws, count);
-        prop_assert_eq!(shown, again);
+        // No further: whether there is another decision is the future's affair.
+        let (again, _) = course(&with_another_future(&known, now, change), &draws, shown.len());
+        prop_assert!(shown == again);
     }
 
     #[test]
