@@ -6,7 +6,7 @@ mod exhaustive;
 use std::fs;
 use std::sync::Arc;
 
-use common::{Size, any_day};
+use common::{Size, any_day, any_extended_day};
 use exhaustive::best_of_all;
 use rayon::prelude::*;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario, Time, TypeIx, VertiportIx};
@@ -48,6 +48,20 @@ fn no_sequence_of_decisions_of_a_tiny_day_earns_more_than_its_bound() {
 }
 
 #[test]
+fn no_sequence_of_decisions_of_a_tiny_disturbed_day_earns_more_than_its_bound() {
+    let compared = (0..200_u32).into_par_iter().filter(|&number| {
+        let day = any_extended_day(number.into(), Size { vertiports: 3, fleet: 3, hours: 2 });
+        let Some(best) = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000) else {
+            return false;
+        };
+        let bound = bound_usd(&day, [1, 5, 13, 60][number as usize % 4]);
+        assert!(bound >= best, "day {number}: bound {bound}, possible {best}");
+        true
+    });
+    assert!(compared.count() >= 40, "enough days have few sequences");
+}
+
+#[test]
 fn where_nothing_is_scarce_the_bound_is_the_optimum() {
     let mut compared = 0;
     for number in 0..100 {
@@ -73,6 +87,19 @@ fn where_nothing_is_scarce_the_bound_is_the_optimum() {
 fn no_rule_earns_more_than_the_bound_on_200_networks() {
     (1_000..1_200_u32).into_par_iter().for_each(|number| {
         let day = any_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 5 });
+        let bound = bound_usd(&day, [5, 7, 15, 30, 60][number as usize % 5]);
+        let rules: [&mut dyn Policy; 3] = [&mut Random::new(1), &mut Greedy, &mut Lookahead];
+        for rule in rules {
+            let earned = earned_usd(&day, rule);
+            assert!(bound >= earned, "day {number}: bound {bound}, earned {earned}");
+        }
+    });
+}
+
+#[test]
+fn no_rule_earns_more_than_the_bound_on_200_disturbed_networks() {
+    (2_000..2_200_u32).into_par_iter().for_each(|number| {
+        let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 5 });
         let bound = bound_usd(&day, [5, 7, 15, 30, 60][number as usize % 5]);
         let rules: [&mut dyn Policy; 3] = [&mut Random::new(1), &mut Greedy, &mut Lookahead];
         for rule in rules {

@@ -3,6 +3,8 @@
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
+use super::foresight::Foresight;
+
 /// One way to go on from a vertiport for aircraft of one type.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hop {
@@ -12,6 +14,15 @@ pub(super) struct Hop {
     /// Seconds from take-off until ready again.
     pub(super) block_s: u32,
     pub(super) energy_kwh: f64,
+}
+
+/// How a flight ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Landing {
+    /// Second of the landing.
+    pub(super) arrival_s: u32,
+    /// Second at which the aircraft decides again.
+    pub(super) ready_s: u32,
 }
 
 /// The numbers of a day, by aircraft type and vertiport.
@@ -24,7 +35,7 @@ pub(super) struct Day {
     /// First second of each demand period.
     pub(super) period_starts_s: Vec<u32>,
     pub(super) energy_price_usd: Vec<f64>,
-    /// U_max of each vertiport; chargers and stands together where they are separate.
+    /// U_max of each vertiport.
     pub(super) stands: Vec<u16>,
     /// The type of each aircraft.
     kind_of: Vec<TypeIx>,
@@ -33,11 +44,12 @@ pub(super) struct Day {
     hops: Vec<Vec<Hop>>,
     /// Fare less passenger cost by period, from, to; dollars a passenger.
     margins_usd: Vec<f64>,
+    foresight: Option<Foresight>,
 }
 
 impl Day {
-    /// The numbers that a view shows.
-    pub(super) fn of(view: View<'_>) -> Self {
+    /// The numbers that a view shows, with what is known beyond them.
+    pub(super) fn of(view: View<'_>, foresight: Option<Foresight>) -> Self {
         let vertiports = view.vertiports();
         let types = view.aircraft_types();
         let mut hops = Vec::with_capacity(types.len() * vertiports);
@@ -55,7 +67,6 @@ impl Day {
                 hops.push(view.within_range(kind, from).iter().map(hop).collect());
             }
         }
-        let places = |vertiport| view.stands(vertiport) + view.parked(vertiport).1;
         let fleet = AircraftIx::all(view.places().len());
         Self {
             vertiports,
@@ -63,11 +74,12 @@ impl Day {
             hold_s: view.hold_s(),
             period_starts_s: view.period_starts().iter().map(|start| start.seconds()).collect(),
             energy_price_usd: view.energy_prices_usd().to_vec(),
-            stands: VertiportIx::all(vertiports).map(places).collect(),
+            stands: VertiportIx::all(vertiports).map(|vertiport| view.stands(vertiport)).collect(),
             kind_of: fleet.map(|aircraft| view.kind(aircraft)).collect(),
             seats: types.iter().map(|kind| kind.seats).collect(),
             hops,
             margins_usd: margins_usd(view),
+            foresight,
         }
     }
 
@@ -101,6 +113,30 @@ impl Day {
         let hops = self.hops(kind, from);
         let at = hops.binary_search_by_key(&to, |hop| hop.to);
         &hops[at.expect("only pairs within range are flown")]
+    }
+
+    /// How a flight ends that an aircraft begins at a vertiport at a second.
+    #[inline]
+    pub(super) fn landing(
+        &self,
+        aircraft: AircraftIx,
+        from: VertiportIx,
+        hop: &Hop,
+        take_off_s: u32,
+    ) -> Landing {
+        match &self.foresight {
+            None => {
+                Landing { arrival_s: take_off_s + hop.flight_s, ready_s: take_off_s + hop.block_s }
+            }
+            Some(foresight) => foresight.landing(aircraft, from, hop, take_off_s),
+        }
+    }
+
+    /// Whether it is known that a route is closed at a second.
+    #[inline]
+    pub(super) fn is_closed(&self, from: VertiportIx, to: VertiportIx, time_s: u32) -> bool {
+        let foresight = self.foresight.as_ref();
+        foresight.is_some_and(|foresight| foresight.is_closed(from, to, time_s))
     }
 
     /// The demand period that contains a second, which is not before that of `earliest`.
