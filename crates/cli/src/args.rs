@@ -36,7 +36,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct ScenarioArguments {
-    /// Network file, or the name of a shipped network (paper)
+    /// Network file, or the name of a shipped network (paper, disrupted, new-york, as-coded)
     pub(crate) network: String,
     /// Seed of the first day; the following days take the following seeds
     #[arg(long)]
@@ -135,7 +135,7 @@ impl Trainable {
 
 #[derive(Debug, Args)]
 pub(crate) struct TrainArguments {
-    /// Network file, or the name of a shipped network (paper)
+    /// Network file, or the name of a shipped network (paper, disrupted, new-york, as-coded)
     #[arg(long)]
     pub(crate) network: String,
     /// Kind of policy
@@ -163,7 +163,7 @@ pub(crate) struct TrainArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArguments {
-    /// Network file, or the name of a shipped network (paper)
+    /// Network file, or the name of a shipped network (paper, disrupted, new-york, as-coded)
     #[arg(long)]
     pub(crate) network: String,
     /// Policies, separated by commas: random, greedy, lookahead, prices, rolling, gcaps, mlp, names given by --model, and plan,

@@ -7,6 +7,8 @@ use std::collections::HashSet;
 use crate::limits::{self, Limits, entries};
 use crate::{Day, Error, Matrix, Scenario, Time};
 
+mod beyond;
+
 impl Day {
     /// Checks every rule; `origin` names the file (or whatever else the day comes from) in messages.
     ///
@@ -82,7 +84,9 @@ impl Check<'_> {
         self.aircraft()?;
         self.distances()?;
         self.money()?;
-        self.demand()
+        self.demand()?;
+        self.corridors()?;
+        self.disturbances()
     }
 
     fn seed(&self) -> Result<(), Error> {
@@ -101,13 +105,7 @@ impl Check<'_> {
         let number = |value: u32, limits: &Limits, member: &str| {
             limits.check(f64::from(value), self.origin, || format!("operations: {member}"))
         };
-        if operations.start > operations.end {
-            return Err(Error::StartAfterEnd {
-                origin: self.origin.to_owned(),
-                start: operations.start.to_string(),
-                end: operations.end.to_string(),
-            });
-        }
+        self.in_order(operations.start, operations.end, || "operations".to_owned())?;
         self.not_too_late(operations.end, || "operations: end".to_owned())?;
         number(operations.takeoff_s, &limits::PHASE_S, "takeoff_s")?;
         number(operations.landing_s, &limits::PHASE_S, "landing_s")?;
@@ -136,6 +134,23 @@ impl Check<'_> {
             return Err(order(at + 1, format!("after the period before it, {}", periods[at])));
         }
         self.not_too_late(periods[periods.len() - 1], || format!("periods[{}]", periods.len() - 1))
+    }
+
+    fn in_order(
+        &self,
+        start: Time,
+        end: Time,
+        member: impl FnOnce() -> String,
+    ) -> Result<(), Error> {
+        if start <= end {
+            return Ok(());
+        }
+        Err(Error::StartAfterEnd {
+            origin: self.origin.to_owned(),
+            member: member(),
+            start: start.to_string(),
+            end: end.to_string(),
+        })
     }
 
     fn not_too_late(&self, time: Time, member: impl FnOnce() -> String) -> Result<(), Error> {
@@ -168,6 +183,9 @@ impl Check<'_> {
             number(vertiport.x_mi, &limits::POSITION_MI, "x_mi")?;
             number(vertiport.y_mi, &limits::POSITION_MI, "y_mi")?;
             number(vertiport.stands.into(), &limits::STANDS, "stands")?;
+            if let Some(chargers) = vertiport.chargers {
+                number(chargers.into(), &limits::CHARGERS, "chargers")?;
+            }
         }
         Ok(())
     }
@@ -248,12 +266,18 @@ impl Check<'_> {
 
     fn money(&self) -> Result<(), Error> {
         let day = self.day;
-        for (table, member) in
-            [(&day.fare_usd, "fare"), (&day.passenger_cost_usd, "passenger_cost")]
-        {
-            self.square(table, || member.to_owned())?;
-            self.cells(table, &limits::MONEY_USD, member)?;
+        let fares = day.fare_usd.tables();
+        let tables = fares.clone().count();
+        if tables != 1 {
+            self.per_period("fare", tables)?;
         }
+        for (period, table) in fares.enumerate() {
+            let member = if tables == 1 { "fare".to_owned() } else { format!("fare[{period}]") };
+            self.square(table, || member.clone())?;
+            self.cells(table, &limits::MONEY_USD, &member)?;
+        }
+        self.square(&day.passenger_cost_usd, || "passenger_cost".to_owned())?;
+        self.cells(&day.passenger_cost_usd, &limits::MONEY_USD, "passenger_cost")?;
         self.per_period("energy_price", day.energy_price_usd.len())?;
         for (at, &price) in day.energy_price_usd.iter().enumerate() {
             limits::ENERGY_PRICE_USD.check(price, self.origin, || format!("energy_price[{at}]"))?;
@@ -262,13 +286,18 @@ impl Check<'_> {
     }
 
     fn demand(&self) -> Result<(), Error> {
-        self.per_period("demand", self.day.demand.len())?;
+        self.passengers(&self.day.demand, "demand")
+    }
+
+    /// A table of passengers for each period, with nobody on the diagonal.
+    fn passengers(&self, tables: &[Matrix<u32>], member: &str) -> Result<(), Error> {
+        self.per_period(member, tables.len())?;
         demand_cells(self.origin, self.day.vertiports.len(), self.day.periods.len())?;
-        for (period, table) in self.day.demand.iter().enumerate() {
-            self.square(table, || format!("demand[{period}]"))?;
+        for (period, table) in tables.iter().enumerate() {
+            self.square(table, || format!("{member}[{period}]"))?;
             for (from, row) in table.rows().enumerate() {
                 for (to, &passengers) in row.iter().enumerate() {
-                    let member = || format!("demand[{period}][{from}][{to}]");
+                    let member = || format!("{member}[{period}][{from}][{to}]");
                     limits::PASSENGERS.check(passengers.into(), self.origin, member)?;
                     if from == to && passengers != 0 {
                         return Err(Error::SelfDemand {

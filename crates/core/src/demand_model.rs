@@ -1,9 +1,21 @@
-//! Eq. 1 (§III.C): how many passengers want to fly from i to j in a period, as a normal distribution.
+//! How many passengers want to fly from i to j in a period: the models that a network file may choose from.
+//!
+//! Eq. 1 (`demand_model/equation_1.rs`), a day's total spread over the hours (`demand_model/daily.rs`), and draws that are
+//! uniform (`demand_model/uniform.rs`).
 
-use serde::Deserialize;
+mod daily;
+mod equation_1;
+mod uniform;
 
-use crate::limits;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::limits::entries;
 use crate::{Error, Matrix, Time, VertiportIx, check};
+
+pub(crate) use daily::RawDailyDemand;
+pub(crate) use equation_1::RawEquation1;
+pub(crate) use uniform::RawUniformDemand;
 
 /// N(mean, sd) passengers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,110 +24,87 @@ pub(crate) struct Level {
     pub(crate) sd: f64,
 }
 
-/// Eq. 1 with its numbers.
+/// Where the passengers of a network's days come from.
 #[derive(Debug, Clone)]
 pub(crate) struct DemandModel {
     /// Start of each period.
     pub(crate) periods: Vec<Time>,
-    /// T_peak1: towards and among busy vertiports.
-    morning_peak: usize,
-    /// T_peak2: from and among busy vertiports.
-    evening_peak: usize,
-    peak: Level,
-    busy_pairs: Level,
-    otherwise: Level,
-    /// V_B, by vertiport.
-    busy: Vec<bool>,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone)]
+enum Kind {
+    Equation1(equation_1::Equation1),
+    Daily(daily::DailyDemand),
+    Uniform(uniform::UniformDemand),
 }
 
 impl DemandModel {
-    /// The row of Eq. 1 that holds, the first that does; `None` from a vertiport to itself.
-    pub(crate) fn level(&self, period: usize, from: VertiportIx, to: VertiportIx) -> Option<Level> {
+    /// The mean of a pair in a period, passengers; 0 from a vertiport to itself.
+    pub(crate) fn mean(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
         if from == to {
-            return None;
+            return 0.0;
         }
-        let morning = period == self.morning_peak;
-        let evening = period == self.evening_peak;
-        Some(match (self.busy[from.at()], self.busy[to.at()]) {
-            (true, true) if morning || evening => self.peak,
-            (false, true) if morning => self.peak,
-            (true, false) if evening => self.peak,
-            (true, true) => self.busy_pairs,
-            _ => self.otherwise,
-        })
+        match &self.kind {
+            Kind::Equation1(model) => model.level(period, from, to).mean,
+            Kind::Daily(model) => model.level(period, from, to).mean,
+            Kind::Uniform(model) => model.mean(),
+        }
     }
 
-    /// The means of Eq. 1 in one period, passengers; 0 on the diagonal.
-    pub(crate) fn means(&self, period: usize) -> Matrix<f64> {
-        Matrix::from_fn(self.busy.len(), |from, to| {
-            self.level(period, from, to).map_or(0.0, |level| level.mean)
-        })
+    /// The means of one period, for so many vertiports.
+    pub(crate) fn means(&self, period: usize, vertiports: usize) -> Matrix<f64> {
+        Matrix::from_fn(vertiports, |from, to| self.mean(period, from, to))
     }
 
-    /// The mean over the day's periods of the means of Eq. 1.
-    pub(crate) fn day_means(&self) -> Matrix<f64> {
+    /// The mean over the day's periods of the means.
+    pub(crate) fn day_means(&self, vertiports: usize) -> Matrix<f64> {
         let periods = self.periods.len();
-        Matrix::from_fn(self.busy.len(), |from, to| {
-            let mean = |period| self.level(period, from, to).map_or(0.0, |level| level.mean);
-            (0..periods).map(mean).sum::<f64>() / periods as f64
+        Matrix::from_fn(vertiports, |from, to| {
+            (0..periods).map(|period| self.mean(period, from, to)).sum::<f64>() / periods as f64
         })
     }
-}
 
-/// `[demand]` of the network file.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "the members of demand")]
-pub(crate) struct RawDemandModel {
-    periods: Vec<Time>,
-    morning_peak: Time,
-    evening_peak: Time,
-    peak: RawLevel,
-    busy_pairs: RawLevel,
-    otherwise: RawLevel,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a mean and an sd")]
-struct RawLevel {
-    mean: f64,
-    sd: f64,
-}
-
-impl RawDemandModel {
-    /// Checks all but the order of the periods, which [`Day::check`](crate::Day::check) does for every day.
-    pub(crate) fn check(self, busy: Vec<bool>, origin: &str) -> Result<DemandModel, Error> {
-        check::entry_count(
-            origin,
-            "demand: periods",
-            self.periods.len(),
-            limits::entries::PERIODS,
-        )?;
-        check::demand_cells(origin, busy.len(), self.periods.len())?;
-        let peak = |time: Time, member: &str| {
-            self.periods.iter().position(|&start| start == time).ok_or_else(|| Error::UnknownId {
-                origin: origin.to_owned(),
-                member: format!("demand: {member}"),
-                found: time.to_string(),
-                list: "starts of demand periods",
-            })
-        };
-        Ok(DemandModel {
-            morning_peak: peak(self.morning_peak, "morning_peak")?,
-            evening_peak: peak(self.evening_peak, "evening_peak")?,
-            peak: self.peak.check("peak", origin)?,
-            busy_pairs: self.busy_pairs.check("busy_pairs", origin)?,
-            otherwise: self.otherwise.check("otherwise", origin)?,
-            busy,
-            periods: self.periods,
-        })
+    /// The passengers of a pair of different vertiports in a period.
+    pub(crate) fn draw(
+        &self,
+        period: usize,
+        from: VertiportIx,
+        to: VertiportIx,
+        random: &mut ChaCha8Rng,
+    ) -> u32 {
+        match &self.kind {
+            Kind::Equation1(model) => model.level(period, from, to).draw(random),
+            Kind::Daily(model) => model.level(period, from, to).draw(random),
+            Kind::Uniform(model) => model.draw(random),
+        }
     }
 }
 
-impl RawLevel {
-    fn check(&self, member: &str, origin: &str) -> Result<Level, Error> {
-        let Self { mean, sd } = *self;
-        limits::DEMAND_MEAN.check(mean, origin, || format!("demand: {member}: mean"))?;
-        limits::DEMAND_SD.check(sd, origin, || format!("demand: {member}: sd"))?;
-        Ok(Level { mean, sd })
+impl Level {
+    fn draw(self, random: &mut ChaCha8Rng) -> u32 {
+        let deviation: f64 = StandardNormal.sample(random);
+        whole_passengers(self.mean + self.sd * deviation)
     }
+}
+
+/// The nearest whole number, not below 0.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "not negative, and means and sds are bounded"
+)]
+pub(crate) fn whole_passengers(drawn: f64) -> u32 {
+    drawn.round().max(0.0) as u32
+}
+
+/// Refuses no periods, too many of them, and too many cells of demand; their order is checked with every day's.
+fn check_periods(
+    periods: &[Time],
+    member: &str,
+    vertiports: usize,
+    origin: &str,
+) -> Result<(), Error> {
+    check::entry_count(origin, &format!("{member}: periods"), periods.len(), entries::PERIODS)?;
+    check::demand_cells(origin, vertiports, periods.len())
 }

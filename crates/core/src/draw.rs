@@ -1,19 +1,23 @@
 //! One day of a network, drawn from a seed: demand by Eq. 1 and start positions (§V.A).
 //!
-//! Each of the two has a random stream of its own, so that a change in how one is drawn leaves the other as it was. The
+//! Each of the two, and each kind of disturbance, has a random stream of its own, so that a change in how one is drawn leaves
+//! the others as they were. The
 //! generator and the normal distribution are plain arithmetic, the same on every machine, and counts are rounded.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 
-use crate::{DaySeed, Matrix, Network, Scenario, Vertiport, VertiportIx};
+use crate::{Day, DaySeed, Matrix, Network, Scenario, Vertiport, VertiportIx};
 
 /// What a day's random streams are for; the numbers are part of what a seed means.
 #[derive(Debug, Clone, Copy)]
 enum Stream {
     Demand = 1,
     StartPositions = 2,
+    ForecastError = 3,
+    TakeoffDelays = 4,
+    Closures = 5,
+    Outages = 6,
 }
 
 impl Stream {
@@ -38,6 +42,7 @@ impl Network {
         for aircraft in &mut day.aircraft {
             aircraft.at = positions.next(&mut random);
         }
+        self.draw_disturbances(&mut day, seed);
         // Demand is within bounds for any network that was accepted, and positions respect the stands.
         Scenario::checked(day)
     }
@@ -48,28 +53,40 @@ impl Network {
         self.draw(DaySeed::of(day)) == *day
     }
 
-    /// Q(i, j, t): the nearest whole number to a draw from Eq. 1, not below 0.
+    /// Q(i, j, t), pair by pair.
     fn draw_demand(&self, demand: &mut [Matrix<u32>], random: &mut ChaCha8Rng) {
         for (period, table) in demand.iter_mut().enumerate() {
             for from in VertiportIx::all(table.size()) {
-                for to in VertiportIx::all(table.size()) {
-                    if let Some(level) = self.demand.level(period, from, to) {
-                        let deviation: f64 = StandardNormal.sample(random);
-                        table[(from, to)] = whole_passengers(level.mean + level.sd * deviation);
-                    }
+                for to in VertiportIx::all(table.size()).filter(|&to| to != from) {
+                    table[(from, to)] = self.demand.draw(period, from, to, random);
                 }
             }
         }
     }
-}
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "not negative, and means and sds are bounded"
-)]
-fn whole_passengers(drawn: f64) -> u32 {
-    drawn.round().max(0.0) as u32
+    /// Disturbances come after demand and start positions, and leave both as they would be without them: what was drawn
+    /// as demand becomes the forecast.
+    fn draw_disturbances(&self, day: &mut Day, seed: DaySeed) {
+        let model = &self.disturbances;
+        if let Some(error) = &model.forecast_error {
+            let mut random = Stream::ForecastError.of(seed);
+            let actual = error.draw(&day.demand, &mut random);
+            day.disturbances.forecast = Some(std::mem::replace(&mut day.demand, actual));
+        }
+        if let Some(delays) = &model.takeoff_delays {
+            let mut random = Stream::TakeoffDelays.of(seed);
+            day.disturbances.takeoff_delays = Some(delays.draw(&day.operations, &mut random));
+        }
+        let mut random = Stream::Closures.of(seed);
+        for closure in &model.closures {
+            closure.draw(&day.operations, &mut random, &mut day.disturbances.closures);
+        }
+        if let Some(outages) = &model.outages {
+            let mut random = Stream::Outages.of(seed);
+            let fleet = day.aircraft.len();
+            day.disturbances.outages = outages.draw(&day.operations, fleet, &mut random);
+        }
+    }
 }
 
 /// The stands that are still free while aircraft are placed one after another.

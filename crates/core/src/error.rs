@@ -178,14 +178,17 @@ pub enum Error {
         aircraft: usize,
     },
 
-    /// V114. Operations start after they end. Fix: exchange the two; an end after midnight is written `25:30:00`.
-    #[error("{origin}: operations: start must not be after end {end}, found {start}")]
+    /// V114. Operations, a closure or an outage start after they end. Fix: exchange the two; an end after midnight is
+    /// written `25:30:00`.
+    #[error("{origin}: {member}: start must not be after end {end}, found {start}")]
     StartAfterEnd {
         /// The file.
         origin: String,
-        /// First instant of operations.
+        /// What has a start and an end.
+        member: String,
+        /// First instant.
         start: String,
-        /// Last instant of operations.
+        /// Last instant.
         end: String,
     },
 
@@ -240,6 +243,30 @@ pub enum Error {
         found: String,
     },
 
+    /// V121. A file has two members of which it must have one, or none of them. Fix: keep the one that is meant.
+    #[error("{origin}: {member} must have exactly one of {choices}, found {found}")]
+    NotOneOf {
+        /// The file.
+        origin: String,
+        /// What has the members.
+        member: String,
+        /// The members to choose from.
+        choices: &'static str,
+        /// How many of them it has.
+        found: usize,
+    },
+
+    /// V122. A route leads from a vertiport to itself. Fix: name two vertiports.
+    #[error("{origin}: {member} leads from {vertiport:?} to itself")]
+    RouteToItself {
+        /// The file.
+        origin: String,
+        /// The route.
+        member: String,
+        /// The vertiport.
+        vertiport: String,
+    },
+
     /// V119. A name is neither a shipped network nor a file. Fix: give one of the names that the message lists, or
     /// the path of a network file.
     #[error("there is no network {name:?}: shipped are {shipped}, and no file has that path")]
@@ -273,6 +300,8 @@ pub const ALL: &[(Code, &str)] = &[
     (Code(118), "seed out of range"),
     (Code(119), "unknown network"),
     (Code(120), "aircraft without a destination (warning)"),
+    (Code(121), "not exactly one of several members"),
+    (Code(122), "route from a vertiport to itself"),
 ];
 
 impl Error {
@@ -298,6 +327,8 @@ impl Error {
             Self::FleetTooLarge { .. } => 117,
             Self::SeedOutOfRange { .. } => 118,
             Self::UnknownNetwork { .. } => 119,
+            Self::NotOneOf { .. } => 121,
+            Self::RouteToItself { .. } => 122,
         })
     }
 

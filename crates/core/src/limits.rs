@@ -103,6 +103,9 @@ pub(crate) mod entries {
     pub(crate) const AIRCRAFT: usize = 10_000;
     pub(crate) const AIRCRAFT_TYPES: usize = 64;
     pub(crate) const PERIODS: usize = 1_440;
+    pub(crate) const CORRIDORS: usize = 65_536;
+    pub(crate) const CLOSURES: usize = 10_000;
+    pub(crate) const OUTAGES: usize = 10_000;
     /// Cells of all demand tables together, so that a day fits in memory many times and in the longest file.
     pub(crate) const DEMAND: usize = 4_000_000;
 }
@@ -124,6 +127,12 @@ pub(crate) const HOLD_S: Limits =
 pub(crate) const POSITION_MI: Limits = Limits::between(-1e6, 1e6);
 pub(crate) const STANDS: Limits = Limits::whole(1, 10_000)
     .hint("stands counts the aircraft that are at the vertiport or on their way to it");
+
+pub(crate) const CHARGERS: Limits = Limits::whole(1, 10_000)
+    .hint("chargers counts the aircraft that charge at the vertiport or are on their way to it");
+
+/// A slot of delays is as long as the shortest journey at least, so that a day has a bounded number of them.
+pub(crate) const SLOT_S: Limits = Limits::whole(60, 86_400);
 
 pub(crate) const SEATS: Limits =
     Limits::whole(1, 1_000).hint("seats counts passengers, not the pilot");
@@ -148,4 +157,20 @@ pub(crate) const FLEET_COUNT: Limits = Limits::whole(1, 10_000);
 /// Mean and standard deviation of a period's demand; far enough below `PASSENGERS` for any draw to stay within it.
 pub(crate) const DEMAND_MEAN: Limits = Limits::between(0.0, 1e5);
 pub(crate) const DEMAND_SD: Limits = Limits::between(0.0, 1e4);
+/// Passengers of a whole day, and a network's total of them.
+pub(crate) const DAILY_DEMAND: Limits = Limits::between(0.0, 1e5);
+pub(crate) const SHARE_PERCENT: Limits = Limits::between(0.0, 100.0).hint("100 is the whole day");
+pub(crate) const WEIGHT: Limits = Limits::between(0.0, 1e6);
+/// Standard deviation as a share of the mean. Draws stay within `PASSENGERS`, as a normal deviation is below 10.
+pub(crate) const NOISE: Limits = Limits::between(0.0, 0.4)
+    .hint("noise is a standard deviation as a share of the mean, 0.1 is 10 %");
+pub(crate) const PROBABILITY: Limits =
+    Limits::between(0.0, 1.0).hint("a probability is a share, 0.1 is 10 %");
+pub(crate) const SURGE_FACTOR: Limits = Limits::between(1.0, 10.0);
+pub(crate) const FARE_FACTOR: Limits = Limits::between(0.0, 100.0);
+pub(crate) const LATITUDE: Limits = Limits::between(-89.0, 89.0).hint("degrees, north is above 0");
+pub(crate) const LONGITUDE: Limits =
+    Limits::between(-180.0, 180.0).hint("degrees, east is above 0");
+pub(crate) const MOST_PASSENGERS: f64 = 1_000_000.0;
+pub(crate) const UNIFORM_DEMAND: Limits = Limits::whole(0, 100_000);
 pub(crate) const PASSENGERS: Limits = Limits::whole(0, 1_000_000);

@@ -3,13 +3,19 @@
 use std::path::Path;
 
 use crate::demand_model::DemandModel;
+use crate::disturbance_model::DisturbanceModel;
 use crate::{
     AircraftType, Error, FeatureScales, Matrix, Operations, Scenario, Vertiport, files,
     network_file, parse,
 };
 
 /// The networks inside the program, by name.
-const SHIPPED: &[(&str, &str)] = &[("paper", include_str!("../../../networks/paper.toml"))];
+const SHIPPED: &[(&str, &str)] = &[
+    ("paper", include_str!("../../../networks/paper.toml")),
+    ("disrupted", include_str!("../../../networks/disrupted.toml")),
+    ("new-york", include_str!("../../../networks/new-york.toml")),
+    ("as-coded", include_str!("../../../networks/as-coded.toml")),
+];
 
 /// A checked network: every day drawn from it is a valid [`Scenario`].
 #[derive(Debug, Clone)]
@@ -18,6 +24,7 @@ pub struct Network {
     /// All that is the same every day. Its aircraft stand anywhere that is allowed, and nobody wants to fly.
     pub(crate) idle_day: Scenario,
     pub(crate) demand: DemandModel,
+    pub(crate) disturbances: DisturbanceModel,
     pub(crate) feature_scales: FeatureScales,
 }
 
@@ -104,8 +111,10 @@ impl Network {
         self.feature_scales
     }
 
-    /// The means of Eq. 1 by period, passengers: the demand that the days' draws scatter around.
+    /// The means of demand by period (of Eq. 1 on `paper`), passengers: what the days' draws scatter around.
     pub fn mean_demand(&self) -> Vec<Matrix<f64>> {
-        (0..self.demand.periods.len()).map(|period| self.demand.means(period)).collect()
+        let vertiports = self.vertiports().len();
+        let means = |period| self.demand.means(period, vertiports);
+        (0..self.demand.periods.len()).map(means).collect()
     }
 }

@@ -2,14 +2,18 @@
 
 use serde::Deserialize;
 
-use crate::demand_model::{DemandModel, RawDemandModel};
+use crate::demand_model::{DemandModel, RawDailyDemand, RawEquation1, RawUniformDemand};
+use crate::disturbance_model::RawDisturbanceModel;
 use crate::feature_scales::RawFeatureScales;
 use crate::limits::{self, entries};
 use crate::parse::shortened;
-use crate::raw::{Positions, RawAircraftType, RawOperations, RawVertiport, each};
+use crate::raw::{Positions, RawAircraftType, RawOperations, each};
+use crate::raw_disturbances::RawRoute;
+use crate::sites::{RawSite, Sites};
+use crate::tariffs::RawTariffs;
 use crate::{
-    Aircraft, AircraftType, Day, Error, Matrix, Network, TypeIx, Vertiport, VertiportIx, check,
-    parse,
+    Aircraft, AircraftType, Day, Disturbances, Error, Matrix, Network, TypeIx, Vertiport,
+    VertiportIx, check, parse,
 };
 
 const FORMAT: &str = "vertifleet-network/1";
@@ -23,11 +27,16 @@ struct RawNetwork {
     #[serde(rename = "start_positions")]
     _start_positions: StartPositions,
     operations: RawOperations,
-    vertiports: Vec<RawVertiport>,
+    vertiports: Vec<RawSite>,
+    corridors: Option<Vec<RawRoute>>,
     aircraft_types: Vec<RawAircraftType>,
     fleet: Vec<RawFleet>,
     tariffs: RawTariffs,
-    demand: RawDemandModel,
+    demand: Option<RawEquation1>,
+    daily_demand: Option<RawDailyDemand>,
+    uniform_demand: Option<RawUniformDemand>,
+    #[serde(default)]
+    disturbances: RawDisturbanceModel,
     feature_scales: RawFeatureScales,
 }
 
@@ -48,15 +57,6 @@ struct RawFleet {
     count: f64,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "the members of tariffs")]
-struct RawTariffs {
-    passenger_cost_usd_per_mi: f64,
-    fare_base: f64,
-    fare_demand_weight: f64,
-    energy_price_usd_per_kwh: f64,
-}
-
 /// Reads and checks the text of a network file.
 pub(crate) fn network(text: &str, origin: &str) -> Result<Network, Error> {
     let raw: RawNetwork = parse::toml(text, FORMAT, origin)?;
@@ -64,15 +64,19 @@ pub(crate) fn network(text: &str, origin: &str) -> Result<Network, Error> {
     let list = |member, found, most| check::entry_count(origin, member, found, most);
     list("vertiports", raw.vertiports.len(), entries::VERTIPORTS)?;
     list("aircraft_types", raw.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
-    raw.tariffs.check(origin)?;
     let operations = raw.operations.check(origin)?;
-    let vertiports = each(raw.vertiports, |raw, at| raw.check(at, origin))?;
+    let Sites { vertiports, distance_mi } = Sites::of(raw.vertiports, origin)?;
     let aircraft_types = each(raw.aircraft_types, |raw, at| raw.check(at, origin))?;
     let aircraft = fleet(&raw.fleet, &aircraft_types, &vertiports, origin)?;
-    let busy = vertiports.iter().map(|vertiport| vertiport.busy).collect();
-    let demand = raw.demand.check(busy, origin)?;
+    let models = (raw.demand, raw.daily_demand, raw.uniform_demand);
+    let demand = demand_model(models, &vertiports, origin)?;
+    let places = Positions::of_vertiports(&vertiports, origin)?;
+    let corridors = raw.corridors.map(|routes| {
+        each(routes, |raw, at| raw.check(&places, &format!("corridors[{at}]"), origin))
+    });
+    let disturbances = raw.disturbances.check(&places, vertiports.len(), origin)?;
+    raw.tariffs.check(demand.periods.len(), origin)?;
 
-    let distance_mi = distances_mi(&vertiports);
     let passenger_cost_usd = raw.tariffs.passenger_costs_usd(&distance_mi);
     let nobody = Matrix::from_fn(vertiports.len(), |_, _| 0);
     let idle_day = Day {
@@ -81,20 +85,47 @@ pub(crate) fn network(text: &str, origin: &str) -> Result<Network, Error> {
         operations,
         aircraft_types,
         aircraft,
+        corridors: corridors.transpose()?,
+        fare_usd: raw.tariffs.fares_usd(&distance_mi, &passenger_cost_usd, &demand),
         distance_mi,
-        fare_usd: raw.tariffs.fares_usd(&passenger_cost_usd, &demand),
         passenger_cost_usd,
         periods: demand.periods.clone(),
         demand: vec![nobody; demand.periods.len()],
-        energy_price_usd: vec![raw.tariffs.energy_price_usd_per_kwh; demand.periods.len()],
+        energy_price_usd: raw.tariffs.energy_prices_usd(demand.periods.len()),
+        disturbances: Disturbances::default(),
         vertiports,
     };
     Ok(Network {
         name: raw.name,
         idle_day: idle_day.check(origin)?,
         demand,
+        disturbances,
         feature_scales: raw.feature_scales.check(origin)?,
     })
+}
+
+/// The one demand model that the file has.
+fn demand_model(
+    models: (Option<RawEquation1>, Option<RawDailyDemand>, Option<RawUniformDemand>),
+    vertiports: &[Vertiport],
+    origin: &str,
+) -> Result<DemandModel, Error> {
+    match models {
+        (Some(raw), None, None) => {
+            raw.check(vertiports.iter().map(|vertiport| vertiport.busy).collect(), origin)
+        }
+        (None, Some(raw), None) => raw.check(vertiports.len(), origin),
+        (None, None, Some(raw)) => raw.check(vertiports.len(), origin),
+        (equation_1, daily, uniform) => Err(Error::NotOneOf {
+            origin: origin.to_owned(),
+            member: "the network".to_owned(),
+            choices: "demand, daily_demand and uniform_demand",
+            found: [equation_1.is_some(), daily.is_some(), uniform.is_some()]
+                .into_iter()
+                .filter(|&given| given)
+                .count(),
+        }),
+    }
 }
 
 /// A network's name becomes part of names of days and files.
@@ -142,44 +173,4 @@ fn fleet(
     Ok(aircraft
         .map(|((kind, at), number)| Aircraft { id: format!("A{number:0digits$}"), kind, at })
         .collect())
-}
-
-/// d_ij in the plane, miles. Products, sum and root are exact to the last bit everywhere, which `hypot` is not.
-fn distances_mi(vertiports: &[Vertiport]) -> Matrix<f64> {
-    Matrix::from_fn(vertiports.len(), |from, to| {
-        let (from, to) = (&vertiports[from.at()], &vertiports[to.at()]);
-        let (east, north) = (to.x_mi - from.x_mi, to.y_mi - from.y_mi);
-        (east * east + north * north).sqrt()
-    })
-}
-
-impl RawTariffs {
-    fn check(&self, origin: &str) -> Result<(), Error> {
-        for (member, value, limits) in [
-            ("passenger_cost_usd_per_mi", self.passenger_cost_usd_per_mi, limits::TARIFF),
-            ("fare_base", self.fare_base, limits::TARIFF),
-            ("fare_demand_weight", self.fare_demand_weight, limits::TARIFF),
-            ("energy_price_usd_per_kwh", self.energy_price_usd_per_kwh, limits::ENERGY_PRICE_USD),
-        ] {
-            limits.check(value, origin, || format!("tariffs: {member}"))?;
-        }
-        Ok(())
-    }
-
-    /// R_ij, dollars a passenger.
-    fn passenger_costs_usd(&self, distance_mi: &Matrix<f64>) -> Matrix<f64> {
-        Matrix::from_fn(distance_mi.size(), |from, to| {
-            self.passenger_cost_usd_per_mi * distance_mi[(from, to)]
-        })
-    }
-
-    /// P_ij = R_ij (base + weight Qbar_ij / max Qbar), dollars a passenger.
-    fn fares_usd(&self, passenger_cost_usd: &Matrix<f64>, demand: &DemandModel) -> Matrix<f64> {
-        let mean = demand.day_means();
-        let most = mean.cells().iter().copied().fold(0.0, f64::max);
-        Matrix::from_fn(mean.size(), |from, to| {
-            let share = if most > 0.0 { mean[(from, to)] / most } else { 0.0 };
-            passenger_cost_usd[(from, to)] * (self.fare_base + self.fare_demand_weight * share)
-        })
-    }
 }

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::limits::{self, Limits};
 use crate::parse::shortened;
-use crate::{AircraftType, Error, Operations, Time, Vertiport, check};
+use crate::{Aircraft, AircraftType, Error, Operations, Time, Vertiport, check};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of operations")]
@@ -43,6 +43,7 @@ pub(crate) struct RawVertiport {
     x_mi: f64,
     y_mi: f64,
     stands: f64,
+    chargers: Option<f64>,
     busy: bool,
 }
 
@@ -51,9 +52,16 @@ impl RawVertiport {
         check::id(origin, || format!("vertiports[{at}]: id"), &self.id)?;
         let member = || format!("vertiport {:?}: stands", self.id);
         let stands = limits::STANDS.whole_number(self.stands, origin, member)?;
+        let chargers = chargers(&self.id, self.chargers, origin)?;
         let Self { id, x_mi, y_mi, busy, .. } = self;
-        Ok(Vertiport { id, x_mi, y_mi, stands, busy })
+        Ok(Vertiport { id, x_mi, y_mi, stands, chargers, busy })
     }
+}
+
+/// A vertiport's chargers as a count, where it has a pool of them.
+pub(crate) fn chargers(id: &str, raw: Option<f64>, origin: &str) -> Result<Option<u16>, Error> {
+    let member = || format!("vertiport {id:?}: chargers");
+    raw.map(|chargers| limits::CHARGERS.whole_number(chargers, origin, member)).transpose()
 }
 
 #[derive(Deserialize)]
@@ -112,6 +120,13 @@ impl<'a> Positions<'a> {
         let ids = kinds.iter().map(|kind| &kind.id);
         check::ids(origin, "aircraft_types", "aircraft type", ids.clone())?;
         Ok(Self::of("aircraft types", ids))
+    }
+
+    /// The positions of the aircraft, whose ids must differ.
+    pub(crate) fn of_aircraft(aircraft: &'a [Aircraft], origin: &str) -> Result<Self, Error> {
+        let ids = aircraft.iter().map(|aircraft| &aircraft.id);
+        check::ids(origin, "aircraft", "aircraft", ids.clone())?;
+        Ok(Self::of("aircraft", ids))
     }
 
     fn of(list: &'static str, ids: impl Iterator<Item = &'a String>) -> Self {

@@ -6,8 +6,10 @@ use serde::Deserialize;
 
 use crate::limits::{self, entries};
 use crate::raw::{Positions, RawAircraftType, RawOperations, RawVertiport, each};
+use crate::raw_disturbances::{RawClosure, RawOutage, RawRoute, RawTakeoffDelays};
 use crate::{
-    Aircraft, Day, Error, Matrix, Scenario, Time, TypeIx, VertiportIx, check, files, parse,
+    Aircraft, Day, Disturbances, Error, Fares, Matrix, Scenario, Time, TypeIx, VertiportIx, check,
+    files, parse,
 };
 
 /// The format and version that the file's `format` member names.
@@ -47,11 +49,26 @@ struct RawScenario {
     aircraft_types: Vec<RawAircraftType>,
     aircraft: Vec<RawAircraft>,
     distance_mi: Vec<Vec<f64>>,
-    fare: Vec<Vec<f64>>,
+    corridors: Option<Vec<RawRoute>>,
+    fare: Vec<Vec<RawFare>>,
     passenger_cost: Vec<Vec<f64>>,
     periods: Vec<Time>,
     demand: Vec<Vec<Vec<f64>>>,
     energy_price: Vec<f64>,
+    forecast: Option<Vec<Vec<Vec<f64>>>>,
+    takeoff_delays: Option<RawTakeoffDelays>,
+    #[serde(default)]
+    closures: Vec<RawClosure>,
+    #[serde(default)]
+    outages: Vec<RawOutage>,
+}
+
+/// An entry of a table of fares, or a row of one of several tables.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number, or a row of numbers in a table for each period")]
+enum RawFare {
+    Cell(f64),
+    Row(Vec<f64>),
 }
 
 #[derive(Deserialize)]
@@ -75,17 +92,33 @@ impl RawScenario {
         let size = self.vertiports.len();
         let table = |rows, member: &str| table(rows, size, member, origin);
         let distance_mi = table(self.distance_mi, "distance_mi")?;
-        let fare_usd = table(self.fare, "fare")?;
+        let fare_usd = fares(self.fare, size, origin)?;
         let passenger_cost_usd = table(self.passenger_cost, "passenger_cost")?;
-        let demand = each(self.demand, |rows, period| {
-            passengers(&table(rows, &format!("demand[{period}]"))?, period, origin)
-        })?;
+        let passengers = |tables: Vec<Vec<Vec<f64>>>, member: &str| {
+            each(tables, |rows, period| {
+                let member = format!("{member}[{period}]");
+                passengers(&table(rows, &member)?, &member, origin)
+            })
+        };
+        let demand = passengers(self.demand, "demand")?;
+        let forecast = self.forecast.map(|tables| passengers(tables, "forecast")).transpose()?;
 
         let vertiports = each(self.vertiports, |raw, at| raw.check(at, origin))?;
         let aircraft_types = each(self.aircraft_types, |raw, at| raw.check(at, origin))?;
         let places = Positions::of_vertiports(&vertiports, origin)?;
         let kinds = Positions::of_types(&aircraft_types, origin)?;
         let aircraft = each(self.aircraft, |raw, at| raw.check(at, &kinds, &places, origin))?;
+        let fleet = Positions::of_aircraft(&aircraft, origin)?;
+        let route = |raw: RawRoute, member: String| raw.check(&places, &member, origin);
+        let corridors = self
+            .corridors
+            .map(|routes| each(routes, |raw, at| route(raw, format!("corridors[{at}]"))));
+        let disturbances = Disturbances {
+            forecast,
+            takeoff_delays: self.takeoff_delays.map(|raw| raw.check(origin)).transpose()?,
+            closures: each(self.closures, |raw, at| raw.check(at, &places, origin))?,
+            outages: each(self.outages, |raw, at| raw.check(at, &fleet, origin))?,
+        };
 
         Ok(Day {
             name: self.name,
@@ -95,11 +128,13 @@ impl RawScenario {
             aircraft_types,
             aircraft,
             distance_mi,
+            corridors: corridors.transpose()?,
             fare_usd,
             passenger_cost_usd,
             periods: self.periods,
             demand,
             energy_price_usd: self.energy_price,
+            disturbances,
         })
     }
 }
@@ -142,12 +177,38 @@ fn table(
     Ok(Matrix::from_rows(size, rows).expect("as many rows as columns, just checked"))
 }
 
+/// One table for all day, or several, one a period.
+fn fares(raw: Vec<Vec<RawFare>>, size: usize, origin: &str) -> Result<Fares, Error> {
+    let by_period = raw.iter().flatten().any(|fare| matches!(fare, RawFare::Row(_)));
+    let wrong = |member: String, expected: &str| Error::WrongShape {
+        origin: origin.to_owned(),
+        member,
+        expected: expected.to_owned(),
+        found: 1,
+    };
+    if by_period {
+        let tables = each(raw, |rows, period| {
+            let rows = each(rows, |row, at| match row {
+                RawFare::Row(row) => Ok(row),
+                RawFare::Cell(_) => Err(wrong(format!("fare[{period}][{at}]"), "a row")),
+            })?;
+            table(rows, size, &format!("fare[{period}]"), origin)
+        })?;
+        return Ok(Fares::by_period(tables));
+    }
+    let rows = raw.into_iter().map(|row| {
+        let cell = |fare| if let RawFare::Cell(cell) = fare { Some(cell) } else { None };
+        row.into_iter().filter_map(cell).collect()
+    });
+    Ok(table(rows.collect(), size, "fare", origin)?.into())
+}
+
 /// A table of one period's demand, in whole passengers.
-fn passengers(table: &Matrix<f64>, period: usize, origin: &str) -> Result<Matrix<u32>, Error> {
+fn passengers(table: &Matrix<f64>, member: &str, origin: &str) -> Result<Matrix<u32>, Error> {
     let mut rows = Vec::with_capacity(table.size());
     for (from, row) in table.rows().enumerate() {
         let count = |(to, &cell): (usize, &f64)| {
-            let member = || format!("demand[{period}][{from}][{to}]");
+            let member = || format!("{member}[{from}][{to}]");
             limits::PASSENGERS.whole_number(cell, origin, member)
         };
         rows.push(row.iter().enumerate().map(count).collect::<Result<Vec<u32>, Error>>()?);

@@ -5,7 +5,7 @@
 
 use std::ops::Deref;
 
-use crate::{Matrix, Time, TypeIx, VertiportIx};
+use crate::{Disturbances, Fares, Matrix, Route, Time, TypeIx, VertiportIx};
 
 /// When decisions are taken and how long each part of a journey takes beside cruise and charging.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,8 +31,12 @@ pub struct Vertiport {
     pub x_mi: f64,
     /// Position north, miles.
     pub y_mi: f64,
-    /// U_max: aircraft that may stand here or be on their way here (Eq. 16).
+    /// U_max: aircraft that may stand here or be on their way here (Eq. 16). Where `chargers` are separate, aircraft that
+    /// may wait here beside them.
     pub stands: u16,
+    /// Places to land and charge, where they are a pool of their own: a flight here needs one from take-off on, and its
+    /// aircraft gives it back when it leaves, or holds and finds a stand.
+    pub chargers: Option<u16>,
     /// Whether it belongs to V_B, the vertiports with high demand (Eq. 1).
     pub busy: bool,
 }
@@ -95,8 +99,10 @@ pub struct Day {
     pub aircraft: Vec<Aircraft>,
     /// d_ij, miles.
     pub distance_mi: Matrix<f64>,
-    /// P_ij, dollars a passenger.
-    pub fare_usd: Matrix<f64>,
+    /// The pairs that may be flown; `None` for all.
+    pub corridors: Option<Vec<Route>>,
+    /// P_ij, dollars a passenger, by the period in which a flight is decided.
+    pub fare_usd: Fares,
     /// R_ij, dollars a passenger.
     pub passenger_cost_usd: Matrix<f64>,
     /// Start of each demand period; the last one lasts for the rest of the day.
@@ -105,6 +111,8 @@ pub struct Day {
     pub demand: Vec<Matrix<u32>>,
     /// E: price of electricity per period, dollars per kWh.
     pub energy_price_usd: Vec<f64>,
+    /// What nobody knows in advance.
+    pub disturbances: Disturbances,
 }
 
 /// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, nobody stands on a full vertiport.
@@ -131,11 +139,20 @@ impl Scenario {
         self.periods.iter().rposition(|&start| start <= time).unwrap_or(0)
     }
 
+    /// Whether a pair may be flown: there are no corridors, or one of them leads that way.
+    pub fn is_corridor(&self, from: VertiportIx, to: VertiportIx) -> bool {
+        let corridors = self.corridors.as_ref();
+        corridors.is_none_or(|routes| routes.iter().any(|route| route.covers(from, to)))
+    }
+
     /// The reward's denominator (§III.H): every passenger of the day at full fare, dollars.
     pub fn potential_usd(&self) -> f64 {
         self.demand
             .iter()
-            .flat_map(|table| table.cells().iter().zip(self.fare_usd.cells()))
+            .enumerate()
+            .flat_map(|(period, table)| {
+                table.cells().iter().zip(self.fare_usd.in_period(period).cells())
+            })
             .map(|(&passengers, &fare)| f64::from(passengers) * fare)
             .sum()
     }

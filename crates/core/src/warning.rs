@@ -44,7 +44,9 @@ impl Scenario {
         let stranded = self.aircraft.iter().filter(|aircraft| {
             let kind = &self.aircraft_types[aircraft.kind.at()];
             !VertiportIx::all(self.vertiports.len()).any(|to| {
-                to != aircraft.at && self.reaches(kind, self.distance_mi[(aircraft.at, to)])
+                to != aircraft.at
+                    && self.is_corridor(aircraft.at, to)
+                    && self.reaches(kind, self.distance_mi[(aircraft.at, to)])
             })
         });
         stranded

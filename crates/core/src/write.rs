@@ -4,7 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::limits::number;
-use crate::{Error, Matrix, Scenario, files, read};
+use crate::{
+    Closure, Disturbances, Error, Matrix, Outage, Route, Scenario, TakeoffDelays, VertiportIx,
+    files, read,
+};
 
 impl Scenario {
     /// Writes the scenario file whole or not at all.
@@ -17,7 +20,7 @@ impl Scenario {
 
     /// The text of the scenario file. Read again, it gives the same scenario, bit for bit.
     pub fn to_json(&self) -> String {
-        let members = [
+        let mut members = vec![
             ("format", text(read::FORMAT)),
             ("name", text(&self.name)),
             ("seed", self.seed.to_string()),
@@ -26,15 +29,29 @@ impl Scenario {
             ("aircraft_types", self.aircraft_types_json()),
             ("aircraft", self.aircraft_json()),
             ("distance_mi", table(&self.distance_mi, 2, |&cell| number(cell))),
-            ("fare", table(&self.fare_usd, 2, |&cell| number(cell))),
+            ("fare", self.fares_json()),
             ("passenger_cost", table(&self.passenger_cost_usd, 2, |&cell| number(cell))),
             ("periods", row(self.periods.iter().map(|period| format!("\"{period}\"")))),
-            ("demand", lines(self.demand.iter().map(|day| table(day, 4, u32::to_string)), 2)),
+            ("demand", passengers(&self.demand)),
             ("energy_price", row(self.energy_price_usd.iter().map(|&price| number(price)))),
         ];
+        if let Some(corridors) = &self.corridors {
+            let corridor = |route: &Route| format!("{{{}}}", self.route_json(*route));
+            members.push(("corridors", lines(corridors.iter().map(corridor), 2)));
+        }
+        members.extend(self.disturbances_json());
         let members: Vec<String> =
             members.into_iter().map(|(name, value)| format!("  \"{name}\": {value}")).collect();
         format!("{{\n{}\n}}\n", members.join(",\n"))
+    }
+
+    fn fares_json(&self) -> String {
+        let fares = |fares: &Matrix<f64>, indent| table(fares, indent, |&cell| number(cell));
+        let tables = self.fare_usd.tables();
+        if tables.clone().count() == 1 {
+            return fares(self.fare_usd.in_period(0), 2);
+        }
+        lines(tables.map(|table| fares(table, 4)), 2)
     }
 
     fn operations_json(&self) -> String {
@@ -47,12 +64,15 @@ impl Scenario {
 
     fn vertiports_json(&self) -> String {
         let vertiport = |vertiport: &crate::Vertiport| {
+            let chargers =
+                vertiport.chargers.map(|chargers| format!(r#", "chargers": {chargers}"#));
             format!(
-                r#"{{"id": {}, "x_mi": {}, "y_mi": {}, "stands": {}, "busy": {}}}"#,
+                r#"{{"id": {}, "x_mi": {}, "y_mi": {}, "stands": {}{}, "busy": {}}}"#,
                 text(&vertiport.id),
                 number(vertiport.x_mi),
                 number(vertiport.y_mi),
                 vertiport.stands,
+                chargers.unwrap_or_default(),
                 vertiport.busy
             )
         };
@@ -87,6 +107,51 @@ impl Scenario {
         };
         lines(self.aircraft.iter().map(aircraft), 2)
     }
+
+    /// The members of the disturbances that the day has.
+    fn disturbances_json(&self) -> Vec<(&'static str, String)> {
+        let Disturbances { forecast, takeoff_delays, closures, outages } = &self.disturbances;
+        let mut members = Vec::new();
+        if let Some(forecast) = forecast {
+            members.push(("forecast", passengers(forecast)));
+        }
+        if let Some(TakeoffDelays { slot_s, delay_s }) = takeoff_delays {
+            let slots = delay_s.iter().map(|slot| row(slot.iter().map(u32::to_string)));
+            let delays = lines(slots, 2);
+            members.push((
+                "takeoff_delays",
+                format!(r#"{{"slot_s": {slot_s}, "delay_s": {delays}}}"#),
+            ));
+        }
+        if !closures.is_empty() {
+            let closure = |closure: &Closure| {
+                let Closure { route, start, end } = closure;
+                format!(r#"{{{}, "start": "{start}", "end": "{end}"}}"#, self.route_json(*route))
+            };
+            members.push(("closures", lines(closures.iter().map(closure), 2)));
+        }
+        if !outages.is_empty() {
+            let outage = |outage: &Outage| {
+                let aircraft = text(&self.aircraft[outage.aircraft.at()].id);
+                let Outage { start, end, .. } = outage;
+                format!(r#"{{"aircraft": {aircraft}, "start": "{start}", "end": "{end}"}}"#)
+            };
+            members.push(("outages", lines(outages.iter().map(outage), 2)));
+        }
+        members
+    }
+
+    /// The members of a route; the way back is mentioned where it is meant.
+    fn route_json(&self, route: Route) -> String {
+        let id = |vertiport: VertiportIx| text(&self.vertiports[vertiport.at()].id);
+        let back = if route.both_ways { r#", "both_ways": true"# } else { "" };
+        format!(r#""from": {}, "to": {}{back}"#, id(route.from), id(route.to))
+    }
+}
+
+/// Passengers of each period.
+fn passengers(tables: &[Matrix<u32>]) -> String {
+    lines(tables.iter().map(|period| table(period, 4, u32::to_string)), 2)
 }
 
 /// A JSON string.

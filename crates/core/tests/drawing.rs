@@ -94,7 +94,8 @@ fn fares_of_paper_are_two_to_two_and_a_half_times_the_cost() {
     let scenario = paper().draw(seed(1));
     let at = VertiportIx::new;
     let ratio = |from, to| {
-        scenario.fare_usd[(at(from), at(to))] / scenario.passenger_cost_usd[(at(from), at(to))]
+        scenario.fare_usd.in_period(0)[(at(from), at(to))]
+            / scenario.passenger_cost_usd[(at(from), at(to))]
     };
     // Means of the day: busy pairs (2 x 100 + 11 x 50) / 13, to or from busy ones (100 + 12 x 30) / 13, others 30.
     assert!((ratio(0, 1) - 2.5).abs() < 1e-12);
@@ -209,7 +210,10 @@ fn a_network_without_demand_has_fares_and_nobody_flies() {
         });
     let day = Network::from_toml(&text, "quiet").expect("a valid network").draw(seed(1));
     assert_eq!(day.demand, vec![Matrix::from_fn(2, |_, _| 0); 2]);
-    assert_eq!(day.fare_usd[(VertiportIx::new(0), VertiportIx::new(1))], 2.0 * 0.64 * 30.5);
+    assert_eq!(
+        day.fare_usd.in_period(0)[(VertiportIx::new(0), VertiportIx::new(1))],
+        2.0 * 0.64 * 30.5
+    );
 }
 
 #[test]

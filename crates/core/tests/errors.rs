@@ -66,6 +66,34 @@ const SCENARIO_CHANGES: &[Change] = &[
     (r#"["06:00:00", "08:00:00"]"#, r#"["06:00:01", "08:00:00"]"#),
     (r#"["06:00:00", "08:00:00"]"#, r#"["06:00:00", "06:00:00"]"#),
     ("[8, 0, 0]", "[8, 0, 1]"),
+    // Beyond the paper.
+    ("[0, 48.1, 60]", "[[0, 48.1, 60]]"),
+    (r#""stands": 1"#, r#""stands": 1, "chargers": 0"#),
+    (r#""energy_price""#, r#""forecast": [], "energy_price""#),
+    (r#""energy_price""#, r#""corridors": [], "energy_price""#),
+    (r#""energy_price""#, r#""corridors": [{"from": "A", "to": "A"}], "energy_price""#),
+    (r#""energy_price""#, r#""corridors": [{"from": "A", "to": "Z"}], "energy_price""#),
+    (r#""energy_price""#, r#""takeoff_delays": {"slot_s": 59, "delay_s": []}, "energy_price""#),
+    (
+        r#""energy_price""#,
+        r#""takeoff_delays": {"slot_s": 86400, "delay_s": [[0, 0]]}, "energy_price""#,
+    ),
+    (
+        r#""energy_price""#,
+        r#""takeoff_delays": {"slot_s": 12600, "delay_s": [[0, 0, 0]]}, "energy_price""#,
+    ),
+    (
+        r#""energy_price""#,
+        r#""closures": [{"from": "A", "to": "B", "start": "08:00:00", "end": "07:00:00"}], "energy_price""#,
+    ),
+    (
+        r#""energy_price""#,
+        r#""outages": [{"aircraft": "A09", "start": "08:00:00", "end": "09:00:00"}], "energy_price""#,
+    ),
+    (
+        r#""energy_price""#,
+        r#""outages": [{"aircraft": "A01", "start": "08:00:00", "end": "37:00:00"}], "energy_price""#,
+    ),
 ];
 
 const NETWORK_CHANGES: &[Change] = &[
@@ -89,6 +117,32 @@ const NETWORK_CHANGES: &[Change] = &[
     ("id = \"B\"", "id = \"A\""),
     ("count = 2", "count = 4"),
     ("start = \"06:00:00\"", "start = \"05:59:59\""),
+    // Beyond the paper.
+    ("y_mi = 0", "latitude = 0"),
+    ("x_mi = 0\ny_mi = 0", "latitude = 40\nlongitude = -74"),
+    ("x_mi = 0\ny_mi = 0", "latitude = 95\nlongitude = -74"),
+    ("[demand]", "[uniform_demand]\nperiods = [\"06:00:00\"]\nleast = 1\nmost = 2\n[demand]"),
+    ("energy_price_usd_per_kwh = 0.2", "energy_price_usd_per_kwh = [0.2]"),
+    ("energy_price_usd_per_kwh = 0.2", "energy_price_usd_per_kwh = 0.2\nfare_factors = [1, -1]"),
+    ("[feature_scales]", "[disturbances]\nfog = 1\n[feature_scales]"),
+    (
+        "[feature_scales]",
+        "[disturbances]\noutages = { probability = 2, least_s = 0, most_s = 9 }\n[feature_scales]",
+    ),
+    (
+        "[feature_scales]",
+        "[disturbances]\noutages = { probability = 1, least_s = 10, most_s = 9 }\n[feature_scales]",
+    ),
+    (
+        "[feature_scales]",
+        "[[disturbances.closures]]\nprobability = 1\nleast_s = 1\nmost_s = 9\n\
+         routes = [{ from = \"A\", to = \"C\" }]\n[feature_scales]",
+    ),
+    (
+        "[feature_scales]",
+        "[disturbances.takeoff_delays]\nslot_s = 900\nvertiports = [{ at = \"A\", probability = 0.1, \
+         mean_s = -1, most_s = 9 }]\n[feature_scales]",
+    ),
 ];
 
 fn changed(text: &str, (from, to): Change) -> String {
@@ -185,7 +239,7 @@ fn a_day_with_an_index_outside_its_lists_is_refused() {
 fn numbers_that_no_file_can_hold_are_refused_in_a_day() {
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut day = small().into_day();
-        day.fare_usd.cells_mut()[1] = value;
+        day.passenger_cost_usd.cells_mut()[1] = value;
         assert_eq!(day.check("day").expect_err("not finite").code(), Code(104));
     }
 }

@@ -48,7 +48,7 @@ fn the_smallest_network_of_one_vertiport_is_a_scenario() {
     day.aircraft.truncate(1);
     let table = |cell| vertifleet_core::Matrix::from_fn(1, |_, _| cell);
     day.distance_mi = table(0.0);
-    day.fare_usd = table(0.0);
+    day.fare_usd = table(0.0).into();
     day.passenger_cost_usd = table(0.0);
     day.demand = vec![vertifleet_core::Matrix::from_fn(1, |_, _| 0); 2];
     let scenario = day.check("day").expect("one vertiport is enough");

@@ -132,7 +132,7 @@ fn write_nodes(nodes: &mut [f32], view: View<'_>, scales: &Scales) {
         node[1] = f32::from(view.stands(from)) * scales.stands;
         node[2] = departing as f32 * scales.passengers;
         let (fares, costs) = node[4..].split_at_mut(vertiports);
-        scale_into(fares, view.fares_usd(from), scales.fare_usd);
+        scale_into(fares, view.fares_usd(view.period(), from), scales.fare_usd);
         scale_into(costs, view.passenger_costs_usd(from), scales.cost_usd);
     }
     for j in 0..vertiports {

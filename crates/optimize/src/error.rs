@@ -34,6 +34,16 @@ pub enum Error {
         /// The most of them that a bound takes.
         most_places: usize,
     },
+
+    /// V503. A vertiport has chargers beside its stands, which the planner does not know. Fix: play such days with a policy, or
+    /// give the vertiport one pool.
+    #[error(
+        "vertiport {vertiport:?} has chargers beside its stands, and the planner knows one pool only"
+    )]
+    SeparateChargers {
+        /// The first such vertiport.
+        vertiport: String,
+    },
 }
 
 impl Error {
@@ -43,6 +53,7 @@ impl Error {
             Self::Core(error) => return error.code(),
             Self::Step { .. } => 501,
             Self::TooManyFlights { .. } => 502,
+            Self::SeparateChargers { .. } => 503,
         })
     }
 
@@ -51,6 +62,9 @@ impl Error {
         match self {
             Self::Core(error) => error.hint(),
             Self::TooManyFlights { .. } => Some("a longer step gives fewer possible flights"),
+            Self::SeparateChargers { .. } => {
+                Some("the bound and every policy, rolling included, take such days")
+            }
             Self::Step { .. } => None,
         }
     }

@@ -10,5 +10,5 @@ mod rolling;
 
 pub use bound::{Bound, Step, cached_upper_bound, upper_bound};
 pub use error::Error;
-pub use plan::{Budget, Plan, Progress, Settings, plan};
+pub use plan::{Budget, Plan, Progress, Settings, can_plan, plan};
 pub use rolling::Rolling;

@@ -5,6 +5,7 @@
 //! returns has been played in the simulator.
 
 mod day;
+mod foresight;
 mod problem;
 mod route_search;
 mod schedule;
@@ -21,6 +22,7 @@ use vertifleet_core::Scenario;
 use vertifleet_policy::draw;
 use vertifleet_sim::Trace;
 
+use crate::Error;
 use problem::Problem;
 use search::Search;
 
@@ -77,7 +79,19 @@ pub struct Plan {
     pub steps: u64,
 }
 
-/// Plans a day. `watch` sees how far the plan is, many times a second on networks of usual size, and says whether to go
+/// Whether a day can be planned.
+///
+/// # Errors
+/// [`Error::SeparateChargers`] if a vertiport has chargers beside its stands: what a hold does there, the planner does not know.
+pub fn can_plan(scenario: &Scenario) -> Result<(), Error> {
+    let separate = scenario.vertiports.iter().find(|vertiport| vertiport.chargers.is_some());
+    separate.map_or(Ok(()), |vertiport| {
+        Err(Error::SeparateChargers { vertiport: vertiport.id.clone() })
+    })
+}
+
+/// Plans a day that is known in full: actual demand, delays, closures and outages. Where it [cannot be planned](can_plan), the
+/// plan is the day of the best policy. `watch` sees how far the plan is, many times a second on networks of usual size, and says whether to go
 /// on; when it says no, the plan is the best found by then.
 pub fn plan(
     scenario: &Arc<Scenario>,
@@ -85,9 +99,12 @@ pub fn plan(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Plan {
     let begun = Instant::now();
-    let problem = Problem::of(scenario);
     let (trace, profit_usd) = start::best_policy(scenario);
     let mut plan = Plan { trace, profit_usd, best_policy_usd: profit_usd, steps: 0 };
+    if can_plan(scenario).is_err() {
+        return plan;
+    }
+    let problem = Problem::of(scenario);
     let first = start::schedule_of(&problem, &plan.trace);
     let mut searches: Vec<Search> = (0_u32..)
         .take(settings.searches.max(1))

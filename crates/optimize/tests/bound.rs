@@ -6,7 +6,7 @@ mod exhaustive;
 use std::fs;
 use std::sync::Arc;
 
-use common::{Size, any_day};
+use common::{Size, any_day, any_extended_day};
 use exhaustive::best_of_all;
 use rayon::prelude::*;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario, Time, TypeIx, VertiportIx};
@@ -37,6 +37,20 @@ fn earned_usd(day: &Arc<Scenario>, policy: &mut dyn Policy) -> f64 {
 fn no_sequence_of_decisions_of_a_tiny_day_earns_more_than_its_bound() {
     let compared = (0..200_u32).into_par_iter().filter(|&number| {
         let day = any_day(number.into(), Size { vertiports: 3, fleet: 3, hours: 2 });
+        let Some(best) = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000) else {
+            return false;
+        };
+        let bound = bound_usd(&day, [1, 5, 13, 60][number as usize % 4]);
+        assert!(bound >= best, "day {number}: bound {bound}, possible {best}");
+        true
+    });
+    assert!(compared.count() >= 40, "enough days have few sequences");
+}
+
+#[test]
+fn no_sequence_of_decisions_of_a_tiny_disturbed_day_earns_more_than_its_bound() {
+    let compared = (0..200_u32).into_par_iter().filter(|&number| {
+        let day = any_extended_day(number.into(), Size { vertiports: 3, fleet: 3, hours: 2 });
         let Some(best) = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000) else {
             return false;
         };
@@ -89,6 +103,19 @@ fn no_policy_earns_more_than_the_bound_on_200_networks() {
 }
 
 #[test]
+fn no_rule_earns_more_than_the_bound_on_200_disturbed_networks() {
+    (2_000..2_200_u32).into_par_iter().for_each(|number| {
+        let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 5 });
+        let bound = bound_usd(&day, [5, 7, 15, 30, 60][number as usize % 5]);
+        let rules: [&mut dyn Policy; 3] = [&mut Random::new(1), &mut Greedy, &mut Lookahead];
+        for rule in rules {
+            let earned = earned_usd(&day, rule);
+            assert!(bound >= earned, "day {number}: bound {bound}, earned {earned}");
+        }
+    });
+}
+
+#[test]
 fn a_bound_of_paper_is_near_what_can_be_earned_and_the_same_each_time() {
     let day = Arc::new(paper_day(1));
     let bound = bound_usd(&day, 15);
@@ -113,7 +140,7 @@ fn a_day_without_anything_to_earn_has_a_bound_of_nothing() {
     nothing(stuck.check("out of range"));
 
     let mut dear = paper_day(4).into_day();
-    dear.passenger_cost_usd = dear.fare_usd.clone();
+    dear.passenger_cost_usd = dear.fare_usd.in_period(0).clone();
     nothing(dear.check("nothing left of a fare"));
 }
 
@@ -227,7 +254,7 @@ fn a_day_too_large_is_refused_with_what_helps() {
         .collect();
     let flat = Matrix::from_fn(size, |from, to| if from == to { 0.0 } else { 10.0 });
     (large.distance_mi, large.fare_usd, large.passenger_cost_usd) =
-        (flat.clone(), flat.clone(), flat);
+        (flat.clone(), flat.clone().into(), flat);
     large.demand.iter_mut().for_each(|table| *table = Matrix::from_fn(size, |_, _| 0));
     let large = large.check("large").expect("a day within the rules");
     let error = upper_bound(&large, minutes(1)).expect_err("too large");

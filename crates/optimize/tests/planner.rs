@@ -6,10 +6,10 @@ mod exhaustive;
 use std::sync::Arc;
 use std::time::Duration;
 
-use common::{Size, any_day};
+use common::{Size, any_day, any_extended_day};
 use exhaustive::best_of_all;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario};
-use vertifleet_optimize::{Budget, Plan, Settings, plan};
+use vertifleet_optimize::{Budget, Plan, Settings, can_plan, plan};
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, play};
 use vertifleet_sim::{Simulation, check::check};
 
@@ -56,6 +56,40 @@ fn a_plan_keeps_every_rule_and_earns_no_less_than_any_simple_one() {
             assert!(plan.profit_usd >= earned, "day {number}: {} < {earned}", plan.profit_usd);
         }
     }
+}
+
+#[test]
+fn a_disturbed_day_is_planned_as_known_and_one_with_chargers_beside_stands_not_at_all() {
+    let small = Size { vertiports: 6, fleet: 9, hours: 6 };
+    let mut better = 0;
+    for number in 500..560 {
+        let day = any_extended_day(number, small);
+        let plan = planned(&day, 60);
+        let report = check(&day, &plan.trace);
+        assert!(report.is_valid(), "day {number}: {report}");
+        assert!((report.totals.profit - plan.profit_usd).abs() < 1e-6, "day {number}");
+        assert!(plan.profit_usd >= plan.best_policy_usd, "day {number}");
+        let has_chargers = day.vertiports.iter().any(|vertiport| vertiport.chargers.is_some());
+        assert_eq!(has_chargers, can_plan(&day).is_err());
+        assert!(!has_chargers || plan.steps == 0);
+        better += usize::from(plan.profit_usd > plan.best_policy_usd);
+    }
+    assert!(better > 20, "{better}");
+}
+
+#[test]
+fn a_tiny_disturbed_day_is_planned_as_well_as_any_sequence_of_decisions_allows() {
+    let tiny = Size { vertiports: 3, fleet: 3, hours: 2 };
+    let mut compared = 0;
+    for number in (600..700_u64).filter(|number| !number.is_multiple_of(4)) {
+        let day = any_extended_day(number, tiny);
+        let best = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000);
+        let Some(best) = best.filter(|&best| best > 0.0) else { continue };
+        let found = planned(&day, 200).profit_usd;
+        assert!((found - best).abs() < 1e-6, "day {number}: planned {found}, possible {best}");
+        compared += 1;
+    }
+    assert!(compared >= 10, "{compared} days have few enough sequences");
 }
 
 #[test]

@@ -4,7 +4,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{Size, any_day};
+use common::{Size, any_day, any_extended_day};
 use rayon::prelude::*;
 use vertifleet_core::Scenario;
 use vertifleet_optimize::Rolling;
@@ -40,6 +40,17 @@ fn days_keep_every_rule_and_earn_more_than_greedys() {
         greedy_usd += played(&day, &mut Greedy).1;
     }
     assert!(rolling_usd > greedy_usd, "{rolling_usd} is not more than {greedy_usd}");
+}
+
+#[test]
+fn disturbed_days_keep_every_rule() {
+    let mut rolling = Rolling::default();
+    for number in 400..412 {
+        let day = any_extended_day(number, SMALL);
+        let (trace, _) = played(&day, &mut rolling);
+        let report = check(&day, &trace);
+        assert!(report.is_valid(), "day {number}: {report}");
+    }
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn greedy_takes_the_highest_profit_per_hour() {
             let pair = (decision.at, to);
             let miles = day.distance_mi[pair];
             let waiting = view.demand_left(view.period_at(decision.time), decision.at, to);
-            let margin = day.fare_usd[pair] - day.passenger_cost_usd[pair];
+            let margin = day.fare_usd.in_period(0)[pair] - day.passenger_cost_usd[pair];
             let profit = f64::from(waiting.min(4)) * margin - 0.2 * 2.2 * miles;
             let hours = 0.5 + miles / 74.5 + 2.2 * miles / 150.0;
             profit / hours

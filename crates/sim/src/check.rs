@@ -13,6 +13,7 @@ mod expected;
 mod holds;
 mod order;
 mod passengers;
+mod reach;
 mod report;
 mod rule;
 mod stands;
@@ -41,6 +42,7 @@ pub fn check(scenario: &Scenario, trace: &Trace) -> Report {
             holds::check(scenario, event, &mut findings);
             totals.count_hold();
         } else {
+            reach::check(scenario, event, &mut findings);
             let expected = Expected::of(scenario, event);
             times::check(scenario, event, &expected, &mut findings);
             amounts::check(event, &expected, &mut findings);

@@ -2,7 +2,8 @@
 
 use vertifleet_core::{Matrix, Scenario, VertiportIx};
 
-/// What is left of the day's demand. A flight takes its passengers at the moment it is decided.
+/// What is left of the day's demand, as far as it is known: the actual one of periods that have begun, the forecast of the
+/// others. A flight takes its passengers at the moment it is decided.
 #[derive(Debug, Clone)]
 pub(crate) struct Demand {
     vertiports: usize,
@@ -14,9 +15,21 @@ pub(crate) struct Demand {
 impl Demand {
     /// The demand of a day before its first flight.
     pub(crate) fn of(scenario: &Scenario) -> Self {
-        let left: Vec<u32> = scenario.demand.iter().flat_map(Matrix::cells).copied().collect();
-        let total = left.iter().map(|&passengers| u64::from(passengers)).sum();
-        Self { vertiports: scenario.vertiports.len(), left, total }
+        let cells = |tables: &[Matrix<u32>]| -> Vec<u32> {
+            tables.iter().flat_map(Matrix::cells).copied().collect()
+        };
+        let left = cells(scenario.disturbances.forecast.as_ref().unwrap_or(&scenario.demand));
+        let actual = scenario.demand.iter().flat_map(Matrix::cells);
+        let total = actual.map(|&passengers| u64::from(passengers)).sum();
+        let mut demand = Self { vertiports: scenario.vertiports.len(), left, total };
+        demand.begin(0, &scenario.demand[0]);
+        demand
+    }
+
+    /// A period begins: its actual demand is known from now on.
+    pub(crate) fn begin(&mut self, period: usize, actual: &Matrix<u32>) {
+        let pairs = self.vertiports * self.vertiports;
+        self.left[period * pairs..][..pairs].copy_from_slice(actual.cells());
     }
 
     #[inline]

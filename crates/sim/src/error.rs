@@ -24,9 +24,25 @@ pub enum Refusal {
         /// The vertiport chosen.
         to: String,
     },
-    /// Every stand of the destination is taken or promised (Eq. 16).
+    /// The scenario has corridors, and none of them leads that way.
+    #[error("aircraft {aircraft:?} cannot fly to vertiport {to:?}: no corridor leads there")]
+    NoCorridor {
+        /// The aircraft that decides.
+        aircraft: String,
+        /// The vertiport chosen.
+        to: String,
+    },
+    /// The route is closed at the moment.
+    #[error("aircraft {aircraft:?} cannot fly to vertiport {to:?}: the route is closed")]
+    Closed {
+        /// The aircraft that decides.
+        aircraft: String,
+        /// The vertiport chosen.
+        to: String,
+    },
+    /// Every stand of the destination is taken or promised (Eq. 16); every charger where they are a pool of their own.
     #[error(
-        "aircraft {aircraft:?} cannot fly to vertiport {to:?}: every stand is taken or promised to an aircraft on its way"
+        "aircraft {aircraft:?} cannot fly to vertiport {to:?}: every stand or charger is taken or promised to an aircraft on its way"
     )]
     NoStandFree {
         /// The aircraft that decides.

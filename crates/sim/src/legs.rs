@@ -56,7 +56,7 @@ pub struct Legs {
     vertiports: usize,
     /// By type, then from, then to.
     by_pair: Vec<Leg>,
-    /// By type, then from: the other vertiports that a full battery reaches.
+    /// By type, then from: the other vertiports that a corridor leads to and a full battery reaches.
     within_range: Vec<VertiportSet>,
 }
 
@@ -74,6 +74,7 @@ impl Legs {
                 within_range.push(
                     VertiportIx::all(vertiports)
                         .filter(|&to| to != from && kind.lasts_for(row[to.at()].energy_kwh))
+                        .filter(|&to| scenario.is_corridor(from, to))
                         .collect(),
                 );
             }
@@ -94,7 +95,7 @@ impl Legs {
             [..self.vertiports]
     }
 
-    /// The other vertiports that a full battery reaches.
+    /// The other vertiports that a corridor leads to and a full battery reaches.
     #[inline]
     pub fn within_range(&self, kind: TypeIx, from: VertiportIx) -> &VertiportSet {
         &self.within_range[kind.at() * self.vertiports + from.at()]

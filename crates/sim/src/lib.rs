@@ -5,10 +5,13 @@
 //! The [checker](check) judges finished schedules from the rules alone and shares no code with the simulator.
 
 pub mod check;
+mod closures;
 mod demand;
 mod error;
+mod imagined;
 mod ledger;
 mod legs;
+mod outages;
 mod queue;
 mod simulation;
 mod stands;
@@ -17,6 +20,7 @@ mod vertiport_set;
 mod view;
 
 pub use error::Refusal;
+pub use imagined::Imagined;
 pub use ledger::{Ledger, Summary};
 pub use legs::{Leg, Legs};
 pub use simulation::{Decision, Simulation};

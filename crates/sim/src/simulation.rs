@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 
+use crate::closures::Closures;
 use crate::demand::Demand;
+use crate::outages::Outages;
 use crate::queue::ReadyQueue;
 use crate::stands::Stands;
 use crate::{Ledger, Legs, Refusal, Summary, TraceRow, VertiportSet, View};
@@ -34,6 +36,14 @@ pub struct Simulation {
     /// Where each aircraft stands or will land.
     place: Vec<VertiportIx>,
     ledger: Ledger,
+    closures: Closures,
+    outages: Outages,
+    /// Whether anything may yet happen that nobody expects; never on an imagined day.
+    surprises: bool,
+    /// Time of the latest decision asked for, the start of operations before the first; not kept without surprises.
+    now: Time,
+    /// The latest demand period whose actual demand is known; not kept without surprises.
+    known_period: usize,
     /// Demand period of the latest decision asked for; time never runs back.
     period: usize,
     potential_usd: f64,
@@ -49,6 +59,11 @@ impl Simulation {
             queue: ReadyQueue::new(scenario.aircraft.len(), scenario.operations.start),
             place: scenario.aircraft.iter().map(|aircraft| aircraft.at).collect(),
             ledger: Ledger::default(),
+            closures: Closures::of(&scenario),
+            outages: Outages::of(&scenario),
+            surprises: !scenario.disturbances.is_none(),
+            now: scenario.operations.start,
+            known_period: 0,
             period: 0,
             potential_usd: scenario.potential_usd(),
             scenario,
@@ -65,12 +80,26 @@ impl Simulation {
         while self.scenario.periods.get(self.period + 1).is_some_and(|&start| start <= time) {
             self.period += 1;
         }
+        if self.surprises {
+            self.discover(time);
+        }
         Some(Decision {
             time,
             aircraft,
             at: self.place[aircraft.at()],
             index: self.ledger.decisions(),
         })
+    }
+
+    /// What comes to be known up to and at `time`: the demand of periods that have begun, routes that close or open.
+    #[cold]
+    fn discover(&mut self, time: Time) {
+        self.now = time;
+        while self.known_period < self.period {
+            self.known_period += 1;
+            self.demand.begin(self.known_period, &self.scenario.demand[self.known_period]);
+        }
+        self.closures.advance(time);
     }
 
     /// Sends the aircraft that decides now to `choice`; its own vertiport means hold. Returns what that came to.
@@ -84,32 +113,43 @@ impl Simulation {
             return Ok(self.hold(&decision));
         }
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
-        let within_range = self.legs.within_range(kind, decision.at).contains(choice);
-        if within_range && self.stands.open().contains(choice) {
+        if self.legs.within_range(kind, decision.at).contains(choice)
+            && self.stands.open().contains(choice)
+            && (self.closures.is_empty() || !self.closures.from(decision.at).contains(choice))
+        {
             return Ok(self.fly(&decision, choice));
         }
-        Err(self.refusal(&decision, choice, within_range))
+        Err(self.refusal(&decision, choice))
     }
 
     /// The rule that a choice outside the mask breaks.
     #[cold]
-    fn refusal(&self, decision: &Decision, choice: VertiportIx, within_range: bool) -> Refusal {
+    fn refusal(&self, decision: &Decision, choice: VertiportIx) -> Refusal {
         let vertiports = &self.scenario.vertiports;
         let Some(to) = vertiports.get(choice.at()) else {
             return Refusal::NoSuchVertiport { position: choice.0, vertiports: vertiports.len() };
         };
         let to = to.id.clone();
-        let aircraft = self.scenario.aircraft[decision.aircraft.at()].id.clone();
-        if within_range {
-            Refusal::NoStandFree { aircraft, to }
-        } else {
+        let decides = &self.scenario.aircraft[decision.aircraft.at()];
+        let aircraft = decides.id.clone();
+        if !self.scenario.is_corridor(decision.at, choice) {
+            Refusal::NoCorridor { aircraft, to }
+        } else if !self.legs.within_range(decides.kind, decision.at).contains(choice) {
             Refusal::OutOfRange { aircraft, to }
+        } else if self.closures.from(decision.at).contains(choice) {
+            Refusal::Closed { aircraft, to }
+        } else {
+            Refusal::NoStandFree { aircraft, to }
         }
     }
 
     fn hold(&mut self, decision: &Decision) -> TraceRow {
         let ready = decision.time + self.scenario.operations.hold_s;
         self.queue.set(decision.aircraft, ready);
+        self.stands.hold(decision.aircraft, decision.at);
+        if self.surprises {
+            self.outages.hold(decision.aircraft, ready);
+        }
         self.ledger.holds += 1;
         TraceRow {
             time: decision.time,
@@ -135,26 +175,44 @@ impl Simulation {
         let pair = (from, to);
 
         let passengers = self.demand.board(self.period, from, to, seats);
-        let arrival = time + leg.flight_s;
-        let ready = arrival + leg.charge_s;
+        let mut arrival = time + leg.flight_s;
+        let mut ready = arrival + leg.charge_s;
+        if self.surprises {
+            (arrival, ready) = self.disturbed(decision, arrival, ready);
+        }
         let row = TraceRow {
             time,
             aircraft,
             from,
             to,
             passengers,
-            revenue_usd: f64::from(passengers) * self.scenario.fare_usd[pair],
+            revenue_usd: f64::from(passengers)
+                * self.scenario.fare_usd.in_period(self.period)[pair],
             passenger_cost_usd: f64::from(passengers) * self.scenario.passenger_cost_usd[pair],
             energy_kwh: leg.energy_kwh,
             energy_cost_usd: leg.energy_kwh * self.energy_price_at(arrival),
             arrival,
             ready,
         };
-        self.stands.transfer(from, to);
+        self.stands.transfer(aircraft, from, to);
         self.place[aircraft.at()] = to;
         self.queue.set(aircraft, ready);
         self.ledger.enter_flight(&row, self.scenario.distance_mi[pair], seats);
         row
+    }
+
+    /// When a flight arrives and its aircraft is ready, if it should be at these times.
+    #[cold]
+    fn disturbed(&mut self, decision: &Decision, arrival: Time, ready: Time) -> (Time, Time) {
+        let Decision { time, aircraft, at: from, .. } = *decision;
+        let start = self.scenario.operations.start;
+        let table = self.scenario.disturbances.takeoff_delays.as_ref();
+        let delay_s = table.map_or(0, |delays| delays.at(start, time, from));
+        let (arrival, ready) = (arrival + delay_s, ready + delay_s);
+        if self.outages.is_empty() {
+            return (arrival, ready);
+        }
+        (arrival, self.outages.land(aircraft, arrival, ready))
     }
 
     /// E in the period that contains `time`, which is no earlier than now; dollars per kWh.
@@ -170,8 +228,34 @@ impl Simulation {
     pub(crate) fn feasible(&self, decision: &Decision) -> VertiportSet {
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
         let mut mask = self.legs.within_range(kind, decision.at).and(self.stands.open());
+        if !self.closures.is_empty() {
+            mask = mask.without(&self.closures.from(decision.at));
+        }
         mask.insert(decision.at);
         mask
+    }
+
+    /// When an aircraft can be expected to be ready, as far as anybody knows now.
+    #[inline]
+    pub(crate) fn expected_ready(&self, aircraft: AircraftIx) -> Time {
+        if self.outages.is_empty() {
+            return self.queue.ready_at(aircraft);
+        }
+        self.outages.ready(aircraft, self.now)
+    }
+
+    /// The rest of the day without surprises.
+    pub(crate) fn imagined(&self) -> Self {
+        let mut imagined = self.clone();
+        if self.surprises {
+            imagined.surprises = false;
+            imagined.closures.freeze();
+            for aircraft in AircraftIx::all(self.place.len()) {
+                imagined.queue.set(aircraft, self.expected_ready(aircraft));
+            }
+            imagined.outages = Outages::none();
+        }
+        imagined
     }
 
     /// What a policy may look at.
@@ -215,8 +299,8 @@ impl Simulation {
         &self.demand
     }
 
-    pub(crate) fn queue(&self) -> &ReadyQueue {
-        &self.queue
+    pub(crate) fn closures(&self) -> &Closures {
+        &self.closures
     }
 
     pub(crate) fn places(&self) -> &[VertiportIx] {

@@ -1,38 +1,87 @@
 //! Stands: how many aircraft each vertiport holds or has promised a place to (Eq. 16).
 //!
-//! A stand is taken at take-off *towards* a vertiport and freed at take-off *from* it, so the bound holds at every
-//! instant and two aircraft can never race for the last place.
+//! A place is taken at take-off *towards* a vertiport and freed at take-off *from* it, so the bound holds at every
+//! instant and two aircraft can never race for the last one.
+//!
+//! A vertiport may have two pools: *chargers*, which flights need, and *stands* to wait on. A hold moves an aircraft from
+//! its charger to a stand if one is free. Everywhere else stands are the only pool, and flights need them.
 
-use vertifleet_core::{Scenario, VertiportIx};
+use vertifleet_core::{AircraftIx, Scenario, VertiportIx};
 
 use crate::VertiportSet;
 
-/// U_i and U_max of every vertiport, and which of them have a stand free.
+/// U_i and U_max of every vertiport, and which of them can promise a place.
 #[derive(Debug, Clone)]
 pub(crate) struct Stands {
+    /// Aircraft on places that flights need, or in the air towards one.
     taken: Vec<u16>,
     limit: Vec<u16>,
     open: VertiportSet,
+    parking: Option<Parking>,
+}
+
+/// The stands of vertiports that have chargers too.
+#[derive(Debug, Clone)]
+struct Parking {
+    taken: Vec<u16>,
+    /// 0 where stands are the only pool.
+    limit: Vec<u16>,
+    /// Whether each aircraft waits on a stand beside the chargers.
+    waits: Vec<bool>,
 }
 
 impl Stands {
-    /// The stands as the fleet's start positions take them.
+    /// The places as the fleet's start positions take them: on stands.
     pub(crate) fn at_start(scenario: &Scenario) -> Self {
-        let limit: Vec<u16> =
-            scenario.vertiports.iter().map(|vertiport| vertiport.stands).collect();
+        let vertiports = &scenario.vertiports;
+        let limit: Vec<u16> = vertiports
+            .iter()
+            .map(|vertiport| vertiport.chargers.unwrap_or(vertiport.stands))
+            .collect();
         let mut taken = vec![0; limit.len()];
-        for aircraft in &scenario.aircraft {
-            taken[aircraft.at.at()] += 1;
+        let mut parking =
+            vertiports.iter().any(|vertiport| vertiport.chargers.is_some()).then(|| {
+                let stands = |vertiport: &vertifleet_core::Vertiport| {
+                    vertiport.chargers.map_or(0, |_| vertiport.stands)
+                };
+                Parking {
+                    taken: vec![0; limit.len()],
+                    limit: vertiports.iter().map(stands).collect(),
+                    waits: vec![false; scenario.aircraft.len()],
+                }
+            });
+        for (number, aircraft) in scenario.aircraft.iter().enumerate() {
+            match &mut parking {
+                Some(parking) if vertiports[aircraft.at.at()].chargers.is_some() => {
+                    parking.taken[aircraft.at.at()] += 1;
+                    parking.waits[number] = true;
+                }
+                _ => taken[aircraft.at.at()] += 1,
+            }
         }
         let open =
             VertiportIx::all(limit.len()).filter(|v| taken[v.at()] < limit[v.at()]).collect();
-        Self { taken, limit, open }
+        Self { taken, limit, open, parking }
     }
 
-    /// U_i: aircraft standing at each vertiport or in the air towards it.
+    /// Aircraft on places that flights need, or in the air towards one, by vertiport.
     #[inline]
     pub(crate) fn taken(&self) -> &[u16] {
         &self.taken
+    }
+
+    /// The places that flights need, by vertiport.
+    #[inline]
+    pub(crate) fn limit(&self) -> &[u16] {
+        &self.limit
+    }
+
+    /// Aircraft that wait on stands beside chargers, and such stands; 0 where stands are the only pool.
+    pub(crate) fn parked(&self, vertiport: VertiportIx) -> (u16, u16) {
+        let parking = self.parking.as_ref();
+        parking.map_or((0, 0), |parking| {
+            (parking.taken[vertiport.at()], parking.limit[vertiport.at()])
+        })
     }
 
     /// The vertiports that can promise a place.
@@ -41,15 +90,47 @@ impl Stands {
         &self.open
     }
 
-    /// Moves one aircraft's stand from one vertiport to another that is [open](Self::open).
+    /// Moves an aircraft's place from one vertiport to another that is [open](Self::open).
     #[inline]
-    pub(crate) fn transfer(&mut self, from: VertiportIx, to: VertiportIx) {
-        debug_assert!(self.open.contains(to), "the mask admits only vertiports with a stand free");
+    pub(crate) fn transfer(&mut self, aircraft: AircraftIx, from: VertiportIx, to: VertiportIx) {
+        debug_assert!(self.open.contains(to), "the mask admits only vertiports with a place free");
         self.taken[to.at()] += 1;
         if self.taken[to.at()] == self.limit[to.at()] {
             self.open.remove(to);
         }
+        if self.parking.is_some() && self.leave_stand(aircraft, from) {
+            return;
+        }
         self.taken[from.at()] -= 1;
         self.open.insert(from);
+    }
+
+    /// Frees the stand of an aircraft that waits on one beside chargers; `false` if it does not.
+    #[cold]
+    fn leave_stand(&mut self, aircraft: AircraftIx, from: VertiportIx) -> bool {
+        let Some(parking) = &mut self.parking else { return false };
+        let waits = std::mem::take(&mut parking.waits[aircraft.at()]);
+        parking.taken[from.at()] -= u16::from(waits);
+        waits
+    }
+
+    /// An aircraft holds: from a charger it moves to a stand, if one is free.
+    #[inline]
+    pub(crate) fn hold(&mut self, aircraft: AircraftIx, at: VertiportIx) {
+        if self.parking.is_some() {
+            self.park(aircraft, at);
+        }
+    }
+
+    #[cold]
+    fn park(&mut self, aircraft: AircraftIx, at: VertiportIx) {
+        let Some(parking) = &mut self.parking else { return };
+        if parking.waits[aircraft.at()] || parking.taken[at.at()] == parking.limit[at.at()] {
+            return;
+        }
+        parking.waits[aircraft.at()] = true;
+        parking.taken[at.at()] += 1;
+        self.taken[at.at()] -= 1;
+        self.open.insert(at);
     }
 }

@@ -48,6 +48,13 @@ impl VertiportSet {
         Self { words: std::array::from_fn(|word| self.words[word] & other.words[word]) }
     }
 
+    /// The vertiports of this set that are not in the other.
+    #[inline]
+    #[must_use]
+    pub fn without(&self, other: &Self) -> Self {
+        Self { words: std::array::from_fn(|word| self.words[word] & !other.words[word]) }
+    }
+
     /// Number of vertiports in the set.
     #[inline]
     pub fn len(&self) -> u32 {

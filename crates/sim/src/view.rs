@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, AircraftType, Scenario, Time, TypeIx, VertiportIx};
 
-use crate::{Decision, Leg, Simulation, VertiportSet};
+use crate::{Decision, Imagined, Leg, Simulation, VertiportSet};
 
 /// The state of the network at the moment of a decision. Borrowed; costs nothing to make.
 #[derive(Debug, Clone, Copy)]
@@ -77,10 +77,16 @@ impl<'a> View<'a> {
         self.simulation.legs().legs_from(kind, from)
     }
 
-    /// The other vertiports that a full battery reaches.
+    /// The other vertiports that a corridor leads to and a full battery reaches, routes that are closed now included.
     #[inline]
     pub fn within_range(&self, kind: TypeIx, from: VertiportIx) -> &'a VertiportSet {
         self.simulation.legs().within_range(kind, from)
+    }
+
+    /// Where flights from a vertiport may not go now, because the route is closed.
+    #[inline]
+    pub fn closed(&self, from: VertiportIx) -> VertiportSet {
+        self.simulation.closures().from(from)
     }
 
     /// Where each aircraft stands or will land.
@@ -89,13 +95,14 @@ impl<'a> View<'a> {
         self.simulation.places()
     }
 
-    /// When the aircraft can decide next.
+    /// When the aircraft can be expected to decide next. An outage counts once it has begun.
     #[inline]
     pub fn ready_at(&self, aircraft: AircraftIx) -> Time {
-        self.simulation.queue().ready_at(aircraft)
+        self.simulation.expected_ready(aircraft)
     }
 
-    /// U_i of every vertiport: aircraft standing there or in the air towards it.
+    /// U_i of every vertiport: aircraft standing there or in the air towards it. Where chargers are a pool of their own, those
+    /// who have one or are on their way to one.
     #[inline]
     pub fn stands_taken(&self) -> &'a [u16] {
         self.simulation.stands().taken()
@@ -119,7 +126,8 @@ impl<'a> View<'a> {
         &self.scenario().periods
     }
 
-    /// Passengers who still want to fly from one vertiport to another in a period, as forecast.
+    /// Passengers who still want to fly from one vertiport to another in a period: of those who are there in a period that has
+    /// begun, of those who are forecast in a later one.
     #[inline]
     pub fn demand_left(&self, period: usize, from: VertiportIx, to: VertiportIx) -> u32 {
         self.simulation.demand().left(period, from, to)
@@ -131,10 +139,10 @@ impl<'a> View<'a> {
         self.simulation.demand().period(period)
     }
 
-    /// P_ij, dollars a passenger, from one vertiport to each.
+    /// P_ij of flights decided in a period, dollars a passenger, from one vertiport to each.
     #[inline]
-    pub fn fares_usd(&self, from: VertiportIx) -> &'a [f64] {
-        self.scenario().fare_usd.row(from)
+    pub fn fares_usd(&self, period: usize, from: VertiportIx) -> &'a [f64] {
+        self.scenario().fare_usd.in_period(period).row(from)
     }
 
     /// R_ij, dollars a passenger, from one vertiport to each.
@@ -155,8 +163,8 @@ impl<'a> View<'a> {
         &self.scenario().energy_price_usd
     }
 
-    /// What a flight decided at `time` (not before now) would earn with `waiting` passengers there: dollars, fares
-    /// less passenger cost less energy at the price of its arrival.
+    /// What a flight decided at `time` (not before now) would earn with `waiting` passengers there if it is on time: dollars,
+    /// fares less passenger cost less energy at the price of its arrival.
     #[inline]
     pub fn flight_profit_usd(
         &self,
@@ -167,7 +175,8 @@ impl<'a> View<'a> {
     ) -> f64 {
         let seats = u32::from(self.aircraft_type(kind).seats);
         let leg = self.leg(kind, from, to);
-        let margin_usd = self.fares_usd(from)[to.at()] - self.passenger_costs_usd(from)[to.at()];
+        let fares_usd = self.fares_usd(self.period_at(time), from);
+        let margin_usd = fares_usd[to.at()] - self.passenger_costs_usd(from)[to.at()];
         let energy_price_usd = self.simulation.energy_price_at(time + leg.flight_s);
         f64::from(waiting.min(seats)) * margin_usd - leg.energy_kwh * energy_price_usd
     }
@@ -190,21 +199,27 @@ impl<'a> View<'a> {
         self.scenario().operations.hold_s
     }
 
-    /// U_max of a vertiport.
+    /// U_max of a vertiport: its stands, or its chargers where they are a pool of their own. A flight needs one of them.
     #[inline]
     pub fn stands(&self, vertiport: VertiportIx) -> u16 {
-        self.scenario().vertiports[vertiport.at()].stands
+        self.simulation.stands().limit()[vertiport.at()]
+    }
+
+    /// Aircraft that wait on stands of a vertiport where chargers are a pool of their own, and how many such stands there are;
+    /// both 0 everywhere else.
+    pub fn parked(&self, vertiport: VertiportIx) -> (u16, u16) {
+        self.simulation.stands().parked(vertiport)
+    }
+
+    /// The rest of the day as it can be imagined from here, to be played out.
+    pub fn imagined(&self) -> Imagined {
+        Imagined::of(self.simulation.imagined())
     }
 
     /// The day itself, to be told from every other.
     #[inline]
     pub fn day(&self) -> DayKey {
         DayKey(Arc::clone(self.simulation.scenario()))
-    }
-
-    /// The day from this moment on as anyone may imagine it: where choices can be tried out.
-    pub fn imagined(&self) -> Simulation {
-        self.simulation.clone()
     }
 
     /// The seed the day was drawn with.

@@ -2,7 +2,7 @@
 
 mod check_day;
 
-use vertifleet_core::{AircraftIx, Day, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Closure, Day, Outage, Route, TakeoffDelays, Time, VertiportIx};
 use vertifleet_sim::check::{Report, Rule, check};
 use vertifleet_sim::{Trace, TraceRow};
 
@@ -28,6 +28,10 @@ fn carry(row: &mut TraceRow, passengers: u16) {
     row.passengers = passengers;
     row.revenue_usd = 50.0 * f64::from(passengers);
     row.passenger_cost_usd = 26.0 * f64::from(passengers);
+}
+
+fn route(from: u16, to: u16) -> Route {
+    Route { from: VertiportIx(from), to: VertiportIx(to), both_ways: false }
 }
 
 /// Breaks one rule and, where the second value is `false`, unavoidably others with it.
@@ -84,6 +88,22 @@ fn break_rule(rule: Rule, day: &mut Day, rows: &mut Vec<TraceRow>) -> bool {
         Rule::PassengerCost => rows[4].passenger_cost_usd = 0.01,
         Rule::EnergyCost => rows[2].energy_cost_usd = 45.0 * 0.2,
         Rule::StandBound => day.vertiports[2].stands = 1,
+        Rule::ChargerBound => day.vertiports[2].chargers = Some(1),
+        Rule::Corridor => day.corridors = Some(vec![route(0, 2), route(2, 0)]),
+        Rule::Closure => {
+            let (start, end) = (rows[2].time, rows[2].time + 1);
+            day.disturbances.closures = vec![Closure { route: route(0, 2), start, end }];
+        }
+        Rule::TakeoffDelay => {
+            // Row 4 leaves V3 in the second hour, late by a minute; its energy is paid at the same price then.
+            let delay_s = vec![vec![0, 0, 0], vec![0, 0, 60], vec![0, 0, 0]];
+            day.disturbances.takeoff_delays = Some(TakeoffDelays { slot_s: 3600, delay_s });
+            rows[4].ready = rows[4].ready + 60;
+        }
+        Rule::OutOfService => {
+            let (start, end) = (rows[4].arrival, rows[4].ready + 1);
+            day.disturbances.outages = vec![Outage { aircraft: AircraftIx(0), start, end }];
+        }
     }
     true
 }
@@ -169,6 +189,29 @@ fn a_place_is_not_left_by_more_aircraft_than_are_there() {
     assert_eq!(stands.expect("nobody was at V3").detail, "leaves -1 aircraft at V3");
 }
 
+/// An aircraft waits on a stand where it can, so that its charger is free for another.
+#[test]
+fn a_hold_gives_the_charger_back_where_a_stand_is_free() {
+    let with = |stands| {
+        let mut day = day();
+        day.vertiports[2].stands = stands;
+        day.vertiports[2].chargers = Some(2);
+        day
+    };
+    // Both aircraft come to V3; A1 holds there and flies on.
+    for stands in [1, 2] {
+        assert!(judge(with(stands), &schedule()).is_valid());
+    }
+    let mut scarce = with(1);
+    scarce.vertiports[2].chargers = Some(1);
+    let mut trace = schedule();
+    // A2 leaves V1 only after A1 has begun to wait at V3.
+    shift(&mut trace.rows[2], 45 * 60);
+    trace.rows[2].passengers = 4;
+    let report = judge(scarce, &trace);
+    assert!(!report.broken.contains_key(&Rule::ChargerBound), "{report}");
+}
+
 #[test]
 fn the_verdict_reads_well() {
     let (mut day, mut trace) = (day(), schedule());
@@ -177,12 +220,12 @@ fn the_verdict_reads_well() {
     trace.rows[3].ready = trace.rows[3].ready + 60;
     trace.rows.truncate(4);
     insta::assert_snapshot!(judge(day, &trace), @r#"
-    the schedule breaks 7 of 20 rules; findings: 7
+    the schedule breaks 7 of 25 rules; findings: 7
             1 x missing-decision An aircraft that is ready no later than the end of operations decides.
             1 x hold-time        A hold arrives when it is decided and is ready after the scenario's hold time (Eq. 8).
             1 x seats            A flight carries no more passengers than its aircraft has seats (Eq. 11).
             1 x demand           A flight carries no more passengers than still want to fly in the period of its decision.
-            1 x revenue          A flight's revenue is its passengers times the fare (Eq. 4).
+            1 x revenue          A flight's revenue is its passengers times the fare of the period of its decision (Eq. 4).
             1 x passenger-cost   A flight's passenger cost is its passengers times the pair's cost a passenger (Eq. 2).
             1 x stand-bound      At every instant the aircraft standing at a vertiport and in the air towards it are 0 to its stands (Eq. 16).
     row 1, 06:00:00, aircraft A1: 5 passengers, but the aircraft has 4 seats [seats]

@@ -13,6 +13,7 @@ use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_sim::check::check;
 use vertifleet_sim::{Simulation, Summary, Trace, TraceRow};
 
+use common::extended::extended_day;
 use common::small_day;
 
 /// Plays a day at random: each draw picks among the feasible vertiports, round and round.
@@ -135,7 +136,7 @@ proptest! {
     #![proptest_config(Config::with_cases(200))]
 
     #[test]
-    fn what_the_simulator_plays_keeps_every_rule(day in small_day(), draws in draws()) {
+    fn what_the_simulator_plays_keeps_every_rule(day in extended_day(), draws in draws()) {
         let (_, trace) = play(&day, &draws);
         let report = check(&day, &trace);
         prop_assert!(report.is_valid(), "{report}");
@@ -149,7 +150,7 @@ proptest! {
     }
 
     #[test]
-    fn both_accounts_of_a_day_agree(day in small_day(), draws in draws()) {
+    fn both_accounts_of_a_day_agree(day in extended_day(), draws in draws()) {
         let (summary, trace) = play(&day, &draws);
         let totals = check(&day, &trace).totals;
         for (theirs, ours) in [
@@ -181,7 +182,7 @@ proptest! {
 
     #[test]
     fn one_edited_row_is_always_found(
-        day in small_day(), draws in draws(), at in any::<Index>(), edit in edits()
+        day in extended_day(), draws in draws(), at in any::<Index>(), edit in edits()
     ) {
         let (_, mut trace) = play(&day, &draws);
         let at = at.index(trace.rows.len());

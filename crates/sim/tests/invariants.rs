@@ -8,7 +8,7 @@ use proptest::prelude::{any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_core::{AircraftIx, Matrix, Scenario, VertiportIx};
 use vertifleet_sim::{Refusal, Simulation, TraceRow};
 
-use common::small_day;
+use common::extended::extended_day;
 
 /// Plays a day; each draw picks among the feasible vertiports, round and round. `each` sees every step.
 fn play(
@@ -35,23 +35,24 @@ fn draws() -> impl proptest::strategy::Strategy<Value = Vec<u32>> {
 
 proptest! {
     #[test]
-    fn stands_are_never_overbooked_and_no_aircraft_is_lost(day in small_day(), draws in draws()) {
+    fn stands_are_never_overbooked_and_no_aircraft_is_lost(day in extended_day(), draws in draws()) {
         play(&day, &draws, |simulation, _| {
             let view = simulation.view();
             let mut counted = vec![0; view.vertiports()];
             for place in view.places() {
                 counted[place.at()] += 1;
             }
-            assert_eq!(view.stands_taken(), counted, "a stand is taken for each aircraft at or towards it");
             for vertiport in VertiportIx::all(view.vertiports()) {
-                assert!(view.stands_taken()[vertiport.at()] <= view.stands(vertiport));
+                let (taken, (parked, parking)) = (view.stands_taken()[vertiport.at()], view.parked(vertiport));
+                assert_eq!(taken + parked, counted[vertiport.at()], "each aircraft at or towards it has a place");
+                assert!(taken <= view.stands(vertiport) && parked <= parking);
             }
             assert_eq!(view.places().len(), day.aircraft.len());
         });
     }
 
     #[test]
-    fn decisions_come_in_order_and_within_operations(day in small_day(), draws in draws()) {
+    fn decisions_come_in_order_and_within_operations(day in extended_day(), draws in draws()) {
         let (_, rows) = play(&day, &draws, |_, _| ());
         prop_assert!(rows.iter().all(|row| (day.operations.start..=day.operations.end).contains(&row.time)));
         prop_assert!(rows.is_sorted_by_key(|row| (row.time, row.aircraft)));
@@ -67,7 +68,7 @@ proptest! {
     }
 
     #[test]
-    fn batteries_and_cabins_hold_what_they_are_asked_to(day in small_day(), draws in draws()) {
+    fn batteries_and_cabins_hold_what_they_are_asked_to(day in extended_day(), draws in draws()) {
         let (_, rows) = play(&day, &draws, |_, _| ());
         let mut carried = vec![vec![0_u32; day.vertiports.len().pow(2)]; day.periods.len()];
         for row in &rows {
@@ -83,7 +84,7 @@ proptest! {
     }
 
     #[test]
-    fn the_ledger_adds_up(day in small_day(), draws in draws()) {
+    fn the_ledger_adds_up(day in extended_day(), draws in draws()) {
         let (simulation, rows) = play(&day, &draws, |_, _| ());
         let summary = simulation.summary();
         let sum = |part: fn(&TraceRow) -> f64| rows.iter().map(part).sum::<f64>();
@@ -103,7 +104,7 @@ proptest! {
     }
 
     #[test]
-    fn rewards_paid_by_the_flight_sum_to_the_reward_of_the_day(day in small_day(), draws in draws()) {
+    fn rewards_paid_by_the_flight_sum_to_the_reward_of_the_day(day in extended_day(), draws in draws()) {
         let (simulation, rows) = play(&day, &draws, |_, _| ());
         if simulation.potential_usd() > 0.0 {
             let dense: f64 = rows.iter().map(|row| row.profit_usd() / simulation.potential_usd()).sum();
@@ -112,7 +113,7 @@ proptest! {
     }
 
     #[test]
-    fn the_same_decisions_leave_the_same_trace(day in small_day(), draws in draws()) {
+    fn the_same_decisions_leave_the_same_trace(day in extended_day(), draws in draws()) {
         let (_, once) = play(&day, &draws, |_, _| ());
         let again = std::thread::scope(|scope| {
             let others: Vec<_> =
@@ -123,7 +124,7 @@ proptest! {
     }
 
     #[test]
-    fn a_refused_decision_changes_nothing(day in small_day(), draws in draws(), odd in any::<u16>()) {
+    fn a_refused_decision_changes_nothing(day in extended_day(), draws in draws(), odd in any::<u16>()) {
         play(&day, &draws, |simulation, _| {
             let Some(decision) = simulation.next_decision() else { return };
             let mask = simulation.view().feasible(&decision);
@@ -145,7 +146,7 @@ proptest! {
     }
 
     #[test]
-    fn after_the_day_every_decision_is_refused(day in small_day(), draws in draws()) {
+    fn after_the_day_every_decision_is_refused(day in extended_day(), draws in draws()) {
         let (mut simulation, _) = play(&day, &draws, |_, _| ());
         prop_assert_eq!(simulation.apply(VertiportIx(0)), Err(Refusal::DayOver));
     }

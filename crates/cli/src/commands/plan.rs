@@ -8,7 +8,9 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use vertifleet_core::Scenario;
-use vertifleet_optimize::{Bound, Budget, Error, Plan, Settings, Step, plan, upper_bound};
+use vertifleet_optimize::{
+    Bound, Budget, Error, Plan, Settings, Step, can_plan, plan, upper_bound,
+};
 
 use crate::args::PlanArguments;
 use crate::commands::read_scenario;
@@ -81,6 +83,7 @@ fn finest_bound(scenario: &Scenario) -> Result<Bound, Error> {
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = Arc::new(read_scenario(&arguments.scenario)?);
+    can_plan(&scenario)?;
     let stop = stop_on_interrupt()?;
     let begun = Instant::now();
     let mut proof = Proof::begin(&scenario);

@@ -18,8 +18,8 @@ pub(super) struct Certificate {
     /// What it is worth to be ready, *less* what the stand has cost since the day began, so that what an aircraft pays from
     /// one second to another is one subtraction; by layer, vertiport, second of the day.
     ///
-    /// A day has at most 3,601 slices (36 hours in minutes, and 1,440 more where periods begin), an aircraft flies at most
-    /// 2,161 times, a flight earns at most 1,000 x 10^12, and a stand costs at most 10^14 a slice: all is below 2^62.
+    /// A day has at most 5,762 slices (36 hours in minutes, 1,440 more where periods begin, and 2,161 where slots of delays
+    /// do), an aircraft flies at most 2,161 times, a flight earns at most 1,000 x 10^12, and a stand costs at most 10^14 a slice: all is below 2^62.
     worth_less_paid: Vec<i64>,
     /// The best for each second of a piece of a slice.
     best: Vec<i64>,
@@ -117,9 +117,16 @@ impl Certificate {
                         flies,
                     );
                 }
-                let known = &mut worths[from * slices.day_s() as usize..][begin..past];
+                let day_s = slices.day_s() as usize;
+                let known = &mut worths[from * day_s..][begin..past];
                 for (known, best) in known.iter_mut().zip(&best) {
                     *known = best - stays;
+                }
+                if network.layers[layer].waits_freely {
+                    let own = &mut worths[from * day_s..][..day_s];
+                    let over = -self.paid(network, slices.len(), from);
+                    let afterwards = own.get(past).copied().unwrap_or(over);
+                    wait_freely(&mut own[begin..past], afterwards);
                 }
                 self.best = best;
             }
@@ -157,7 +164,8 @@ impl Certificate {
     }
 
     /// What is wanted too much or too little if each aircraft takes the way that is worth most to it, at the prices that
-    /// were evaluated last. Among equal ways the first flight in file order goes first, a hold last.
+    /// were evaluated last. Among equal ways the first flight in file order goes first, a hold last; who
+    /// may wait freely waits as long as that is as good.
     pub(super) fn excess(&self, network: &Network, prices: &Prices, excess: &mut Excess) {
         *excess = Excess::of_nobody(network);
         for (layer, kind) in network.layers.iter().enumerate() {
@@ -165,6 +173,35 @@ impl Certificate {
                 self.walk(network, prices, layer, at, f64::from(count), excess);
             }
         }
+    }
+
+    /// Until when an aircraft that may wait freely does so: as long as being ready is worth as much later.
+    fn waits_until(&self, network: &Network, layer: usize, at: usize, mut second: usize) -> usize {
+        let day_s = network.slices.day_s() as usize;
+        let worth = |second| self.worth_less_paid(network, layer, at, second);
+        while network.layers[layer].waits_freely
+            && second < day_s
+            && worth(second) == worth(second + 1)
+        {
+            second += 1;
+        }
+        second
+    }
+
+    /// The first flight in file order that is worth as much as being ready at a place, second and slice is.
+    fn best_flight<'a>(
+        &self,
+        network: &'a Network,
+        prices: &Prices,
+        layer: usize,
+        (at, second, slice): (usize, usize, usize),
+    ) -> Option<&'a Flight> {
+        let here = self.worth_less_paid(network, layer, at, second) + self.paid(network, slice, at);
+        network.flights(slice, layer, at).iter().find(|flight| {
+            let (to, ready) = (flight.to.at(), second + flight.block_s as usize);
+            let goes_on = self.worth_less_paid(network, layer, to, ready);
+            here == earnings(network, prices, flight) + self.paid(network, slice, to) + goes_on
+        })
     }
 
     /// Follows the best way of `count` aircraft that start at `at`.
@@ -180,25 +217,33 @@ impl Certificate {
         let slices = &network.slices;
         let (mut second, mut slice) = (0, 0);
         while slice < slices.len() {
-            let here =
-                self.worth_less_paid(network, layer, at, second) + self.paid(network, slice, at);
-            let flights = network.flights(slice, layer, at);
-            let best = flights.iter().find(|flight| {
-                let (to, ready) = (flight.to.at(), second + flight.block_s as usize);
-                let goes_on = self.worth_less_paid(network, layer, to, ready);
-                here == earnings(network, prices, flight) + self.paid(network, slice, to) + goes_on
-            });
-            if let Some(flight) = best {
+            let leaves = self.waits_until(network, layer, at, second);
+            if leaves > second {
+                second = leaves;
+            } else if let Some(flight) =
+                self.best_flight(network, prices, layer, (at, second, slice))
+            {
                 excess.demand[flight.cell as usize] += count * f64::from(flight.passengers);
                 at = flight.to.at();
+                second += flight.block_s as usize;
+            } else {
+                second += network.hold_s as usize;
             }
-            second += best.map_or(network.hold_s, |flight| flight.block_s) as usize;
             let until = slices.containing(slices.start_s(0).saturating_add(small(second)));
             for taken in slice..until {
                 excess.stand[taken * network.size() + at] += count;
             }
             slice = until;
         }
+    }
+}
+
+/// Being ready is worth no less than being ready a second later at the same place: less what stands have cost, waiting costs
+/// nothing. `later` is the worth after the last of these seconds.
+fn wait_freely(worths: &mut [i64], mut later: i64) {
+    for worth in worths.iter_mut().rev() {
+        later = later.max(*worth);
+        *worth = later;
     }
 }
 

@@ -1,9 +1,10 @@
 //! What the aircraft of a day may do, laid out for the search of their best ways: legs, holds, earnings, limits.
 //!
-//! Aircraft of one type are alike, so there is one layer a type. What a flight earns depends on the slice in which it begins,
+//! Aircraft of one type are alike, so there is one layer a type; those that have an outage today are a layer of their own, in
+//! which outages are dropped and waiting is free. What a flight earns depends on the slice in which it begins,
 //! never on the second within it.
 
-use vertifleet_core::{Matrix, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_core::{Matrix, Scenario, Time, TypeIx, Vertiport, VertiportIx};
 use vertifleet_sim::Legs;
 
 use super::money;
@@ -20,7 +21,7 @@ const MOST_PLACES: usize = 100_000_000;
 pub(super) struct Flight {
     /// Where it leads.
     pub(super) to: VertiportIx,
-    /// Seconds from the take-off until the aircraft may take off again.
+    /// Seconds from the decision until the aircraft may decide again, its delay included.
     pub(super) block_s: u32,
     /// Place of its period and pair of vertiports in [`Network::demand`].
     pub(super) cell: u32,
@@ -30,10 +31,13 @@ pub(super) struct Flight {
     pub(super) energy_cost: i64,
 }
 
-/// The aircraft of one type.
+/// The aircraft of one type, those with outages or those without.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Layer {
     pub(super) kind: TypeIx,
+    /// Whether its aircraft may wait for any time rather than for holds: what an aircraft does that is kept on the ground by an
+    /// outage, one without outages can do too if it may wait for as long.
+    pub(super) waits_freely: bool,
     pub(super) seats: u32,
     /// Aircraft that start at each vertiport.
     pub(super) starts: Vec<u32>,
@@ -81,7 +85,7 @@ impl Network {
             });
         }
         let mut network = Self {
-            stands: scenario.vertiports.iter().map(|vertiport| vertiport.stands.into()).collect(),
+            stands: scenario.vertiports.iter().map(room).collect(),
             demand: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
             margin: margins(scenario),
             hold_s: scenario.operations.hold_s,
@@ -103,13 +107,18 @@ impl Network {
             for layer in &self.layers {
                 for from in VertiportIx::all(size) {
                     for to in legs.within_range(layer.kind, from).iter() {
+                        if closed_throughout(scenario, (from, to), times_s) {
+                            continue;
+                        }
                         let leg = legs.leg(layer.kind, from, to);
-                        let arrivals_s = (times_s.0 + leg.flight_s, times_s.1 + leg.flight_s);
+                        let late_s = delay_s(scenario, from, times_s.0);
+                        let flight_s = leg.flight_s + late_s;
+                        let arrivals_s = (times_s.0 + flight_s, times_s.1 + flight_s);
                         let price_usd = lowest_energy_price_usd(scenario, arrivals_s);
                         let cell = first_cell + from.at() * size + to.at();
                         self.flights.push(Flight {
                             to,
-                            block_s: leg.block_s(),
+                            block_s: leg.block_s() + late_s,
                             cell: small(cell),
                             passengers: layer.seats.min(self.demand[cell]),
                             energy_cost: money::down(leg.energy_kwh * price_usd),
@@ -134,16 +143,52 @@ impl Network {
     }
 }
 
-/// The types of the fleet's aircraft, in file order.
+/// Aircraft that may be at a vertiport or on their way to it. Where chargers are separate, one has a charger or a stand.
+fn room(vertiport: &Vertiport) -> u32 {
+    u32::from(vertiport.stands) + vertiport.chargers.map_or(0, u32::from)
+}
+
+/// The types of the fleet's aircraft, in file order; of each those without outages first.
 fn layers(scenario: &Scenario) -> Vec<Layer> {
-    let all = TypeIx::all(scenario.aircraft_types.len()).map(|kind| {
-        let mut starts = vec![0; scenario.vertiports.len()];
-        for aircraft in scenario.aircraft.iter().filter(|aircraft| aircraft.kind == kind) {
-            starts[aircraft.at.at()] += 1;
+    let mut has_outage = vec![false; scenario.aircraft.len()];
+    for outage in &scenario.disturbances.outages {
+        has_outage[outage.aircraft.at()] = true;
+    }
+    let mut layers = Vec::new();
+    for kind in TypeIx::all(scenario.aircraft_types.len()) {
+        for waits_freely in [false, true] {
+            let mut starts = vec![0; scenario.vertiports.len()];
+            for (aircraft, &has_outage) in scenario.aircraft.iter().zip(&has_outage) {
+                starts[aircraft.at.at()] +=
+                    u32::from(aircraft.kind == kind && has_outage == waits_freely);
+            }
+            let seats = scenario.aircraft_types[kind.at()].seats.into();
+            if starts.iter().any(|&count| count > 0) {
+                layers.push(Layer { kind, waits_freely, seats, starts });
+            }
         }
-        Layer { kind, seats: scenario.aircraft_types[kind.at()].seats.into(), starts }
-    });
-    all.filter(|layer| layer.starts.iter().any(|&count| count > 0)).collect()
+    }
+    layers
+}
+
+/// How late flights from a vertiport take off in the slot that contains a time; seconds.
+fn delay_s(scenario: &Scenario, from: VertiportIx, time_s: u32) -> u32 {
+    let start = scenario.operations.start;
+    let delays = scenario.disturbances.takeoff_delays.as_ref();
+    delays.map_or(0, |delays| delays.at(start, Time::from_seconds(time_s), from))
+}
+
+/// Whether one closure of a route lasts from the first to the last of these times.
+fn closed_throughout(
+    scenario: &Scenario,
+    (from, to): (VertiportIx, VertiportIx),
+    (first_s, last_s): (u32, u32),
+) -> bool {
+    scenario.disturbances.closures.iter().any(|closure| {
+        closure.route.covers(from, to)
+            && closure.start.seconds() <= first_s
+            && last_s < closure.end.seconds()
+    })
 }
 
 /// Flights that may begin in each slice.
@@ -156,9 +201,10 @@ fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
 
 /// The most that a passenger may earn, by period and pair. To carry one at a loss is never better than to carry none.
 fn margins(scenario: &Scenario) -> Vec<i64> {
-    let fares = scenario.fare_usd.cells().iter().zip(scenario.passenger_cost_usd.cells());
-    let of_a_period: Vec<i64> = fares.map(|(fare, cost)| money::up(fare - cost).max(0)).collect();
-    of_a_period.repeat(scenario.periods.len())
+    let costs = scenario.passenger_cost_usd.cells();
+    let fares = (0..scenario.periods.len())
+        .flat_map(|period| scenario.fare_usd.in_period(period).cells().iter().zip(costs));
+    fares.map(|(fare, cost)| money::up(fare - cost).max(0)).collect()
 }
 
 /// The lowest price of energy at any time from the first to the second of `arrivals_s`.

@@ -1,7 +1,7 @@
 //! Time slices: the day's take-off times cut into short intervals. Prices are constant within each.
 //!
 //! Every take-off time, up to and including the end of operations, is in exactly one slice, and a new slice begins wherever
-//! a demand period begins, so that all of a slice is in one period.
+//! a demand period or a slot of take-off delays begins, so that all of a slice is in one period and one slot.
 
 use vertifleet_core::{Scenario, Time};
 
@@ -19,8 +19,13 @@ impl Slices {
     pub(super) fn of(scenario: &Scenario, step_s: u32) -> Self {
         let first_s = scenario.operations.start.seconds();
         let past_s = scenario.operations.end.seconds() + 1;
-        let cuts_s = scenario.periods.iter().map(|period| period.seconds());
-        let cuts_s = cuts_s.filter(|&cut| first_s < cut && cut < past_s).chain([past_s]);
+        let periods_s = scenario.periods.iter().map(|period| period.seconds());
+        let delays = scenario.disturbances.takeoff_delays.iter();
+        let slots_s = delays.flat_map(|delays| (first_s..past_s).step_by(delays.slot_s as usize));
+        let mut cuts_s: Vec<u32> = periods_s.chain(slots_s).chain([past_s]).collect();
+        cuts_s.retain(|&cut_s| first_s < cut_s && cut_s <= past_s);
+        cuts_s.sort_unstable();
+        cuts_s.dedup();
 
         let (mut starts_s, mut periods) = (Vec::new(), Vec::new());
         let mut from_s = first_s;

@@ -3,6 +3,8 @@
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
+use super::foresight::Foresight;
+
 /// One way to go on from a vertiport for aircraft of one type.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hop {
@@ -12,8 +14,15 @@ pub(super) struct Hop {
     /// Seconds from take-off until ready again.
     pub(super) block_s: u32,
     pub(super) energy_kwh: f64,
-    /// Fare less passenger cost, dollars a passenger.
-    pub(super) margin_usd: f64,
+}
+
+/// How a flight ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Landing {
+    /// Second of the landing.
+    pub(super) arrival_s: u32,
+    /// Second at which the aircraft decides again.
+    pub(super) ready_s: u32,
 }
 
 /// The numbers of a day, by aircraft type and vertiport.
@@ -33,17 +42,19 @@ pub(super) struct Day {
     seats: Vec<u16>,
     /// By type, then from: the pairs within range.
     hops: Vec<Vec<Hop>>,
+    /// Fare less passenger cost by period, from, to; dollars a passenger.
+    margins_usd: Vec<f64>,
+    foresight: Option<Foresight>,
 }
 
 impl Day {
-    /// The numbers that a view shows.
-    pub(super) fn of(view: View<'_>) -> Self {
+    /// The numbers that a view shows, with what is known beyond them.
+    pub(super) fn of(view: View<'_>, foresight: Option<Foresight>) -> Self {
         let vertiports = view.vertiports();
         let types = view.aircraft_types();
         let mut hops = Vec::with_capacity(types.len() * vertiports);
         for kind in TypeIx::all(types.len()) {
             for from in VertiportIx::all(vertiports) {
-                let (fares_usd, costs_usd) = (view.fares_usd(from), view.passenger_costs_usd(from));
                 let hop = |to: VertiportIx| {
                     let leg = view.leg(kind, from, to);
                     Hop {
@@ -51,7 +62,6 @@ impl Day {
                         flight_s: leg.flight_s,
                         block_s: leg.block_s(),
                         energy_kwh: leg.energy_kwh,
-                        margin_usd: fares_usd[to.at()] - costs_usd[to.at()],
                     }
                 };
                 hops.push(view.within_range(kind, from).iter().map(hop).collect());
@@ -68,6 +78,8 @@ impl Day {
             kind_of: fleet.map(|aircraft| view.kind(aircraft)).collect(),
             seats: types.iter().map(|kind| kind.seats).collect(),
             hops,
+            margins_usd: margins_usd(view),
+            foresight,
         }
     }
 
@@ -103,6 +115,30 @@ impl Day {
         &hops[at.expect("only pairs within range are flown")]
     }
 
+    /// How a flight ends that an aircraft begins at a vertiport at a second.
+    #[inline]
+    pub(super) fn landing(
+        &self,
+        aircraft: AircraftIx,
+        from: VertiportIx,
+        hop: &Hop,
+        take_off_s: u32,
+    ) -> Landing {
+        match &self.foresight {
+            None => {
+                Landing { arrival_s: take_off_s + hop.flight_s, ready_s: take_off_s + hop.block_s }
+            }
+            Some(foresight) => foresight.landing(aircraft, from, hop, take_off_s),
+        }
+    }
+
+    /// Whether it is known that a route is closed at a second.
+    #[inline]
+    pub(super) fn is_closed(&self, from: VertiportIx, to: VertiportIx, time_s: u32) -> bool {
+        let foresight = self.foresight.as_ref();
+        foresight.is_some_and(|foresight| foresight.is_closed(from, to, time_s))
+    }
+
     /// The demand period that contains a second, which is not before that of `earliest`.
     #[inline]
     pub(super) fn period_from(&self, earliest: usize, time_s: u32) -> usize {
@@ -119,9 +155,28 @@ impl Day {
         (period * self.vertiports + from.at()) * self.vertiports + to.at()
     }
 
+    /// What a passenger of a [cell](Self::cell) of the demand earns, dollars.
+    #[inline]
+    pub(super) fn margin_usd(&self, cell: usize) -> f64 {
+        self.margins_usd[cell]
+    }
+
     /// Cost of charging after a flight that takes off in `period` and lands at `arrival_s`, dollars.
     #[inline]
     pub(super) fn energy_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
         hop.energy_kwh * self.energy_price_usd[self.period_from(period, arrival_s)]
     }
+}
+
+/// Fare less passenger cost by period, from, to.
+fn margins_usd(view: View<'_>) -> Vec<f64> {
+    let mut margins_usd = Vec::new();
+    for period in 0..view.period_starts().len() {
+        for from in VertiportIx::all(view.vertiports()) {
+            let fares_usd = view.fares_usd(period, from).iter();
+            let costs_usd = view.passenger_costs_usd(from);
+            margins_usd.extend(fares_usd.zip(costs_usd).map(|(fare, cost)| fare - cost));
+        }
+    }
+    margins_usd
 }

@@ -7,6 +7,7 @@ use vertifleet_policy::DayPrices;
 use vertifleet_sim::Simulation;
 
 use super::day::Day;
+use super::foresight::Foresight;
 use super::stand_prices::StandPrices;
 
 /// A planning problem, ready to be searched.
@@ -22,11 +23,11 @@ pub(super) struct Problem {
 }
 
 impl Problem {
-    /// A day that is known.
+    /// A day that is known in full. Prices come from its forecast: they guide the search and bound nothing.
     pub(super) fn of(scenario: &Arc<Scenario>) -> Self {
         let simulation = Simulation::new(Arc::clone(scenario));
         let view = simulation.view();
-        let day = Day::of(view);
+        let day = Day::of(view, Foresight::of(scenario));
         let start = scenario.operations.start;
         let prices = StandPrices::of(&day, &DayPrices::of(view, start), start);
         Self {

@@ -194,11 +194,15 @@ impl RouteSearch {
     fn fly(&mut self, task: &Task<'_>, choice: &Choice, hop: &Hop) {
         let Some(window) = self.window(hop.to, choice.moment) else { return };
         let day = &task.problem.day;
+        if day.is_closed(choice.place, hop.to, choice.time_s) {
+            return;
+        }
+        let landing = day.landing(task.aircraft, choice.place, hop, choice.time_s);
         let cell = day.cell(choice.period, choice.place, hop.to);
         let passengers = task.schedule.boarding(cell, task.seats);
-        let energy_usd = day.energy_cost_usd(hop, choice.period, choice.time_s + hop.flight_s);
-        let profit_usd = passengers as f64 * hop.margin_usd - energy_usd;
-        self.reach(task, choice, hop.to, window, choice.time_s + hop.block_s, profit_usd);
+        let energy_usd = day.energy_cost_usd(hop, choice.period, landing.arrival_s);
+        let profit_usd = passengers as f64 * day.margin_usd(cell) - energy_usd;
+        self.reach(task, choice, hop.to, window, landing.ready_s, profit_usd);
     }
 
     /// The window of a vertiport that contains a moment, which is not before the slot being settled.

@@ -82,7 +82,7 @@ impl Schedule {
             None => (route.place, route.ready_s),
             Some(last) => {
                 let hop = day.hop(day.kind(aircraft), last.from, last.to);
-                (last.to, last.take_off_s + hop.block_s)
+                (last.to, day.landing(aircraft, last.from, hop, last.take_off_s).ready_s)
             }
         }
     }
@@ -144,8 +144,9 @@ impl Schedule {
         self.left[cell] = after;
         // Passengers of the pair are demand less what is left of it, never less than none left.
         let passengers = (before.max(0) - after.max(0)).abs();
-        let energy_usd = day.energy_cost_usd(hop, period, flight.take_off_s + hop.flight_s);
-        passengers as f64 * hop.margin_usd - energy_usd
+        let landing = day.landing(aircraft, flight.from, hop, flight.take_off_s);
+        let energy_usd = day.energy_cost_usd(hop, period, landing.arrival_s);
+        passengers as f64 * day.margin_usd(cell) - energy_usd
     }
 
     /// Sets the account to an amount known from before, so that undoing a change leaves no rounding behind.

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use vertifleet_core::{
-    Aircraft, AircraftType, Day, Matrix, Operations, Scenario, Time, TypeIx, Vertiport, VertiportIx,
+    Aircraft, AircraftIx, AircraftType, Closure, Day, Disturbances, Fares, Matrix, Operations,
+    Outage, Route, Scenario, TakeoffDelays, Time, TypeIx, Vertiport, VertiportIx,
 };
 
 /// How large a day may be.
@@ -41,6 +42,7 @@ pub(crate) fn any_day(number: u64, most: Size) -> Arc<Scenario> {
                 x_mi: random.random_range(0.0..30.0),
                 y_mi: random.random_range(0.0..30.0),
                 stands: u16::try_from(standing).expect("few").max(1) + random.random_range(0..=1),
+                chargers: None,
                 busy: false,
             }
         })
@@ -84,14 +86,73 @@ pub(crate) fn any_day(number: u64, most: Size) -> Arc<Scenario> {
                 self_discharge_per_h: [0.0, 0.01][kind],
             })
             .collect(),
-        fare_usd: Matrix::from_fn(size, |from, to| 2.0 * distance_mi[(from, to)] + 1.25),
+        fare_usd: Matrix::from_fn(size, |from, to| 2.0 * distance_mi[(from, to)] + 1.25).into(),
         passenger_cost_usd: Matrix::from_fn(size, |from, to| 0.64 * distance_mi[(from, to)]),
         distance_mi,
+        corridors: None,
         periods: periods.into_iter().map(Time::from_seconds).collect(),
         demand,
         energy_price_usd,
+        disturbances: Disturbances::default(),
         vertiports,
         aircraft,
     };
     Arc::new(day.check("small day").expect("a day within the rules"))
+}
+
+/// As [`any_day`], with fares that change, corridors, separate chargers, delays, closures and outages; each on some days. The
+/// demand is not as forecast.
+pub(crate) fn any_extended_day(number: u64, most: Size) -> Arc<Scenario> {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(!number);
+    let mut day = Scenario::clone(&any_day(number, most)).into_day();
+    let size = day.vertiports.len();
+    let start = day.operations.start;
+    let open_s = day.operations.end.since(start);
+    let base = day.fare_usd.in_period(0).clone();
+    let mut fares = || {
+        let factor = random.random_range(0.3..2.0);
+        Matrix::from_fn(size, |from, to| base[(from, to)] * factor)
+    };
+    day.fare_usd = Fares::by_period(day.periods.iter().map(|_| fares()).collect());
+    let route = |random: &mut Xoshiro256PlusPlus| {
+        let from = random.random_range(0..size);
+        let to = (from + random.random_range(1..size.max(2))) % size;
+        let (from, to) = (VertiportIx::new(from), VertiportIx::new(to));
+        Route { from, to, both_ways: random.random() }
+    };
+    if size > 1 && number.is_multiple_of(3) {
+        day.corridors = Some((0..2 * size).map(|_| route(&mut random)).collect());
+    }
+    if number.is_multiple_of(4) {
+        for vertiport in &mut day.vertiports {
+            vertiport.chargers = Some(random.random_range(1..=2));
+        }
+    }
+    day.disturbances.forecast = Some(
+        day.periods
+            .iter()
+            .map(|_| {
+                Matrix::from_fn(
+                    size,
+                    |from, to| if from == to { 0 } else { random.random_range(0..14) },
+                )
+            })
+            .collect(),
+    );
+    let slot_s = random.random_range(300..4000);
+    let rows = TakeoffDelays::slots(slot_s, start, day.operations.end);
+    let mut late = || (0..size).map(|_| random.random_range(0..1500) / 2).collect();
+    let delay_s = (0..rows).map(|_| late()).collect();
+    day.disturbances.takeoff_delays = Some(TakeoffDelays { slot_s, delay_s });
+    for _ in 0..3 {
+        let first = start + random.random_range(0..=open_s);
+        let end = first + random.random_range(0..7200);
+        if size > 1 {
+            let route = route(&mut random);
+            day.disturbances.closures.push(Closure { route, start: first, end });
+        }
+        let aircraft = AircraftIx::new(random.random_range(0..day.aircraft.len()));
+        day.disturbances.outages.push(Outage { aircraft, start: first, end });
+    }
+    Arc::new(day.check("extended day").expect("a day within the rules"))
 }

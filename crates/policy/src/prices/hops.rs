@@ -79,8 +79,8 @@ impl Hops {
                 let from = VertiportIx::new(hop.pair / self.vertiports);
                 let waiting = view.demand_left(period, from, hop.to);
                 let passengers = f64::from(waiting.min(hop.seats));
-                let margin_usd =
-                    view.fares_usd(from)[hop.to.at()] - view.passenger_costs_usd(from)[hop.to.at()];
+                let margin_usd = view.fares_usd(period, from)[hop.to.at()]
+                    - view.passenger_costs_usd(from)[hop.to.at()];
                 self.passengers[period * count + at] = passengers;
                 self.profit_usd[period * count + at] =
                     passengers * margin_usd - hop.energy_kwh * energy_price_usd;

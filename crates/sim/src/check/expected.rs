@@ -14,6 +14,10 @@ const ROUNDING: f64 = 1e-12;
 pub(super) struct Expected {
     pub(super) arrival_s: u64,
     pub(super) ready_s: u64,
+    /// Seconds of `arrival_s` that are the delay of the take-off.
+    pub(super) delay_s: u64,
+    /// Whether the aircraft is ready as late as this because it is out of service.
+    pub(super) out_of_service: bool,
     pub(super) energy_kwh: f64,
     pub(super) revenue_usd: f64,
     pub(super) passenger_cost_usd: f64,
@@ -29,22 +33,31 @@ impl Expected {
 
         let airborne_s = time_s + u64::from(operations.takeoff_s);
         let landing_s = u64::from(operations.landing_s);
-        let stated_cruise_s = u64::from(row.arrival.seconds()).checked_sub(airborne_s + landing_s);
+        let delay_s = delay_s(scenario, event);
+        let on_the_way_s = airborne_s + delay_s + landing_s;
+        let stated_cruise_s = u64::from(row.arrival.seconds()).checked_sub(on_the_way_s);
         let cruise_s = nearest(3600.0 * distance_mi / kind.speed_mph, stated_cruise_s);
-        let arrival_s = airborne_s + cruise_s + landing_s;
+        let arrival_s = on_the_way_s + cruise_s;
 
-        let flight_h = (arrival_s - time_s) as f64 / 3600.0;
+        // A late flight waits on the ground, where the charger makes up for what the battery loses.
+        let flight_h = (arrival_s - delay_s - time_s) as f64 / 3600.0;
         let lost_kwh = kind.battery_kwh * kind.self_discharge_per_h * flight_h;
         let energy_kwh = kind.energy_kwh_per_mi * distance_mi + lost_kwh;
         let stated_charge_s = u64::from(row.ready.seconds()).checked_sub(arrival_s);
         let charge_s = nearest(3600.0 * energy_kwh / kind.charge_kw, stated_charge_s);
 
+        let full_again_s = arrival_s + charge_s;
+        let fit_again_s = fit_again_s(scenario, event, arrival_s);
+
         let passengers = f64::from(row.passengers);
+        let fares_usd = scenario.fare_usd.in_period(period_of(scenario, time_s));
         Self {
             arrival_s,
-            ready_s: arrival_s + charge_s,
+            ready_s: full_again_s.max(fit_again_s),
+            delay_s,
+            out_of_service: fit_again_s > full_again_s,
             energy_kwh,
-            revenue_usd: passengers * scenario.fare_usd[event.pair()],
+            revenue_usd: passengers * fares_usd[event.pair()],
             passenger_cost_usd: passengers * scenario.passenger_cost_usd[event.pair()],
             energy_cost_usd: energy_kwh * scenario.energy_price_usd[period_of(scenario, arrival_s)],
         }
@@ -54,6 +67,24 @@ impl Expected {
     pub(super) fn fits(&self, battery_kwh: f64) -> bool {
         self.energy_kwh <= battery_kwh * (1.0 + ROUNDING)
     }
+}
+
+/// How late the flight takes off: what stands for its vertiport in the slot of its decision.
+fn delay_s(scenario: &Scenario, event: &Event<'_>) -> u64 {
+    let Some(delays) = &scenario.disturbances.takeoff_delays else { return 0 };
+    let into_day_s = event.row.time.seconds().saturating_sub(scenario.operations.start.seconds());
+    let slot = delays.delay_s.get(into_day_s as usize / delays.slot_s as usize);
+    slot.map_or(0, |slot| slot[event.row.from.at()].into())
+}
+
+/// The latest end of an outage during which the aircraft lands; 0 if it lands during none.
+fn fit_again_s(scenario: &Scenario, event: &Event<'_>, arrival_s: u64) -> u64 {
+    let own = scenario.disturbances.outages.iter().filter(|outage| {
+        outage.aircraft == event.row.aircraft
+            && u64::from(outage.start.seconds()) <= arrival_s
+            && arrival_s < u64::from(outage.end.seconds())
+    });
+    own.map(|outage| outage.end.seconds().into()).max().unwrap_or(0)
 }
 
 /// A duration to the nearest second, half a second up. Where the duration is half a second and `f64` cannot tell from

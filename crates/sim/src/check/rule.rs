@@ -50,6 +50,14 @@ rules! {
         "A flight arrives after take-off, cruise to the nearest second, and landing (Eq. 7).",
     ReadyTime = "ready-time":
         "An aircraft is ready when what the flight took is charged again, to the nearest second (Eq. 9, 14, 15).",
+    TakeoffDelay = "takeoff-delay":
+        "A flight arrives later by the delay of the vertiport and slot of the day in which it is decided.",
+    OutOfService = "out-of-service":
+        "An aircraft that lands while it is out of service is not ready before that is over.",
+    Corridor = "corridor":
+        "A flight follows a corridor, if the scenario has any.",
+    Closure = "closure":
+        "No flight is decided while its route is closed.",
     Energy = "energy":
         "A flight takes the energy of its distance and what the battery loses on the way (Eq. 13).",
     Range = "range":
@@ -61,13 +69,15 @@ rules! {
     Boarding = "boarding":
         "A flight leaves nobody behind who wants to fly and has a seat.",
     Revenue = "revenue":
-        "A flight's revenue is its passengers times the fare (Eq. 4).",
+        "A flight's revenue is its passengers times the fare of the period of its decision (Eq. 4).",
     PassengerCost = "passenger-cost":
         "A flight's passenger cost is its passengers times the pair's cost a passenger (Eq. 2).",
     EnergyCost = "energy-cost":
         "A flight's energy cost is its energy times the price in the period of arrival (Eq. 3).",
     StandBound = "stand-bound":
         "At every instant the aircraft standing at a vertiport and in the air towards it are 0 to its stands (Eq. 16).",
+    ChargerBound = "charger-bound":
+        "At every instant the aircraft on chargers of a vertiport and in the air towards it are 0 to its chargers.",
 }
 
 impl fmt::Display for Rule {

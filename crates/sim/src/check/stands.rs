@@ -1,7 +1,9 @@
-//! Stands (Eq. 16): U_i, the aircraft standing at i or in the air towards it, is 0 to U_max at every instant.
+//! Stands (Eq. 16): U_i, the aircraft standing at i or in the air towards it, is 0 to U_max at every instant; and chargers,
+//! where a vertiport has a pool of them.
 //!
 //! U_i only changes at take-off, from where an aircraft was to where it flies, so looking at each take-off is looking
 //! at every instant. At one instant the aircraft listed first moves first, and the stand it leaves is free for the next.
+//! With chargers, a hold moves an aircraft from its charger to a stand, if there is one free.
 
 use vertifleet_core::Scenario;
 
@@ -9,29 +11,56 @@ use super::Rule;
 use super::event::Event;
 use super::report::Findings;
 
+/// Where an aircraft is while it waits.
+#[derive(Clone, Copy, PartialEq)]
+enum Pool {
+    /// On a stand. All aircraft are at vertiports without chargers.
+    Stand,
+    /// On a charger, or in the air towards one.
+    Charger,
+}
+
 /// Counts the aircraft of every vertiport through the day.
 pub(super) fn check(scenario: &Scenario, events: &[Event<'_>], findings: &mut Findings) {
-    let mut aircraft_at = vec![0_i64; scenario.vertiports.len()];
+    let mut on_stands = vec![0_i64; scenario.vertiports.len()];
+    let mut on_chargers = on_stands.clone();
+    let mut pools = vec![Pool::Stand; scenario.aircraft.len()];
     for aircraft in &scenario.aircraft {
-        aircraft_at[aircraft.at.at()] += 1;
+        on_stands[aircraft.at.at()] += 1;
     }
-    for event in events.iter().filter(|event| !event.is_hold()) {
-        let left = &mut aircraft_at[event.row.from.at()];
+    for event in events {
+        let (from, to) = (event.row.from.at(), event.row.to.at());
+        let pool = &mut pools[event.row.aircraft.at()];
+        if event.is_hold() {
+            if *pool == Pool::Charger && on_stands[from] < i64::from(event.from.stands) {
+                *pool = Pool::Stand;
+                on_chargers[from] -= 1;
+                on_stands[from] += 1;
+            }
+            continue;
+        }
+        let (left, rule) = match pool {
+            Pool::Stand => (&mut on_stands[from], Rule::StandBound),
+            Pool::Charger => (&mut on_chargers[from], Rule::ChargerBound),
+        };
         *left -= 1;
         if *left < 0 {
             let left = *left;
-            findings.add_event(Rule::StandBound, event, || {
-                format!("leaves {left} aircraft at {}", event.from.id)
-            });
+            findings
+                .add_event(rule, event, || format!("leaves {left} aircraft at {}", event.from.id));
         }
-        let there = &mut aircraft_at[event.row.to.at()];
+        let (there, limit, places, rule) = match event.to.chargers {
+            None => (&mut on_stands[to], event.to.stands, "stands", Rule::StandBound),
+            Some(chargers) => (&mut on_chargers[to], chargers, "chargers", Rule::ChargerBound),
+        };
+        *pool = if event.to.chargers.is_none() { Pool::Stand } else { Pool::Charger };
         *there += 1;
-        if *there > i64::from(event.to.stands) {
+        if *there > i64::from(limit) {
             let there = *there;
-            findings.add_event(Rule::StandBound, event, || {
+            findings.add_event(rule, event, || {
                 format!(
-                    "makes {there} aircraft at {} or on their way there, but its stands are {}",
-                    event.to.id, event.to.stands
+                    "makes {there} aircraft at {} or on their way there, but its {places} are {limit}",
+                    event.to.id
                 )
             });
         }

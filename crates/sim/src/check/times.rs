@@ -1,4 +1,4 @@
-//! A flight's times and whether its battery lasts (Eq. 7, 9, 12, 14, 15).
+//! A flight's times, with its delay and its aircraft's outages, and whether its battery lasts (Eq. 7, 9, 12, 14, 15).
 
 use vertifleet_core::Scenario;
 
@@ -16,7 +16,15 @@ pub(super) fn check(
 ) {
     let (row, kind) = (event.row, event.kind);
     let distance_mi = scenario.distance_mi[event.pair()];
-    if u64::from(row.arrival.seconds()) != expected.arrival_s {
+    let arrival_s = u64::from(row.arrival.seconds());
+    if expected.delay_s > 0 && arrival_s + expected.delay_s == expected.arrival_s {
+        findings.add_event(Rule::TakeoffDelay, event, || {
+            format!(
+                "arrives {} as though it left on time, but it leaves {} s late",
+                row.arrival, expected.delay_s
+            )
+        });
+    } else if arrival_s != expected.arrival_s {
         findings.add_event(Rule::ArrivalTime, event, || {
             format!(
                 "arrives {}, but {distance_mi} miles at {} mph and {} s of take-off and landing end at {}",
@@ -27,7 +35,12 @@ pub(super) fn check(
             )
         });
     }
-    if u64::from(row.ready.seconds()) != expected.ready_s {
+    let ready_s = u64::from(row.ready.seconds());
+    if expected.out_of_service && ready_s < expected.ready_s {
+        findings.add_event(Rule::OutOfService, event, || {
+            format!("ready {}, but out of service until {}", row.ready, clock(expected.ready_s))
+        });
+    } else if ready_s != expected.ready_s {
         findings.add_event(Rule::ReadyTime, event, || {
             format!(
                 "ready {}, but charging {} kWh at {} kW from {} on ends at {}",

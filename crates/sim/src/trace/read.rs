@@ -185,7 +185,8 @@ fn shortened(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use vertifleet_core::{
-        Aircraft, AircraftType, Day, Matrix, Operations, Time, TypeIx, Vertiport, VertiportIx,
+        Aircraft, AircraftType, Day, Disturbances, Matrix, Operations, Time, TypeIx, Vertiport,
+        VertiportIx,
     };
 
     use super::Reader;
@@ -212,6 +213,7 @@ mod tests {
                 x_mi: 0.0,
                 y_mi: 0.0,
                 stands: 1,
+                chargers: None,
                 busy: false,
             }],
             aircraft_types: vec![AircraftType {
@@ -225,11 +227,13 @@ mod tests {
             }],
             aircraft: vec![Aircraft { id: "A".to_owned(), kind: TypeIx(0), at: VertiportIx(0) }],
             distance_mi: Matrix::from_fn(1, |_, _| 0.0),
-            fare_usd: Matrix::from_fn(1, |_, _| 0.0),
+            corridors: None,
+            fare_usd: Matrix::from_fn(1, |_, _| 0.0).into(),
             passenger_cost_usd: Matrix::from_fn(1, |_, _| 0.0),
             periods: vec![start],
             demand: vec![Matrix::from_fn(1, |_, _| 0)],
             energy_price_usd: vec![0.2],
+            disturbances: Disturbances::default(),
         }
     }
 }

@@ -4,8 +4,8 @@
 //! in an hour, 0.1 kWh in a minute.
 
 use vertifleet_core::{
-    Aircraft, AircraftIx, AircraftType, Day, Matrix, Operations, Time, TypeIx, Vertiport,
-    VertiportIx,
+    Aircraft, AircraftIx, AircraftType, Day, Disturbances, Matrix, Operations, Time, TypeIx,
+    Vertiport, VertiportIx,
 };
 use vertifleet_sim::{Trace, TraceRow};
 
@@ -16,6 +16,7 @@ pub(crate) fn day() -> Day {
         x_mi,
         y_mi: 0.0,
         stands,
+        chargers: None,
         busy: false,
     };
     let aircraft =
@@ -46,7 +47,8 @@ pub(crate) fn day() -> Day {
         }],
         aircraft: vec![aircraft("A1", 0), aircraft("A2", 1)],
         distance_mi: table([[0.0, 20.0, 40.0], [20.0, 0.0, 30.0], [40.01, 30.0, 0.0]]),
-        fare_usd: table([[0.0, 30.0, 50.0], [30.0, 0.0, 40.0], [50.0, 40.0, 0.0]]),
+        corridors: None,
+        fare_usd: table([[0.0, 30.0, 50.0], [30.0, 0.0, 40.0], [50.0, 40.0, 0.0]]).into(),
         passenger_cost_usd: table([[0.0, 13.0, 26.0], [13.0, 0.0, 20.0], [26.0, 20.0, 0.0]]),
         periods: vec![time("06:00:00"), time("07:00:00")],
         demand: vec![
@@ -54,6 +56,7 @@ pub(crate) fn day() -> Day {
             table([[0, 9, 9], [9, 0, 9], [0, 9, 0]]),
         ],
         energy_price_usd: vec![0.2, 0.3],
+        disturbances: Disturbances::default(),
     }
 }
 

@@ -1,10 +1,13 @@
 //! Small random days, anything that a checked scenario may be.
 
+pub(crate) mod extended;
+
 use std::sync::Arc;
 
 use proptest::prelude::{Just, Strategy, any, prop};
 use vertifleet_core::{
-    Aircraft, AircraftType, Day, Matrix, Operations, Scenario, Time, TypeIx, Vertiport, VertiportIx,
+    Aircraft, AircraftType, Day, Disturbances, Matrix, Operations, Scenario, Time, TypeIx,
+    Vertiport, VertiportIx,
 };
 
 /// Days with 1 to 5 vertiports, 1 to 6 aircraft of 1 or 2 types and a few periods; stands and demand are scarce, and
@@ -45,6 +48,7 @@ fn day(
             x_mi,
             y_mi,
             stands,
+            chargers: None,
             busy: false,
         })
         .collect();
@@ -86,9 +90,10 @@ fn day(
                 at: VertiportIx::new(at),
             })
             .collect(),
-        fare_usd: Matrix::from_fn(size, |from, to| 3.0 * distance_mi[(from, to)] + 1.25),
+        fare_usd: Matrix::from_fn(size, |from, to| 3.0 * distance_mi[(from, to)] + 1.25).into(),
         passenger_cost_usd: Matrix::from_fn(size, |from, to| 0.64 * distance_mi[(from, to)]),
         distance_mi,
+        corridors: None,
         periods: (0..demand.len())
             .map(|period| Time::from_seconds(6 * 3600 + 3600 * u32::try_from(period).expect("few")))
             .collect(),
@@ -101,6 +106,7 @@ fn day(
             })
             .collect(),
         energy_price_usd,
+        disturbances: Disturbances::default(),
         vertiports,
     };
     Arc::new(day.check("small day").expect("a day within the rules"))

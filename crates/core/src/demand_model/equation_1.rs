@@ -1,0 +1,88 @@
+//! Eq. 1 (§III.C): how many passengers want to fly from i to j in a period, as a normal distribution.
+
+use serde::Deserialize;
+
+use super::{DemandModel, Kind, Level};
+use crate::limits;
+use crate::{Error, Time, VertiportIx};
+
+/// Eq. 1 with its numbers.
+#[derive(Debug, Clone)]
+pub(super) struct Equation1 {
+    /// T_peak1: towards and among busy vertiports.
+    morning_peak: usize,
+    /// T_peak2: from and among busy vertiports.
+    evening_peak: usize,
+    peak: Level,
+    busy_pairs: Level,
+    otherwise: Level,
+    /// V_B, by vertiport.
+    busy: Vec<bool>,
+}
+
+impl Equation1 {
+    /// The row of Eq. 1 that holds between two vertiports, the first that does.
+    pub(super) fn level(&self, period: usize, from: VertiportIx, to: VertiportIx) -> Level {
+        let morning = period == self.morning_peak;
+        let evening = period == self.evening_peak;
+        match (self.busy[from.at()], self.busy[to.at()]) {
+            (true, true) if morning || evening => self.peak,
+            (false, true) if morning => self.peak,
+            (true, false) if evening => self.peak,
+            (true, true) => self.busy_pairs,
+            _ => self.otherwise,
+        }
+    }
+}
+
+/// `[demand]` of the network file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of demand")]
+pub(crate) struct RawEquation1 {
+    periods: Vec<Time>,
+    morning_peak: Time,
+    evening_peak: Time,
+    peak: RawLevel,
+    busy_pairs: RawLevel,
+    otherwise: RawLevel,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a mean and an sd")]
+struct RawLevel {
+    mean: f64,
+    sd: f64,
+}
+
+impl RawEquation1 {
+    /// Checks all but the order of the periods, which is checked with every day's.
+    pub(crate) fn check(self, busy: Vec<bool>, origin: &str) -> Result<DemandModel, Error> {
+        super::check_periods(&self.periods, "demand", busy.len(), origin)?;
+        let peak = |time: Time, member: &str| {
+            self.periods.iter().position(|&start| start == time).ok_or_else(|| Error::UnknownId {
+                origin: origin.to_owned(),
+                member: format!("demand: {member}"),
+                found: time.to_string(),
+                list: "starts of demand periods",
+            })
+        };
+        let kind = Kind::Equation1(Equation1 {
+            morning_peak: peak(self.morning_peak, "morning_peak")?,
+            evening_peak: peak(self.evening_peak, "evening_peak")?,
+            peak: self.peak.check("peak", origin)?,
+            busy_pairs: self.busy_pairs.check("busy_pairs", origin)?,
+            otherwise: self.otherwise.check("otherwise", origin)?,
+            busy,
+        });
+        Ok(DemandModel { periods: self.periods, kind })
+    }
+}
+
+impl RawLevel {
+    fn check(&self, member: &str, origin: &str) -> Result<Level, Error> {
+        let Self { mean, sd } = *self;
+        limits::DEMAND_MEAN.check(mean, origin, || format!("demand: {member}: mean"))?;
+        limits::DEMAND_SD.check(sd, origin, || format!("demand: {member}: sd"))?;
+        Ok(Level { mean, sd })
+    }
+}

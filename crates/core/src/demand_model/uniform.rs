@@ -1,0 +1,56 @@
+//! Uniform demand: every whole number of passengers between two is as likely, for every pair and period.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use serde::Deserialize;
+
+use super::{DemandModel, Kind, check_periods};
+use crate::{Error, Time, limits};
+
+/// The least and the most passengers of a pair in a period.
+#[derive(Debug, Clone)]
+pub(super) struct UniformDemand {
+    least: u32,
+    most: u32,
+}
+
+impl UniformDemand {
+    pub(super) fn mean(&self) -> f64 {
+        f64::midpoint(f64::from(self.least), f64::from(self.most))
+    }
+
+    pub(super) fn draw(&self, random: &mut ChaCha8Rng) -> u32 {
+        random.random_range(self.least..=self.most)
+    }
+}
+
+/// `[uniform_demand]` of the network file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of uniform_demand")]
+pub(crate) struct RawUniformDemand {
+    periods: Vec<Time>,
+    least: f64,
+    most: f64,
+}
+
+impl RawUniformDemand {
+    pub(crate) fn check(self, vertiports: usize, origin: &str) -> Result<DemandModel, Error> {
+        check_periods(&self.periods, "uniform_demand", vertiports, origin)?;
+        let number = |value, member: &str| {
+            limits::UNIFORM_DEMAND
+                .whole_number(value, origin, || format!("uniform_demand: {member}"))
+        };
+        let (least, most): (u32, u32) = (number(self.least, "least")?, number(self.most, "most")?);
+        if least > most {
+            return Err(Error::OutOfRange {
+                origin: origin.to_owned(),
+                member: "uniform_demand: least".to_owned(),
+                rule: format!("at most {most}, which is most"),
+                found: least.to_string(),
+                hint: None,
+            });
+        }
+        let kind = Kind::Uniform(UniformDemand { least, most });
+        Ok(DemandModel { periods: self.periods, kind })
+    }
+}

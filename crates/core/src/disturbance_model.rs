@@ -1,0 +1,339 @@
+//! How the disturbances of a network's days are distributed, and how one day's are drawn.
+
+use rand::{Rng, RngExt};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use serde::Deserialize;
+
+use crate::demand_model::whole_passengers;
+use crate::limits::{self, Limits};
+use crate::raw::{Positions, each};
+use crate::raw_disturbances::RawRoute;
+use crate::{
+    AircraftIx, Closure, Error, Matrix, Operations, Outage, Route, TakeoffDelays, Time,
+    VertiportIx, check,
+};
+
+/// What may disturb a network's days; nothing by default.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct DisturbanceModel {
+    pub(crate) forecast_error: Option<ForecastError>,
+    pub(crate) takeoff_delays: Option<DelayModel>,
+    pub(crate) closures: Vec<ClosureModel>,
+    pub(crate) outages: Option<OutageModel>,
+}
+
+/// How actual demand scatters around the forecast.
+#[derive(Debug, Clone)]
+pub(crate) struct ForecastError {
+    /// Standard deviation of a pair's demand in a period, as a share of its forecast.
+    noise: f64,
+    /// Probability that more want to leave a vertiport in a period than was forecast, and by which factor.
+    surge_probability: f64,
+    surge_factor: f64,
+}
+
+impl ForecastError {
+    /// Actual demand, drawn around the forecast.
+    pub(crate) fn draw(
+        &self,
+        forecast: &[Matrix<u32>],
+        random: &mut ChaCha8Rng,
+    ) -> Vec<Matrix<u32>> {
+        let mut actual = forecast.to_vec();
+        for table in &mut actual {
+            for from in VertiportIx::all(table.size()) {
+                let surges = uniform(random) < self.surge_probability;
+                let factor = if surges { self.surge_factor } else { 1.0 };
+                for to in VertiportIx::all(table.size()) {
+                    let deviation: f64 = StandardNormal.sample(random);
+                    let expected = f64::from(table[(from, to)]);
+                    let drawn = expected * factor * (1.0 + self.noise * deviation);
+                    table[(from, to)] = whole_passengers(drawn.min(limits::MOST_PASSENGERS));
+                }
+            }
+        }
+        actual
+    }
+}
+
+/// Delays by slot and vertiport.
+#[derive(Debug, Clone)]
+pub(crate) struct DelayModel {
+    slot_s: u32,
+    /// By vertiport; `None` where flights are on time.
+    late: Vec<Option<Late>>,
+}
+
+/// In some slots flights leave late, by an exponential draw.
+#[derive(Debug, Clone, Copy)]
+struct Late {
+    probability: f64,
+    mean_s: f64,
+    most_s: f64,
+}
+
+impl DelayModel {
+    pub(crate) fn draw(&self, operations: &Operations, random: &mut ChaCha8Rng) -> TakeoffDelays {
+        let slots = TakeoffDelays::slots(self.slot_s, operations.start, operations.end);
+        let mut slot = || {
+            self.late
+                .iter()
+                .map(|late| {
+                    // Two draws whatever comes out, so that one vertiport's settings leave the others' delays alone.
+                    let (chance, size) = (uniform(random), uniform(random));
+                    late.map_or(0, |late| late.delay_s(chance, size))
+                })
+                .collect()
+        };
+        TakeoffDelays { slot_s: self.slot_s, delay_s: (0..slots).map(|_| slot()).collect() }
+    }
+}
+
+impl Late {
+    fn delay_s(self, chance: f64, size: f64) -> u32 {
+        if chance >= self.probability {
+            return 0;
+        }
+        // `libm`, because the system's logarithm differs between machines.
+        whole_passengers((-self.mean_s * libm::log(1.0 - size)).min(self.most_s))
+    }
+}
+
+/// Weather over some routes, at most once a day.
+#[derive(Debug, Clone)]
+pub(crate) struct ClosureModel {
+    probability: f64,
+    routes: Vec<Route>,
+    least_s: u32,
+    most_s: u32,
+}
+
+impl ClosureModel {
+    pub(crate) fn draw(
+        &self,
+        operations: &Operations,
+        random: &mut ChaCha8Rng,
+        closures: &mut Vec<Closure>,
+    ) {
+        let (happens, start, lasts_s) = (
+            uniform(random),
+            instant(operations, random),
+            random.random_range(self.least_s..=self.most_s),
+        );
+        if happens < self.probability {
+            let end = (start + lasts_s).min(limits::LATEST);
+            closures.extend(self.routes.iter().map(|&route| Closure { route, start, end }));
+        }
+    }
+}
+
+/// Aircraft that fail, each at most once a day.
+#[derive(Debug, Clone)]
+pub(crate) struct OutageModel {
+    probability: f64,
+    least_s: u32,
+    most_s: u32,
+}
+
+impl OutageModel {
+    pub(crate) fn draw(
+        &self,
+        operations: &Operations,
+        fleet: usize,
+        random: &mut ChaCha8Rng,
+    ) -> Vec<Outage> {
+        let outage = |aircraft| {
+            let (happens, start) = (uniform(random), instant(operations, random));
+            let lasts_s = random.random_range(self.least_s..=self.most_s);
+            let end = (start + lasts_s).min(limits::LATEST);
+            (happens < self.probability).then_some(Outage { aircraft, start, end })
+        };
+        AircraftIx::all(fleet).filter_map(outage).collect()
+    }
+}
+
+/// Uniform over [0, 1), 53 bits.
+fn uniform(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Uniform over the seconds of operations.
+fn instant(operations: &Operations, random: &mut ChaCha8Rng) -> Time {
+    operations.start + random.random_range(0..=operations.end.since(operations.start))
+}
+
+/// `[disturbances]` of the network file.
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, expecting = "the members of disturbances")]
+pub(crate) struct RawDisturbanceModel {
+    forecast_error: Option<RawForecastError>,
+    takeoff_delays: Option<RawDelayModel>,
+    #[serde(default)]
+    closures: Vec<RawClosureModel>,
+    outages: Option<RawOutageModel>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of forecast_error")]
+struct RawForecastError {
+    noise: f64,
+    surge_probability: f64,
+    surge_factor: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of takeoff_delays")]
+struct RawDelayModel {
+    slot_s: f64,
+    vertiports: Vec<RawLate>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of a vertiport's delays")]
+struct RawLate {
+    at: String,
+    probability: f64,
+    mean_s: f64,
+    most_s: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of closures")]
+struct RawClosureModel {
+    probability: f64,
+    routes: Vec<RawRoute>,
+    least_s: f64,
+    most_s: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of outages")]
+struct RawOutageModel {
+    probability: f64,
+    least_s: f64,
+    most_s: f64,
+}
+
+/// The file in which a model stands, and the model's name in it.
+struct Member<'a> {
+    origin: &'a str,
+    name: String,
+}
+
+impl Member<'_> {
+    fn number(&self, value: f64, limits: &Limits, member: &str) -> Result<f64, Error> {
+        limits.check(value, self.origin, || format!("disturbances: {}: {member}", self.name))?;
+        Ok(value)
+    }
+
+    fn seconds(&self, value: f64, limits: &Limits, member: &str) -> Result<u32, Error> {
+        limits.whole_number(value, self.origin, || format!("disturbances: {}: {member}", self.name))
+    }
+
+    /// How long something lasts, at least and at most.
+    fn span_s(&self, least_s: f64, most_s: f64) -> Result<(u32, u32), Error> {
+        let least_s = self.seconds(least_s, &limits::PHASE_S, "least_s")?;
+        let most_s = self.seconds(most_s, &limits::PHASE_S, "most_s")?;
+        if least_s <= most_s {
+            return Ok((least_s, most_s));
+        }
+        Err(Error::OutOfRange {
+            origin: self.origin.to_owned(),
+            member: format!("disturbances: {}: least_s", self.name),
+            rule: format!("at most {most_s}, which is most_s"),
+            found: least_s.to_string(),
+            hint: None,
+        })
+    }
+}
+
+impl RawDisturbanceModel {
+    pub(crate) fn check(
+        self,
+        places: &Positions,
+        vertiports: usize,
+        origin: &str,
+    ) -> Result<DisturbanceModel, Error> {
+        let routes: usize = self.closures.iter().map(|closure| closure.routes.len()).sum();
+        if routes > 0 {
+            let member = "disturbances: closures, counted by routes,";
+            check::entry_count(origin, member, routes, limits::entries::CLOSURES)?;
+        }
+        let delays = self.takeoff_delays.map(|raw| raw.check(places, vertiports, origin));
+        Ok(DisturbanceModel {
+            forecast_error: self.forecast_error.map(|raw| raw.check(origin)).transpose()?,
+            takeoff_delays: delays.transpose()?,
+            closures: each(self.closures, |raw, at| raw.check(at, places, origin))?,
+            outages: self.outages.map(|raw| raw.check(origin)).transpose()?,
+        })
+    }
+}
+
+impl RawForecastError {
+    fn check(self, origin: &str) -> Result<ForecastError, Error> {
+        let member = Member { origin, name: "forecast_error".to_owned() };
+        Ok(ForecastError {
+            noise: member.number(self.noise, &limits::NOISE, "noise")?,
+            surge_probability: member.number(
+                self.surge_probability,
+                &limits::PROBABILITY,
+                "surge_probability",
+            )?,
+            surge_factor: member.number(
+                self.surge_factor,
+                &limits::SURGE_FACTOR,
+                "surge_factor",
+            )?,
+        })
+    }
+}
+
+impl RawDelayModel {
+    fn check(
+        self,
+        places: &Positions,
+        vertiports: usize,
+        origin: &str,
+    ) -> Result<DelayModel, Error> {
+        let member = Member { origin, name: "takeoff_delays".to_owned() };
+        let mut late = vec![None; vertiports];
+        for raw in self.vertiports {
+            let place = || "disturbances: takeoff_delays: at".to_owned();
+            late[places.position(&raw.at, origin, place)?] = Some(Late {
+                probability: member.number(raw.probability, &limits::PROBABILITY, "probability")?,
+                mean_s: member.number(raw.mean_s, &limits::PHASE_S, "mean_s")?,
+                most_s: member.number(raw.most_s, &limits::PHASE_S, "most_s")?,
+            });
+        }
+        Ok(DelayModel { slot_s: member.seconds(self.slot_s, &limits::SLOT_S, "slot_s")?, late })
+    }
+}
+
+impl RawClosureModel {
+    fn check(self, at: usize, places: &Positions, origin: &str) -> Result<ClosureModel, Error> {
+        let member = Member { origin, name: format!("closures[{at}]") };
+        let (least_s, most_s) = member.span_s(self.least_s, self.most_s)?;
+        let probability = member.number(self.probability, &limits::PROBABILITY, "probability")?;
+        let routes = each(self.routes, |raw, route| {
+            raw.check(places, &format!("disturbances: {}: routes[{route}]", member.name), origin)
+        })?;
+        if let Some(route) = routes.iter().find(|route| route.from == route.to) {
+            return Err(Error::RouteToItself {
+                origin: origin.to_owned(),
+                member: format!("disturbances: {}", member.name),
+                vertiport: format!("#{}", route.from.0),
+            });
+        }
+        Ok(ClosureModel { probability, routes, least_s, most_s })
+    }
+}
+
+impl RawOutageModel {
+    fn check(self, origin: &str) -> Result<OutageModel, Error> {
+        let member = Member { origin, name: "outages".to_owned() };
+        let (least_s, most_s) = member.span_s(self.least_s, self.most_s)?;
+        let probability = member.number(self.probability, &limits::PROBABILITY, "probability")?;
+        Ok(OutageModel { probability, least_s, most_s })
+    }
+}

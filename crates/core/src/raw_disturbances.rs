@@ -1,0 +1,96 @@
+//! Routes and disturbances of the scenario file, as they are written.
+
+use serde::Deserialize;
+
+use crate::limits;
+use crate::raw::{Positions, each};
+use crate::{AircraftIx, Closure, Error, Outage, Route, TakeoffDelays, Time, VertiportIx};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of a route")]
+pub(crate) struct RawRoute {
+    from: String,
+    to: String,
+    #[serde(default)]
+    both_ways: bool,
+}
+
+impl RawRoute {
+    pub(crate) fn check(
+        self,
+        places: &Positions,
+        member: &str,
+        origin: &str,
+    ) -> Result<Route, Error> {
+        let end = |id: &str, end: &str| {
+            places.position(id, origin, || format!("{member}: {end}")).map(VertiportIx::new)
+        };
+        Ok(Route {
+            from: end(&self.from, "from")?,
+            to: end(&self.to, "to")?,
+            both_ways: self.both_ways,
+        })
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of a closure")]
+pub(crate) struct RawClosure {
+    from: String,
+    to: String,
+    #[serde(default)]
+    both_ways: bool,
+    start: Time,
+    end: Time,
+}
+
+impl RawClosure {
+    pub(crate) fn check(
+        self,
+        at: usize,
+        places: &Positions,
+        origin: &str,
+    ) -> Result<Closure, Error> {
+        let Self { from, to, both_ways, start, end } = self;
+        let route = RawRoute { from, to, both_ways };
+        let route = route.check(places, &format!("closures[{at}]"), origin)?;
+        Ok(Closure { route, start, end })
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of an outage")]
+pub(crate) struct RawOutage {
+    aircraft: String,
+    start: Time,
+    end: Time,
+}
+
+impl RawOutage {
+    pub(crate) fn check(self, at: usize, fleet: &Positions, origin: &str) -> Result<Outage, Error> {
+        let member = || format!("outages[{at}]: aircraft");
+        let aircraft = AircraftIx::new(fleet.position(&self.aircraft, origin, member)?);
+        Ok(Outage { aircraft, start: self.start, end: self.end })
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of takeoff_delays")]
+pub(crate) struct RawTakeoffDelays {
+    slot_s: f64,
+    delay_s: Vec<Vec<f64>>,
+}
+
+impl RawTakeoffDelays {
+    pub(crate) fn check(self, origin: &str) -> Result<TakeoffDelays, Error> {
+        let slot_s = limits::SLOT_S
+            .whole_number(self.slot_s, origin, || "takeoff_delays: slot_s".to_owned())?;
+        let delay_s = each(self.delay_s, |delays, slot| {
+            each(delays, |delay, at| {
+                let member = || format!("takeoff_delays: delay_s[{slot}][{at}]");
+                limits::PHASE_S.whole_number(delay, origin, member)
+            })
+        })?;
+        Ok(TakeoffDelays { slot_s, delay_s })
+    }
+}

@@ -1,0 +1,170 @@
+//! Where vertiports are, and how far apart: in the plane, or on the globe.
+//!
+//! A network file places its vertiports either in miles on a plane or by latitude and longitude. From the latter, distances
+//! are great circles (haversine), and the plane is an equirectangular projection about the vertiports' middle, good for
+//! maps of a region and used for nothing else. Angles go through the `libm` crate, whose results do not depend on the
+//! machine as those of the system's library do.
+
+use serde::Deserialize;
+
+use crate::limits::{self, Limits};
+use crate::raw::{chargers, each};
+use crate::{Error, Matrix, Vertiport, check};
+
+/// Mean radius of the Earth (IUGG), miles.
+const EARTH_RADIUS_MI: f64 = 3_958.761_3;
+
+/// The vertiports with the distances between them.
+pub(crate) struct Sites {
+    pub(crate) vertiports: Vec<Vertiport>,
+    /// d_ij, miles.
+    pub(crate) distance_mi: Matrix<f64>,
+}
+
+/// A vertiport of the network file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of a vertiport")]
+pub(crate) struct RawSite {
+    id: String,
+    x_mi: Option<f64>,
+    y_mi: Option<f64>,
+    latitude: Option<f64>,
+    longitude: Option<f64>,
+    stands: f64,
+    chargers: Option<f64>,
+    busy: bool,
+}
+
+/// A position, in one of the two ways to give it.
+#[derive(Clone, Copy)]
+enum Position {
+    /// Miles east and north.
+    Plane(f64, f64),
+    /// Degrees north and east.
+    Globe(f64, f64),
+}
+
+impl Sites {
+    pub(crate) fn of(raw: Vec<RawSite>, origin: &str) -> Result<Self, Error> {
+        let sites = each(raw, |raw, at| raw.check(at, origin))?;
+        let on_globe =
+            |(_, position): &&(Vertiport, Position)| matches!(position, Position::Globe(..));
+        match sites.iter().filter(on_globe).count() {
+            0 => Ok(Self::in_plane(sites.into_iter().map(|(vertiport, _)| vertiport).collect())),
+            all if all == sites.len() => Ok(Self::on_globe(sites)),
+            some => Err(Error::NotOneOf {
+                origin: origin.to_owned(),
+                member: "vertiports".to_owned(),
+                choices: "x_mi with y_mi (all of them) and latitude with longitude (all of them)",
+                found: 1 + usize::from(some > 0),
+            }),
+        }
+    }
+
+    /// Straight lines. Products, sum and root are exact to the last bit everywhere, which `hypot` is not.
+    fn in_plane(vertiports: Vec<Vertiport>) -> Self {
+        let distance_mi = Matrix::from_fn(vertiports.len(), |from, to| {
+            let (from, to) = (&vertiports[from.at()], &vertiports[to.at()]);
+            let (east, north) = (to.x_mi - from.x_mi, to.y_mi - from.y_mi);
+            (east * east + north * north).sqrt()
+        });
+        Self { vertiports, distance_mi }
+    }
+
+    /// Great circles.
+    fn on_globe(sites: Vec<(Vertiport, Position)>) -> Self {
+        let degrees = |position| match position {
+            Position::Plane(x_mi, y_mi) => (y_mi, x_mi),
+            Position::Globe(latitude, longitude) => (latitude, longitude),
+        };
+        let places: Vec<(f64, f64)> =
+            sites.iter().map(|&(_, position)| degrees(position)).collect();
+        let distance_mi = Matrix::from_fn(places.len(), |from, to| {
+            great_circle_mi(places[from.at()], places[to.at()])
+        });
+        let count = places.len() as f64;
+        let middle = (
+            places.iter().map(|place| place.0).sum::<f64>() / count,
+            places.iter().map(|place| place.1).sum::<f64>() / count,
+        );
+        let vertiports = sites.into_iter().zip(&places).map(|((vertiport, _), &place)| {
+            let (x_mi, y_mi) = projected_mi(middle, place);
+            Vertiport { x_mi, y_mi, ..vertiport }
+        });
+        Self { vertiports: vertiports.collect(), distance_mi }
+    }
+}
+
+impl RawSite {
+    fn check(self, at: usize, origin: &str) -> Result<(Vertiport, Position), Error> {
+        check::id(origin, || format!("vertiports[{at}]: id"), &self.id)?;
+        let number = |value: f64, limits: &Limits, member: &str| {
+            limits.check(value, origin, || format!("vertiport {:?}: {member}", self.id))
+        };
+        let position = match (self.x_mi, self.y_mi, self.latitude, self.longitude) {
+            (Some(x_mi), Some(y_mi), None, None) => Position::Plane(x_mi, y_mi),
+            (None, None, Some(latitude), Some(longitude)) => {
+                number(latitude, &limits::LATITUDE, "latitude")?;
+                number(longitude, &limits::LONGITUDE, "longitude")?;
+                Position::Globe(latitude, longitude)
+            }
+            (x_mi, y_mi, latitude, longitude) => {
+                let plane = x_mi.is_some() && y_mi.is_some();
+                let globe = latitude.is_some() && longitude.is_some();
+                return Err(Error::NotOneOf {
+                    origin: origin.to_owned(),
+                    member: format!("vertiport {:?}", self.id),
+                    choices: "x_mi with y_mi and latitude with longitude, and nothing of the other",
+                    found: usize::from(plane) + usize::from(globe),
+                });
+            }
+        };
+        let (x_mi, y_mi) =
+            if let Position::Plane(x_mi, y_mi) = position { (x_mi, y_mi) } else { (0.0, 0.0) };
+        let member = || format!("vertiport {:?}: stands", self.id);
+        let stands = limits::STANDS.whole_number(self.stands, origin, member)?;
+        let chargers = chargers(&self.id, self.chargers, origin)?;
+        let Self { id, busy, .. } = self;
+        Ok((Vertiport { id, x_mi, y_mi, stands, chargers, busy }, position))
+    }
+}
+
+/// The haversine formula; places are latitude and longitude in degrees.
+fn great_circle_mi(from: (f64, f64), to: (f64, f64)) -> f64 {
+    let (from_north, to_north) = (from.0.to_radians(), to.0.to_radians());
+    let half_north = libm::sin((to_north - from_north) / 2.0);
+    let half_east = libm::sin((to.1 - from.1).to_radians() / 2.0);
+    let haversine = half_north * half_north
+        + libm::cos(from_north) * libm::cos(to_north) * half_east * half_east;
+    2.0 * EARTH_RADIUS_MI * libm::asin(haversine.sqrt().min(1.0))
+}
+
+/// Miles east and north of the middle: x = R cos(middle latitude) Δlongitude, y = R Δlatitude.
+fn projected_mi(middle: (f64, f64), place: (f64, f64)) -> (f64, f64) {
+    let shrunk = libm::cos(middle.0.to_radians());
+    let mile = |degrees: f64| EARTH_RADIUS_MI * degrees.to_radians();
+    (mile(place.1 - middle.1) * shrunk, mile(place.0 - middle.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{great_circle_mi, projected_mi};
+
+    #[test]
+    fn a_degree_of_latitude_is_sixty_nine_miles_and_a_quarter_of_the_globe_ninety_times_that() {
+        let degree = great_circle_mi((40.0, -74.0), (41.0, -74.0));
+        assert!((degree - 69.094).abs() < 1e-3, "{degree}");
+        let quarter = great_circle_mi((0.0, 0.0), (0.0, 90.0));
+        assert!((quarter - 90.0 * degree).abs() < 1e-6, "{quarter}");
+        assert_eq!(great_circle_mi((40.7, -74.0), (40.7, -74.0)), 0.0);
+    }
+
+    #[test]
+    fn within_a_region_the_plane_agrees_with_the_globe() {
+        let (one, other) = ((40.63993, -73.77869), (41.06695, -73.70757));
+        let middle = (40.8, -73.9);
+        let (a, b) = (projected_mi(middle, one), projected_mi(middle, other));
+        let straight = (a.0 - b.0).hypot(a.1 - b.1);
+        assert!((straight - great_circle_mi(one, other)).abs() < 0.05, "{straight}");
+    }
+}

@@ -1,0 +1,112 @@
+//! What passengers pay and what carrying them costs, from the network file's tariffs.
+
+use serde::Deserialize;
+
+use crate::demand_model::DemandModel;
+use crate::{Error, Fares, Matrix, limits};
+
+/// `[tariffs]` of the network file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of tariffs")]
+pub(crate) struct RawTariffs {
+    passenger_cost_usd_per_mi: f64,
+    #[serde(default)]
+    fare_usd_per_mi: f64,
+    fare_base: f64,
+    fare_demand_weight: f64,
+    fare_factors: Option<Vec<f64>>,
+    energy_price_usd_per_kwh: RawPrice,
+}
+
+/// A price for all day, or one for each demand period.
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected a number, or a list of numbers, one for each demand period"
+)]
+enum RawPrice {
+    AllDay(f64),
+    ByPeriod(Vec<f64>),
+}
+
+impl RawTariffs {
+    pub(crate) fn check(&self, periods: usize, origin: &str) -> Result<(), Error> {
+        for (member, value) in [
+            ("passenger_cost_usd_per_mi", self.passenger_cost_usd_per_mi),
+            ("fare_usd_per_mi", self.fare_usd_per_mi),
+            ("fare_base", self.fare_base),
+            ("fare_demand_weight", self.fare_demand_weight),
+        ] {
+            limits::TARIFF.check(value, origin, || format!("tariffs: {member}"))?;
+        }
+        if let Some(factors) = &self.fare_factors {
+            by_period(factors, &limits::FARE_FACTOR, periods, "fare_factors", origin)?;
+        }
+        let (member, limits) = ("energy_price_usd_per_kwh", &limits::ENERGY_PRICE_USD);
+        match &self.energy_price_usd_per_kwh {
+            RawPrice::AllDay(price) => {
+                limits.check(*price, origin, || format!("tariffs: {member}"))
+            }
+            RawPrice::ByPeriod(prices) => by_period(prices, limits, periods, member, origin),
+        }
+    }
+
+    /// E by period, dollars per kWh.
+    pub(crate) fn energy_prices_usd(&self, periods: usize) -> Vec<f64> {
+        match &self.energy_price_usd_per_kwh {
+            RawPrice::AllDay(price) => vec![*price; periods],
+            RawPrice::ByPeriod(prices) => prices.clone(),
+        }
+    }
+
+    /// R_ij, dollars a passenger.
+    pub(crate) fn passenger_costs_usd(&self, distance_mi: &Matrix<f64>) -> Matrix<f64> {
+        Matrix::from_fn(distance_mi.size(), |from, to| {
+            self.passenger_cost_usd_per_mi * distance_mi[(from, to)]
+        })
+    }
+
+    /// P_ij = R_ij (base + weight Qbar_ij / max Qbar), and so much a mile beside it, times the period's factor; dollars a
+    /// passenger.
+    pub(crate) fn fares_usd(
+        &self,
+        distance_mi: &Matrix<f64>,
+        passenger_cost_usd: &Matrix<f64>,
+        demand: &DemandModel,
+    ) -> Fares {
+        let mean = demand.day_means(distance_mi.size());
+        let most = mean.cells().iter().copied().fold(0.0, f64::max);
+        let all_day = Matrix::from_fn(mean.size(), |from, to| {
+            let share = if most > 0.0 { mean[(from, to)] / most } else { 0.0 };
+            let on_cost =
+                passenger_cost_usd[(from, to)] * (self.fare_base + self.fare_demand_weight * share);
+            on_cost + self.fare_usd_per_mi * distance_mi[(from, to)]
+        });
+        let Some(factors) = &self.fare_factors else { return all_day.into() };
+        let of_period =
+            |factor: &f64| Matrix::from_fn(all_day.size(), |from, to| all_day[(from, to)] * factor);
+        Fares::by_period(factors.iter().map(of_period).collect())
+    }
+}
+
+/// Checks a list of numbers, one for each demand period.
+fn by_period(
+    list: &[f64],
+    limits: &limits::Limits,
+    periods: usize,
+    member: &str,
+    origin: &str,
+) -> Result<(), Error> {
+    if list.len() != periods {
+        return Err(Error::WrongShape {
+            origin: origin.to_owned(),
+            member: format!("tariffs: {member}"),
+            expected: format!("an entry for each of {periods} periods"),
+            found: list.len(),
+        });
+    }
+    for (at, &value) in list.iter().enumerate() {
+        limits.check(value, origin, || format!("tariffs: {member}[{at}]"))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,255 @@
+//! What goes beyond the paper: files hold it, networks draw it, and it leaves everything else as it was.
+
+use vertifleet_core::{
+    AircraftIx, Closure, Day, DaySeed, Disturbances, Fares, Network, Outage, Route, Scenario,
+    TakeoffDelays, Time, VertiportIx,
+};
+
+const SCENARIO: &str = include_str!("data/small.json");
+const PAPER: &str = include_str!("../../../networks/paper.toml");
+
+const DISTURBANCES: &str = r#"
+[disturbances]
+forecast_error = { noise = 0.2, surge_probability = 0.1, surge_factor = 2 }
+takeoff_delays = { slot_s = 900, vertiports = [{ at = "V2", probability = 0.3, mean_s = 300, most_s = 900 }] }
+closures = [
+    { probability = 0.5, least_s = 1800, most_s = 7200, routes = [{ from = "V1", to = "V2", both_ways = true }] },
+]
+outages = { probability = 0.2, least_s = 3600, most_s = 14400 }
+"#;
+
+fn seed(seed: u64) -> DaySeed {
+    DaySeed::comparison(seed).expect("a small seed")
+}
+
+fn network(text: &str) -> Network {
+    Network::from_toml(text, "network").unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn with(addition: &str) -> Network {
+    network(&PAPER.replace("[feature_scales]", &format!("{addition}\n[feature_scales]")))
+}
+
+/// A small day with everything in it.
+fn everything() -> Day {
+    let mut day = Scenario::from_json(SCENARIO.as_bytes(), "small").expect("a good day").into_day();
+    let time = |text: &str| text.parse::<Time>().expect("a time");
+    let route =
+        |from, to, both_ways| Route { from: VertiportIx(from), to: VertiportIx(to), both_ways };
+    let fares = day.fare_usd.in_period(0).clone();
+    let mut late = fares.clone();
+    late.cells_mut().iter_mut().for_each(|fare| *fare *= 1.25);
+    day.fare_usd = Fares::by_period(vec![fares, late]);
+    day.vertiports[2].chargers = Some(2);
+    day.corridors = Some(vec![route(0, 1, true), route(2, 0, false)]);
+    let mut forecast = day.demand.clone();
+    forecast[1][(VertiportIx(0), VertiportIx(1))] = 12;
+    day.disturbances = Disturbances {
+        forecast: Some(forecast),
+        takeoff_delays: Some(TakeoffDelays {
+            slot_s: 7200,
+            delay_s: vec![vec![0, 60, 5], vec![1, 0, 0]],
+        }),
+        closures: vec![
+            Closure { route: route(0, 1, true), start: time("07:00:00"), end: time("08:00:00") },
+            Closure { route: route(2, 0, false), start: time("07:30:00"), end: time("07:30:00") },
+        ],
+        outages: vec![Outage {
+            aircraft: AircraftIx(2),
+            start: time("06:30:00"),
+            end: time("09:00:00"),
+        }],
+    };
+    day
+}
+
+#[test]
+fn a_day_with_everything_reads_back_as_it_was_written() {
+    let scenario = everything().check("everything").expect("a good day");
+    let text = scenario.to_json();
+    assert_eq!(Scenario::from_json(text.as_bytes(), "again").expect("our own text"), scenario);
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn corridors_lead_the_ways_they_name() {
+    let scenario = everything().check("everything").expect("a good day");
+    let may = |from, to| scenario.is_corridor(VertiportIx(from), VertiportIx(to));
+    assert!(may(0, 1) && may(1, 0) && may(2, 0));
+    assert!(!may(0, 2) && !may(1, 2));
+}
+
+#[test]
+fn the_potential_counts_the_fares_of_each_period() {
+    let mut day = everything();
+    let base: f64 = {
+        let fares = day.fare_usd.in_period(0).clone();
+        day.demand[1].cells().iter().zip(fares.cells()).map(|(&q, fare)| f64::from(q) * fare).sum()
+    };
+    let raised = day.clone().check("day").expect("a good day").potential_usd();
+    day.fare_usd = day.fare_usd.in_period(0).clone().into();
+    let flat = day.check("day").expect("a good day").potential_usd();
+    assert!((raised - flat - 0.25 * base).abs() < 1e-9);
+}
+
+#[test]
+fn disturbances_leave_demand_and_start_positions_as_they_would_be_without() {
+    let (quiet, disturbed) = (with(""), with(DISTURBANCES));
+    for number in 0..20 {
+        let plain = quiet.draw(seed(number)).into_day();
+        let mut day = disturbed.draw(seed(number)).into_day();
+        let disturbances = std::mem::take(&mut day.disturbances);
+        assert_ne!(day.demand, plain.demand, "the actual demand is not the forecast");
+        day.demand = disturbances.forecast.expect("a forecast");
+        assert_eq!(day, plain);
+    }
+}
+
+#[test]
+fn each_disturbance_has_a_stream_of_its_own() {
+    let all = with(DISTURBANCES).draw(seed(3)).into_day().disturbances;
+    for line in ["forecast_error", "takeoff_delays", "outages"] {
+        let without: Vec<&str> =
+            DISTURBANCES.lines().filter(|text| !text.starts_with(line)).collect();
+        let some = with(&without.join("\n")).draw(seed(3)).into_day().disturbances;
+        assert!(line == "takeoff_delays" || some.takeoff_delays == all.takeoff_delays);
+        assert!(line == "outages" || some.outages == all.outages);
+        assert_eq!(some.closures, all.closures);
+        assert!(line == "forecast_error" || some.forecast == all.forecast);
+    }
+}
+
+#[test]
+fn disturbances_are_as_frequent_and_as_large_as_the_network_says() {
+    const DAYS: u64 = 400;
+    let network = with(DISTURBANCES);
+    let (mut closed, mut out, mut late, mut count, mut late_s) =
+        (0_u32, 0_u32, 0_u32, 0_u32, 0_u64);
+    let (mut forecast, mut actual) = (0.0, 0.0);
+    for number in 0..DAYS {
+        let day = network.draw(seed(number));
+        let disturbances = &day.disturbances;
+        assert!(disturbances.closures.len() <= 1);
+        for closure in &disturbances.closures {
+            closed += 1;
+            assert!((1800..=7200).contains(&closure.end.since(closure.start)));
+        }
+        out += u32::try_from(disturbances.outages.len()).expect("few");
+        let delays = disturbances.takeoff_delays.as_ref().expect("delays");
+        assert_eq!(delays.delay_s.len(), 12 * 4 + 1);
+        for slot in &delays.delay_s {
+            assert!(slot.iter().enumerate().all(|(at, &delay)| at == 1 || delay == 0));
+            count += 1;
+            late += u32::from(slot[1] > 0);
+            late_s += u64::from(slot[1]);
+            assert!(slot[1] <= 900);
+        }
+        for (drawn, expected) in day.demand.iter().zip(disturbances.forecast.as_ref().expect("one"))
+        {
+            actual += drawn.cells().iter().map(|&q| f64::from(q)).sum::<f64>();
+            forecast += expected.cells().iter().map(|&q| f64::from(q)).sum::<f64>();
+        }
+    }
+    let share = |count: u32, of: f64| f64::from(count) / of;
+    assert!((share(closed, DAYS as f64) - 0.5).abs() < 5.0 * 0.025, "{closed}");
+    assert!((share(out, DAYS as f64 * 40.0) - 0.2).abs() < 5.0 * 0.0032, "{out}");
+    assert!((share(late, f64::from(count)) - 0.3).abs() < 5.0 * 0.0033, "{late}");
+    // An exponential of mean 300 cut off at 900: 300 (1 - e^-3).
+    let mean_s = late_s as f64 / f64::from(late);
+    assert!((mean_s - 300.0 * (1.0 - (-3.0_f64).exp())).abs() < 15.0, "{mean_s}");
+    // One in ten doubled.
+    assert!((actual / forecast - 1.1).abs() < 0.01, "{}", actual / forecast);
+}
+
+#[test]
+fn a_day_can_be_one_period_and_demand_uniform() {
+    let text = PAPER.replace(
+        "[demand]",
+        "[uniform_demand]\nperiods = [\"06:00:00\"]\nleast = 0\nmost = 99\n[gone]",
+    );
+    let cut = text.find("[gone]").expect("just put there");
+    let scales = text.find("[feature_scales]").expect("a member");
+    let network = network(&format!("{}{}", &text[..cut], &text[scales..]));
+    let (mut count, mut sum) = (0.0, 0.0);
+    for number in 0..200 {
+        let day = network.draw(seed(number));
+        assert_eq!(day.demand.len(), 1);
+        for &passengers in day.demand[0].cells() {
+            assert!(passengers <= 99);
+            sum += f64::from(passengers);
+        }
+        count += 56.0;
+    }
+    assert!((sum / count - 49.5_f64).abs() < 5.0 * 28.9 / f64::sqrt(count), "{}", sum / count);
+}
+
+#[test]
+fn a_days_total_is_spread_by_weights_and_shares() {
+    let text = format!(
+        "{}[daily_demand]\nperiods = [\"06:00:00\", \"12:00:00\"]\nshares_percent = [60, 30]\nnoise = 0.1\n\
+         gravity = {{ passengers = 56000, weights = [1, 1, 1, 1, 1, 1, 1, 1] }}\n{}",
+        &PAPER[..PAPER.find("[demand]").expect("a member")],
+        &PAPER[PAPER.find("[feature_scales]").expect("a member")..]
+    );
+    let means = network(&text).mean_demand();
+    let pair = (VertiportIx(2), VertiportIx(5));
+    assert!((means[0][pair] - 600.0).abs() < 1e-9 && (means[1][pair] - 300.0).abs() < 1e-9);
+}
+
+#[test]
+fn fares_and_energy_prices_follow_the_periods_of_the_network() {
+    let factors = "[1, 1, 1.5, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]";
+    let prices = "[0.1, 0.2, 0.3, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1]";
+    let text = PAPER.replace(
+        "energy_price_usd_per_kwh = 0.20",
+        &format!("fare_factors = {factors}\nenergy_price_usd_per_kwh = {prices}"),
+    );
+    let day = network(&text).draw(seed(1));
+    let pair = (VertiportIx(0), VertiportIx(1));
+    let fare = |period| day.fare_usd.in_period(period)[pair];
+    assert!((fare(2) - 1.5 * fare(1)).abs() < 1e-12);
+    assert!((day.energy_price_usd[2] - 0.3).abs() < 1e-12);
+}
+
+fn shipped(name: &str) -> Network {
+    Network::shipped(name).expect("a shipped network")
+}
+
+#[test]
+fn every_shipped_network_draws_days_that_obey_every_rule() {
+    for name in Network::shipped_names() {
+        for number in 0..20 {
+            let day = shipped(name).draw(seed(number));
+            assert_eq!(day.warnings(), [], "{name}");
+            let again = day.clone().into_day().check(name).expect("a drawn day is a good day");
+            assert_eq!(again, day);
+        }
+    }
+}
+
+#[test]
+fn disrupted_is_paper_with_disturbances() {
+    let (paper, disrupted) = (shipped("paper").draw(seed(5)), shipped("disrupted").draw(seed(5)));
+    let (paper, mut disrupted) = (paper.into_day(), disrupted.into_day());
+    let disturbances = std::mem::take(&mut disrupted.disturbances);
+    disrupted.demand = disturbances.forecast.expect("a forecast");
+    disrupted.name.clone_from(&paper.name);
+    disrupted.fare_usd.clone_from(&paper.fare_usd);
+    disrupted.energy_price_usd.clone_from(&paper.energy_price_usd);
+    assert_eq!(disrupted, paper);
+}
+
+/// As `networks/new-york.toml` says.
+#[test]
+fn the_pairs_of_new_york_are_2_to_40_miles_apart_and_18_on_the_mean() {
+    let day = shipped("new-york").draw(seed(1));
+    let between: Vec<f64> =
+        day.distance_mi.cells().iter().copied().filter(|&miles| miles > 0.0).collect();
+    assert_eq!(between.len(), 72);
+    let shortest = between.iter().copied().fold(f64::INFINITY, f64::min);
+    let longest = between.iter().copied().fold(0.0, f64::max);
+    let mean = between.iter().sum::<f64>() / 72.0;
+    for (found, due) in [(shortest, 2.0), (longest, 39.6), (mean, 18.0)] {
+        assert!((found - due).abs() < 0.06, "{found} and not {due}");
+    }
+}

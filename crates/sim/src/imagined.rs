@@ -1,0 +1,44 @@
+//! The rest of a day as a policy may imagine it at a decision: to play out what a choice would lead to.
+
+use vertifleet_core::VertiportIx;
+
+use crate::{Decision, Ledger, Refusal, Simulation, TraceRow, View};
+
+/// A day that goes on from a decision as expected: demand comes as forecast, flights take off on time, aircraft are ready
+/// when they are expected to be, no further route closes, and what is closed now stays closed. Made by
+/// [`View::imagined`]; the day it was made from does not change, and nothing that is not known yet can be learned from it.
+#[derive(Debug, Clone)]
+pub struct Imagined(Simulation);
+
+impl Imagined {
+    pub(crate) fn of(simulation: Simulation) -> Self {
+        Self(simulation)
+    }
+
+    /// As [`Simulation::next_decision`].
+    #[inline]
+    pub fn next_decision(&mut self) -> Option<Decision> {
+        self.0.next_decision()
+    }
+
+    /// As [`Simulation::apply`].
+    ///
+    /// # Errors
+    /// [`Refusal`] names the rule that the choice breaks; nothing has changed then.
+    #[inline]
+    pub fn apply(&mut self, choice: VertiportIx) -> Result<TraceRow, Refusal> {
+        self.0.apply(choice)
+    }
+
+    /// What a policy may look at.
+    #[inline]
+    pub fn view(&self) -> View<'_> {
+        self.0.view()
+    }
+
+    /// The account of the real day so far and the imagined one since.
+    #[inline]
+    pub fn ledger(&self) -> &Ledger {
+        self.0.ledger()
+    }
+}

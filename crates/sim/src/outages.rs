@@ -1,0 +1,68 @@
+//! Aircraft that stay on the ground after a landing, and what of it can be known.
+
+use vertifleet_core::{AircraftIx, Scenario, Time};
+
+/// The landing of an aircraft that has not landed since it last stood still; no outage lasts that long.
+const NONE: Time = Time::from_seconds(u32::MAX);
+
+/// The outages of a day by aircraft, and the landings that they may concern.
+#[derive(Debug, Clone)]
+pub(crate) struct Outages {
+    /// First and last instant of each outage with its aircraft, in order of aircraft.
+    all: Vec<(AircraftIx, Time, Time)>,
+    /// Each aircraft's latest landing, decided or done, with the time at which it is charged. Empty on a day without.
+    landings: Vec<(Time, Time)>,
+}
+
+impl Outages {
+    /// A day's outages.
+    pub(crate) fn of(scenario: &Scenario) -> Self {
+        let outages = scenario.disturbances.outages.iter();
+        let mut all: Vec<_> =
+            outages.map(|outage| (outage.aircraft, outage.start, outage.end)).collect();
+        all.sort_by_key(|&(aircraft, ..)| aircraft);
+        let start = scenario.operations.start;
+        let fleet = if all.is_empty() { 0 } else { scenario.aircraft.len() };
+        Self { all, landings: vec![(NONE, start); fleet] }
+    }
+
+    /// None that anybody knows of.
+    pub(crate) fn none() -> Self {
+        Self { all: Vec::new(), landings: Vec::new() }
+    }
+
+    /// Whether the day has any.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    fn of_aircraft(&self, aircraft: AircraftIx) -> impl Iterator<Item = (Time, Time)> {
+        let first = self.all.partition_point(|&(other, ..)| other < aircraft);
+        let own = self.all[first..].iter().take_while(move |&&(other, ..)| other == aircraft);
+        own.map(|&(_, start, end)| (start, end))
+    }
+
+    /// Enters a landing that is charged at `charged`; says when the aircraft is ready.
+    pub(crate) fn land(&mut self, aircraft: AircraftIx, arrival: Time, charged: Time) -> Time {
+        self.landings[aircraft.at()] = (arrival, charged);
+        self.ready(aircraft, NONE)
+    }
+
+    /// Enters a hold that is over at `ready`: it ends no outage and meets none.
+    #[cold]
+    pub(crate) fn hold(&mut self, aircraft: AircraftIx, ready: Time) {
+        if let Some(landing) = self.landings.get_mut(aircraft.at()) {
+            *landing = (NONE, ready);
+        }
+    }
+
+    /// When an aircraft will be ready, reckoned with the outages that have begun by `now`.
+    pub(crate) fn ready(&self, aircraft: AircraftIx, now: Time) -> Time {
+        let (arrival, charged) = self.landings[aircraft.at()];
+        let known = self
+            .of_aircraft(aircraft)
+            .filter(|&(start, end)| start <= now && (start..end).contains(&arrival));
+        known.map(|(_, end)| end).fold(charged, Time::max)
+    }
+}

@@ -1,0 +1,170 @@
+//! Nobody sees the future: what a decision's view shows does not change when what comes later is changed.
+
+mod common;
+
+use std::sync::Arc;
+
+use proptest::prelude::{ProptestConfig, any, prop, prop_assert, prop_assert_eq, proptest};
+use vertifleet_core::{AircraftIx, Closure, Outage, Route, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_sim::{Decision, Simulation, View};
+
+use common::extended::extended_day;
+
+/// Everything that a view shows at a decision, as text.
+fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
+    let mut shown = vec![format!(
+        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        view.feasible(decision),
+        view.places(),
+        view.stands_taken(),
+        view.period(),
+        view.period_starts(),
+        view.energy_price_usd(),
+        view.energy_prices_usd(),
+        view.aircraft_types(),
+        (view.day_start(), view.day_end(), view.hold_s(), view.day_seed()),
+        view.vertiports(),
+        view.period_at(decision.time + 1800),
+        view.day() == view.day(),
+    )];
+    for aircraft in AircraftIx::all(view.places().len()) {
+        let kind = view.kind(aircraft);
+        let of_it = (view.aircraft_id(aircraft), view.ready_at(aircraft), view.aircraft_type(kind));
+        shown.push(format!("{of_it:?}"));
+    }
+    for from in VertiportIx::all(view.vertiports()) {
+        shown.push(format!("{:?} {:?}", view.stands(from), (view.parked(from), view.closed(from))));
+        shown.push(format!("{:?}", view.passenger_costs_usd(from)));
+        for kind in TypeIx::all(view.aircraft_types().len()) {
+            shown.push(format!(
+                "{:?} {:?}",
+                view.legs_from(kind, from),
+                view.within_range(kind, from)
+            ));
+            for to in VertiportIx::all(view.vertiports()) {
+                let profit = view.flight_profit_usd(decision.time + 3600, kind, (from, to), 3);
+                shown.push(format!("{:?} {profit}", view.leg(kind, from, to)));
+            }
+        }
+        for period in 0..view.period_starts().len() {
+            shown.push(format!("{:?}", view.fares_usd(period, from)));
+            for to in VertiportIx::all(view.vertiports()) {
+                shown.push(format!("{}", view.demand_left(period, from, to)));
+            }
+        }
+    }
+    for period in 0..view.period_starts().len() {
+        shown.push(format!("{:?}", view.demand_left_in(period)));
+    }
+    shown.push(played_out(view));
+    shown
+}
+
+/// The rest of the day as it can be imagined, each aircraft going to the last vertiport of its mask.
+fn played_out(view: View<'_>) -> String {
+    let mut imagined = view.imagined();
+    let mut rows = Vec::new();
+    while let Some(decision) = imagined.next_decision() {
+        let mask = imagined.view().feasible(&decision);
+        let choice = mask.nth(decision.index % mask.len()).expect("a rank within the mask");
+        rows.push(imagined.apply(choice).expect("a choice from the mask"));
+    }
+    format!("{rows:?} {:?}", imagined.ledger())
+}
+
+#[test]
+fn no_method_of_the_view_is_forgotten_here() {
+    let (view, test) = (include_str!("../src/view.rs"), include_str!("foresight.rs"));
+    for line in view.lines().filter_map(|line| line.trim().strip_prefix("pub fn ")) {
+        let name = line.split(['(', '<']).next().expect("a name");
+        assert!(test.contains(&format!("view.{name}(")), "{name} is not asked for");
+    }
+}
+
+/// The day with everything changed that nobody can know at `now`.
+fn with_another_future(day: &Scenario, now: Time, change: u32) -> Arc<Scenario> {
+    let mut day = day.clone().into_day();
+    let forecast = day.disturbances.forecast.get_or_insert_with(|| day.demand.clone());
+    assert_eq!(forecast.len(), day.periods.len());
+    for (start, table) in day.periods.iter().zip(&mut day.demand) {
+        if *start > now {
+            for from in VertiportIx::all(table.size()) {
+                for to in VertiportIx::all(table.size()).filter(|&to| to != from) {
+                    table[(from, to)] = (table[(from, to)] + change) % 13;
+                }
+            }
+        }
+    }
+    if let Some(delays) = &mut day.disturbances.takeoff_delays {
+        let current = (now.since(day.operations.start) / delays.slot_s) as usize;
+        for slot in delays.delay_s.iter_mut().skip(current + 1) {
+            for delay_s in slot {
+                *delay_s = (*delay_s + change) % 1300;
+            }
+        }
+    }
+    let later = now + 1 + change % 600;
+    let closures = &mut day.disturbances.closures;
+    closures.retain(|closure| closure.start <= now || change.is_multiple_of(2));
+    if day.vertiports.len() > 1 {
+        let route = Route { from: VertiportIx(0), to: VertiportIx(1), both_ways: true };
+        closures.push(Closure { route, start: later, end: later + 1200 });
+    }
+    let outages = &mut day.disturbances.outages;
+    outages.retain(|outage| outage.start <= now || change.is_multiple_of(3));
+    for aircraft in AircraftIx::all(day.aircraft.len()) {
+        outages.push(Outage { aircraft, start: later, end: later + 7200 });
+    }
+    Arc::new(day.check("another future").expect("a day within the rules"))
+}
+
+/// What is shown at the decisions of a day, `count` of them at most, and the time of the last.
+fn course(day: &Arc<Scenario>, draws: &[u32], count: usize) -> (Vec<Vec<String>>, Time) {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    let (mut course, mut now) = (Vec::new(), day.operations.start);
+    while let Some(decision) = simulation.next_decision() {
+        course.push(shown(simulation.view(), &decision));
+        now = decision.time;
+        if course.len() == count {
+            break;
+        }
+        let mask = simulation.view().feasible(&decision);
+        let rank = draws[course.len() % draws.len()] % mask.len();
+        simulation.apply(mask.nth(rank).expect("a rank within the mask")).expect("feasible");
+    }
+    (course, now)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    #[test]
+    fn a_view_does_not_change_when_the_future_does(
+        day in extended_day(), draws in prop::collection::vec(any::<u32>(), 1..20),
+        count in 1_usize..40, change in 1_u32..100_000
+    ) {
+        let mut known = Scenario::clone(&day).into_day();
+        known.disturbances.forecast.get_or_insert_with(|| day.demand.clone());
+        let known = Arc::new(known.check("known").expect("a day within the rules"));
+        let (shown, now) = course(&known, &draws, count);
+        // No further: whether there is another decision is the future's affair.
+        let (again, _) = course(&with_another_future(&known, now, change), &draws, shown.len());
+        prop_assert!(shown == again);
+    }
+
+    #[test]
+    fn a_quiet_day_goes_as_it_is_imagined(
+        day in common::small_day(), draws in prop::collection::vec(any::<u32>(), 1..20)
+    ) {
+        let mut simulation = Simulation::new(Arc::clone(&day));
+        let mut imagined = simulation.view().imagined();
+        while let Some(decision) = simulation.next_decision() {
+            prop_assert_eq!(imagined.next_decision(), Some(decision));
+            let mask = simulation.view().feasible(&decision);
+            let rank = draws[decision.index as usize % draws.len()] % mask.len();
+            let choice = mask.nth(rank).expect("a rank within the mask");
+            prop_assert_eq!(imagined.apply(choice), simulation.apply(choice));
+        }
+        prop_assert_eq!(imagined.next_decision(), None);
+    }
+}
