@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use indicatif::HumanCount;
-use vertifleet_optimize::{Budget, Settings, plan};
+use vertifleet_core::Scenario;
+use vertifleet_optimize::{Budget, Settings, can_plan, plan};
 use vertifleet_study::Curve;
 use vertifleet_study::run::{Contender, Contenders, Way};
 
@@ -71,6 +72,14 @@ impl Entrant {
         }
     }
 
+    /// Whether it can take part on days like this one.
+    pub(crate) fn check_fits(&self, scenario: &Scenario) -> Result<(), Failure> {
+        match &self.kind {
+            Kind::Policy(recipe) => recipe.check_fits(scenario),
+            Kind::Plan(_) => Ok(can_plan(scenario)?),
+        }
+    }
+
     /// Its learning curve, where it was trained.
     pub(crate) fn curve(&self) -> Option<Curve> {
         let points = self.recipe()?.curve();
@@ -95,7 +104,9 @@ impl Entrant {
 /// Days take turns on the threads, so each plan needs but one search.
 fn planned(seed: u64) -> Way<'static> {
     let settings = Settings { budget: Budget::Steps(PLAN_STEPS), searches: 1, seed };
-    Way::Offline(Box::new(move |day| plan(day, &settings, &mut |_| true).trace))
+    Way::Offline(Box::new(move |day| {
+        plan(day, &settings, &mut |_| true).expect("the days were found to be fit for it").trace
+    }))
 }
 
 /// Everybody, for the comparison.

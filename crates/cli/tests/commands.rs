@@ -96,6 +96,18 @@ fn a_day_is_planned_between_the_best_policy_and_the_bound() {
 }
 
 #[test]
+fn nobody_plans_where_chargers_are_beside_the_stands() {
+    let folder = folder();
+    let at = folder.path();
+    stdout(at, "scenario as-coded --seed 1 -o day.json");
+    assert!(failure(at, "plan day.json -o plan.csv", 2).contains("error[V503]"));
+    let compared = "compare --network as-coded --policies greedy,plan --days 2 --seed 1";
+    let compared = failure(at, compared, 2);
+    assert!(compared.contains("error[V503]"));
+    assert!(!at.join("plan.csv").exists());
+}
+
+#[test]
 fn simulate_prints_every_number_of_the_day() {
     let folder = folder();
     stdout(folder.path(), "scenario paper --seed 1 -o day.json");

@@ -90,20 +90,20 @@ pub fn can_plan(scenario: &Scenario) -> Result<(), Error> {
     })
 }
 
-/// Plans a day that is known in full: actual demand, delays, closures and outages. Where it [cannot be planned](can_plan), the
-/// plan is the day of the best policy. `watch` sees how far the plan is, many times a second on networks of usual size, and says whether to go
-/// on; when it says no, the plan is the best found by then.
+/// Plans a day that is known in full: actual demand, delays, closures and outages. `watch` sees how far the plan is, many
+/// times a second on networks of usual size, and says whether to go on; when it says no, the plan is the best found by then.
+///
+/// # Errors
+/// As [`can_plan`].
 pub fn plan(
     scenario: &Arc<Scenario>,
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Plan {
+) -> Result<Plan, Error> {
+    can_plan(scenario)?;
     let begun = Instant::now();
     let (trace, profit_usd) = start::best_policy(scenario);
     let mut plan = Plan { trace, profit_usd, best_policy_usd: profit_usd, steps: 0 };
-    if can_plan(scenario).is_err() {
-        return plan;
-    }
     let problem = Problem::of(scenario);
     let first = start::schedule_of(&problem, &plan.trace);
     let mut searches: Vec<Search> = (0_u32..)
@@ -137,7 +137,7 @@ pub fn plan(
         }
         keep_best(scenario, &searches, &mut plan);
     }
-    plan
+    Ok(plan)
 }
 
 /// The search that stands worst goes on from where the best one stands.

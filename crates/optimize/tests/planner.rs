@@ -9,7 +9,7 @@ use std::time::Duration;
 use common::{Size, any_day, any_extended_day};
 use exhaustive::best_of_all;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario};
-use vertifleet_optimize::{Budget, Plan, Settings, can_plan, plan};
+use vertifleet_optimize::{Budget, Plan, Settings, plan};
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, play};
 use vertifleet_sim::{Simulation, check::check};
 
@@ -20,7 +20,7 @@ fn paper_day(seed: u64) -> Arc<Scenario> {
 
 fn planned(day: &Arc<Scenario>, steps: u64) -> Plan {
     let settings = Settings { budget: Budget::Steps(steps), searches: 2, seed: 5 };
-    plan(day, &settings, &mut |_| true)
+    plan(day, &settings, &mut |_| true).expect("a day without chargers beside stands")
 }
 
 #[test]
@@ -64,14 +64,19 @@ fn a_disturbed_day_is_planned_as_known_and_one_with_chargers_beside_stands_not_a
     let mut better = 0;
     for number in 500..560 {
         let day = any_extended_day(number, small);
-        let plan = planned(&day, 60);
+        let settings = Settings { budget: Budget::Steps(60), searches: 2, seed: 5 };
+        let plan = match plan(&day, &settings, &mut |_| true) {
+            Ok(plan) => plan,
+            Err(error) => {
+                let chargers = day.vertiports.iter().any(|vertiport| vertiport.chargers.is_some());
+                assert!(chargers, "day {number}: {error}");
+                continue;
+            }
+        };
         let report = check(&day, &plan.trace);
         assert!(report.is_valid(), "day {number}: {report}");
         assert!((report.totals.profit - plan.profit_usd).abs() < 1e-6, "day {number}");
         assert!(plan.profit_usd >= plan.best_policy_usd, "day {number}");
-        let has_chargers = day.vertiports.iter().any(|vertiport| vertiport.chargers.is_some());
-        assert_eq!(has_chargers, can_plan(&day).is_err());
-        assert!(!has_chargers || plan.steps == 0);
         better += usize::from(plan.profit_usd > plan.best_policy_usd);
     }
     assert!(better > 20, "{better}");
@@ -111,7 +116,8 @@ fn the_same_settings_give_the_same_plan_on_any_number_of_threads() {
     let one = on(1);
     assert_eq!(one, on(2));
     let other_seed = Settings { budget: Budget::Steps(300), searches: 2, seed: 6 };
-    assert_ne!(one, plan(&day, &other_seed, &mut |_| true), "chance follows the seed");
+    let other = plan(&day, &other_seed, &mut |_| true).expect("a day of paper");
+    assert_ne!(one, other, "chance follows the seed");
 }
 
 #[test]
@@ -123,10 +129,11 @@ fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
         looks += 1;
         assert!((0.0..=1.0).contains(&progress.share));
         looks < 4
-    });
+    })
+    .expect("a day of paper");
     assert!(check(&day, &stopped.trace).is_valid());
     let at_once = Settings { budget: Budget::Time(Duration::ZERO), ..settings };
-    let policy = plan(&day, &at_once, &mut |_| true);
+    let policy = plan(&day, &at_once, &mut |_| true).expect("a day of paper");
     assert_eq!((policy.steps, policy.profit_usd), (0, policy.best_policy_usd));
 }
 

@@ -29,8 +29,8 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
         report::check_folder(folder)?;
     }
     let network_origin = NetworkOrigin::of(network.name(), scenarios.iter().map(Arc::as_ref));
+    entrants.iter().try_for_each(|entrant| entrant.check_fits(&scenarios[0]))?;
     for (entrant, recipe) in entrants.iter().filter_map(|one| Some((one, one.recipe()?))) {
-        recipe.check_fits(&scenarios[0])?;
         recipe.warn_if_shipped_for_another(&entrant.name, network.name(), network_origin);
     }
     let days = bounded(scenarios, step)?;

@@ -8,9 +8,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use vertifleet_core::Scenario;
-use vertifleet_optimize::{
-    Bound, Budget, Error, Plan, Settings, Step, can_plan, plan, upper_bound,
-};
+use vertifleet_optimize::{Bound, Budget, Error, Plan, Settings, Step, plan, upper_bound};
 
 use crate::args::PlanArguments;
 use crate::commands::read_scenario;
@@ -83,11 +81,10 @@ fn finest_bound(scenario: &Scenario) -> Result<Bound, Error> {
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = Arc::new(read_scenario(&arguments.scenario)?);
-    can_plan(&scenario)?;
     let stop = stop_on_interrupt()?;
     let begun = Instant::now();
     let mut proof = Proof::begin(&scenario);
-    let plan = search(arguments, &scenario, &stop, &mut proof);
+    let plan = search(arguments, &scenario, &stop, &mut proof)?;
     let seconds = begun.elapsed().as_secs_f64();
     // The schedule first: it is worth having whatever becomes of the bound.
     plan.trace.write(&scenario, &arguments.output)?;
@@ -110,7 +107,7 @@ fn search(
     scenario: &Arc<Scenario>,
     stop: &AtomicBool,
     proof: &mut Proof,
-) -> Plan {
+) -> Result<Plan, Error> {
     let settings = Settings {
         budget: Budget::Time(arguments.time_limit),
         searches: rayon::current_num_threads(),
