@@ -22,11 +22,13 @@ deny:
 bench: prepare
 	cargo bench --workspace --locked
 
-# How the shipped weights were made; they are then copied from out/train to models/paper, with their curves.
+# How the shipped weights were made; they are then copied from out/train to models/paper, with their curves. None of gcaps-x
+# are shipped yet.
 train: prepare
 	cargo build --release --locked -p vertifleet-cli
 	./target/release/vertifleet train --network paper --policy gcaps --seed 1 --out out/train
 	./target/release/vertifleet train --network paper --policy mlp --seed 1 --out out/train
+	./target/release/vertifleet train --network paper --policy gcaps-x --seed 1 --out out/train
 
 prepare:
 	@scripts/prepare

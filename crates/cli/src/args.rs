@@ -28,7 +28,7 @@ pub(crate) enum Command {
     Bound(BoundArguments),
     /// Find the best schedule for a known day, and say how far from the best it may be
     Plan(PlanArguments),
-    /// Train a policy by proximal policy optimisation
+    /// Train a policy on days of a network
     Train(TrainArguments),
     /// Play many days with many policies and report who earns what
     Compare(CompareArguments),
@@ -53,7 +53,7 @@ pub(crate) struct ScenarioArguments {
 pub(crate) struct SimulateArguments {
     /// Scenario file
     pub(crate) scenario: PathBuf,
-    /// random, greedy, lookahead, prices, rolling, gcaps, mlp, or replay:TRACE
+    /// random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x (with --model), gcaps-x:rollouts=K, or replay:TRACE
     #[arg(long)]
     pub(crate) policy: String,
     /// Seed of the random policy
@@ -121,6 +121,8 @@ pub(crate) enum Trainable {
     Gcaps,
     /// The paper's baseline: plain layers
     Mlp,
+    /// One network for networks of any size, beside the day's prices
+    GcapsX,
 }
 
 impl Trainable {
@@ -129,6 +131,7 @@ impl Trainable {
         match self {
             Self::Gcaps => "gcaps",
             Self::Mlp => "mlp",
+            Self::GcapsX => "gcaps-x",
         }
     }
 }
@@ -141,7 +144,7 @@ pub(crate) struct TrainArguments {
     /// Kind of policy
     #[arg(long)]
     pub(crate) policy: Trainable,
-    /// Settings to start from: default, or paper (Table 2)
+    /// Settings of gcaps and mlp to start from: default, or paper (Table 2)
     #[arg(long, default_value = "default")]
     pub(crate) preset: String,
     /// Decisions to learn from, in place of the preset's
@@ -166,8 +169,8 @@ pub(crate) struct CompareArguments {
     /// Network file, or the name of a shipped network (paper, disrupted, new-york, as-coded)
     #[arg(long)]
     pub(crate) network: String,
-    /// Policies, separated by commas: random, greedy, lookahead, prices, rolling, gcaps, mlp, names given by --model, and plan,
-    /// the planner, which knows the days beforehand
+    /// Policies, separated by commas: random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K (which
+    /// tries its K best choices out), names given by --model, and plan, the planner, which knows the days beforehand
     #[arg(long, value_delimiter = ',', required = true)]
     pub(crate) policies: Vec<String>,
     /// Number of days

@@ -10,7 +10,7 @@ use vertifleet_study::run::{Contender, Contenders, Way};
 
 use crate::args::CompareArguments;
 use crate::failure::Failure;
-use crate::policies::{self, Recipe};
+use crate::policies::{self, Recipe, kind_of};
 
 /// Steps of the planner a day: no time limit, so that the plan is the same everywhere. On `paper` they take about a quarter
 /// of a minute on one core.
@@ -39,7 +39,10 @@ impl Entrant {
                 "give each name one path",
             ));
         }
-        if let Some(unused) = models.iter().find(|name| !arguments.policies.contains(name)) {
+        let asked = |name: &str| {
+            arguments.policies.iter().any(|policy| policy == name || kind_of(policy) == name)
+        };
+        if let Some(unused) = models.iter().find(|name| !asked(name)) {
             return Err(Failure::usage(
                 format!("--model names {unused:?}, which is not among --policies"),
                 "add the name to --policies",
@@ -49,7 +52,9 @@ impl Entrant {
     }
 
     fn named(name: &str, arguments: &CompareArguments, network: &str) -> Result<Self, Failure> {
-        let given = arguments.models.iter().find(|(given, _)| given == name);
+        // Weights of gcaps-x are those of gcaps-x:rollouts=K too.
+        let given =
+            arguments.models.iter().find(|(given, _)| given == name || given == kind_of(name));
         let weights = given.map(|(_, path)| Path::new(path));
         let rule = match name {
             "plan" => Some(Kind::Plan(arguments.seed)),

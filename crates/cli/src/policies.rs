@@ -6,7 +6,8 @@ use std::sync::Arc;
 use indicatif::HumanCount;
 use vertifleet_core::{Code, Scenario};
 use vertifleet_learn::nn::Architecture;
-use vertifleet_learn::{CurveRow, Learned, Model, Trained, shipped};
+use vertifleet_learn::relative::{AnyModel, GcapsX};
+use vertifleet_learn::{CurveRow, Learned, Model, Trained, Weights, shipped};
 use vertifleet_optimize::Rolling;
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, Replay};
 use vertifleet_sim::Trace;
@@ -17,6 +18,8 @@ use crate::output::warn;
 
 /// No learning curve of ours comes near; longer files are not read.
 const LONGEST_CURVE: u64 = 64 << 20;
+/// The policy whose weights fit networks of any size.
+const ANY_SIZE: &str = "gcaps-x";
 
 /// A policy as the command line names it.
 pub(crate) struct Choice<'a> {
@@ -36,7 +39,16 @@ pub(crate) enum Recipe {
     Priced,
     Rolling,
     Replay(Arc<Trace>),
-    Learned { model: Arc<Model>, curve: Vec<CurveRow>, shipped: bool },
+    Learned {
+        model: Arc<Model>,
+        curve: Vec<CurveRow>,
+        shipped: bool,
+    },
+    /// How many choices are tried out; 1 decides at once.
+    AnySize {
+        model: Arc<AnyModel>,
+        tried: usize,
+    },
 }
 
 impl Recipe {
@@ -49,6 +61,10 @@ impl Recipe {
             Self::Rolling => Box::new(Rolling::default()),
             Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
             Self::Learned { model, .. } => Box::new(Learned::new(Arc::clone(model))),
+            Self::AnySize { model, tried: 1 } => Box::new(GcapsX::new(Arc::clone(model))),
+            Self::AnySize { model, tried } => {
+                Box::new(GcapsX::with_rollouts(Arc::clone(model), *tried))
+            }
         }
     }
 
@@ -64,6 +80,14 @@ impl Recipe {
             Self::Learned { model, .. } => {
                 let header = model.header();
                 format!("learned on {} from {} decisions", header.network, HumanCount(header.steps))
+            }
+            Self::AnySize { model, tried } => {
+                let decisions = HumanCount(model.header().decisions);
+                let tries = match tried {
+                    1 => String::new(),
+                    tried => format!("; tries its {tried} best choices out"),
+                };
+                format!("learned what prices miss from {decisions} decisions{tries}")
             }
         }
     }
@@ -82,14 +106,21 @@ impl Recipe {
 
     /// The policy of a weight file. Where `name` is that of a kind of policy, the weights must be of that kind.
     pub(crate) fn of_file(name: &str, path: &Path) -> Result<Self, Failure> {
-        let model = Arc::new(Model::read(path)?);
-        let kind = model.header().policy.name();
-        if Architecture::named(name).is_some() && name != kind {
+        let weights = Weights::read(path)?;
+        let (kind, asked) = (weights.kind(), kind_of(name));
+        if Architecture::named(asked).is_some() && asked != kind {
             let message =
-                format!("{} has weights of {kind:?}, but {name:?} is asked for", path.display());
+                format!("{} has weights of {kind:?}, but {asked:?} is asked for", path.display());
             return Err(Failure::usage(message, "name the policy as its weights do"));
         }
-        Ok(Self::Learned { model, curve: Vec::new(), shipped: false })
+        Ok(match weights {
+            Weights::OfOneSize(model) => {
+                Self::Learned { model: Arc::new(*model), curve: Vec::new(), shipped: false }
+            }
+            Weights::OfAnySize(model) => {
+                Self::AnySize { model: Arc::new(*model), tried: tried_by(name)?.unwrap_or(1) }
+            }
+        })
     }
 
     /// The policy of a weight file, with the learning curve that `train` left beside it.
@@ -104,6 +135,12 @@ impl Recipe {
 
     /// The shipped policy of a network.
     pub(crate) fn shipped(name: &str, network: &str) -> Result<Self, Failure> {
+        if tried_by(name)?.is_some() {
+            return Err(Failure::usage(
+                format!("policy {name:?} has no shipped weights"),
+                "`vertifleet train --network paper --policy gcaps-x --out DIR` makes some; give them with --model",
+            ));
+        }
         let Trained { model, curve } = shipped(network, name)?;
         Ok(Self::Learned { model: Arc::new(model), curve, shipped: true })
     }
@@ -143,6 +180,29 @@ impl Recipe {
     }
 }
 
+/// The kind of policy that a name asks for: `gcaps-x` of `gcaps-x:rollouts=3`.
+pub(crate) fn kind_of(name: &str) -> &str {
+    name.strip_prefix(ANY_SIZE).filter(|rest| rest.starts_with(':')).map_or(name, |_| ANY_SIZE)
+}
+
+/// How many choices a name of `gcaps-x` asks to be tried out, 1 for none; nothing for other names.
+fn tried_by(name: &str) -> Result<Option<usize>, Failure> {
+    match name.strip_prefix(ANY_SIZE) {
+        Some("") => Ok(Some(1)),
+        Some(rest) if rest.starts_with(':') => {
+            let most = rest.strip_prefix(":rollouts=").and_then(|most| most.parse().ok());
+            match most {
+                Some(most @ 2..=GcapsX::MOST_TRIED) => Ok(Some(most)),
+                _ => Err(Failure::usage(
+                    format!("policy {name:?} is not understood"),
+                    "gcaps-x:rollouts=3 tries the 3 best choices out; from 2 to 5 can be",
+                )),
+            }
+        }
+        _ => Ok(None),
+    }
+}
+
 /// Where `train` leaves the learning curve of these weights: `gcaps-curve.csv` beside `gcaps.safetensors`.
 pub(crate) fn curve_beside(weights: &Path) -> PathBuf {
     let name = weights.file_stem().unwrap_or_default().to_string_lossy();
@@ -162,7 +222,7 @@ pub(crate) fn for_scenario(
 ) -> Result<Box<dyn Policy>, Failure> {
     let replayed = choice.name.strip_prefix("replay:");
     let recipe = match (choice.model, Recipe::rule(choice.name, choice.seed), replayed) {
-        (Some(path), None, None) if Architecture::named(choice.name).is_some() => {
+        (Some(path), None, None) if Architecture::named(kind_of(choice.name)).is_some() => {
             Recipe::of_file(choice.name, path)?
         }
         (Some(_), ..) => return Err(takes_no_weights(choice.name)),
@@ -186,7 +246,7 @@ pub(crate) fn for_scenario(
 pub(crate) fn takes_no_weights(policy: &str) -> Failure {
     Failure::usage(
         format!("policy {policy:?} takes no weights, but --model is given"),
-        "leave --model out, or name a learned policy (gcaps, mlp)",
+        "leave --model out, or name a learned policy (gcaps, mlp, gcaps-x)",
     )
 }
 

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use assert_cmd::Command;
 use serde_json::Value;
 use vertifleet_learn::Settings;
+use vertifleet_learn::relative::Course;
 
 type Names = BTreeSet<String>;
 
@@ -237,5 +238,18 @@ fn the_training_page_lists_every_setting_of_both_presets() {
             row.unwrap_or_else(|| panic!("{name} is not listed")).split('|').collect();
         assert!(says(cells[2], value), "{name} of paper is {value}");
         assert!(says(cells[3], &default[name]), "{name} of default is {}", default[name]);
+    }
+}
+
+#[test]
+fn the_training_page_lists_every_setting_of_gcaps_x() {
+    let course = serde_json::to_value(Course::default()).expect("plain data");
+    let page = text("docs/src/concepts/training.md");
+    let (_, section) = page.split_once("\n## gcaps-x\n").expect("a section on gcaps-x");
+    for (name, value) in course.as_object().expect("settings have names") {
+        let row = section.lines().find(|line| line.starts_with(&format!("| `{name}` | ")));
+        let cells: Vec<&str> =
+            row.unwrap_or_else(|| panic!("{name} is not listed")).split('|').collect();
+        assert!(says(cells[2], value), "{name} is {value}");
     }
 }

@@ -7,6 +7,7 @@
 
 mod adam;
 mod advantage;
+mod any_weights;
 mod checkpoint;
 mod curve;
 mod error;
@@ -14,6 +15,8 @@ mod features;
 mod learned;
 pub mod nn;
 mod ppo;
+mod random_network;
+pub mod relative;
 mod rollout;
 mod settings;
 mod shipped;
@@ -21,11 +24,13 @@ mod tensor_file;
 mod train;
 mod weights;
 
+pub use any_weights::Weights;
 pub use checkpoint::Checkpoint;
 pub use curve::{CurveRow, EventFile, from_csv, to_csv};
 pub use error::Error;
 pub use features::{Observations, Scales, shape};
 pub use learned::Learned;
+pub use random_network::random_network;
 pub use settings::{Reward, Schedule, Settings};
 pub use shipped::{Trained, shipped};
 pub use train::{Plan, Training};

@@ -1,5 +1,6 @@
 //! Every knob of training, named as in stable-baselines3, and the two presets.
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -134,39 +135,19 @@ impl Settings {
     ) -> Result<(), Error> {
         let mut changed = self.clone();
         for (name, value) in pairs {
-            changed = changed.with(name, value)?;
+            changed = with_member(&changed, name, value)?;
         }
         changed.check()?;
         *self = changed;
         Ok(())
     }
 
-    fn with(&self, name: &str, value: &str) -> Result<Self, Error> {
-        let mut members = self.members();
-        if !members.contains_key(name) {
-            let known = members.keys().cloned().collect::<Vec<_>>().join(", ");
-            return Err(Error::UnknownSetting { name: name.to_owned(), known });
-        }
-        // A value is a JSON number where it reads as one, a word otherwise.
-        let parsed = serde_json::from_str(value).unwrap_or_else(|_| value.into());
-        members.insert(name.to_owned(), parsed);
-        serde_json::from_value(members.into())
-            .map_err(|error| Error::BadSetting { name: name.to_owned(), rule: error.to_string() })
-    }
-
     /// The first setting in which two runs differ: its name, and the value in each.
     pub(crate) fn first_difference(&self, other: &Self) -> Option<(String, String, String)> {
-        let others = other.members();
-        let mut pairs = self.members().into_iter().zip(others);
+        let others = members(other);
+        let mut pairs = members(self).into_iter().zip(others);
         let differs = pairs.find(|((_, own), (_, other))| own != other);
         differs.map(|((name, own), (_, other))| (name, own.to_string(), other.to_string()))
-    }
-
-    fn members(&self) -> serde_json::Map<String, serde_json::Value> {
-        match serde_json::to_value(self) {
-            Ok(serde_json::Value::Object(members)) => members,
-            other => unreachable!("settings are a JSON object, not {other:?}"),
-        }
     }
 
     /// Decisions per roll-out.
@@ -190,13 +171,6 @@ impl Settings {
     }
 
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let within = |name: &str, value: f64, low: f64, high: f64| {
-            if (low..=high).contains(&value) {
-                return Ok(());
-            }
-            let rule = format!("must be from {low} to {high}, found {value}");
-            Err(Error::BadSetting { name: name.to_owned(), rule })
-        };
         within("total_steps", self.total_steps as f64, 1.0, 1e12)?;
         within("n_envs", self.n_envs as f64, 1.0, 65_536.0)?;
         within("n_steps", self.n_steps as f64, 1.0, 1e6)?;
@@ -214,6 +188,40 @@ impl Settings {
         within("eval_every", f64::from(self.eval_every), 1.0, 1e9)?;
         within("eval_days", f64::from(self.eval_days), 1.0, 100_000.0)
     }
+}
+
+/// Settings with one changed by its name.
+pub(crate) fn with_member<S: Serialize + DeserializeOwned>(
+    settings: &S,
+    name: &str,
+    value: &str,
+) -> Result<S, Error> {
+    let mut members = members(settings);
+    if !members.contains_key(name) {
+        let known = members.keys().cloned().collect::<Vec<_>>().join(", ");
+        return Err(Error::UnknownSetting { name: name.to_owned(), known });
+    }
+    // A value is a JSON number where it reads as one, a word otherwise.
+    let parsed = serde_json::from_str(value).unwrap_or_else(|_| value.into());
+    members.insert(name.to_owned(), parsed);
+    serde_json::from_value(members.into())
+        .map_err(|error| Error::BadSetting { name: name.to_owned(), rule: error.to_string() })
+}
+
+fn members(settings: &impl Serialize) -> serde_json::Map<String, serde_json::Value> {
+    match serde_json::to_value(settings) {
+        Ok(serde_json::Value::Object(members)) => members,
+        other => unreachable!("settings are a JSON object, not {other:?}"),
+    }
+}
+
+/// Refuses a value outside of its bounds.
+pub(crate) fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), Error> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    let rule = format!("must be from {low} to {high}, found {value}");
+    Err(Error::BadSetting { name: name.to_owned(), rule })
 }
 
 #[cfg(test)]

@@ -24,6 +24,14 @@ pub(crate) fn to_bytes<'a>(
     safetensors::serialize(tensors, Some(info)).expect("named tensors of numbers are valid")
 }
 
+/// The format that a file's header states, if it has a header that states any.
+pub(crate) fn format(bytes: &[u8]) -> Option<String> {
+    let (_, metadata) = SafeTensors::read_metadata(bytes).ok()?;
+    let text = metadata.metadata().as_ref()?.get(HEADER)?;
+    let header: serde_json::Value = serde_json::from_str(text).ok()?;
+    Some(header.get("format")?.as_str()?.to_owned())
+}
+
 /// The header of a file's bytes, which must be of `format`; `format_of` says what a header states.
 pub(crate) fn header<H: DeserializeOwned>(
     bytes: &[u8],

@@ -261,7 +261,7 @@ fn play_block(policy: &mut Learned, days: &[Arc<Scenario>]) -> Vec<f64> {
 }
 
 /// Refuses weights that have left the numbers in an update, counted from 1.
-fn check_finite(params: &[f32], update: u64) -> Result<(), Error> {
+pub(crate) fn check_finite(params: &[f32], update: u64) -> Result<(), Error> {
     if params.iter().all(|weight| weight.is_finite()) {
         return Ok(());
     }

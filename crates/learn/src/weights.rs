@@ -19,7 +19,7 @@ use crate::tensor_file;
 /// First member of every header.
 const FORMAT: &str = "vertifleet-weights/1";
 /// No weight file of ours comes near; larger ones are not read.
-const LIMIT_BYTES: u64 = 512 << 20;
+pub(crate) const LIMIT_BYTES: u64 = 512 << 20;
 
 /// What weights are of and where they came from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -120,11 +120,7 @@ impl Model {
 
     /// The file's bytes.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let tensors = self.net.layout().tensors().iter().map(|tensor| {
-            let entries = &self.params[tensor.offset..][..tensor.len()];
-            (tensor.name.as_str(), tensor.shape.clone(), entries)
-        });
-        tensor_file::to_bytes(&self.header, tensors)
+        to_bytes(&self.header, &self.net, &self.params)
     }
 
     /// Writes the file, whole or not at all.
@@ -168,8 +164,17 @@ impl Model {
     }
 }
 
+/// The bytes of a file with this header and a network's parameters.
+pub(crate) fn to_bytes(header: &impl Serialize, net: &nn::Network, params: &[f32]) -> Vec<u8> {
+    let tensors = net.layout().tensors().iter().map(|tensor| {
+        let entries = &params[tensor.offset..][..tensor.len()];
+        (tensor.name.as_str(), tensor.shape.clone(), entries)
+    });
+    tensor_file::to_bytes(header, tensors)
+}
+
 /// The parameters in the layout's order; an error says which tensor is not as the layout has it.
-fn collect(net: &nn::Network, file: &SafeTensors<'_>) -> Result<Vec<f32>, String> {
+pub(crate) fn collect(net: &nn::Network, file: &SafeTensors<'_>) -> Result<Vec<f32>, String> {
     let mut found: BTreeMap<String, TensorView<'_>> = file.tensors().into_iter().collect();
     let mut params = Vec::with_capacity(net.layout().len());
     for tensor in net.layout().tensors() {

@@ -10,6 +10,7 @@ mod priced;
 mod prices;
 mod random;
 mod replay;
+mod try_out;
 
 pub use day_memory::DayMemory;
 pub use draw::draw;
@@ -21,3 +22,4 @@ pub use priced::Priced;
 pub use prices::DayPrices;
 pub use random::Random;
 pub use replay::Replay;
+pub use try_out::{Shortlist, fleet_worth_usd, tried_out_usd};

@@ -13,6 +13,7 @@ use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{Checkpoint, CurveRow, EventFile, Model, Plan, Settings, Training, to_csv};
 
 use crate::args::{TrainArguments, Trainable};
+use crate::commands::train_any;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
@@ -70,6 +71,9 @@ impl SetAside {
 }
 
 pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
+    if arguments.policy == Trainable::GcapsX {
+        return train_any::run(arguments);
+    }
     let plan = plan(arguments)?;
     vertifleet_core::create_folder(&arguments.out)?;
     let files = Files::of(arguments.policy, &arguments.out);

@@ -22,6 +22,9 @@ pub enum Architecture {
     Gcaps(GcapsSettings),
     /// The paper's baseline: plain layers on the flattened features.
     Mlp(MlpSettings),
+    /// The layers of `gcaps` on features that do not grow with the network, so that no weight depends on its size.
+    #[serde(rename = "gcaps-x")]
+    GcapsX(GcapsSettings),
 }
 
 /// Sizes of a `gcaps` network. P = 2, K = 2 and `L_e` = 1 are fixed (Table 3).
@@ -61,11 +64,12 @@ impl Default for MlpSettings {
 }
 
 impl Architecture {
-    /// The policy of that name with its default sizes: `gcaps` or `mlp`.
+    /// The policy of that name with its default sizes: `gcaps`, `mlp` or `gcaps-x`.
     pub fn named(name: &str) -> Option<Self> {
         match name {
             "gcaps" => Some(Self::Gcaps(GcapsSettings::default())),
             "mlp" => Some(Self::Mlp(MlpSettings::default())),
+            "gcaps-x" => Some(Self::GcapsX(GcapsSettings { width: 32, heads: 4 })),
             _ => None,
         }
     }
@@ -75,6 +79,7 @@ impl Architecture {
         match self {
             Self::Gcaps(_) => "gcaps",
             Self::Mlp(_) => "mlp",
+            Self::GcapsX(_) => "gcaps-x",
         }
     }
 }

@@ -86,7 +86,7 @@ impl Network {
         check_size("node_features", shape.node_features)?;
         check_size("aircraft_features", shape.aircraft_features)?;
         let (body, layout, derived, folded) = match &architecture {
-            Architecture::Gcaps(settings) => {
+            Architecture::Gcaps(settings) | Architecture::GcapsX(settings) => {
                 let (body, layout, products, folded) = Gcaps::new(settings, shape)?;
                 (Body::Gcaps(Box::new(body)), layout, products.len(), folded)
             }

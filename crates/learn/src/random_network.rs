@@ -1,0 +1,166 @@
+//! Networks drawn from a number: what `gcaps-x` learns on, and what shows how it does on networks that it never saw.
+//!
+//! They differ in all that a network file says: 5 to 30 vertiports, 10 to 150 aircraft, how far apart, how many stands and
+//! seats, how fast, how dear, and how much demand there is for what the fleet could carry, from half of it to tenfold.
+
+use std::fmt::Write;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use vertifleet_core::{Network, Purpose};
+
+/// Draws a network. Those of one purpose are never those of another, so what was trained on some can be judged on others.
+pub fn random_network(purpose: Purpose, number: u64) -> Network {
+    let text = text(purpose, number);
+    Network::from_toml(&text, "a random network").expect("every number drawn is within its bounds")
+}
+
+/// The network's file.
+fn text(purpose: Purpose, number: u64) -> String {
+    let mut random = generator(purpose, number);
+    let vertiports = random.random_range(5..=30_usize);
+    let fleet = random.random_range(10..=150_usize);
+    let seats = random.random_range(2..=6_u32);
+    let energy_kwh_per_mi = f64::from(seats) * random.random_range(0.35..0.6);
+    let range_mi = random.random_range(40.0..70.0);
+    let speed_mph = random.random_range(70.0..150.0);
+    let hours = random.random_range(8..=14_u32);
+    let mut text = format!(
+        "format = \"vertifleet-network/1\"\nname = \"random-{kind}-{number}\"\nstart_positions = \"random\"\n\n\
+         [operations]\nstart = \"06:00:00\"\nend = \"{end:02}:00:00\"\n\
+         takeoff_s = {takeoff_s}\nlanding_s = {landing_s}\nhold_s = {hold_s}\n",
+        kind = word(purpose),
+        end = 6 + hours,
+        takeoff_s = random.random_range(180..=900_u32),
+        landing_s = random.random_range(180..=900_u32),
+        hold_s = 60 * random.random_range(5..=15_u32),
+    );
+    write_vertiports(&mut text, vertiports, fleet, &mut random);
+    put(
+        &mut text,
+        format_args!(
+            "\n[[aircraft_types]]\nid = \"aircraft\"\nseats = {seats}\nspeed_mph = {speed_mph}\n\
+         battery_kwh = {battery_kwh}\nenergy_kwh_per_mi = {energy_kwh_per_mi}\ncharge_kw = {charge_kw}\n\
+         self_discharge_per_h = 0\n\n[[fleet]]\ntype = \"aircraft\"\ncount = {fleet}\n\n\
+         [tariffs]\npassenger_cost_usd_per_mi = {passenger_cost}\nfare_base = {fare_base}\n\
+         fare_demand_weight = {fare_weight}\nenergy_price_usd_per_kwh = {energy_price}\n",
+            battery_kwh = range_mi * energy_kwh_per_mi,
+            charge_kw = random.random_range(80.0..300.0),
+            passenger_cost = random.random_range(0.5..0.9),
+            fare_base = random.random_range(1.8..2.6),
+            fare_weight = random.random_range(0.0..1.0),
+            energy_price = random.random_range(0.1..0.3),
+        ),
+    );
+    write_demand(&mut text, (vertiports, fleet, seats, hours), &mut random);
+    text.push_str(
+        "\n[feature_scales]\nstands = 6\npassengers = 300\nfare_usd = 40\npassenger_cost_usd = 20\n\
+         energy_price_usd = 0.2\nbattery_kwh = 110\npower_kw = 65\n",
+    );
+    text
+}
+
+/// Vertiports in a square small enough for most pairs to be within range, with 1.1 to 1.6 stands an aircraft in all.
+fn write_vertiports(text: &mut String, vertiports: usize, fleet: usize, random: &mut ChaCha8Rng) {
+    let side_mi = random.random_range(20.0..45.0);
+    let stands = fleet as f64 * random.random_range(1.1..1.6);
+    let weights: Vec<f64> = (0..vertiports).map(|_| random.random_range(0.5..1.5)).collect();
+    let all: f64 = weights.iter().sum();
+    let busy = random.random_range(1..=vertiports.div_ceil(2));
+    for (at, weight) in weights.iter().enumerate() {
+        put(
+            text,
+            format_args!(
+                "\n[[vertiports]]\nid = \"V{number}\"\nx_mi = {x_mi:.1}\ny_mi = {y_mi:.1}\nstands = {stands}\nbusy = {busy}\n",
+                number = at + 1,
+                x_mi = random.random_range(0.0..side_mi),
+                y_mi = random.random_range(0.0..side_mi),
+                // Rounded up, so that together they are enough.
+                stands = (stands * weight / all).ceil(),
+                busy = at < busy,
+            ),
+        );
+    }
+}
+
+/// Demand between half and ten times what the fleet may carry at about 0.8 flights an hour.
+fn write_demand(
+    text: &mut String,
+    (vertiports, fleet, seats, hours): (usize, usize, u32, u32),
+    random: &mut ChaCha8Rng,
+) {
+    let capacity = 0.8 * fleet as f64 * f64::from(seats);
+    let abundance = 0.5 * 20.0_f64.powf(random.random_range(0.0..1.0));
+    // At least what makes a flight pay: few aircraft among many vertiports would find a passenger here and one there.
+    let mean =
+        (abundance * capacity / (vertiports * (vertiports - 1)) as f64).max(0.7 * f64::from(seats));
+    let spread = random.random_range(0.1..0.4);
+    let (busy, peak) = (random.random_range(1.0..2.5), random.random_range(1.5..4.0));
+    let starts: Vec<String> = (6..=6 + hours).map(|hour| format!("\"{hour:02}:00:00\"")).collect();
+    put(
+        text,
+        format_args!(
+            "\n[demand]\nperiods = [{starts}]\nmorning_peak = \"08:00:00\"\nevening_peak = {evening}\n",
+            starts = starts.join(", "),
+            evening = starts[starts.len() - 3],
+        ),
+    );
+    for (level, factor) in [("peak", peak), ("busy_pairs", busy), ("otherwise", 1.0)] {
+        let mean = mean * factor;
+        put(text, format_args!("{level} = {{ mean = {mean}, sd = {sd} }}\n", sd = mean * spread));
+    }
+}
+
+fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
+    text.write_fmt(what).expect("memory takes everything");
+}
+
+/// A stream of its own for each purpose.
+fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
+    let mut random = ChaCha8Rng::seed_from_u64(number);
+    random.set_stream(match purpose {
+        Purpose::Comparison => 0,
+        Purpose::Validation => 1,
+        Purpose::Training => 2,
+    });
+    random
+}
+
+fn word(purpose: Purpose) -> &'static str {
+    match purpose {
+        Purpose::Comparison => "comparison",
+        Purpose::Validation => "validation",
+        Purpose::Training => "training",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::Purpose;
+
+    use super::{random_network, text};
+
+    #[test]
+    fn every_number_gives_a_network_within_what_is_promised() {
+        for number in 0..200 {
+            for purpose in Purpose::ALL {
+                let network = random_network(purpose, number);
+                let (vertiports, fleet) = (network.vertiports().len(), network.fleet_size());
+                assert!((5..=30).contains(&vertiports) && (10..=150).contains(&fleet));
+                let stands = network.vertiports().iter().map(|one| usize::from(one.stands));
+                assert!(stands.sum::<usize>() > fleet);
+            }
+        }
+    }
+
+    #[test]
+    fn a_number_means_one_network_and_another_for_each_purpose() {
+        assert_eq!(text(Purpose::Training, 3), text(Purpose::Training, 3));
+        let without_name = |purpose| {
+            let text = text(purpose, 3);
+            text.lines().filter(|line| !line.starts_with("name")).collect::<Vec<_>>().join("\n")
+        };
+        assert_ne!(without_name(Purpose::Training), without_name(Purpose::Comparison));
+        assert_ne!(without_name(Purpose::Validation), without_name(Purpose::Comparison));
+    }
+}

@@ -1,0 +1,122 @@
+//! What a choice is worth: what the day's prices say, and what the network adds.
+//!
+//! ```text
+//! worth_j = worth of j at the prices  +  logit_j * unit / 20
+//! ```
+//!
+//! with the profit of a typical full flight as unit. A network of zeros adds nothing, so it decides as `prices` does. Only
+//! choices that are worth nearly as much as the best are judged: [`Listing`] says how many and how near.
+
+use std::sync::Arc;
+
+use vertifleet_core::VertiportIx;
+use vertifleet_policy::{DayPrices, Shortlist};
+use vertifleet_sim::{Decision, View};
+
+use crate::nn::{self, Architecture, Prepared, Workspace};
+use crate::relative::features::{Rows, Scene, Units, shape};
+use crate::relative::rollouts::COURSES;
+
+/// A logit of 1 is worth the unit over this.
+pub(crate) const LOGITS_A_UNIT: f64 = 20.0;
+/// Choices judged at most.
+pub(crate) const MOST_LISTED: usize = 5;
+/// How much worse than the best at the prices a choice may be to be judged, in units.
+pub(crate) const TOO_BAD: f64 = 0.5;
+/// Rows judged at once at most: one decision, or one of every course of all choices tried out.
+const BATCH: usize = MOST_LISTED * COURSES as usize;
+
+/// The network at one number of vertiports, and what a pass needs.
+pub(crate) struct Judge {
+    net: nn::Network,
+    params: Arc<[f32]>,
+    prepared: Arc<Prepared>,
+    workspace: Workspace,
+    pub(crate) rows: Rows,
+}
+
+impl Judge {
+    /// # Panics
+    /// If the weights are not of this architecture.
+    pub(crate) fn new(
+        architecture: &Architecture,
+        params: Arc<[f32]>,
+        prepared: Arc<Prepared>,
+        vertiports: usize,
+    ) -> Self {
+        let net = network(architecture, vertiports);
+        let workspace = net.workspace(BATCH);
+        Self { net, params, prepared, workspace, rows: Rows::new(vertiports) }
+    }
+
+    pub(crate) fn vertiports(&self) -> usize {
+        self.rows.vertiports()
+    }
+
+    /// The choice of a list that is worth most, the one listed first among equals. The list comes ranked by the prices.
+    pub(crate) fn best(&mut self, scene: Scene<'_>, listed: &[(f64, VertiportIx)]) -> VertiportIx {
+        if let [(_, only)] = *listed {
+            return only;
+        }
+        self.judge(scene, listed);
+        self.best_of_row(0, scene.unit_usd, listed)
+    }
+
+    /// Judges one decision, in row 0.
+    pub(crate) fn judge(&mut self, scene: Scene<'_>, listed: &[(f64, VertiportIx)]) {
+        self.rows.clear();
+        self.rows.push(scene, listed);
+        self.pass();
+    }
+
+    /// Judges all rows.
+    pub(crate) fn pass(&mut self) {
+        self.net.forward(&self.params, &self.prepared, self.rows.inputs(), &mut self.workspace);
+    }
+
+    /// The choice that is worth most in a row of the latest pass.
+    pub(crate) fn best_of_row(
+        &self,
+        row: usize,
+        unit_usd: f64,
+        listed: &[(f64, VertiportIx)],
+    ) -> VertiportIx {
+        let mut best = (f64::NEG_INFINITY, listed[0].1);
+        for &choice in listed {
+            let usd = self.worth_usd(row, unit_usd, choice);
+            if usd > best.0 {
+                best = (usd, choice.1);
+            }
+        }
+        best.1
+    }
+
+    /// What a choice is worth in a row of the latest pass, dollars.
+    pub(crate) fn worth_usd(
+        &self,
+        row: usize,
+        unit_usd: f64,
+        (priced_usd, to): (f64, VertiportIx),
+    ) -> f64 {
+        let logit = self.workspace.logits()[row * self.vertiports() + to.at()];
+        priced_usd + f64::from(logit) / LOGITS_A_UNIT * unit_usd
+    }
+}
+
+/// The network for a number of vertiports. The weights are the same for all.
+pub(crate) fn network(architecture: &Architecture, vertiports: usize) -> nn::Network {
+    nn::Network::new(architecture.clone(), shape(vertiports)).expect(
+        "sizes were checked when the weights were made, and days have at most 256 vertiports",
+    )
+}
+
+/// Ranks the choices of a decision and keeps those to be judged.
+pub(crate) fn list<'a>(
+    shortlist: &'a mut Shortlist,
+    prices: &DayPrices,
+    units: &Units,
+    (view, decision): (View<'_>, &Decision),
+) -> &'a [(f64, VertiportIx)] {
+    let unit_usd = units.usd(view.kind(decision.aircraft));
+    shortlist.rank(prices, view, decision, (MOST_LISTED, TOO_BAD * unit_usd))
+}

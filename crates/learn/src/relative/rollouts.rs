@@ -1,0 +1,153 @@
+//! `gcaps-x` with roll-outs: its best choices are played on with it deciding for everybody, and the one after which the fleet
+//! stands best in the mean is taken. Each is played on several times, everybody's worth shaken by a little noise, the same for
+//! all choices: one course says little.
+//!
+//! All courses go on side by side, a decision each at a time, so that the network judges them together.
+
+use vertifleet_core::{Time, VertiportIx};
+use vertifleet_policy::{DayPrices, Shortlist, fleet_worth_usd};
+use vertifleet_sim::{Decision, Imagined, View};
+
+use crate::relative::features::{Scene, Units};
+use crate::relative::judge::{Judge, list};
+use crate::relative::lessons::noise;
+
+/// How far a choice is played on, seconds.
+const HORIZON_S: u32 = 7_200;
+/// How often.
+pub(crate) const COURSES: u32 = 8;
+/// Size of the noise, in units.
+const NOISE: f64 = 0.08;
+/// Weight of what the choice is worth to the aircraft alone.
+const OWN: f64 = 0.5;
+
+/// What trying out needs.
+#[derive(Default)]
+pub(crate) struct Rollouts {
+    courses: Vec<Course>,
+    shortlist: Shortlist,
+    /// The courses behind the judge's rows.
+    asked: Vec<usize>,
+}
+
+/// A choice played on.
+struct Course {
+    /// Its number among those of the same choice; the first has no noise.
+    number: u32,
+    /// What the fleet has earned and is worth at the end.
+    usd: f64,
+    /// None when the course has come to its end.
+    simulation: Option<Imagined>,
+    /// The decision to be taken.
+    next: Option<Decision>,
+    listed: Vec<(f64, VertiportIx)>,
+}
+
+impl Rollouts {
+    /// The choice after which the fleet stands best, among some with what they are worth to the aircraft alone.
+    pub(crate) fn best(
+        &mut self,
+        judge: &mut Judge,
+        (prices, units): (&DayPrices, &Units),
+        (view, decision): (View<'_>, &Decision),
+        judged: &[(f64, VertiportIx)],
+    ) -> VertiportIx {
+        let until = decision.time + HORIZON_S;
+        self.courses.clear();
+        for &(_, choice) in judged {
+            let mut begun = view.imagined();
+            begun.apply(choice).expect("lists are of feasible choices");
+            self.courses.extend((0..COURSES).map(|number| {
+                let simulation = Some(begun.clone());
+                Course { number, usd: 0.0, simulation, next: None, listed: Vec::new() }
+            }));
+        }
+        loop {
+            judge.rows.clear();
+            self.asked.clear();
+            for (at, course) in self.courses.iter_mut().enumerate() {
+                if course.go_on(&mut self.shortlist, (prices, units), until) {
+                    course.show(judge, (prices, units));
+                    self.asked.push(at);
+                }
+            }
+            if self.asked.is_empty() {
+                break;
+            }
+            judge.pass();
+            for (row, &at) in self.asked.iter().enumerate() {
+                self.courses[at].follow(judge, units, row);
+            }
+        }
+        let mut best = (f64::NEG_INFINITY, decision.at);
+        for (&(own_usd, choice), courses) in
+            judged.iter().zip(self.courses.chunks_exact(COURSES as usize))
+        {
+            let sum_usd: f64 = courses.iter().map(|course| course.usd).sum();
+            let usd = OWN * own_usd + sum_usd / f64::from(COURSES);
+            if usd > best.0 {
+                best = (usd, choice);
+            }
+        }
+        best.1
+    }
+}
+
+impl Course {
+    /// Goes on to the next decision between more than one choice; false at the course's end.
+    fn go_on(
+        &mut self,
+        shortlist: &mut Shortlist,
+        (prices, units): (&DayPrices, &Units),
+        until: Time,
+    ) -> bool {
+        let Some(simulation) = &mut self.simulation else { return false };
+        while let Some(next) = simulation.next_decision() {
+            if next.time > until {
+                self.usd += fleet_worth_usd(prices, simulation.view(), next.time);
+                break;
+            }
+            let listed = list(shortlist, prices, units, (simulation.view(), &next));
+            if let [(_, only)] = *listed {
+                simulation.apply(only).expect("lists are of feasible choices");
+                continue;
+            }
+            self.listed.clear();
+            self.listed.extend(listed);
+            self.next = Some(next);
+            return true;
+        }
+        self.usd += simulation.ledger().profit_usd();
+        self.simulation = None;
+        false
+    }
+
+    /// Adds the decision to the judge's rows.
+    fn show(&self, judge: &mut Judge, (prices, units): (&DayPrices, &Units)) {
+        let (Some(simulation), Some(decision)) = (&self.simulation, &self.next) else {
+            unreachable!("courses that have come to their end are not asked")
+        };
+        let view = simulation.view();
+        let unit_usd = units.usd(view.kind(decision.aircraft));
+        judge.rows.push(Scene { view, decision, prices, unit_usd }, &self.listed);
+    }
+
+    /// Takes the choice of a row.
+    fn follow(&mut self, judge: &Judge, units: &Units, row: usize) {
+        let (Some(simulation), Some(decision)) = (&mut self.simulation, &self.next) else {
+            unreachable!("courses that have come to their end are not asked")
+        };
+        let unit_usd = units.usd(simulation.view().kind(decision.aircraft));
+        let noise_usd = if self.number == 0 { 0.0 } else { NOISE * unit_usd };
+        let mut best = (f64::NEG_INFINITY, decision.at);
+        for &listed in &self.listed {
+            let noise = noise(self.number, decision.aircraft, decision.time, listed.1);
+            let usd = judge.worth_usd(row, unit_usd, listed) + noise_usd * noise;
+            if usd > best.0 {
+                best = (usd, listed.1);
+            }
+        }
+        let choice = best.1;
+        simulation.apply(choice).expect("lists are of feasible choices");
+    }
+}

@@ -1,0 +1,163 @@
+//! What `gcaps-x` promises, whatever its weights.
+
+use std::sync::Arc;
+
+use rayon::ThreadPoolBuilder;
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx};
+use vertifleet_policy::{Policy, Priced, Shortlist, play};
+use vertifleet_sim::{Simulation, Trace, check::check};
+
+use crate::nn::{Architecture, GcapsSettings, Inputs};
+use crate::random_network::random_network;
+use crate::relative::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Rows, Scene};
+use crate::relative::judge::{list, network};
+use crate::relative::policy::Today;
+use crate::relative::weights::Source;
+use crate::relative::{AnyModel, Course, Expert, GcapsX, Study};
+
+fn small() -> Architecture {
+    Architecture::GcapsX(GcapsSettings { width: 8, heads: 2 })
+}
+
+fn course() -> Course {
+    let expert = Expert { horizon_s: 900, courses: 2, ..Course::default().expert };
+    let small = Course { rounds: 2, days: 2, passes: 2, validation_days: 1, ..Course::default() };
+    Course { expert, random_share: 0.5, ..small }
+}
+
+fn source() -> Source {
+    Source { network: String::new(), course: course(), seed: 0, commit: String::new() }
+}
+
+/// First weights, the last layer's made large enough to change choices.
+fn opinionated(seed: u64) -> Arc<AnyModel> {
+    let net = network(&small(), 2);
+    let mut params = net.init(seed);
+    let pointer = net.layout().tensors().iter().find(|one| one.name == "decoder.pointer.weight");
+    let pointer = pointer.expect("a network with a pointer");
+    for weight in &mut params[pointer.offset..][..pointer.len()] {
+        *weight *= 300.0;
+    }
+    Arc::new(AnyModel::new(small(), params, source(), 0))
+}
+
+/// A day of `paper` and two of random networks.
+fn days() -> Vec<Arc<Scenario>> {
+    let seed = DaySeed::validation(3).expect("a seed");
+    let paper = Network::shipped("paper").expect("a shipped network");
+    let random = [2, 7].map(|number| random_network(Purpose::Validation, number));
+    [paper].iter().chain(&random).map(|network| Arc::new(network.draw(seed))).collect()
+}
+
+fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> Trace {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    let mut trace = Trace::default();
+    play(&mut simulation, policy, |row| trace.rows.push(*row)).expect("the policy plays the day");
+    trace
+}
+
+#[test]
+fn weights_of_zeros_decide_as_prices_do() {
+    let zeros = vec![0.0; network(&small(), 2).layout().len()];
+    let model = Arc::new(AnyModel::new(small(), zeros, source(), 0));
+    let mut policy = GcapsX::new(model);
+    for day in days() {
+        assert_eq!(played(&day, &mut policy), played(&day, &mut Priced::default()));
+    }
+}
+
+#[test]
+fn any_weights_keep_every_rule_on_networks_of_any_size() {
+    let model = opinionated(1);
+    for day in days() {
+        let trace = played(&day, &mut GcapsX::new(Arc::clone(&model)));
+        let report = check(&day, &trace);
+        assert!(report.is_valid(), "{report}");
+        assert_ne!(trace, played(&day, &mut Priced::default()), "the weights have a say");
+    }
+}
+
+#[test]
+fn roll_outs_keep_every_rule_and_have_one_outcome() {
+    let paper = &days()[0];
+    let mut policy = GcapsX::with_rollouts(opinionated(2), 3);
+    let trace = played(paper, &mut policy);
+    let report = check(paper, &trace);
+    assert!(report.is_valid(), "{report}");
+    assert_eq!(played(paper, &mut policy), trace);
+}
+
+#[test]
+fn vertiports_in_another_order_get_their_logits_in_that_order() {
+    let count = 7;
+    let net = network(&small(), count);
+    let model = opinionated(3);
+    let number = |at: usize| ((at * 7919) % 1000) as f32 / 500.0 - 1.0;
+    let nodes: Vec<f32> = (0..count * NODE_FEATURES).map(number).collect();
+    let aircraft: Vec<f32> = (0..AIRCRAFT_FEATURES).map(number).collect();
+    let order = [3, 0, 6, 2, 5, 1, 4];
+    let moved: Vec<f32> = order
+        .iter()
+        .flat_map(|at| &nodes[at * NODE_FEATURES..][..NODE_FEATURES])
+        .copied()
+        .collect();
+    let logits = |nodes: &[f32]| {
+        let inputs = Inputs { batch: 1, nodes, aircraft: &aircraft, mask: &[1; 7], clock: &[0.0] };
+        let mut workspace = net.workspace(1);
+        net.forward(model.params(), &model.prepared(), inputs, &mut workspace);
+        workspace.logits().to_vec()
+    };
+    let (plain, moved) = (logits(&nodes), logits(&moved));
+    for (&at, found) in order.iter().zip(moved) {
+        assert!((plain[at] - found).abs() < 1e-4 * plain[at].abs().max(1.0));
+    }
+}
+
+#[test]
+fn features_are_bounded_on_every_network() {
+    for day in days() {
+        let mut simulation = Simulation::new(Arc::clone(&day));
+        let mut rows = Rows::new(day.vertiports.len());
+        let (mut shortlist, mut today) = (Shortlist::default(), None);
+        while let Some(decision) = simulation.next_decision() {
+            let view = simulation.view();
+            let today = today.get_or_insert_with(|| Today::of(view, &decision));
+            let (prices, units) = (&today.prices, &today.units);
+            let listed = list(&mut shortlist, prices, units, (view, &decision));
+            let unit_usd = units.usd(view.kind(decision.aircraft));
+            rows.push(Scene { view, decision: &decision, prices, unit_usd }, listed);
+            let choice: VertiportIx = listed[0].1;
+            simulation.apply(choice).expect("a choice from the mask");
+        }
+        let Inputs { nodes, aircraft, .. } = rows.inputs();
+        for feature in nodes.iter().chain(aircraft) {
+            assert!(feature.abs() <= 3.0, "{}: {feature}", day.name);
+        }
+    }
+}
+
+#[test]
+fn a_weight_file_reads_as_it_was_written_and_knows_no_number_of_vertiports() {
+    let model = opinionated(4);
+    let read = AnyModel::from_bytes(&model.to_bytes(), "memory").expect("a weight file");
+    assert_eq!((read.header(), read.params()), (model.header(), model.params()));
+    let header = serde_json::to_string(read.header()).expect("plain data");
+    assert!(!header.contains("\"vertiports\""), "{header}");
+}
+
+#[test]
+fn a_run_has_one_outcome_on_any_number_of_threads() {
+    let run = |threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| {
+            let paper = Arc::new(Network::shipped("paper").expect("a shipped network"));
+            let mut study = Study::start(paper, small(), course(), (5, String::new()))
+                .expect("settings within their bounds");
+            while !study.is_done() {
+                study.round(&|| true).expect("days enough").expect("nobody stops it");
+            }
+            study.model().to_bytes()
+        })
+    };
+    assert!(run(1) == run(3));
+}
