@@ -81,10 +81,8 @@ impl DayPrices {
         }
         let period = view.period();
         let waiting = view.demand_left(period, from, to);
-        let boarding = waiting.min(u32::from(view.aircraft_type(kind).seats));
         let ready = time + view.leg(kind, from, to).block_s();
         view.flight_profit_usd(time, kind, (from, to), waiting)
-            - f64::from(boarding) * self.passenger_usd(period, from, to)
             + way_on_usd(ready.seconds())
     }
 
