@@ -3,12 +3,11 @@
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
-use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx};
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, random_network};
 use vertifleet_policy::{Policy, Priced, Shortlist, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
 use crate::nn::{Architecture, GcapsSettings, Inputs};
-use crate::random_network::random_network;
 use crate::relative::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Rows, Scene};
 use crate::relative::judge::{list, network};
 use crate::relative::policy::Today;

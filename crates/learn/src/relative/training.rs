@@ -8,13 +8,12 @@ use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
-use vertifleet_core::{DaySeed, Network, Purpose, Scenario};
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, random_network};
 use vertifleet_policy::{Policy, Priced, draw, play};
 use vertifleet_sim::Simulation;
 
 use crate::error::Error;
 use crate::nn::{self, Architecture, Prepared};
-use crate::random_network::random_network;
 use crate::relative::course::Course;
 use crate::relative::features::{Scene, shape};
 use crate::relative::fit::{Fit, Learner, Pace};
