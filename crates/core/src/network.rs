@@ -88,6 +88,11 @@ impl Network {
         })
     }
 
+    /// The name by which [`find`](Self::find) knows the random network for comparison of this number.
+    pub fn random_name(number: u64) -> String {
+        format!("{RANDOM}{number}")
+    }
+
     /// Its name; the days drawn from it are called `{name}-{seed}`.
     pub fn name(&self) -> &str {
         &self.name

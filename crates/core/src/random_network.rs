@@ -5,9 +5,9 @@
 
 use std::fmt::Write;
 
+use crate::{Network, Purpose};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use crate::{Network, Purpose};
 
 /// Draws a network: all that a network file says. [`Network::find`] finds those for comparison by `random:NUMBER`.
 ///

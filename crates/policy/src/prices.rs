@@ -82,8 +82,7 @@ impl DayPrices {
         let period = view.period();
         let waiting = view.demand_left(period, from, to);
         let ready = time + view.leg(kind, from, to).block_s();
-        view.flight_profit_usd(time, kind, (from, to), waiting)
-            + way_on_usd(ready.seconds())
+        view.flight_profit_usd(time, kind, (from, to), waiting) + way_on_usd(ready.seconds())
     }
 
     /// The feasible choice that is worth most; the vertiport listed first among equals.

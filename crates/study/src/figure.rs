@@ -8,14 +8,17 @@ mod axis;
 mod box_plot;
 mod canvas;
 mod day_differences;
+mod key;
 mod learning_curves;
 mod palette;
 mod png;
+mod share_by_size;
 
 use crate::summary::Summary;
 
 pub(crate) use palette::style_sheet;
 pub(crate) use png::png;
+pub(crate) use share_by_size::share_by_size;
 
 /// One picture with what a page says about it.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -17,6 +17,20 @@ use crate::summary::{PolicySummary, Summary};
 
 /// The whole page.
 pub(crate) fn text(summary: &Summary, figures: &[Figure]) -> String {
+    let body = html! {
+        (opening(summary))
+        (results(summary))
+        h2 { "Figures" }
+        @for figure in figures { (picture(figure)) }
+        @if !summary.comparisons.is_empty() { (tests(summary)) }
+        @if !summary.published.is_empty() { (published(summary)) }
+        (closing(figures))
+    };
+    document(&format!("Vertifleet comparison: {}", summary.network), &body)
+}
+
+/// A page with this title and what stands on it.
+pub(crate) fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -24,20 +38,10 @@ pub(crate) fn text(summary: &Summary, figures: &[Figure]) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { "Vertifleet comparison: " (summary.network) }
+                title { (title) }
                 style { (PreEscaped(style())) }
             }
-            body {
-                main {
-                    (opening(summary))
-                    (results(summary))
-                    h2 { "Figures" }
-                    @for figure in figures { (picture(figure)) }
-                    @if !summary.comparisons.is_empty() { (tests(summary)) }
-                    @if !summary.published.is_empty() { (published(summary)) }
-                    (closing(figures))
-                }
-            }
+            body { main { (body) } }
         }
     };
     page.into_string()
@@ -151,14 +155,14 @@ fn result_cells(policy: &PolicySummary) -> Markup {
     }
 }
 
-fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> Markup {
+pub(crate) fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> Markup {
     html! {
         (typeset(&written(estimate.mean)))
         @if let Some(half_width) = estimate.half_width_95 { small { " ± " (written(half_width)) } }
     }
 }
 
-fn picture(figure: &Figure) -> Markup {
+pub(crate) fn picture(figure: &Figure) -> Markup {
     html! {
         figure {
             (PreEscaped(&figure.svg))
@@ -261,10 +265,16 @@ fn closing(figures: &[Figure]) -> Markup {
                 "what was assumed instead, is listed under " em { "Concepts: the model" } " in Vertifleet’s documentation." }
             p { "Files beside this page: " a href="days.csv" { "days.csv" } ", every policy’s every day; "
                 a href="summary.json" { "summary.json" } ", all numbers of this page"
-                @for figure in figures {
-                    "; " a href={ (figure.slug) ".svg" } { (figure.slug) } " (" a href={ (figure.slug) ".png" } { "PNG" } ")"
-                }
-                "." }
+                (links(figures)) "." }
+        }
+    }
+}
+
+/// The figures' files, each after a semicolon.
+pub(crate) fn links(figures: &[Figure]) -> Markup {
+    html! {
+        @for figure in figures {
+            "; " a href={ (figure.slug) ".svg" } { (figure.slug) } " (" a href={ (figure.slug) ".png" } { "PNG" } ")"
         }
     }
 }

@@ -142,13 +142,13 @@ impl Summary {
     /// [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies on the
     /// same days.
     pub fn of(study: &Study) -> Result<Self, Error> {
-        check(study)?;
+        check(&study.policies, study.days)?;
         let mut policies: Vec<PolicySummary> = study
             .policies
             .iter()
             .map(PolicySummary::of)
             .collect::<Option<_>>()
-            .ok_or_else(|| empty(study))?;
+            .ok_or_else(|| empty(&study.policies, study.days))?;
         // Stable, so that equal policies stay in the order in which they were named.
         policies.sort_by(|a, b| b.profit_usd.mean.total_cmp(&a.profit_usd.mean));
         let seeds = || study.policies.iter().flat_map(|policy| &policy.days).map(|day| day.seed);
@@ -158,7 +158,8 @@ impl Summary {
             step_s,
             upper_bound_usd: Estimate::of(&bounds_usd),
         };
-        let day_seeds = seeds().min().zip(seeds().max()).ok_or_else(|| empty(study))?;
+        let day_seeds =
+            seeds().min().zip(seeds().max()).ok_or_else(|| empty(&study.policies, study.days))?;
         Ok(Self {
             format: FORMAT,
             program_version: env!("CARGO_PKG_VERSION"),
@@ -275,17 +276,17 @@ fn compare_all(policies: &[PolicySummary]) -> Vec<Comparison> {
         .collect()
 }
 
-fn empty(study: &Study) -> Error {
-    Error::Empty { policies: study.policies.len(), days: study.days }
+fn empty(policies: &[PolicyRecord], days: usize) -> Error {
+    Error::Empty { policies: policies.len(), days }
 }
 
 /// The records are those of policies on the same days, with finite results.
-fn check(study: &Study) -> Result<(), Error> {
-    let Some(first) = study.policies.first().filter(|_| study.days > 0) else {
-        return Err(empty(study));
+pub(crate) fn check(policies: &[PolicyRecord], days: usize) -> Result<(), Error> {
+    let Some(first) = policies.first().filter(|_| days > 0) else {
+        return Err(empty(policies, days));
     };
-    for policy in &study.policies {
-        check_paired(study.days, first, policy)?;
+    for policy in policies {
+        check_paired(days, first, policy)?;
         for day in &policy.days {
             check_finite(&policy.name, day)?;
         }

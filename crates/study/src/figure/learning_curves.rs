@@ -2,7 +2,8 @@
 
 use super::Figure;
 use super::axis::Scale;
-use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened, text_width};
+use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};
+use super::key;
 use super::palette::{Paint, dash};
 use crate::numbers::{grouped, typeset};
 use crate::record::Curve;
@@ -11,8 +12,8 @@ use crate::summary::Summary;
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 70.0;
 const RIGHT: f64 = 24.0;
-const KEY: f64 = 72.0;
-const KEY_ROW: f64 = 22.0;
+/// From the left end of a line of the key to its name.
+const KEY_LINE: f64 = 41.0;
 const PLOT_HEIGHT: f64 = 272.0;
 const BOTTOM: f64 = 52.0;
 
@@ -43,8 +44,8 @@ pub(super) fn figure(summary: &Summary) -> Option<Figure> {
         return None;
     }
     let names: Vec<String> = curves.iter().map(|(curve, _)| shortened(&curve.name, 22)).collect();
-    let places = key_places(&names);
-    let top = places.last().map_or(KEY, |place| place.1) + 24.0;
+    let (places, last_row) = key::places(&names, KEY_LINE, WIDTH);
+    let top = last_row + 24.0;
     let floor = top + PLOT_HEIGHT;
     let values = || curves.iter().flat_map(|(_, points)| points);
     let x = Scale::around(values().map(|p| p.0).chain([0.0]), (LEFT, WIDTH - RIGHT), 6);
@@ -124,24 +125,9 @@ fn draw_line(canvas: &mut Canvas, line: &Line) {
     }
 }
 
-/// Where each name of the key begins: side by side, in as many rows as they need.
-fn key_places(names: &[String]) -> Vec<Point> {
-    let (mut x, mut y) = (16.0, KEY);
-    let mut places = Vec::with_capacity(names.len());
-    for name in names {
-        let width = 41.0 + text_width(name, 13.0) + 24.0;
-        if x > 16.0 && x + width > WIDTH {
-            (x, y) = (16.0, y + KEY_ROW);
-        }
-        places.push((x, y));
-        x += width;
-    }
-    places
-}
-
 fn draw_key(canvas: &mut Canvas, line: &Line, (x, y): Point) {
     let stroke = Stroke { paint: Paint::Series(line.series), width: 2.0, dash: dash(line.series) };
     canvas.line((x, y), (x + 34.0, y), stroke);
     canvas.marker((x + 17.0, y), line.series);
-    canvas.text((x + 41.0, y + 4.0), Lettering::LABEL, &line.name);
+    canvas.text((x + KEY_LINE, y + 4.0), Lettering::LABEL, &line.name);
 }
