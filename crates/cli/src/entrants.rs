@@ -5,8 +5,8 @@ use std::path::Path;
 use indicatif::HumanCount;
 use vertifleet_core::Scenario;
 use vertifleet_optimize::{Budget, Settings, can_plan, plan};
-use vertifleet_study::Curve;
 use vertifleet_study::run::{Contender, Contenders, Way};
+use vertifleet_study::{Curve, Training};
 
 use crate::failure::Failure;
 use crate::policies::{self, Recipe, kind_of};
@@ -71,7 +71,7 @@ impl Asked<'_> {
         };
         let kind = match (weights, rule) {
             (Some(_), Some(_)) => return Err(policies::takes_no_weights(name)),
-            (Some(path), None) => Kind::Policy(Recipe::of_file_with_curve(name, path)?),
+            (Some(path), None) => Kind::Policy(Recipe::of_file_with_curves(name, path)?),
             (None, Some(rule)) => rule,
             (None, None) => Kind::Policy(Recipe::shipped(name, self.network)?),
         };
@@ -96,10 +96,16 @@ impl Entrant {
         }
     }
 
-    /// Its learning curve, where it was trained.
+    /// Its learning curve on the training days, where it has one.
     pub(crate) fn curve(&self) -> Option<Curve> {
         let points = self.recipe()?.curve();
         (!points.is_empty()).then(|| Curve { name: self.name.clone(), points })
+    }
+
+    /// How it did on the validation days while it was trained, a run a seed.
+    pub(crate) fn training(&self) -> Option<Training> {
+        let runs = self.recipe()?.validation_runs();
+        (!runs.is_empty()).then(|| Training { name: self.name.clone(), runs })
     }
 
     fn contender(&self) -> Contender<'_> {

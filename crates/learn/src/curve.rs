@@ -53,7 +53,7 @@ pub fn to_csv(rows: &[impl Serialize]) -> String {
 ///
 /// # Errors
 /// [`Error::BadCurve`] for the first row that is not one.
-pub fn from_csv<Row: DeserializeOwned>(text: &str, origin: &str) -> Result<Vec<Row>, Error> {
+pub(crate) fn from_csv<Row: DeserializeOwned>(text: &str, origin: &str) -> Result<Vec<Row>, Error> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let rows = reader.deserialize().collect::<Result<_, csv::Error>>();
     rows.map_err(|error| Error::BadCurve {

@@ -10,6 +10,7 @@ mod advantage;
 mod any_weights;
 mod checkpoint;
 mod curve;
+mod curve_files;
 mod error;
 mod features;
 mod learned;
@@ -25,7 +26,8 @@ mod weights;
 
 pub use any_weights::Weights;
 pub use checkpoint::Checkpoint;
-pub use curve::{CurveRow, EventFile, from_csv, to_csv};
+pub use curve::{CurveRow, EventFile, to_csv};
+pub use curve_files::{curve_beside, read_curves};
 pub use error::Error;
 pub use features::{Observations, Scales, shape};
 pub use learned::Learned;

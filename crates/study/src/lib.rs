@@ -21,5 +21,5 @@ pub mod table;
 
 pub use error::Error;
 pub use origin::NetworkOrigin;
-pub use record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
+pub use record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study, Training};
 pub use summary::Summary;

@@ -23,6 +23,7 @@ pub(crate) fn text(summary: &Summary, figures: &[Figure]) -> String {
         h2 { "Figures" }
         @for figure in figures { (picture(figure)) }
         @if !summary.comparisons.is_empty() { (tests(summary)) }
+        @if !summary.trainings.is_empty() { (trainings(summary)) }
         @if !summary.published.is_empty() { (published(summary)) }
         (closing(figures))
     };
@@ -201,6 +202,35 @@ fn test_cell(summary: &Summary, row: usize, column: usize) -> Markup {
         td.clear[test.is_significant()] {
             (signed_dollars(sign * test.difference.mean)) small { (p_statement(test.p_value)) }
         }
+    }
+}
+
+fn trainings(summary: &Summary) -> Markup {
+    let reward = |value: f64| format!("{value:.5}");
+    html! {
+        h2 { "Training" }
+        p.lead { "Mean reward on the validation days at the end of training, best choices. Runs differ in their seeds alone; the "
+            "first one’s weights play here. sd: standard deviation between runs." }
+        div.wide { table {
+            thead { tr {
+                th scope="col" { "policy" }
+                th scope="col" { "runs" }
+                th scope="col" { "decisions learned from" }
+                th scope="col" { "validation reward" }
+                th scope="col" { "sd" }
+                th scope="col" { "lowest" }
+                th scope="col" { "highest" }
+            } }
+            tbody { @for training in &summary.trainings { tr {
+                th scope="row" { (training.policy) }
+                td { (training.runs) }
+                td { (grouped(training.decisions, 0)) }
+                td { (reward(training.validation_reward.mean)) }
+                td { (training.validation_reward.standard_deviation.map_or("n/a".to_owned(), reward)) }
+                td { (reward(training.range.0)) }
+                td { (reward(training.range.1)) }
+            } } }
+        } }
     }
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
 use crate::published::{self, PublishedResult};
-use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
+use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study, Training};
 use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
 
 /// Name and version of the format of `summary.json`.
@@ -40,9 +40,48 @@ pub struct Summary {
     pub comparisons: Vec<Comparison>,
     /// Published results beside which these stand; empty but for the network `paper` as it is shipped.
     pub published: &'static [PublishedResult],
-    /// Learning curves of those policies that were trained.
+    /// Where the trainings of the learned policies came out.
+    pub trainings: Vec<TrainingSummary>,
+    /// Learning curves on the training days.
     #[serde(skip)]
     pub curves: Vec<Curve>,
+}
+
+/// The trainings of a policy, at their end.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TrainingSummary {
+    /// The policy's name.
+    pub policy: String,
+    /// Runs, each with a seed of its own.
+    pub runs: usize,
+    /// Decisions learned from, in the mean of the runs.
+    pub decisions: f64,
+    /// Mean reward on the validation days after the last look, over the runs.
+    pub validation_reward: Estimate,
+    /// Lowest and highest of the same.
+    pub range: (f64, f64),
+    /// The runs' curves.
+    #[serde(skip)]
+    pub curves: Vec<Vec<(u64, f64)>>,
+}
+
+impl TrainingSummary {
+    fn of(training: &Training) -> Option<Self> {
+        let ends: Vec<(u64, f64)> =
+            training.runs.iter().map(|run| run.last().copied()).collect::<Option<_>>()?;
+        let rewards: Vec<f64> = ends.iter().map(|end| end.1).collect();
+        let decisions: Vec<f64> = ends.iter().map(|end| end.0 as f64).collect();
+        let lowest = rewards.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = rewards.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        (!rewards.is_empty()).then(|| Self {
+            policy: training.name.clone(),
+            runs: rewards.len(),
+            decisions: mean(&decisions),
+            validation_reward: Estimate::of(&rewards),
+            range: (lowest, highest),
+            curves: training.runs.clone(),
+        })
+    }
 }
 
 /// What the days could earn at most.
@@ -173,6 +212,7 @@ impl Summary {
             comparisons: compare_all(&policies),
             policies,
             published: published::results_for(&study.network, study.network_origin),
+            trainings: study.trainings.iter().filter_map(TrainingSummary::of).collect(),
             curves: study.curves.clone(),
         })
     }

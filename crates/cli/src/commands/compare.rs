@@ -52,6 +52,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
         command: command(),
         policies,
         curves: entrants.iter().filter_map(Entrant::curve).collect(),
+        trainings: entrants.iter().filter_map(Entrant::training).collect(),
     };
     let summary = Summary::of(&study)?;
     if arguments.json {

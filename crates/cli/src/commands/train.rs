@@ -10,14 +10,15 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use anstream::eprintln;
 use vertifleet_core::Network;
 use vertifleet_learn::nn::Architecture;
-use vertifleet_learn::{Checkpoint, CurveRow, EventFile, Model, Plan, Settings, Training, to_csv};
+use vertifleet_learn::{
+    Checkpoint, CurveRow, EventFile, Model, Plan, Settings, Training, curve_beside, to_csv,
+};
 
 use crate::args::{TrainArguments, Trainable};
 use crate::commands::train_any;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::policies::curve_beside;
 use crate::progress::Progress;
 
 /// How often a run is set aside while it goes on.

@@ -9,14 +9,13 @@ use anstream::eprintln;
 use vertifleet_core::Network;
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::relative::{Course, Plan, Study};
-use vertifleet_learn::to_csv;
+use vertifleet_learn::{curve_beside, to_csv};
 
 use crate::args::TrainArguments;
 use crate::commands::train::earlier_run;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::policies::curve_beside;
 use crate::progress::Progress;
 
 /// Files of a run, in the folder the user names.
