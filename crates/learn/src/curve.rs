@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn a_curve_reads_as_it_was_written() {
         let rows = [CurveRow::default(), row()];
-        assert_eq!(from_csv(&to_csv(&rows), "curve").expect("a curve"), rows);
+        assert_eq!(from_csv::<CurveRow>(&to_csv(&rows), "curve").expect("a curve"), rows);
         let error = from_csv::<CurveRow>("update,steps\n1,x\n", "curve").expect_err("no curve");
         assert_eq!(error.code().to_string(), "V308");
     }

@@ -16,15 +16,12 @@ pub(super) fn text(summary: &Summary) -> String {
     let Some(test) = &best.minus_first else { return earns + "." };
     let first = &summary.first().name;
     let points = |share: f64| typeset(&signed(100.0 * share, 1));
-    let lead = match test.difference.interval_95() {
-        None => format!("{} points beside {first}", points(test.difference.mean)),
-        Some((low, high)) => format!(
-            "{} points beside {first} (95 % interval {} to {}; paired t-test, {})",
-            points(test.difference.mean),
-            points(low),
-            points(high),
-            p_statement(test.p_value)
-        ),
-    };
-    format!("{earns}: {lead}. It earns more than {first} on {} of them.", test.first_larger)
+    let mean = test.difference.mean;
+    let apart = grouped(100.0 * mean.abs(), 1);
+    let lead = format!("{apart} points {} than {first}", if mean < 0.0 { "less" } else { "more" });
+    let trust = test.difference.interval_95().map_or_else(String::new, |(low, high)| {
+        let (low, high, p) = (points(low), points(high), p_statement(test.p_value));
+        format!(" (95 % interval {low} to {high}; paired t-test, {p})")
+    });
+    format!("{earns}, {lead}{trust}, and more than {first} on {} of them.", test.first_larger)
 }
