@@ -19,7 +19,6 @@ mod training;
 mod weights;
 
 pub use course::Course;
-pub use lessons::Expert;
 pub use policy::GcapsX;
 pub use training::{Round, Study, to_csv};
 pub use weights::{AnyHeader, AnyModel, AnyShape};

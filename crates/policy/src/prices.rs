@@ -10,12 +10,14 @@
 mod clock;
 mod hops;
 mod relaxation;
+mod units;
 mod volume;
 
 use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 use relaxation::Relaxation;
+use units::units_usd;
 use volume::{Effort, Volume};
 
 /// Passes over the day where there are no prices yet, and length of the first step.
@@ -30,6 +32,7 @@ const RENEWAL_S: u32 = 900;
 pub struct DayPrices {
     relaxation: Relaxation,
     volume: Volume,
+    units_usd: Vec<f64>,
     made_at: Time,
 }
 
@@ -40,7 +43,7 @@ impl DayPrices {
         let mut volume = Volume::new(&relaxation);
         relaxation.take_up(view);
         volume.search(&mut relaxation, FIRST);
-        Self { relaxation, volume, made_at: now }
+        Self { relaxation, volume, units_usd: units_usd(view), made_at: now }
     }
 
     /// Keeps up with the day: after a quarter of an hour, prices are found anew from these ones, with the fleet and the
@@ -67,6 +70,11 @@ impl DayPrices {
     /// What the right to carry one more passenger of a demand period costs, dollars.
     pub fn passenger_usd(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
         self.relaxation.passenger_usd(period, from, to)
+    }
+
+    /// Profit of a typical full flight of a type, dollars: the unit in which differences in worth are small or large.
+    pub fn unit_usd(&self, kind: TypeIx) -> f64 {
+        self.units_usd[kind.at()]
     }
 
     /// What a feasible choice is worth: what its flight earns, what follows from being ready at its end, less what the

@@ -1,12 +1,16 @@
 //! Trying choices out: each is played on for a while in the simulator, everybody else deciding by a rule; what the fleet has
 //! earned and is worth by then tells good choices from bad ones.
+//!
+//! One such course says little: what happens in an hour hangs on who was ready a second earlier. So a choice is played on
+//! several times, everybody's worth shaken by a little noise, the same for all choices; the mean is what it is worth.
 
+use serde::{Deserialize, Serialize};
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
-use crate::DayPrices;
+use crate::{DayPrices, draw};
 
-/// The choices worth trying out: those that are worth most at the prices.
+/// The choices worth a closer look: those that are worth most at the prices.
 #[derive(Debug, Clone, Default)]
 pub struct Shortlist {
     /// What each is worth at the prices, dollars; the best first, among equals the vertiport listed first.
@@ -14,48 +18,116 @@ pub struct Shortlist {
 }
 
 impl Shortlist {
-    /// Ranks the feasible choices and keeps up to `most`, none of them more than `too_bad_usd` worse than the best.
+    /// Choices kept at most.
+    pub const MOST: usize = 5;
+    /// How much worse than the best a choice that is kept may be, in [units](DayPrices::unit_usd).
+    const TOO_BAD: f64 = 0.5;
+
+    /// Ranks the feasible choices and keeps those that come near the best one.
     pub fn rank(
         &mut self,
         prices: &DayPrices,
         view: View<'_>,
         decision: &Decision,
-        (most, too_bad_usd): (usize, f64),
     ) -> &[(f64, VertiportIx)] {
         self.ranked.clear();
         let choices = view.feasible(decision).iter();
         self.ranked.extend(choices.map(|to| (prices.choice_usd(view, decision, to), to)));
         // A stable sort: among equals the vertiport listed first.
         self.ranked.sort_by(|one, other| other.0.total_cmp(&one.0));
+        let too_bad_usd = Self::TOO_BAD * prices.unit_usd(view.kind(decision.aircraft));
         let least_usd = self.ranked[0].0 - too_bad_usd;
-        let enough = self.ranked.iter().take(most).take_while(|choice| choice.0 >= least_usd);
-        let count = enough.count();
+        let near = self.ranked.iter().take(Self::MOST).take_while(|choice| choice.0 >= least_usd);
+        let count = near.count();
         self.ranked.truncate(count);
         &self.ranked
     }
 }
 
-/// What the fleet has earned and is worth `horizon_s` seconds after a feasible choice, if everybody decides by `rule` until
-/// then, dollars. `rule` must choose from the mask.
-pub fn tried_out_usd(
-    prices: &DayPrices,
-    (view, decision): (View<'_>, &Decision),
-    to: VertiportIx,
-    horizon_s: u32,
-    mut rule: impl FnMut(View<'_>, &Decision) -> VertiportIx,
-) -> f64 {
-    let mut imagined = view.imagined();
-    let until = decision.time + horizon_s;
-    imagined.apply(to).expect("only feasible choices are tried");
-    while let Some(next) = imagined.next_decision() {
-        if next.time > until {
-            return imagined.ledger().profit_usd()
-                + fleet_worth_usd(prices, imagined.view(), next.time);
-        }
-        let choice = rule(imagined.view(), &next);
-        imagined.apply(choice).expect("rules choose from the mask");
+/// How choices are tried out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TryOut {
+    /// How far each is played on, seconds.
+    pub horizon_s: u32,
+    /// How often; the mean over all counts.
+    pub courses: u32,
+    /// Size of the noise, in [units](DayPrices::unit_usd).
+    pub noise: f64,
+    /// Weight of what the choice is worth at the prices to the aircraft alone.
+    pub own: f64,
+}
+
+impl TryOut {
+    /// What each choice of a list is worth if everybody decides by prices, dollars, in the list's order; `values_usd` is
+    /// filled. The list holds feasible choices with what they are worth at the prices.
+    pub fn values(
+        &self,
+        prices: &DayPrices,
+        (view, decision): (View<'_>, &Decision),
+        listed: &[(f64, VertiportIx)],
+        values_usd: &mut Vec<f64>,
+    ) {
+        values_usd.clear();
+        values_usd.extend(listed.iter().map(|&(priced_usd, to)| {
+            let course_usd = |course| self.course_usd(prices, (view, decision), to, course);
+            let sum_usd: f64 = (0..self.courses).map(course_usd).sum();
+            self.own * priced_usd + sum_usd / f64::from(self.courses)
+        }));
     }
-    imagined.ledger().profit_usd()
+
+    /// What the fleet has earned and is worth at the end of a course.
+    fn course_usd(
+        &self,
+        prices: &DayPrices,
+        (view, decision): (View<'_>, &Decision),
+        to: VertiportIx,
+        course: u32,
+    ) -> f64 {
+        let mut imagined = view.imagined();
+        let until = decision.time + self.horizon_s;
+        imagined.apply(to).expect("only feasible choices are tried");
+        while let Some(next) = imagined.next_decision() {
+            let view = imagined.view();
+            if next.time > until {
+                return imagined.ledger().profit_usd() + fleet_worth_usd(prices, view, next.time);
+            }
+            let choice = self.shaken_choice(prices, (view, &next), course);
+            imagined.apply(choice).expect("everybody chooses from the mask");
+        }
+        imagined.ledger().profit_usd()
+    }
+
+    /// The choice that is worth most at the prices and a noise. The first course has none.
+    fn shaken_choice(
+        &self,
+        prices: &DayPrices,
+        (view, decision): (View<'_>, &Decision),
+        course: u32,
+    ) -> VertiportIx {
+        if course == 0 {
+            return prices.best_choice(view, decision);
+        }
+        let noise_usd = self.noise * prices.unit_usd(view.kind(decision.aircraft));
+        let mut best = (f64::NEG_INFINITY, decision.at);
+        for to in view.feasible(decision).iter() {
+            let usd =
+                prices.choice_usd(view, decision, to) + noise_usd * noise(course, decision, to);
+            if usd > best.0 {
+                best = (usd, to);
+            }
+        }
+        best.1
+    }
+}
+
+/// Noise that belongs to a course, the aircraft and time of a decision, and a vertiport: about normal, with mean 0 and
+/// deviation 1 (the sum of four uniform numbers).
+#[inline]
+pub fn noise(course: u32, decision: &Decision, to: VertiportIx) -> f64 {
+    let key = u64::from(decision.aircraft.0) << 32 | u64::from(decision.time.seconds());
+    let bits = draw(u64::from(course), key, u32::from(to.0));
+    let sum: u32 = [0, 16, 32, 48].iter().map(|shift| (bits >> shift & 0xffff) as u32).sum();
+    (f64::from(sum) / 65_536.0 - 2.0) * 3.0_f64.sqrt()
 }
 
 /// What it is worth that every aircraft is where it is, less the rent of its stand from now until it is ready, dollars.

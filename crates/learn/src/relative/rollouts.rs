@@ -5,21 +5,15 @@
 //! All courses go on side by side, a decision each at a time, so that the network judges them together.
 
 use vertifleet_core::{Time, VertiportIx};
-use vertifleet_policy::{DayPrices, Shortlist, fleet_worth_usd};
+use vertifleet_policy::{DayPrices, Shortlist, TryOut, fleet_worth_usd, noise};
 use vertifleet_sim::{Decision, Imagined, View};
 
-use crate::relative::features::{Scene, Units};
-use crate::relative::judge::{Judge, list};
-use crate::relative::lessons::noise;
+use crate::relative::features::Scene;
+use crate::relative::judge::Judge;
 
-/// How far a choice is played on, seconds.
-const HORIZON_S: u32 = 7_200;
-/// How often.
+/// How choices are tried out.
+const TRY_OUT: TryOut = TryOut { horizon_s: 7_200, courses: COURSES, noise: 0.08, own: 0.5 };
 pub(crate) const COURSES: u32 = 8;
-/// Size of the noise, in units.
-const NOISE: f64 = 0.08;
-/// Weight of what the choice is worth to the aircraft alone.
-const OWN: f64 = 0.5;
 
 /// What trying out needs.
 #[derive(Default)]
@@ -48,11 +42,11 @@ impl Rollouts {
     pub(crate) fn best(
         &mut self,
         judge: &mut Judge,
-        (prices, units): (&DayPrices, &Units),
+        prices: &DayPrices,
         (view, decision): (View<'_>, &Decision),
         judged: &[(f64, VertiportIx)],
     ) -> VertiportIx {
-        let until = decision.time + HORIZON_S;
+        let until = decision.time + TRY_OUT.horizon_s;
         self.courses.clear();
         for &(_, choice) in judged {
             let mut begun = view.imagined();
@@ -66,8 +60,8 @@ impl Rollouts {
             judge.rows.clear();
             self.asked.clear();
             for (at, course) in self.courses.iter_mut().enumerate() {
-                if course.go_on(&mut self.shortlist, (prices, units), until) {
-                    course.show(judge, (prices, units));
+                if course.go_on(&mut self.shortlist, prices, until) {
+                    course.show(judge, prices);
                     self.asked.push(at);
                 }
             }
@@ -76,7 +70,7 @@ impl Rollouts {
             }
             judge.pass();
             for (row, &at) in self.asked.iter().enumerate() {
-                self.courses[at].follow(judge, units, row);
+                self.courses[at].follow(judge, prices, row);
             }
         }
         let mut best = (f64::NEG_INFINITY, decision.at);
@@ -84,7 +78,7 @@ impl Rollouts {
             judged.iter().zip(self.courses.chunks_exact(COURSES as usize))
         {
             let sum_usd: f64 = courses.iter().map(|course| course.usd).sum();
-            let usd = OWN * own_usd + sum_usd / f64::from(COURSES);
+            let usd = TRY_OUT.own * own_usd + sum_usd / f64::from(COURSES);
             if usd > best.0 {
                 best = (usd, choice);
             }
@@ -98,7 +92,7 @@ impl Course {
     fn go_on(
         &mut self,
         shortlist: &mut Shortlist,
-        (prices, units): (&DayPrices, &Units),
+        prices: &DayPrices,
         until: Time,
     ) -> bool {
         let Some(simulation) = &mut self.simulation else { return false };
@@ -107,7 +101,7 @@ impl Course {
                 self.usd += fleet_worth_usd(prices, simulation.view(), next.time);
                 break;
             }
-            let listed = list(shortlist, prices, units, (simulation.view(), &next));
+            let listed = shortlist.rank(prices, simulation.view(), &next);
             if let [(_, only)] = *listed {
                 simulation.apply(only).expect("lists are of feasible choices");
                 continue;
@@ -123,25 +117,23 @@ impl Course {
     }
 
     /// Adds the decision to the judge's rows.
-    fn show(&self, judge: &mut Judge, (prices, units): (&DayPrices, &Units)) {
+    fn show(&self, judge: &mut Judge, prices: &DayPrices) {
         let (Some(simulation), Some(decision)) = (&self.simulation, &self.next) else {
             unreachable!("courses that have come to their end are not asked")
         };
-        let view = simulation.view();
-        let unit_usd = units.usd(view.kind(decision.aircraft));
-        judge.rows.push(Scene { view, decision, prices, unit_usd }, &self.listed);
+        judge.rows.push(Scene::of(simulation.view(), decision, prices), &self.listed);
     }
 
     /// Takes the choice of a row.
-    fn follow(&mut self, judge: &Judge, units: &Units, row: usize) {
+    fn follow(&mut self, judge: &Judge, prices: &DayPrices, row: usize) {
         let (Some(simulation), Some(decision)) = (&mut self.simulation, &self.next) else {
             unreachable!("courses that have come to their end are not asked")
         };
-        let unit_usd = units.usd(simulation.view().kind(decision.aircraft));
-        let noise_usd = if self.number == 0 { 0.0 } else { NOISE * unit_usd };
+        let unit_usd = prices.unit_usd(simulation.view().kind(decision.aircraft));
+        let noise_usd = if self.number == 0 { 0.0 } else { TRY_OUT.noise * unit_usd };
         let mut best = (f64::NEG_INFINITY, decision.at);
         for &listed in &self.listed {
-            let noise = noise(self.number, decision.aircraft, decision.time, listed.1);
+            let noise = noise(self.number, decision, listed.1);
             let usd = judge.worth_usd(row, unit_usd, listed) + noise_usd * noise;
             if usd > best.0 {
                 best = (usd, listed.1);
