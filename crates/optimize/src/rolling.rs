@@ -8,7 +8,7 @@
 //! everywhere.
 
 use vertifleet_core::VertiportIx;
-use vertifleet_policy::{DayMemory, DayPrices, Policy, PolicyError, Shortlist, TryOut};
+use vertifleet_policy::{DayMemory, DayPrices, Policy, PolicyError, Shortlist, Trial, TryOut};
 use vertifleet_sim::{Decision, View};
 
 /// How choices are tried out, tuned on validation days. To the end of the day chance would decide, and days earn less than
@@ -16,11 +16,18 @@ use vertifleet_sim::{Decision, View};
 const TRY_OUT: TryOut = TryOut { horizon_s: 7_200, courses: 16, noise: 0.05, own: 1.0 };
 
 /// Prices the rest of the day and tries its choices out. Remembers one day at a time.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Rolling {
     day: DayMemory<DayPrices>,
     shortlist: Shortlist,
-    values_usd: Vec<f64>,
+    trial: Trial,
+}
+
+impl Default for Rolling {
+    fn default() -> Self {
+        let (day, shortlist) = (DayMemory::default(), Shortlist::default());
+        Self { day, shortlist, trial: Trial::new(TRY_OUT) }
+    }
 }
 
 impl Policy for Rolling {
@@ -31,9 +38,9 @@ impl Policy for Rolling {
         if let [(_, only)] = *listed {
             return Ok(only);
         }
-        TRY_OUT.values(prices, (*view, decision), listed, &mut self.values_usd);
+        let values_usd = self.trial.values_usd(prices, (*view, decision), listed);
         let mut best = (f64::NEG_INFINITY, decision.at);
-        for (&usd, &(_, to)) in self.values_usd.iter().zip(listed) {
+        for (&usd, &(_, to)) in values_usd.iter().zip(listed) {
             if usd > best.0 {
                 best = (usd, to);
             }

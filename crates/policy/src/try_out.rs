@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
-use vertifleet_sim::{Decision, View};
+use vertifleet_sim::{Decision, Imagined, View};
 
 use crate::{DayPrices, draw};
 
@@ -57,44 +57,73 @@ pub struct TryOut {
     pub own: f64,
 }
 
-impl TryOut {
-    /// What each choice of a list is worth if everybody decides by prices, dollars, in the list's order; `values_usd` is
-    /// filled. The list holds feasible choices with what they are worth at the prices.
-    pub fn values(
-        &self,
+/// Tries choices out; keeps its room from decision to decision.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    settings: TryOut,
+    /// A choice made, and a course that goes on from there.
+    begun: Option<Imagined>,
+    course: Option<Imagined>,
+    values_usd: Vec<f64>,
+}
+
+impl Trial {
+    /// A trial that has seen no decision yet.
+    pub fn new(settings: TryOut) -> Self {
+        Self { settings, begun: None, course: None, values_usd: Vec::new() }
+    }
+
+    /// What each choice of a list is worth if everybody decides by prices, dollars, in the list's order. The list holds
+    /// feasible choices with what they are worth at the prices.
+    pub fn values_usd(
+        &mut self,
         prices: &DayPrices,
         (view, decision): (View<'_>, &Decision),
         listed: &[(f64, VertiportIx)],
-        values_usd: &mut Vec<f64>,
-    ) {
+    ) -> &[f64] {
+        let Self { settings, begun, course, values_usd } = self;
+        let until = decision.time + settings.horizon_s;
         values_usd.clear();
-        values_usd.extend(listed.iter().map(|&(priced_usd, to)| {
-            let course_usd = |course| self.course_usd(prices, (view, decision), to, course);
-            let sum_usd: f64 = (0..self.courses).map(course_usd).sum();
-            self.own * priced_usd + sum_usd / f64::from(self.courses)
-        }));
+        for &(priced_usd, to) in listed {
+            let begun = view.imagined_in(begun);
+            begun.apply(to).expect("only feasible choices are tried");
+            let mut sum_usd = 0.0;
+            for number in 0..settings.courses {
+                let course = copied(begun, course);
+                sum_usd += settings.played_usd(prices, course, until, number);
+            }
+            values_usd.push(settings.own * priced_usd + sum_usd / f64::from(settings.courses));
+        }
+        values_usd
     }
+}
 
-    /// What the fleet has earned and is worth at the end of a course.
-    fn course_usd(
+/// A copy of a course, in the room of another.
+fn copied<'room>(begun: &Imagined, room: &'room mut Option<Imagined>) -> &'room mut Imagined {
+    if let Some(room) = room {
+        room.clone_from(begun);
+    }
+    room.get_or_insert_with(|| begun.clone())
+}
+
+impl TryOut {
+    /// Plays a course to a time. Returns what the fleet has earned and is worth then.
+    fn played_usd(
         &self,
         prices: &DayPrices,
-        (view, decision): (View<'_>, &Decision),
-        to: VertiportIx,
-        course: u32,
+        course: &mut Imagined,
+        until: Time,
+        number: u32,
     ) -> f64 {
-        let mut imagined = view.imagined();
-        let until = decision.time + self.horizon_s;
-        imagined.apply(to).expect("only feasible choices are tried");
-        while let Some(next) = imagined.next_decision() {
-            let view = imagined.view();
+        while let Some(next) = course.next_decision() {
+            let view = course.view();
             if next.time > until {
-                return imagined.ledger().profit_usd() + fleet_worth_usd(prices, view, next.time);
+                return course.ledger().profit_usd() + fleet_worth_usd(prices, view, next.time);
             }
-            let choice = self.shaken_choice(prices, (view, &next), course);
-            imagined.apply(choice).expect("everybody chooses from the mask");
+            let choice = self.shaken_choice(prices, (view, &next), number);
+            course.apply(choice).expect("everybody chooses from the mask");
         }
-        imagined.ledger().profit_usd()
+        course.ledger().profit_usd()
     }
 
     /// The choice that is worth most at the prices and a noise. The first course has none.

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use vertifleet_core::VertiportIx;
-use vertifleet_policy::Shortlist;
 
 use crate::relative::features::{Rows, Scene};
 
@@ -63,11 +62,4 @@ impl Library {
     pub(crate) fn len(&self) -> usize {
         self.0.values().map(|lessons| lessons.rows.len()).sum()
     }
-}
-
-/// Room to list choices and value them.
-#[derive(Debug, Default)]
-pub(crate) struct Desk {
-    pub(crate) shortlist: Shortlist,
-    pub(crate) values_usd: Vec<f64>,
 }

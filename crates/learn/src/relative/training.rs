@@ -9,7 +9,7 @@ use std::sync::Arc;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
 use vertifleet_core::{DaySeed, Network, Purpose, Scenario};
-use vertifleet_policy::{DayPrices, Policy, Priced, draw, play};
+use vertifleet_policy::{DayPrices, Policy, Priced, Shortlist, Trial, draw, play};
 use vertifleet_sim::Simulation;
 
 use crate::error::Error;
@@ -19,7 +19,7 @@ use crate::relative::course::Course;
 use crate::relative::features::{Scene, shape};
 use crate::relative::fit::{Fit, Learner, Pace};
 use crate::relative::judge::Judge;
-use crate::relative::lessons::{Desk, Lessons, Library};
+use crate::relative::lessons::{Lessons, Library};
 use crate::relative::policy::GcapsX;
 use crate::relative::weights::{AnyModel, Source};
 use crate::train::check_finite;
@@ -218,21 +218,21 @@ impl Study {
         });
         let share = LESSONS_A_DAY / (DECISIONS_AN_AIRCRAFT * day.aircraft.len() as f64);
         let mut lessons = Lessons::new(vertiports);
-        let mut desk = Desk::default();
+        let mut shortlist = Shortlist::default();
+        let mut trial = Trial::new(self.course.expert.clone());
         let mut simulation = Simulation::new(Arc::clone(day));
         let mut prices: Option<DayPrices> = None;
         while let Some(decision) = simulation.next_decision() {
             let view = simulation.view();
             let prices = prices.get_or_insert_with(|| DayPrices::of(view, decision.time));
             prices.keep_up(view, decision.time);
-            let listed = desk.shortlist.rank(prices, view, &decision);
+            let listed = shortlist.rank(prices, view, &decision);
             let scene = Scene::of(view, &decision, prices);
             let bits = |what: u64| draw(what, day.seed, decision.index) >> 11;
             let chance = |what: u64| bits(what) as f64 / (1_u64 << 53) as f64;
             if listed.len() > 1 && chance(1) < share {
-                let expert = &self.course.expert;
-                expert.values(prices, (view, &decision), listed, &mut desk.values_usd);
-                lessons.push(scene, listed, &desk.values_usd);
+                let values_usd = trial.values_usd(prices, (view, &decision), listed);
+                lessons.push(scene, listed, values_usd);
             }
             let choice = if chance(2) < self.course.exploration {
                 listed[((u128::from(bits(3)) * listed.len() as u128) >> 53) as usize].1
