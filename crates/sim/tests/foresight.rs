@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use proptest::prelude::{ProptestConfig, any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_core::{AircraftIx, Closure, Outage, Route, Scenario, Time, TypeIx, VertiportIx};
-use vertifleet_sim::{Decision, Simulation, View};
+use vertifleet_sim::{Decision, Imagined, Simulation, View};
 
 use common::extended::extended_day;
 
@@ -62,7 +62,14 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
 
 /// The rest of the day as it can be imagined, each aircraft going to the last vertiport of its mask.
 fn played_out(view: View<'_>) -> String {
-    let mut imagined = view.imagined();
+    let mut fresh = view.imagined();
+    let rest = played_on(&mut fresh);
+    // In the room of a course that is over it is the same.
+    assert_eq!(played_on(view.imagined_in(&mut Some(fresh))), rest);
+    rest
+}
+
+fn played_on(imagined: &mut Imagined) -> String {
     let mut rows = Vec::new();
     while let Some(decision) = imagined.next_decision() {
         let mask = imagined.view().feasible(&decision);
