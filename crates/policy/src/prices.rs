@@ -12,6 +12,7 @@ mod hops;
 mod relaxation;
 mod units;
 mod volume;
+mod ways_on;
 
 use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, View};
@@ -59,12 +60,12 @@ impl DayPrices {
     /// What an aircraft of a type that is ready at a vertiport at a time may still earn, less what it pays for stands and
     /// passengers, dollars; 0 past the end of operations. `time` is not before the view's moment.
     pub fn worth_usd(&self, kind: TypeIx, vertiport: VertiportIx, time: Time) -> f64 {
-        self.relaxation.worth_usd(kind, vertiport, time.seconds())
+        self.relaxation.ways_on().worth_usd(kind, vertiport, time.seconds())
     }
 
     /// What a stand costs from one time to another, dollars.
     pub fn rent_usd(&self, vertiport: VertiportIx, from: Time, until: Time) -> f64 {
-        self.relaxation.rent_usd(vertiport, from.seconds(), until.seconds())
+        self.relaxation.ways_on().rent_usd(vertiport, from.seconds(), until.seconds())
     }
 
     /// What the right to carry one more passenger of a demand period costs, dollars.
@@ -83,7 +84,8 @@ impl DayPrices {
     pub fn choice_usd(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
         let Decision { time, aircraft, at: from, .. } = *decision;
         let kind = view.kind(aircraft);
-        let way_on_usd = |ready_s| self.relaxation.way_on_usd(kind, to, time.seconds(), ready_s);
+        let way_on_usd =
+            |ready_s| self.relaxation.ways_on().usd(kind, to, time.seconds(), ready_s);
         if to == from {
             return way_on_usd((time + view.hold_s()).seconds());
         }

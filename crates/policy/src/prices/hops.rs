@@ -5,16 +5,38 @@ use std::ops::Range;
 use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
-use super::clock::SLOT_S;
+use super::clock::{Clock, SLOT_S};
 
-/// A flight from one vertiport to another, in slots of the clock.
+/// A flight or a hold in slots of the clock, from its decision until the aircraft is ready again.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stay {
+    /// Whole slots, and the part of a slot beside them. What takes less than a slot counts as one: at the boundary before,
+    /// worth is not known yet.
+    pub(super) slots: usize,
+    pub(super) share: f64,
+    /// The first boundary from which it ends past the end of operations.
+    pub(super) first_late: usize,
+}
+
+impl Stay {
+    pub(super) fn of(block_s: u32, clock: &Clock) -> Self {
+        let block_s = block_s.max(SLOT_S);
+        let last_s = clock.end_s - clock.start_s;
+        let first_late = last_s.checked_sub(block_s).map_or(0, |latest_s| latest_s / SLOT_S + 1);
+        Self {
+            slots: ((block_s / SLOT_S) as usize).min(clock.slots),
+            share: f64::from(block_s % SLOT_S) / f64::from(SLOT_S),
+            first_late: first_late as usize,
+        }
+    }
+}
+
+/// A flight from one vertiport to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hop {
     pub(super) to: VertiportIx,
     pub(super) block_s: u32,
-    /// Whole slots from take-off until ready again, and the part of a slot beside them.
-    pub(super) slots: usize,
-    pub(super) share: f64,
+    pub(super) stay: Stay,
     energy_kwh: f64,
     seats: u32,
     /// Place of the pair among all pairs of vertiports.
@@ -36,7 +58,7 @@ pub(super) struct Hops {
 }
 
 impl Hops {
-    pub(super) fn of(view: View<'_>) -> Self {
+    pub(super) fn of(view: View<'_>, clock: &Clock) -> Self {
         let vertiports = view.vertiports();
         let (mut hops, mut begins) = (Vec::new(), vec![0]);
         for kind in TypeIx::all(view.aircraft_types().len()) {
@@ -48,8 +70,7 @@ impl Hops {
                     Hop {
                         to,
                         block_s,
-                        slots: (block_s / SLOT_S) as usize,
-                        share: f64::from(block_s % SLOT_S) / f64::from(SLOT_S),
+                        stay: Stay::of(block_s, clock),
                         energy_kwh: leg.energy_kwh,
                         seats,
                         pair: from.at() * vertiports + to.at(),
@@ -107,6 +128,13 @@ impl Hops {
     pub(super) fn range(&self, kind: TypeIx, from: VertiportIx) -> Range<usize> {
         let at = kind.at() * self.vertiports + from.at();
         self.begins[at]..self.begins[at + 1]
+    }
+
+    /// Slots that every hop of a type takes at least.
+    pub(super) fn shortest(&self, kind: TypeIx) -> usize {
+        let all = kind.at() * self.vertiports;
+        let hops = &self.all[self.begins[all]..self.begins[all + self.vertiports]];
+        hops.iter().map(|hop| hop.stay.slots).min().unwrap_or(1)
     }
 
     #[inline]
