@@ -32,11 +32,13 @@ pub(crate) enum Command {
     Train(TrainArguments),
     /// Play many days with many policies and report who earns what
     Compare(CompareArguments),
+    /// Play a day each of many random networks with many policies and report who earns what share of the bound
+    Generalise(GeneraliseArguments),
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct ScenarioArguments {
-    /// Network file, or the name of a shipped network (paper, disrupted, new-york, as-coded)
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, as-coded), or random:NUMBER
     pub(crate) network: String,
     /// Seed of the first day; the following days take the following seeds
     #[arg(long)]
@@ -138,7 +140,7 @@ impl Trainable {
 
 #[derive(Debug, Args)]
 pub(crate) struct TrainArguments {
-    /// Network file, or the name of a shipped network (paper, disrupted, new-york, as-coded)
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, as-coded), or random:NUMBER
     #[arg(long)]
     pub(crate) network: String,
     /// Kind of policy
@@ -166,7 +168,7 @@ pub(crate) struct TrainArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArguments {
-    /// Network file, or the name of a shipped network (paper, disrupted, new-york, as-coded)
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, as-coded), or random:NUMBER
     #[arg(long)]
     pub(crate) network: String,
     /// Policies, separated by commas: random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K (which
@@ -192,6 +194,28 @@ pub(crate) struct CompareArguments {
     #[arg(long)]
     pub(crate) json: bool,
     /// Write table, figures and a report page into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) report: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct GeneraliseArguments {
+    /// Number of networks: random:0 and on
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000), default_value_t = 50)]
+    pub(crate) networks: u32,
+    /// Policies, separated by commas, as compare takes them; the others are measured against the first
+    #[arg(long, value_delimiter = ',', required = true)]
+    pub(crate) policies: Vec<String>,
+    /// Weights for a policy name; may be given several times
+    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_pair)]
+    pub(crate) models: Vec<(String, String)>,
+    /// Minutes for which the bounds' prices stay the same, 1 to 60; fewer give tighter bounds, later
+    #[arg(long, value_name = "MIN", default_value_t = 3)]
+    pub(crate) step: u32,
+    /// Print the results as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Write table, figure and a report page into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) report: Option<PathBuf>,
 }

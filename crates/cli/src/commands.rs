@@ -3,6 +3,8 @@
 pub(crate) mod bound;
 pub(crate) mod check;
 pub(crate) mod compare;
+mod days;
+pub(crate) mod generalise;
 pub(crate) mod plan;
 pub(crate) mod scenario;
 pub(crate) mod simulate;

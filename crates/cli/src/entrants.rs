@@ -5,10 +5,9 @@ use std::path::Path;
 use indicatif::HumanCount;
 use vertifleet_core::Scenario;
 use vertifleet_optimize::{Budget, Settings, can_plan, plan};
-use vertifleet_study::Curve;
 use vertifleet_study::run::{Contender, Contenders, Way};
+use vertifleet_study::{Curve, Training};
 
-use crate::args::CompareArguments;
 use crate::failure::Failure;
 use crate::policies::{self, Recipe, kind_of};
 
@@ -29,10 +28,21 @@ pub(crate) enum Kind {
     Plan(u64),
 }
 
-impl Entrant {
-    /// Those that are asked for: weights given by --model first, then rules, then the network's shipped weights.
-    pub(crate) fn all(arguments: &CompareArguments, network: &str) -> Result<Vec<Self>, Failure> {
-        let models: Vec<&String> = arguments.models.iter().map(|(name, _)| name).collect();
+/// Who is asked for.
+pub(crate) struct Asked<'a> {
+    pub(crate) policies: &'a [String],
+    /// Names with their weights.
+    pub(crate) models: &'a [(String, String)],
+    /// Seed of the random policy and of the planner's search.
+    pub(crate) seed: u64,
+    /// Network whose shipped weights are taken where none are given.
+    pub(crate) network: &'a str,
+}
+
+impl Asked<'_> {
+    /// Everybody: weights given by --model first, then rules, then the network's shipped weights.
+    pub(crate) fn entrants(&self) -> Result<Vec<Entrant>, Failure> {
+        let models: Vec<&String> = self.models.iter().map(|(name, _)| name).collect();
         if let Some(twice) = first_repeated(&models) {
             return Err(Failure::usage(
                 format!("--model names {twice:?} twice"),
@@ -40,7 +50,7 @@ impl Entrant {
             ));
         }
         let asked = |name: &str| {
-            arguments.policies.iter().any(|policy| policy == name || kind_of(policy) == name)
+            self.policies.iter().any(|policy| policy == name || kind_of(policy) == name)
         };
         if let Some(unused) = models.iter().find(|name| !asked(name)) {
             return Err(Failure::usage(
@@ -48,27 +58,28 @@ impl Entrant {
                 "add the name to --policies",
             ));
         }
-        arguments.policies.iter().map(|name| Self::named(name, arguments, network)).collect()
+        self.policies.iter().map(|name| self.entrant(name)).collect()
     }
 
-    fn named(name: &str, arguments: &CompareArguments, network: &str) -> Result<Self, Failure> {
+    fn entrant(&self, name: &str) -> Result<Entrant, Failure> {
         // Weights of gcaps-x are those of gcaps-x:rollouts=K too.
-        let given =
-            arguments.models.iter().find(|(given, _)| given == name || given == kind_of(name));
+        let given = self.models.iter().find(|(given, _)| given == name || given == kind_of(name));
         let weights = given.map(|(_, path)| Path::new(path));
         let rule = match name {
-            "plan" => Some(Kind::Plan(arguments.seed)),
-            _ => Recipe::rule(name, arguments.seed).map(Kind::Policy),
+            "plan" => Some(Kind::Plan(self.seed)),
+            _ => Recipe::rule(name, self.seed).map(Kind::Policy),
         };
         let kind = match (weights, rule) {
             (Some(_), Some(_)) => return Err(policies::takes_no_weights(name)),
-            (Some(path), None) => Kind::Policy(Recipe::of_file_with_curve(name, path)?),
+            (Some(path), None) => Kind::Policy(Recipe::of_file_with_curves(name, path)?),
             (None, Some(rule)) => rule,
-            (None, None) => Kind::Policy(Recipe::shipped(name, network)?),
+            (None, None) => Kind::Policy(Recipe::shipped(name, self.network)?),
         };
-        Ok(Self { name: name.to_owned(), kind })
+        Ok(Entrant { name: name.to_owned(), kind })
     }
+}
 
+impl Entrant {
     /// What it is made of, where it is a policy.
     pub(crate) fn recipe(&self) -> Option<&Recipe> {
         match &self.kind {
@@ -85,10 +96,16 @@ impl Entrant {
         }
     }
 
-    /// Its learning curve, where it was trained.
+    /// Its learning curve on the training days, where it has one.
     pub(crate) fn curve(&self) -> Option<Curve> {
         let points = self.recipe()?.curve();
         (!points.is_empty()).then(|| Curve { name: self.name.clone(), points })
+    }
+
+    /// How it did on the validation days while it was trained, a run a seed.
+    pub(crate) fn training(&self) -> Option<Training> {
+        let runs = self.recipe()?.validation_runs();
+        (!runs.is_empty()).then(|| Training { name: self.name.clone(), runs })
     }
 
     fn contender(&self) -> Contender<'_> {

@@ -38,6 +38,7 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
         Command::Plan(arguments) => commands::plan::run(&arguments),
         Command::Train(arguments) => commands::train::run(&arguments),
         Command::Compare(arguments) => commands::compare::run(&arguments),
+        Command::Generalise(arguments) => commands::generalise::run(&arguments),
     }
 }
 

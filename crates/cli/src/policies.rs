@@ -1,13 +1,13 @@
 //! Policies by their names.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use indicatif::HumanCount;
 use vertifleet_core::{Code, Scenario};
 use vertifleet_learn::nn::Architecture;
-use vertifleet_learn::relative::{AnyModel, GcapsX};
-use vertifleet_learn::{CurveRow, Learned, Model, Trained, Weights, shipped};
+use vertifleet_learn::relative::{AnyModel, GcapsX, Round};
+use vertifleet_learn::{CurveRow, Learned, Model, Trained, Weights, read_curves, shipped};
 use vertifleet_optimize::Rolling;
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, Replay};
 use vertifleet_sim::Trace;
@@ -16,8 +16,6 @@ use vertifleet_study::NetworkOrigin;
 use crate::failure::Failure;
 use crate::output::warn;
 
-/// No learning curve of ours comes near; longer files are not read.
-const LONGEST_CURVE: u64 = 64 << 20;
 /// The policy whose weights fit networks of any size.
 const ANY_SIZE: &str = "gcaps-x";
 
@@ -41,13 +39,16 @@ pub(crate) enum Recipe {
     Replay(Arc<Trace>),
     Learned {
         model: Arc<Model>,
-        curve: Vec<CurveRow>,
+        /// Of the run that these weights are of, then of runs with other seeds.
+        curves: Vec<Vec<CurveRow>>,
         shipped: bool,
     },
     /// How many choices are tried out; 1 decides at once.
     AnySize {
         model: Arc<AnyModel>,
         tried: usize,
+        /// As above.
+        curves: Vec<Vec<Round>>,
     },
 }
 
@@ -61,8 +62,8 @@ impl Recipe {
             Self::Rolling => Box::new(Rolling::default()),
             Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
             Self::Learned { model, .. } => Box::new(Learned::new(Arc::clone(model))),
-            Self::AnySize { model, tried: 1 } => Box::new(GcapsX::new(Arc::clone(model))),
-            Self::AnySize { model, tried } => {
+            Self::AnySize { model, tried: 1, .. } => Box::new(GcapsX::new(Arc::clone(model))),
+            Self::AnySize { model, tried, .. } => {
                 Box::new(GcapsX::with_rollouts(Arc::clone(model), *tried))
             }
         }
@@ -81,7 +82,7 @@ impl Recipe {
                 let header = model.header();
                 format!("learned on {} from {} decisions", header.network, HumanCount(header.steps))
             }
-            Self::AnySize { model, tried } => {
+            Self::AnySize { model, tried, .. } => {
                 let decisions = HumanCount(model.header().decisions);
                 let tries = match tried {
                     1 => String::new(),
@@ -115,20 +116,24 @@ impl Recipe {
         }
         Ok(match weights {
             Weights::OfOneSize(model) => {
-                Self::Learned { model: Arc::new(*model), curve: Vec::new(), shipped: false }
+                Self::Learned { model: Arc::new(*model), curves: Vec::new(), shipped: false }
             }
-            Weights::OfAnySize(model) => {
-                Self::AnySize { model: Arc::new(*model), tried: tried_by(name)?.unwrap_or(1) }
-            }
+            Weights::OfAnySize(model) => Self::AnySize {
+                model: Arc::new(*model),
+                tried: tried_by(name)?.unwrap_or(1),
+                curves: Vec::new(),
+            },
         })
     }
 
-    /// The policy of a weight file, with the learning curve that `train` left beside it.
-    pub(crate) fn of_file_with_curve(name: &str, path: &Path) -> Result<Self, Failure> {
+    /// The policy of a weight file, with the learning curve that `train` left beside it, and those of runs with other seeds that
+    /// were put there.
+    pub(crate) fn of_file_with_curves(name: &str, path: &Path) -> Result<Self, Failure> {
         let mut recipe = Self::of_file(name, path)?;
-        let beside = curve_beside(path);
-        if let (Self::Learned { curve, .. }, true) = (&mut recipe, beside.exists()) {
-            *curve = read_curve(&beside)?;
+        match &mut recipe {
+            Self::Learned { curves, .. } => *curves = read_curves(path)?,
+            Self::AnySize { curves, .. } => *curves = read_curves(path)?,
+            _ => {}
         }
         Ok(recipe)
     }
@@ -142,7 +147,7 @@ impl Recipe {
             ));
         }
         let Trained { model, curve } = shipped(network, name)?;
-        Ok(Self::Learned { model: Arc::new(model), curve, shipped: true })
+        Ok(Self::Learned { model: Arc::new(model), curves: vec![curve], shipped: true })
     }
 
     /// Whether the policy can play this day.
@@ -169,14 +174,34 @@ impl Recipe {
         }
     }
 
-    /// Steps and mean episode reward over the training of a learned policy; nothing for the others.
+    /// Steps and mean episode reward on the training days; nothing for who does not learn from rewards.
     pub(crate) fn curve(&self) -> Vec<(u64, f64)> {
         match self {
-            Self::Learned { curve, .. } => {
-                curve.iter().filter_map(|row| Some((row.steps, row.mean_reward?))).collect()
+            Self::Learned { curves, .. } => {
+                let rows = curves.iter().take(1).flatten();
+                rows.filter_map(|row| Some((row.steps, row.mean_reward?))).collect()
             }
             _ => Vec::new(),
         }
+    }
+
+    /// Decisions learned from and mean reward on the validation days, run by run; nothing for who was not trained, or not asked
+    /// while it was.
+    pub(crate) fn validation_runs(&self) -> Vec<Vec<(u64, f64)>> {
+        let mut runs: Vec<Vec<(u64, f64)>> = match self {
+            Self::Learned { curves, .. } => {
+                let looked = |row: &CurveRow| Some((row.steps, row.validation_reward?));
+                curves.iter().map(|rows| rows.iter().filter_map(looked).collect()).collect()
+            }
+            // With roll-outs it decides in another way than in its training.
+            Self::AnySize { curves, tried: 1, .. } => {
+                let point = |round: &Round| (round.decisions, round.validation_reward);
+                curves.iter().map(|rounds| rounds.iter().map(point).collect()).collect()
+            }
+            _ => Vec::new(),
+        };
+        runs.retain(|run| !run.is_empty());
+        runs
     }
 }
 
@@ -201,18 +226,6 @@ fn tried_by(name: &str) -> Result<Option<usize>, Failure> {
         }
         _ => Ok(None),
     }
-}
-
-/// Where `train` leaves the learning curve of these weights: `gcaps-curve.csv` beside `gcaps.safetensors`.
-pub(crate) fn curve_beside(weights: &Path) -> PathBuf {
-    let name = weights.file_stem().unwrap_or_default().to_string_lossy();
-    weights.with_file_name(format!("{name}-curve.csv"))
-}
-
-fn read_curve(path: &Path) -> Result<Vec<CurveRow>, Failure> {
-    let bytes = vertifleet_core::read_at_most(path, LONGEST_CURVE)?;
-    let text = String::from_utf8_lossy(&bytes);
-    Ok(vertifleet_learn::from_csv(&text, &path.display().to_string())?)
 }
 
 /// The policy that is asked for on one day.

@@ -11,7 +11,8 @@ use vertifleet_learn::relative::Course;
 
 type Names = BTreeSet<String>;
 
-const COMMANDS: &[&str] = &["scenario", "simulate", "check", "bound", "plan", "train", "compare"];
+const COMMANDS: &[&str] =
+    &["scenario", "simulate", "check", "bound", "plan", "train", "compare", "generalise"];
 
 fn root() -> PathBuf {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("crates/cli is in a folder");

@@ -98,6 +98,40 @@ fn a_training_ended_by_ctrl_c_goes_on_to_the_same_weights() {
 }
 
 #[test]
+fn a_training_of_gcaps_x_ended_by_ctrl_c_goes_on_to_the_same_weights() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    let train = |more: &str| {
+        let course = "--set rounds=2 --set days=8 --set passes=1 --set validation_days=1 --set courses=1 --set horizon_s=600";
+        vertifleet(at, &format!("train --network paper --policy gcaps-x --seed 5 {course} {more}"))
+    };
+    let whole = train("--out whole").output().expect("the program runs");
+    assert!(whole.status.success(), "{whole:?}");
+
+    let mut child = train("--out cut").spawn().expect("the program runs");
+    // When the first round's checkpoint is there, the second round is under way.
+    while !at.join("cut/gcaps-x-checkpoint.safetensors").exists() {
+        assert!(child.try_wait().expect("a child").is_none(), "the run ended before it began");
+        sleep(Duration::from_millis(1));
+    }
+    press_ctrl_c(&child);
+    let cut = child.wait_with_output().expect("the program ends");
+    let said = String::from_utf8_lossy(&cut.stderr);
+    assert_eq!(cut.status.code(), Some(0), "{said}");
+    assert!(said.contains("stopping") && said.contains("stopped early"), "{said}");
+    let file = |name: &str| fs::read(at.join(name)).expect("a file of the run");
+    assert!(file("cut/gcaps-x-curve.csv") != file("whole/gcaps-x-curve.csv"), "it was cut short");
+
+    let refused = train("--out cut").output().expect("the program runs");
+    assert_eq!(refused.status.code(), Some(2), "an earlier run is not written over");
+    let resumed = train("--out cut --resume").output().expect("the program runs");
+    assert!(resumed.status.success(), "{resumed:?}");
+    for name in ["gcaps-x.safetensors", "gcaps-x-curve.csv", "gcaps-x-checkpoint.safetensors"] {
+        assert!(file(&format!("cut/{name}")) == file(&format!("whole/{name}")), "{name}");
+    }
+}
+
+#[test]
 fn a_comparison_ended_by_ctrl_c_leaves_whole_bounds_and_no_report() {
     let folder = tempfile::tempdir().expect("a folder");
     let kept = folder.path().join("kept/vertifleet");

@@ -267,9 +267,11 @@ pub enum Error {
         vertiport: String,
     },
 
-    /// V119. A name is neither a shipped network nor a file. Fix: give one of the names that the message lists, or
-    /// the path of a network file.
-    #[error("there is no network {name:?}: shipped are {shipped}, and no file has that path")]
+    /// V119. A name is neither a shipped network, nor a random one, nor a file. Fix: give one of the names that the
+    /// message lists, `random:` and a number, or the path of a network file.
+    #[error(
+        "there is no network {name:?}: shipped are {shipped}, random:NUMBER draws one, and no file has that path"
+    )]
     UnknownNetwork {
         /// What was asked for.
         name: String,

@@ -2,7 +2,7 @@
 //!
 //! A [`Scenario`] is one operating day with everything exogenous in it, nothing left to be drawn; a [`Network`] is
 //! what days are drawn from. Both are read in two stages: raw text, then checked types that cannot hold nonsense.
-//! This crate knows no clock, no policy and no motion; its only randomness is the one that draws a day.
+//! This crate knows no clock, no policy and no motion; its only randomness is the one that draws a day or a network.
 
 mod check;
 mod code;
@@ -20,6 +20,7 @@ mod matrix;
 mod network;
 mod network_file;
 mod parse;
+mod random_network;
 mod raw;
 mod raw_disturbances;
 mod read;
@@ -40,6 +41,7 @@ pub use files::{between_files, create_folder, read_at_most, write_atomically};
 pub use ix::{AircraftIx, TypeIx, VertiportIx};
 pub use matrix::Matrix;
 pub use network::Network;
+pub use random_network::random_network;
 pub use scenario::{Aircraft, AircraftType, Day, Operations, Scenario, Vertiport};
 pub use seeds::{DaySeed, Purpose};
 pub use time::Time;

@@ -5,10 +5,12 @@ use std::path::Path;
 use crate::demand_model::DemandModel;
 use crate::disturbance_model::DisturbanceModel;
 use crate::{
-    AircraftType, Error, FeatureScales, Matrix, Operations, Scenario, Vertiport, files,
-    network_file, parse,
+    AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Vertiport, files,
+    network_file, parse, random_network,
 };
 
+/// What stands before the number of a random network.
+const RANDOM: &str = "random:";
 /// The networks inside the program, by name.
 const SHIPPED: &[(&str, &str)] = &[
     ("paper", include_str!("../../../networks/paper.toml")),
@@ -62,13 +64,18 @@ impl Network {
         SHIPPED.iter().map(|(name, _)| *name)
     }
 
-    /// The shipped network of this name, or else the network file at this path.
+    /// The shipped network of this name, the random network for comparison of this number (`random:7`), or else the network
+    /// file at this path.
     ///
     /// # Errors
-    /// [`Error::UnknownNetwork`] if it is neither, else as [`Network::read`].
+    /// [`Error::UnknownNetwork`] if it is none of them, else as [`Network::read`].
     pub fn find(name_or_path: &str) -> Result<Self, Error> {
         if let Some(network) = Self::shipped(name_or_path) {
             return Ok(network);
+        }
+        let number = name_or_path.strip_prefix(RANDOM).and_then(|number| number.parse().ok());
+        if let Some(number) = number {
+            return Ok(random_network(Purpose::Comparison, number));
         }
         let path = Path::new(name_or_path);
         let looks_like_a_path = path.components().count() > 1 || path.extension().is_some();
@@ -79,6 +86,11 @@ impl Network {
             name: parse::shortened(name_or_path, 64),
             shipped: Self::shipped_names().collect::<Vec<_>>().join(", "),
         })
+    }
+
+    /// The name by which [`find`](Self::find) knows the random network for comparison of this number.
+    pub fn random_name(number: u64) -> String {
+        format!("{RANDOM}{number}")
     }
 
     /// Its name; the days drawn from it are called `{name}-{seed}`.

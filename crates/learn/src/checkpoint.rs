@@ -13,7 +13,7 @@ use crate::curve::CurveRow;
 use crate::error::Error;
 use crate::nn::Architecture;
 use crate::rollout::DayInProgress;
-use crate::settings::Settings;
+use crate::settings::{Settings, first_difference};
 use crate::tensor_file;
 use crate::train::Plan;
 
@@ -141,7 +141,7 @@ impl Checkpoint {
         if seed != plan.seed {
             return of_another("seed", seed.to_string(), plan.seed.to_string());
         }
-        if let Some((name, found, asked)) = settings.first_difference(&plan.settings) {
+        if let Some((name, found, asked)) = first_difference(&settings, &plan.settings) {
             return of_another(&format!("setting {name}"), found, asked);
         }
         if self.tensors.iter().any(|tensor| tensor.len() != parameters) {

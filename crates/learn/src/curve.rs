@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -35,8 +36,11 @@ pub struct CurveRow {
     pub learning_rate: f64,
 }
 
-/// The curve as a CSV text, one column a member of [`CurveRow`].
-pub fn to_csv(rows: &[CurveRow]) -> String {
+/// A curve as a CSV text, one column a member of its rows.
+///
+/// # Panics
+/// Never, for rows of numbers.
+pub fn to_csv(rows: &[impl Serialize]) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
         writer.serialize(row).expect("rows of numbers go into memory");
@@ -49,7 +53,7 @@ pub fn to_csv(rows: &[CurveRow]) -> String {
 ///
 /// # Errors
 /// [`Error::BadCurve`] for the first row that is not one.
-pub fn from_csv(text: &str, origin: &str) -> Result<Vec<CurveRow>, Error> {
+pub(crate) fn from_csv<Row: DeserializeOwned>(text: &str, origin: &str) -> Result<Vec<Row>, Error> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let rows = reader.deserialize().collect::<Result<_, csv::Error>>();
     rows.map_err(|error| Error::BadCurve {
@@ -209,8 +213,8 @@ mod tests {
     #[test]
     fn a_curve_reads_as_it_was_written() {
         let rows = [CurveRow::default(), row()];
-        assert_eq!(from_csv(&to_csv(&rows), "curve").expect("a curve"), rows);
-        let error = from_csv("update,steps\n1,x\n", "curve").expect_err("no curve");
+        assert_eq!(from_csv::<CurveRow>(&to_csv(&rows), "curve").expect("a curve"), rows);
+        let error = from_csv::<CurveRow>("update,steps\n1,x\n", "curve").expect_err("no curve");
         assert_eq!(error.code().to_string(), "V308");
     }
 

@@ -6,6 +6,7 @@
 //! the day's prices say what each choice is worth, and the network what to add to that ([`judge`]). It learns from trying
 //! choices out ([`lessons`], [`fit`]).
 
+mod checkpoint;
 mod course;
 mod features;
 mod fit;
@@ -20,5 +21,5 @@ mod weights;
 
 pub use course::Course;
 pub use policy::GcapsX;
-pub use training::{Round, Study, to_csv};
+pub use training::{Plan, Round, Study};
 pub use weights::{AnyHeader, AnyModel, AnyShape};

@@ -142,14 +142,6 @@ impl Settings {
         Ok(())
     }
 
-    /// The first setting in which two runs differ: its name, and the value in each.
-    pub(crate) fn first_difference(&self, other: &Self) -> Option<(String, String, String)> {
-        let others = members(other);
-        let mut pairs = members(self).into_iter().zip(others);
-        let differs = pairs.find(|((_, own), (_, other))| own != other);
-        differs.map(|((name, own), (_, other))| (name, own.to_string(), other.to_string()))
-    }
-
     /// Decisions per roll-out.
     pub fn buffer_size(&self) -> usize {
         self.n_envs * self.n_steps
@@ -213,6 +205,16 @@ fn members(settings: &impl Serialize) -> serde_json::Map<String, serde_json::Val
         Ok(serde_json::Value::Object(members)) => members,
         other => unreachable!("settings are a JSON object, not {other:?}"),
     }
+}
+
+/// The first setting in which two differ, with its value in either.
+pub(crate) fn first_difference(
+    own: &impl Serialize,
+    other: &impl Serialize,
+) -> Option<(String, String, String)> {
+    let mut pairs = members(own).into_iter().zip(members(other));
+    let differs = pairs.find(|((_, own), (_, other))| own != other);
+    differs.map(|((name, own), (_, other))| (name, own.to_string(), other.to_string()))
 }
 
 /// Refuses a value outside of its bounds.

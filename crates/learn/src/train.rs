@@ -53,7 +53,7 @@ pub struct Training {
     rollout: Rollout,
     validation: Vec<Arc<Scenario>>,
     progress: Progress,
-    /// What [`Plan::network_print`] says; a checkpoint remembers it.
+    /// What [`network_print`] says; a checkpoint remembers it.
     network_print: u32,
 }
 
@@ -77,7 +77,7 @@ impl Training {
     pub fn resume(plan: Plan, checkpoint: Checkpoint) -> Result<Self, Error> {
         let net = plan.net()?;
         let (params, adam, progress) =
-            checkpoint.unpack(&plan, plan.network_print()?, net.layout().len())?;
+            checkpoint.unpack(&plan, network_print(&plan.network)?, net.layout().len())?;
         Self::assemble(plan, net, (params, adam), progress, false)
     }
 
@@ -97,7 +97,7 @@ impl Training {
         let mut prepared = net.prepared();
         net.prepare(&params, &mut prepared);
         let ppo = Ppo::new(&net, plan.network.vertiports().len(), &plan.settings);
-        let network_print = plan.network_print()?;
+        let network_print = network_print(&plan.network)?;
         Ok(Self {
             plan,
             net,
@@ -219,17 +219,17 @@ impl Training {
 }
 
 impl Plan {
-    /// A number that changes when the network's days do: the checksum of one of them, and of the feature scales.
-    pub(crate) fn network_print(&self) -> Result<u32, Error> {
-        let day = self.network.draw(DaySeed::validation(0)?);
-        let scales = serde_json::to_string(&self.network.feature_scales()).expect("numbers");
-        Ok(crc32c::crc32c_append(crc32c::crc32c(day.to_json().as_bytes()), scales.as_bytes()))
-    }
-
     fn net(&self) -> Result<nn::Network, Error> {
         nn::Network::new(self.policy.clone(), shape(self.network.vertiports().len()))
             .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })
     }
+}
+
+/// A number that changes when the network's days do: the checksum of one of them, and of the feature scales.
+pub(crate) fn network_print(network: &Network) -> Result<u32, Error> {
+    let day = network.draw(DaySeed::validation(0)?);
+    let scales = serde_json::to_string(&network.feature_scales()).expect("numbers");
+    Ok(crc32c::crc32c_append(crc32c::crc32c(day.to_json().as_bytes()), scales.as_bytes()))
 }
 
 /// Plays days in lockstep, one inference for all of them; rewards in the order of the days.

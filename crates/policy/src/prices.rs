@@ -84,16 +84,14 @@ impl DayPrices {
     pub fn choice_usd(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
         let Decision { time, aircraft, at: from, .. } = *decision;
         let kind = view.kind(aircraft);
-        let way_on_usd =
-            |ready_s| self.relaxation.ways_on().usd(kind, to, time.seconds(), ready_s);
+        let way_on_usd = |ready_s| self.relaxation.ways_on().usd(kind, to, time.seconds(), ready_s);
         if to == from {
             return way_on_usd((time + view.hold_s()).seconds());
         }
         let period = view.period();
         let waiting = view.demand_left(period, from, to);
         let ready = time + view.leg(kind, from, to).block_s();
-        view.flight_profit_usd(time, kind, (from, to), waiting)
-            + way_on_usd(ready.seconds())
+        view.flight_profit_usd(time, kind, (from, to), waiting) + way_on_usd(ready.seconds())
     }
 
     /// The feasible choice that is worth most; the vertiport listed first among equals.

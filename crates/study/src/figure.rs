@@ -1,4 +1,4 @@
-//! The figures of a comparison as SVG: learning curves (Fig. 3), reward (Fig. 4), profit (Fig. 5), share of the bound, day by day.
+//! The figures of a comparison as SVG: learning curves (Fig. 3 and on validation days), reward (Fig. 4), profit (Fig. 5), share of the bound, day by day.
 //!
 //! Every figure names its marks in words and tells its series apart by marker, dash or place as well as by colour, so
 //! that it reads the same in grey. Colours are set twice: as attributes for the file on its own, and as classes that a
@@ -8,14 +8,17 @@ mod axis;
 mod box_plot;
 mod canvas;
 mod day_differences;
+mod key;
 mod learning_curves;
 mod palette;
 mod png;
+mod share_by_size;
 
 use crate::summary::Summary;
 
 pub(crate) use palette::style_sheet;
 pub(crate) use png::png;
+pub(crate) use share_by_size::share_by_size;
 
 /// One picture with what a page says about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -35,7 +38,8 @@ pub fn all(summary: &Summary) -> Vec<Figure> {
         box_plot::bound_share(summary),
         Some(box_plot::episode_reward(summary)),
         day_differences::figure(summary),
-        learning_curves::figure(summary),
+        learning_curves::on_training_days(summary),
+        learning_curves::on_validation_days(summary),
     ];
     figures.into_iter().flatten().collect()
 }

@@ -4,7 +4,7 @@ use resvg::usvg::roxmltree::Document;
 
 use super::{Figure, all, png, style_sheet};
 use crate::origin::NetworkOrigin;
-use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
+use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study, Training};
 use crate::summary::Summary;
 
 /// Names that a user could give, none of them friendly to XML.
@@ -46,6 +46,13 @@ fn study(names: &[&str], days: u32) -> Study {
         days: days as usize,
         bound_step_s: None,
         command: "vertifleet compare".to_owned(),
+        trainings: curves
+            .clone()
+            .map(|curve: Curve| Training {
+                name: curve.name,
+                runs: vec![curve.points[..2].to_vec(), curve.points[..3].to_vec()],
+            })
+            .collect(),
         curves: curves.collect(),
         policies: policies.collect(),
     }
@@ -116,8 +123,13 @@ fn any_name_and_any_number_of_days_make_well_formed_pictures() {
 #[test]
 fn a_figure_is_drawn_only_where_there_are_numbers_for_it() {
     let full = summary(&["random", "greedy"], 4);
-    let whole =
-        ["figure-5-profit", "figure-4-reward", "figure-day-by-day", "figure-3-learning-curves"];
+    let whole = [
+        "figure-5-profit",
+        "figure-4-reward",
+        "figure-day-by-day",
+        "figure-3-learning-curves",
+        "figure-validation-curves",
+    ];
     assert_eq!(slugs(&all(&full)), whole);
 
     let with_bounds = all(&bounded(&["random", "greedy"], 4));
@@ -128,9 +140,9 @@ fn a_figure_is_drawn_only_where_there_are_numbers_for_it() {
     assert_eq!(with_bounds[1], "figure-bound-share");
     assert_eq!([&with_bounds[..1], &with_bounds[2..]].concat(), whole);
 
-    let untrained = Summary { curves: Vec::new(), ..full };
+    let untrained = Summary { curves: Vec::new(), trainings: Vec::new(), ..full };
     assert_eq!(slugs(&all(&untrained)), whole[..3]);
-    let alone = Summary { curves: Vec::new(), ..summary(&["greedy"], 4) };
+    let alone = Summary { curves: Vec::new(), trainings: Vec::new(), ..summary(&["greedy"], 4) };
     assert_eq!(slugs(&all(&alone)), whole[..2]);
 }
 

@@ -1,11 +1,12 @@
 //! Many policies on many days: statistics, figures, report.
 //!
 //! [`run`] plays the days, [`record`] holds what they leave behind, [`Summary`] turns it into statistics, and [`table`], [`figure`] and
-//! [`report`] present those. Presentation computes nothing; statistics know nothing of pages.
+//! [`report`] present those; [`generalisation`] does the same for a day each of many networks. Presentation computes nothing; statistics know nothing of pages.
 
 mod days_csv;
 mod error;
 pub mod figure;
+pub mod generalisation;
 mod headline;
 mod numbers;
 mod origin;
@@ -20,5 +21,5 @@ pub mod table;
 
 pub use error::Error;
 pub use origin::NetworkOrigin;
-pub use record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
+pub use record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study, Training};
 pub use summary::Summary;

@@ -17,6 +17,21 @@ use crate::summary::{PolicySummary, Summary};
 
 /// The whole page.
 pub(crate) fn text(summary: &Summary, figures: &[Figure]) -> String {
+    let body = html! {
+        (opening(summary))
+        (results(summary))
+        h2 { "Figures" }
+        @for figure in figures { (picture(figure)) }
+        @if !summary.comparisons.is_empty() { (tests(summary)) }
+        @if !summary.trainings.is_empty() { (trainings(summary)) }
+        @if !summary.published.is_empty() { (published(summary)) }
+        (closing(figures))
+    };
+    document(&format!("Vertifleet comparison: {}", summary.network), &body)
+}
+
+/// A page with this title and what stands on it.
+pub(crate) fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -24,20 +39,10 @@ pub(crate) fn text(summary: &Summary, figures: &[Figure]) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { "Vertifleet comparison: " (summary.network) }
+                title { (title) }
                 style { (PreEscaped(style())) }
             }
-            body {
-                main {
-                    (opening(summary))
-                    (results(summary))
-                    h2 { "Figures" }
-                    @for figure in figures { (picture(figure)) }
-                    @if !summary.comparisons.is_empty() { (tests(summary)) }
-                    @if !summary.published.is_empty() { (published(summary)) }
-                    (closing(figures))
-                }
-            }
+            body { main { (body) } }
         }
     };
     page.into_string()
@@ -151,14 +156,14 @@ fn result_cells(policy: &PolicySummary) -> Markup {
     }
 }
 
-fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> Markup {
+pub(crate) fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> Markup {
     html! {
         (typeset(&written(estimate.mean)))
         @if let Some(half_width) = estimate.half_width_95 { small { " ± " (written(half_width)) } }
     }
 }
 
-fn picture(figure: &Figure) -> Markup {
+pub(crate) fn picture(figure: &Figure) -> Markup {
     html! {
         figure {
             (PreEscaped(&figure.svg))
@@ -197,6 +202,35 @@ fn test_cell(summary: &Summary, row: usize, column: usize) -> Markup {
         td.clear[test.is_significant()] {
             (signed_dollars(sign * test.difference.mean)) small { (p_statement(test.p_value)) }
         }
+    }
+}
+
+fn trainings(summary: &Summary) -> Markup {
+    let reward = |value: f64| format!("{value:.5}");
+    html! {
+        h2 { "Training" }
+        p.lead { "Mean reward on the validation days at the end of training, best choices. Runs differ in their seeds alone; the "
+            "first one’s weights play here. sd: standard deviation between runs." }
+        div.wide { table {
+            thead { tr {
+                th scope="col" { "policy" }
+                th scope="col" { "runs" }
+                th scope="col" { "decisions learned from" }
+                th scope="col" { "validation reward" }
+                th scope="col" { "sd" }
+                th scope="col" { "lowest" }
+                th scope="col" { "highest" }
+            } }
+            tbody { @for training in &summary.trainings { tr {
+                th scope="row" { (training.policy) }
+                td { (training.runs) }
+                td { (grouped(training.decisions, 0)) }
+                td { (reward(training.validation_reward.mean)) }
+                td { (training.validation_reward.standard_deviation.map_or("n/a".to_owned(), reward)) }
+                td { (reward(training.range.0)) }
+                td { (reward(training.range.1)) }
+            } } }
+        } }
     }
 }
 
@@ -261,10 +295,16 @@ fn closing(figures: &[Figure]) -> Markup {
                 "what was assumed instead, is listed under " em { "Concepts: the model" } " in Vertifleet’s documentation." }
             p { "Files beside this page: " a href="days.csv" { "days.csv" } ", every policy’s every day; "
                 a href="summary.json" { "summary.json" } ", all numbers of this page"
-                @for figure in figures {
-                    "; " a href={ (figure.slug) ".svg" } { (figure.slug) } " (" a href={ (figure.slug) ".png" } { "PNG" } ")"
-                }
-                "." }
+                (links(figures)) "." }
+        }
+    }
+}
+
+/// The figures' files, each after a semicolon.
+pub(crate) fn links(figures: &[Figure]) -> Markup {
+    html! {
+        @for figure in figures {
+            "; " a href={ (figure.slug) ".svg" } { (figure.slug) } " (" a href={ (figure.slug) ".png" } { "PNG" } ")"
         }
     }
 }

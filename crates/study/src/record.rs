@@ -92,6 +92,16 @@ pub struct Curve {
     pub points: Vec<(u64, f64)>,
 }
 
+/// How a policy does on the validation days while it learns, one run a seed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Training {
+    /// Name of the policy.
+    pub name: String,
+    /// The runs, the one whose weights play first. Decisions learned from and the mean reward on the validation days then, in
+    /// order of decisions; no run is empty.
+    pub runs: Vec<Vec<(u64, f64)>>,
+}
+
 /// Many policies on the same days.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
@@ -109,6 +119,8 @@ pub struct Study {
     pub command: String,
     /// Every policy's record, no two of the same name: [`Contenders`](crate::run::Contenders) sees to that.
     pub policies: Vec<PolicyRecord>,
-    /// Learning curves of those policies that were trained; may be empty.
+    /// Learning curves on the training days of those policies that have one; may be empty.
     pub curves: Vec<Curve>,
+    /// Learning curves on the validation days of those policies that were trained; may be empty.
+    pub trainings: Vec<Training>,
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use vertifleet_core::write_atomically;
 
 use crate::error::Error;
+use crate::figure::Figure;
 use crate::record::Study;
 use crate::summary::Summary;
 use crate::{days_csv, figure, page};
@@ -50,6 +51,16 @@ pub fn check_folder(folder: &Path) -> Result<(), Error> {
 pub fn write(study: &Study, folder: &Path) -> Result<Paths, Error> {
     let summary = Summary::of(study)?;
     let figures = figure::all(&summary);
+    Ok(Paths {
+        figures: write_figures(&figures, folder)?,
+        days: put(folder, "days.csv", days_csv::text(study).as_bytes())?,
+        summary: put(folder, "summary.json", (summary.to_json() + "\n").as_bytes())?,
+        report: put(folder, "report.html", page::text(&summary, &figures).as_bytes())?,
+    })
+}
+
+/// Makes the folder and writes the figures into it, each as SVG and as PNG.
+pub(crate) fn write_figures(figures: &[Figure], folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let pngs: Vec<Vec<u8>> = figures.iter().map(|figure| figure::png(&figure.svg)).collect();
     // Only now, so that a program that is ended before leaves no empty folder.
     make(folder)?;
@@ -58,12 +69,7 @@ pub fn write(study: &Study, folder: &Path) -> Result<Paths, Error> {
         pictures.push(put(folder, &format!("{}.svg", figure.slug), figure.svg.as_bytes())?);
         pictures.push(put(folder, &format!("{}.png", figure.slug), png)?);
     }
-    Ok(Paths {
-        days: put(folder, "days.csv", days_csv::text(study).as_bytes())?,
-        summary: put(folder, "summary.json", (summary.to_json() + "\n").as_bytes())?,
-        figures: pictures,
-        report: put(folder, "report.html", page::text(&summary, &figures).as_bytes())?,
-    })
+    Ok(pictures)
 }
 
 fn make(folder: &Path) -> Result<(), Error> {
@@ -71,7 +77,7 @@ fn make(folder: &Path) -> Result<(), Error> {
         .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })
 }
 
-fn put(folder: &Path, name: &str, contents: &[u8]) -> Result<PathBuf, Error> {
+pub(crate) fn put(folder: &Path, name: &str, contents: &[u8]) -> Result<PathBuf, Error> {
     let path = folder.join(name);
     write_atomically(&path, contents)?;
     Ok(path)

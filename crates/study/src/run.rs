@@ -259,6 +259,7 @@ mod tests {
             command: "vertifleet compare".to_owned(),
             policies: played_on(2),
             curves: Vec::new(),
+            trainings: Vec::new(),
         };
         let summary = Summary::of(&study).expect("records of one run");
         assert_eq!(summary.day_seeds, (11, 16));

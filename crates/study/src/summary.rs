@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
 use crate::published::{self, PublishedResult};
-use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study};
+use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study, Training};
 use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
 
 /// Name and version of the format of `summary.json`.
@@ -40,9 +40,48 @@ pub struct Summary {
     pub comparisons: Vec<Comparison>,
     /// Published results beside which these stand; empty but for the network `paper` as it is shipped.
     pub published: &'static [PublishedResult],
-    /// Learning curves of those policies that were trained.
+    /// Where the trainings of the learned policies came out.
+    pub trainings: Vec<TrainingSummary>,
+    /// Learning curves on the training days.
     #[serde(skip)]
     pub curves: Vec<Curve>,
+}
+
+/// The trainings of a policy, at their end.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TrainingSummary {
+    /// The policy's name.
+    pub policy: String,
+    /// Runs, each with a seed of its own.
+    pub runs: usize,
+    /// Decisions learned from, in the mean of the runs.
+    pub decisions: f64,
+    /// Mean reward on the validation days after the last look, over the runs.
+    pub validation_reward: Estimate,
+    /// Lowest and highest of the same.
+    pub range: (f64, f64),
+    /// The runs' curves.
+    #[serde(skip)]
+    pub curves: Vec<Vec<(u64, f64)>>,
+}
+
+impl TrainingSummary {
+    fn of(training: &Training) -> Option<Self> {
+        let ends: Vec<(u64, f64)> =
+            training.runs.iter().map(|run| run.last().copied()).collect::<Option<_>>()?;
+        let rewards: Vec<f64> = ends.iter().map(|end| end.1).collect();
+        let decisions: Vec<f64> = ends.iter().map(|end| end.0 as f64).collect();
+        let lowest = rewards.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = rewards.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        (!rewards.is_empty()).then(|| Self {
+            policy: training.name.clone(),
+            runs: rewards.len(),
+            decisions: mean(&decisions),
+            validation_reward: Estimate::of(&rewards),
+            range: (lowest, highest),
+            curves: training.runs.clone(),
+        })
+    }
 }
 
 /// What the days could earn at most.
@@ -142,13 +181,13 @@ impl Summary {
     /// [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies on the
     /// same days.
     pub fn of(study: &Study) -> Result<Self, Error> {
-        check(study)?;
+        check(&study.policies, study.days)?;
         let mut policies: Vec<PolicySummary> = study
             .policies
             .iter()
             .map(PolicySummary::of)
             .collect::<Option<_>>()
-            .ok_or_else(|| empty(study))?;
+            .ok_or_else(|| empty(&study.policies, study.days))?;
         // Stable, so that equal policies stay in the order in which they were named.
         policies.sort_by(|a, b| b.profit_usd.mean.total_cmp(&a.profit_usd.mean));
         let seeds = || study.policies.iter().flat_map(|policy| &policy.days).map(|day| day.seed);
@@ -158,7 +197,8 @@ impl Summary {
             step_s,
             upper_bound_usd: Estimate::of(&bounds_usd),
         };
-        let day_seeds = seeds().min().zip(seeds().max()).ok_or_else(|| empty(study))?;
+        let day_seeds =
+            seeds().min().zip(seeds().max()).ok_or_else(|| empty(&study.policies, study.days))?;
         Ok(Self {
             format: FORMAT,
             program_version: env!("CARGO_PKG_VERSION"),
@@ -172,6 +212,7 @@ impl Summary {
             comparisons: compare_all(&policies),
             policies,
             published: published::results_for(&study.network, study.network_origin),
+            trainings: study.trainings.iter().filter_map(TrainingSummary::of).collect(),
             curves: study.curves.clone(),
         })
     }
@@ -275,17 +316,17 @@ fn compare_all(policies: &[PolicySummary]) -> Vec<Comparison> {
         .collect()
 }
 
-fn empty(study: &Study) -> Error {
-    Error::Empty { policies: study.policies.len(), days: study.days }
+fn empty(policies: &[PolicyRecord], days: usize) -> Error {
+    Error::Empty { policies: policies.len(), days }
 }
 
 /// The records are those of policies on the same days, with finite results.
-fn check(study: &Study) -> Result<(), Error> {
-    let Some(first) = study.policies.first().filter(|_| study.days > 0) else {
-        return Err(empty(study));
+pub(crate) fn check(policies: &[PolicyRecord], days: usize) -> Result<(), Error> {
+    let Some(first) = policies.first().filter(|_| days > 0) else {
+        return Err(empty(policies, days));
     };
-    for policy in &study.policies {
-        check_paired(study.days, first, policy)?;
+    for policy in policies {
+        check_paired(days, first, policy)?;
         for day in &policy.days {
             check_finite(&policy.name, day)?;
         }

@@ -114,7 +114,7 @@ fn test_row(comparison: &Comparison, days: usize) -> Vec<String> {
     ]
 }
 
-fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> String {
+pub(crate) fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> String {
     match estimate.half_width_95 {
         Some(half_width) => format!("{} ± {}", written(estimate.mean), written(half_width)),
         None => written(estimate.mean),
@@ -122,7 +122,7 @@ fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> String {
 }
 
 /// Appends rows whose first column keeps left and whose other columns keep right, a rule below the first row.
-fn append_aligned(text: &mut String, rows: &[Vec<String>]) {
+pub(crate) fn append_aligned(text: &mut String, rows: &[Vec<String>]) {
     let columns = rows.first().map_or(0, Vec::len);
     let widths: Vec<usize> = (0..columns)
         .map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0))

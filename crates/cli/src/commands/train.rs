@@ -10,14 +10,15 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use anstream::eprintln;
 use vertifleet_core::Network;
 use vertifleet_learn::nn::Architecture;
-use vertifleet_learn::{Checkpoint, CurveRow, EventFile, Model, Plan, Settings, Training, to_csv};
+use vertifleet_learn::{
+    Checkpoint, CurveRow, EventFile, Model, Plan, Settings, Training, curve_beside, to_csv,
+};
 
 use crate::args::{TrainArguments, Trainable};
 use crate::commands::train_any;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::policies::curve_beside;
 use crate::progress::Progress;
 
 /// How often a run is set aside while it goes on.
@@ -80,10 +81,7 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     let mut training = if arguments.resume {
         Training::resume(plan, Checkpoint::read(&files.checkpoint)?)?
     } else if files.checkpoint.exists() {
-        return Err(Failure::usage(
-            format!("{} is there already, of an earlier run", files.checkpoint.display()),
-            "go on with it by --resume, name another folder, or remove the file",
-        ));
+        return Err(earlier_run(&files.checkpoint));
     } else {
         Training::start(plan)?
     };
@@ -96,6 +94,14 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
         eprintln!("stopped early; --resume goes on from {}", files.checkpoint.display());
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A new run would write over the checkpoint of an earlier one.
+pub(super) fn earlier_run(checkpoint: &Path) -> Failure {
+    Failure::usage(
+        format!("{} is there already, of an earlier run", checkpoint.display()),
+        "go on with it by --resume, name another folder, or remove the file",
+    )
 }
 
 /// Learns until all is learned or `stop` is raised. Returns the run as it stood after its last whole update.

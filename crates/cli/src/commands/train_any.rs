@@ -1,5 +1,6 @@
-//! `vertifleet train --policy gcaps-x`: runs a course, shows how it goes, and leaves weights and curve.
+//! `vertifleet train --policy gcaps-x`: runs a course, shows how it goes, and leaves weights, curve and checkpoint.
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,76 +8,111 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use anstream::eprintln;
 use vertifleet_core::Network;
 use vertifleet_learn::nn::Architecture;
-use vertifleet_learn::relative::{Course, Round, Study, to_csv};
+use vertifleet_learn::relative::{Course, Plan, Study};
+use vertifleet_learn::{curve_beside, to_csv};
 
 use crate::args::TrainArguments;
+use crate::commands::train::earlier_run;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::policies::curve_beside;
 use crate::progress::Progress;
 
-pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
-    let mut study = study(arguments)?;
-    vertifleet_core::create_folder(&arguments.out)?;
-    let weights = arguments.out.join("gcaps-x.safetensors");
-    let curve = curve_beside(&weights);
-    // The round under way is given up then; weights are as the round before left them.
-    let stop = stop_on_interrupt()?;
-    let mut rounds: Vec<Round> = Vec::new();
-    let progress = progress(study.course());
-    while !study.is_done() {
-        let Some(round) = learn(&mut study, &progress, &stop)? else { break };
-        progress.say(format!("gain over prices {:.2} %", 100.0 * round.gain));
-        rounds.push(round);
-        study.model().write(&weights)?;
-        vertifleet_core::write_atomically(&curve, to_csv(&rounds).as_bytes())?;
+/// Files of a run, in the folder the user names.
+struct Files {
+    weights: PathBuf,
+    curve: PathBuf,
+    checkpoint: PathBuf,
+}
+
+impl Files {
+    fn of(folder: &Path) -> Self {
+        let weights = folder.join("gcaps-x.safetensors");
+        let checkpoint = folder.join("gcaps-x-checkpoint.safetensors");
+        Self { curve: curve_beside(&weights), weights, checkpoint }
     }
-    drop(progress);
-    let Some(last) = rounds.last() else {
-        eprintln!("stopped before the first round was over; nothing is written");
-        return Ok(ExitCode::SUCCESS);
+
+    /// Leaves the run as it stands. The checkpoint comes last, so that what it knows of is there.
+    fn write(&self, study: &Study) -> Result<(), Failure> {
+        study.model().write(&self.weights)?;
+        vertifleet_core::write_atomically(&self.curve, to_csv(study.rounds()).as_bytes())?;
+        study.write_checkpoint(&self.checkpoint)?;
+        Ok(())
+    }
+}
+
+pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
+    let plan = plan(arguments)?;
+    vertifleet_core::create_folder(&arguments.out)?;
+    let files = Files::of(&arguments.out);
+    let mut study = if arguments.resume {
+        Study::resume(plan, &files.checkpoint)?
+    } else if files.checkpoint.exists() {
+        return Err(earlier_run(&files.checkpoint));
+    } else {
+        Study::start(plan)?
     };
-    let lines = [
-        format!("rounds             {}", last.round),
-        format!("decisions          {}", last.decisions),
-        format!("gain over prices   {:.2} %", 100.0 * last.gain),
-        format!("  random networks  {:.2} %", 100.0 * last.random_gain),
-        format!("weights            {}", weights.display()),
-        format!("learning curve     {}", curve.display()),
-    ];
-    print(&lines.join("\n"))?;
+    // The round under way is given up then; the files are as the round before left them.
+    let stop = stop_on_interrupt()?;
+    learn(&mut study, &files, &stop)?;
+    tell(&study, &files)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn learn(
-    study: &mut Study,
-    progress: &Progress,
-    stop: &AtomicBool,
-) -> Result<Option<Round>, Failure> {
+/// Learns until all is learned or `stop` is raised, and sets the run aside after every round.
+fn learn(study: &mut Study, files: &Files, stop: &AtomicBool) -> Result<(), Failure> {
+    // Days played and passes made are the units; they take about as long.
+    let Course { rounds, days, passes, .. } = *study.course();
+    let a_round = u64::from(days) + u64::from(passes);
+    let progress = Progress::new(u64::from(rounds) * a_round, "days");
+    progress.already_done(study.rounds().len() as u64 * a_round);
     let go_on = || {
         progress.advance(1);
         !stop.load(Ordering::Relaxed)
     };
-    Ok(study.round(&go_on)?)
+    while !study.is_done() {
+        let Some(round) = study.round(&go_on)? else { break };
+        progress.say(format!("gain over prices {:.2} %", 100.0 * round.gain));
+        files.write(study)?;
+    }
+    Ok(())
 }
 
-/// Days played and passes made are the units; they take about as long.
-fn progress(course: &Course) -> Progress {
-    Progress::new(u64::from(course.rounds) * u64::from(course.days + course.passes), "days")
+fn tell(study: &Study, files: &Files) -> Result<(), Failure> {
+    let Some(last) = study.rounds().last() else {
+        eprintln!("stopped before the first round was over; nothing is written");
+        return Ok(());
+    };
+    let lines = [
+        format!("rounds             {}", last.round),
+        format!("decisions          {}", last.decisions),
+        format!("validation reward  {:.5}", last.validation_reward),
+        format!("gain over prices   {:.2} %", 100.0 * last.gain),
+        format!("  random networks  {:.2} %", 100.0 * last.random_gain),
+        format!("weights            {}", files.weights.display()),
+        format!("learning curve     {}", files.curve.display()),
+    ];
+    print(&lines.join("\n"))?;
+    if !study.is_done() {
+        eprintln!("stopped early; --resume goes on from {}", files.checkpoint.display());
+    }
+    Ok(())
 }
 
-fn study(arguments: &TrainArguments) -> Result<Study, Failure> {
-    if arguments.resume || arguments.steps.is_some() || arguments.preset != "default" {
+fn plan(arguments: &TrainArguments) -> Result<Plan, Failure> {
+    if arguments.steps.is_some() || arguments.preset != "default" {
         return Err(Failure::usage(
-            "--resume, --steps and --preset are not for gcaps-x, which learns in rounds".to_owned(),
+            "--steps and --preset are not for gcaps-x, which learns in rounds".to_owned(),
             "change its settings with --set, as --set rounds=4",
         ));
     }
     let mut course = Course::default();
     course.set(arguments.set.iter().map(|(name, value)| (name.as_str(), value.as_str())))?;
-    let network = Arc::new(Network::find(&arguments.network)?);
-    let architecture = Architecture::named("gcaps-x").expect("a policy with sizes");
-    let origin = (arguments.seed, env!("VERTIFLEET_COMMIT").to_owned());
-    Ok(Study::start(network, architecture, course, origin)?)
+    Ok(Plan {
+        network: Arc::new(Network::find(&arguments.network)?),
+        policy: Architecture::named("gcaps-x").expect("a policy with sizes"),
+        course,
+        seed: arguments.seed,
+        commit: env!("VERTIFLEET_COMMIT").to_owned(),
+    })
 }

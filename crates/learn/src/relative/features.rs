@@ -82,6 +82,15 @@ impl Rows {
         }
     }
 
+    /// Rows of what the [`inputs`](Self::inputs) of others were.
+    pub(crate) fn of(vertiports: usize, nodes: Vec<f32>, aircraft: Vec<f32>) -> Self {
+        let clock = vec![0.0; aircraft.len() / AIRCRAFT_FEATURES];
+        // A node's first number says whether it is on the list.
+        let listed = nodes.iter().step_by(NODE_FEATURES);
+        let mask = listed.map(|&listed| u8::from(listed == 1.0)).collect();
+        Self { nodes, aircraft, mask, clock, ..Self::new(vertiports) }
+    }
+
     pub(crate) fn vertiports(&self) -> usize {
         self.vertiports
     }

@@ -37,7 +37,7 @@ pub(crate) struct Learner {
     net: nn::Network,
     pub(crate) params: Vec<f32>,
     pub(crate) prepared: Prepared,
-    adam: Adam,
+    pub(crate) adam: Adam,
     lanes: Vec<Lane>,
 }
 

@@ -81,7 +81,8 @@ impl Policy for GcapsX {
         let Some((most_tried, rollouts)) = &mut self.rollouts else {
             return Ok(judge.best_of_row(0, scene.unit_usd, listed));
         };
-        let judged = listed.iter().map(|&choice| (judge.worth_usd(0, scene.unit_usd, choice), choice.1));
+        let judged =
+            listed.iter().map(|&choice| (judge.worth_usd(0, scene.unit_usd, choice), choice.1));
         self.judged.clear();
         self.judged.extend(judged);
         self.judged.sort_by(|one, other| other.0.total_cmp(&one.0));

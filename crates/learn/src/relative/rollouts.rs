@@ -106,12 +106,7 @@ impl Rollouts {
 
 impl Course {
     /// Goes on to the next decision between more than one choice; false at the course's end.
-    fn go_on(
-        &mut self,
-        shortlist: &mut Shortlist,
-        prices: &DayPrices,
-        until: Time,
-    ) -> bool {
+    fn go_on(&mut self, shortlist: &mut Shortlist, prices: &DayPrices, until: Time) -> bool {
         if self.usd.is_some() {
             return false;
         }

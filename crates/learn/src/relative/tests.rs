@@ -3,16 +3,15 @@
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
-use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx};
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, random_network};
 use vertifleet_policy::{DayPrices, Policy, Priced, Shortlist, TryOut, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
 use crate::nn::{Architecture, GcapsSettings, Inputs};
-use crate::random_network::random_network;
 use crate::relative::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Rows, Scene};
 use crate::relative::judge::network;
 use crate::relative::weights::Source;
-use crate::relative::{AnyModel, Course, GcapsX, Study};
+use crate::relative::{AnyModel, Course, GcapsX, Plan, Study};
 
 fn small() -> Architecture {
     Architecture::GcapsX(GcapsSettings { width: 8, heads: 2 })
@@ -142,19 +141,78 @@ fn a_weight_file_reads_as_it_was_written_and_knows_no_number_of_vertiports() {
     assert!(!header.contains("\"vertiports\""), "{header}");
 }
 
+fn plan() -> Plan {
+    let network = Arc::new(Network::shipped("paper").expect("a shipped network"));
+    Plan { network, policy: small(), course: course(), seed: 5, commit: String::new() }
+}
+
+/// The weights when all rounds are done.
+fn learned(mut study: Study) -> Vec<u8> {
+    while !study.is_done() {
+        study.round(&|| true).expect("days enough").expect("nobody stops it");
+    }
+    study.model().to_bytes()
+}
+
+#[test]
+fn a_run_that_is_cut_off_goes_on_to_the_same_weights_and_rounds() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("checkpoint");
+    let mut cut = Study::start(plan()).expect("settings within their bounds");
+    cut.round(&|| true).expect("days enough").expect("nobody stops it");
+    cut.write_checkpoint(&path).expect("a file");
+    assert!(cut.round(&|| false).expect("days enough").is_none(), "the second round is given up");
+
+    let resumed = Study::resume(plan(), &path).expect("a checkpoint of this run");
+    assert_eq!(resumed.rounds(), cut.rounds());
+    let whole = Study::start(plan()).expect("settings within their bounds");
+    assert!(learned(resumed) == learned(whole), "the same weights");
+}
+
+#[test]
+fn a_checkpoint_of_another_run_or_damaged_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("checkpoint");
+    let mut study = Study::start(plan()).expect("settings within their bounds");
+    study.round(&|| true).expect("days enough").expect("nobody stops it");
+    study.write_checkpoint(&path).expect("a file");
+    let refused = |plan: Plan| {
+        let error = Study::resume(plan, &path).err().expect("another run");
+        assert_eq!(error.code().to_string(), "V306");
+        error.to_string()
+    };
+    assert!(refused(Plan { seed: 6, ..plan() }).contains("with seed 5, but 6 is asked for"));
+    let course = Course { passes: 3, ..course() };
+    assert!(refused(Plan { course, ..plan() }).contains("with setting passes 2, but 3"));
+    let network = Arc::new(Network::shipped("new-york").expect("a shipped network"));
+    assert!(refused(Plan { network, ..plan() }).contains("with network paper"));
+    let policy = Architecture::GcapsX(GcapsSettings { width: 16, heads: 2 });
+    assert!(refused(Plan { policy, ..plan() }).contains("with policy"));
+
+    let whole = std::fs::read(&path).expect("the checkpoint");
+    let text = |bytes: &[u8], from: &str, to: &str| {
+        let at = bytes.windows(from.len()).position(|window| window == from.as_bytes());
+        let mut bytes = bytes.to_vec();
+        bytes[at.expect("a part of it")..][..to.len()].copy_from_slice(to.as_bytes());
+        bytes
+    };
+    let not_finite = [&whole[..whole.len() - 4], &f32::NAN.to_le_bytes()].concat();
+    for (bytes, rule) in [
+        (whole[..whole.len() / 2].to_vec(), ""),
+        (text(&whole, "lessons.8.nodes", "lessons.8.modes"), "lessons.8.nodes"),
+        (text(&whole, "\\\"vertiports\\\":[8", "\\\"vertiports\\\":[0"), "1 to 256 vertiports"),
+        (not_finite, "not finite"),
+    ] {
+        std::fs::write(&path, bytes).expect("a file");
+        assert!(refused(plan()).contains(rule), "{rule}");
+    }
+}
+
 #[test]
 fn a_run_has_one_outcome_on_any_number_of_threads() {
     let run = |threads| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| {
-            let paper = Arc::new(Network::shipped("paper").expect("a shipped network"));
-            let mut study = Study::start(paper, small(), course(), (5, String::new()))
-                .expect("settings within their bounds");
-            while !study.is_done() {
-                study.round(&|| true).expect("days enough").expect("nobody stops it");
-            }
-            study.model().to_bytes()
-        })
+        pool.install(|| learned(Study::start(plan()).expect("settings within their bounds")))
     };
     assert!(run(1) == run(3));
 }

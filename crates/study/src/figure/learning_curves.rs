@@ -1,8 +1,9 @@
-//! Learning curves: mean episode reward against steps of training, one line a policy (Fig. 3).
+//! Learning curves: mean reward against decisions learned from, on the training days (Fig. 3) and on the validation days.
 
 use super::Figure;
 use super::axis::Scale;
-use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened, text_width};
+use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};
+use super::key;
 use super::palette::{Paint, dash};
 use crate::numbers::{grouped, typeset};
 use crate::record::Curve;
@@ -11,74 +12,105 @@ use crate::summary::Summary;
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 70.0;
 const RIGHT: f64 = 24.0;
-const KEY: f64 = 72.0;
-const KEY_ROW: f64 = 22.0;
+/// From the left end of a line of the key to its name.
+const KEY_LINE: f64 = 41.0;
 const PLOT_HEIGHT: f64 = 272.0;
 const BOTTOM: f64 = 52.0;
 
 /// Markers on a line: enough to tell lines apart in grey, few enough to see the line.
 const MARKERS: usize = 9;
 
-/// A curve's points in pixels and the series whose colour, dash and marker it has.
-struct Line {
+/// What a figure of this kind shows.
+struct Chart {
+    slug: &'static str,
+    title: &'static str,
+    subtitle: &'static str,
+    axis: &'static str,
+    caption: &'static str,
+}
+
+const ON_TRAINING_DAYS: Chart = Chart {
+    slug: "figure-3-learning-curves",
+    title: "Learning curves",
+    subtitle: "Mean episode reward on the training days against steps of training",
+    axis: "steps of training",
+    caption: "Corresponds to Fig. 3 of the paper. Reward: profit as a share of the revenue if every passenger flew; a step is one decision.",
+};
+
+const ON_VALIDATION_DAYS: Chart = Chart {
+    slug: "figure-validation-curves",
+    title: "Learning curves on the validation days",
+    subtitle: "Mean reward, best choices, against decisions learned from",
+    axis: "decisions learned from",
+    caption: "Policies that learn in different ways, on one scale: decisions learned from are steps of PPO, and decisions whose choices were \
+              tried out of gcaps-x. A thick line with marks is the run whose weights play; thin lines are runs with other seeds.",
+};
+
+/// The runs of a policy; the first is the one whose weights play.
+struct Lesson<'a> {
+    name: &'a str,
+    runs: Vec<Vec<Point>>,
+}
+
+/// A policy's lines in pixels and the series whose colour, dash and marker they have.
+struct Lines {
     name: String,
     series: usize,
-    points: Vec<Point>,
+    runs: Vec<Vec<Point>>,
 }
 
 /// Fig. 3; `None` if no curve has a point.
-pub(super) fn figure(summary: &Summary) -> Option<Figure> {
-    // Before the first episode ends there is no mean reward to draw.
-    let defined = |curve: &Curve| -> Vec<Point> {
-        let points = curve.points.iter().filter(|point| point.1.is_finite());
-        points.map(|&(steps, reward)| (steps as f64, reward)).collect()
-    };
-    let curves: Vec<(&Curve, Vec<Point>)> = summary
-        .curves
-        .iter()
-        .map(|curve| (curve, defined(curve)))
-        .filter(|(_, p)| !p.is_empty())
-        .collect();
-    if curves.is_empty() {
+pub(super) fn on_training_days(summary: &Summary) -> Option<Figure> {
+    let curves = summary.curves.iter();
+    let lesson = |curve: &'_ Curve| vec![defined(&curve.points)];
+    let lessons = curves.map(|curve| Lesson { name: &curve.name, runs: lesson(curve) });
+    draw(summary, &ON_TRAINING_DAYS, lessons.collect())
+}
+
+/// The same on the validation days, a line a run; `None` if nobody was trained.
+pub(super) fn on_validation_days(summary: &Summary) -> Option<Figure> {
+    let lessons = summary.trainings.iter().map(|training| Lesson {
+        name: &training.policy,
+        runs: training.curves.iter().map(|run| defined(run)).collect(),
+    });
+    draw(summary, &ON_VALIDATION_DAYS, lessons.collect())
+}
+
+/// Before the first episode ends there is no mean reward to draw.
+fn defined(points: &[(u64, f64)]) -> Vec<Point> {
+    let points = points.iter().filter(|point| point.1.is_finite());
+    points.map(|&(steps, reward)| (steps as f64, reward)).collect()
+}
+
+fn draw(summary: &Summary, chart: &Chart, mut lessons: Vec<Lesson<'_>>) -> Option<Figure> {
+    lessons.retain(|lesson| lesson.runs.iter().any(|run| !run.is_empty()));
+    if lessons.is_empty() {
         return None;
     }
-    let names: Vec<String> = curves.iter().map(|(curve, _)| shortened(&curve.name, 22)).collect();
-    let places = key_places(&names);
-    let top = places.last().map_or(KEY, |place| place.1) + 24.0;
+    let names: Vec<String> = lessons.iter().map(|lesson| shortened(lesson.name, 22)).collect();
+    let (places, last_row) = key::places(&names, KEY_LINE, WIDTH);
+    let top = last_row + 24.0;
     let floor = top + PLOT_HEIGHT;
-    let values = || curves.iter().flat_map(|(_, points)| points);
+    let values = || lessons.iter().flat_map(|lesson| &lesson.runs).flatten();
     let x = Scale::around(values().map(|p| p.0).chain([0.0]), (LEFT, WIDTH - RIGHT), 6);
     let y = Scale::around(values().map(|p| p.1), (floor, top), 6);
-    let lines: Vec<Line> = curves
-        .iter()
-        .zip(names)
-        .enumerate()
-        .map(|(position, ((curve, points), name))| Line {
-            name,
-            series: series(summary, &curve.name, position),
-            points: points.iter().map(|p| (x.pixel(p.0), y.pixel(p.1))).collect(),
-        })
-        .collect();
+    let pixels = |run: &Vec<Point>| run.iter().map(|p| (x.pixel(p.0), y.pixel(p.1))).collect();
+    let lines = lessons.iter().zip(names).enumerate().map(|(position, (lesson, name))| Lines {
+        name,
+        series: series(summary, lesson.name, position),
+        runs: lesson.runs.iter().map(pixels).collect(),
+    });
+    let lines: Vec<Lines> = lines.collect();
 
-    let mut canvas = Canvas::new(
-        WIDTH,
-        floor + BOTTOM,
-        "Learning curves",
-        "Mean episode reward on the training days against steps of training",
-    );
-    draw_axes(&mut canvas, &x, &y, floor);
-    for line in &lines {
-        draw_line(&mut canvas, line);
+    let mut canvas = Canvas::new(WIDTH, floor + BOTTOM, chart.title, chart.subtitle);
+    draw_axes(&mut canvas, (&x, chart.axis), &y, floor);
+    for lines in &lines {
+        draw_lines(&mut canvas, lines);
     }
-    for (line, place) in lines.iter().zip(places) {
-        draw_key(&mut canvas, line, place);
+    for (lines, place) in lines.iter().zip(places) {
+        draw_key(&mut canvas, lines, place);
     }
-    Some(Figure {
-        slug: "figure-3-learning-curves",
-        caption: "Corresponds to Fig. 3 of the paper. Reward: profit as a share of the revenue if every passenger flew; a step is one decision."
-            .to_owned(),
-        svg: canvas.into_svg(),
-    })
+    Some(Figure { slug: chart.slug, caption: chart.caption.to_owned(), svg: canvas.into_svg() })
 }
 
 /// A curve looks like the policy of its name; other curves take what no policy has.
@@ -87,7 +119,7 @@ fn series(summary: &Summary, name: &str, position: usize) -> usize {
     policy.unwrap_or(summary.policies.len() + position)
 }
 
-fn draw_axes(canvas: &mut Canvas, x: &Scale, y: &Scale, floor: f64) {
+fn draw_axes(canvas: &mut Canvas, (x, axis): (&Scale, &str), y: &Scale, floor: f64) {
     let decimals = y.decimals(1.0);
     for tick in y.ticks() {
         let height = y.pixel(tick);
@@ -97,9 +129,9 @@ fn draw_axes(canvas: &mut Canvas, x: &Scale, y: &Scale, floor: f64) {
     }
     let steps = x.ticks();
     let (unit, name) = match steps.last() {
-        Some(&last) if last >= 1e6 => (1e6, "steps of training, millions"),
-        Some(&last) if last >= 1e4 => (1e3, "steps of training, thousands"),
-        _ => (1.0, "steps of training"),
+        Some(&last) if last >= 1e6 => (1e6, format!("{axis}, millions")),
+        Some(&last) if last >= 1e4 => (1e3, format!("{axis}, thousands")),
+        _ => (1.0, axis.to_owned()),
     };
     let decimals = x.decimals(unit);
     for tick in steps {
@@ -110,38 +142,28 @@ fn draw_axes(canvas: &mut Canvas, x: &Scale, y: &Scale, floor: f64) {
     }
     canvas.line((LEFT, floor), (WIDTH - RIGHT, floor), Stroke::solid(Paint::Muted, 1.0));
     let middle = f64::midpoint(LEFT, WIDTH - RIGHT);
-    canvas.text((middle, floor + 38.0), Lettering::SMALL.anchored(Anchor::Middle), name);
+    canvas.text((middle, floor + 38.0), Lettering::SMALL.anchored(Anchor::Middle), &name);
 }
 
-fn draw_line(canvas: &mut Canvas, line: &Line) {
-    let stroke = Stroke { paint: Paint::Series(line.series), width: 2.0, dash: dash(line.series) };
-    canvas.polyline(&line.points, false, Look::outlined(stroke));
+fn draw_lines(canvas: &mut Canvas, lines: &Lines) {
+    let Some((played, others)) = lines.runs.split_first() else { return };
+    let (paint, dash) = (Paint::Series(lines.series), dash(lines.series));
+    for run in others {
+        canvas.polyline(run, false, Look::outlined(Stroke { paint, width: 1.0, dash }));
+    }
+    canvas.polyline(played, false, Look::outlined(Stroke { paint, width: 2.0, dash }));
     // Each series starts its markers a little later, so that lines that run together keep theirs apart.
-    let every = (line.points.len() / MARKERS).max(1);
-    let first = (line.series * every / 3) % every;
-    for &point in line.points.iter().skip(first).step_by(every) {
-        canvas.marker(point, line.series);
+    let every = (played.len() / MARKERS).max(1);
+    let first = (lines.series * every / 3) % every;
+    for &point in played.iter().skip(first).step_by(every) {
+        canvas.marker(point, lines.series);
     }
 }
 
-/// Where each name of the key begins: side by side, in as many rows as they need.
-fn key_places(names: &[String]) -> Vec<Point> {
-    let (mut x, mut y) = (16.0, KEY);
-    let mut places = Vec::with_capacity(names.len());
-    for name in names {
-        let width = 41.0 + text_width(name, 13.0) + 24.0;
-        if x > 16.0 && x + width > WIDTH {
-            (x, y) = (16.0, y + KEY_ROW);
-        }
-        places.push((x, y));
-        x += width;
-    }
-    places
-}
-
-fn draw_key(canvas: &mut Canvas, line: &Line, (x, y): Point) {
-    let stroke = Stroke { paint: Paint::Series(line.series), width: 2.0, dash: dash(line.series) };
+fn draw_key(canvas: &mut Canvas, lines: &Lines, (x, y): Point) {
+    let stroke =
+        Stroke { paint: Paint::Series(lines.series), width: 2.0, dash: dash(lines.series) };
     canvas.line((x, y), (x + 34.0, y), stroke);
-    canvas.marker((x + 17.0, y), line.series);
-    canvas.text((x + 41.0, y + 4.0), Lettering::LABEL, &line.name);
+    canvas.marker((x + 17.0, y), lines.series);
+    canvas.text((x + KEY_LINE, y + 4.0), Lettering::LABEL, &lines.name);
 }

@@ -1,6 +1,8 @@
 //! Made-up results of five policies, the same on every machine: for tests and the sample report.
 
-use vertifleet_study::{Curve, DayRecord, LatencySummary, NetworkOrigin, PolicyRecord, Study};
+use vertifleet_study::{
+    Curve, DayRecord, LatencySummary, NetworkOrigin, PolicyRecord, Study, Training,
+};
 
 /// How a made-up policy does.
 struct Outline {
@@ -74,6 +76,12 @@ pub(crate) fn study(days: usize) -> Study {
         decision_ns: Some(outline.decision_ns),
     });
     let policies = policies.collect();
+    let mut runs = |name, end, start, seeds: usize| Training {
+        name,
+        runs: (0..seeds).map(|_| curve("", end, start, &mut noise).points).collect(),
+    };
+    let trainings =
+        vec![runs("gcaps".to_owned(), 0.293, 0.255, 3), runs("mlp".to_owned(), 0.272, 0.250, 1)];
     Study {
         network: "paper".to_owned(),
         network_origin: NetworkOrigin::Shipped,
@@ -88,6 +96,7 @@ pub(crate) fn study(days: usize) -> Study {
             curve("gcaps", 0.291, 0.252, &mut noise),
             curve("mlp", 0.270, 0.249, &mut noise),
         ],
+        trainings,
     }
 }
 

@@ -1,15 +1,17 @@
-//! Networks drawn from a number: what `gcaps-x` learns on, and what shows how it does on networks that it never saw.
+//! Networks drawn from a number: to learn on, and to show how a policy does on networks that it never saw.
 //!
 //! They differ in all that a network file says: 5 to 30 vertiports, 10 to 150 aircraft, how far apart, how many stands and
 //! seats, how fast, how dear, and how much demand there is for what the fleet could carry, from half of it to tenfold.
 
 use std::fmt::Write;
 
+use crate::{Network, Purpose};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use vertifleet_core::{Network, Purpose};
 
-/// Draws a network. Those of one purpose are never those of another, so what was trained on some can be judged on others.
+/// Draws a network: all that a network file says. [`Network::find`] finds those for comparison by `random:NUMBER`.
+///
+/// Those of one purpose are never those of another, so what was trained on some can be judged on others.
 pub fn random_network(purpose: Purpose, number: u64) -> Network {
     let text = text(purpose, number);
     Network::from_toml(&text, "a random network").expect("every number drawn is within its bounds")
@@ -136,9 +138,8 @@ fn word(purpose: Purpose) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use vertifleet_core::Purpose;
-
     use super::{random_network, text};
+    use crate::{DaySeed, Network, Purpose};
 
     #[test]
     fn every_number_gives_a_network_within_what_is_promised() {
@@ -150,6 +151,16 @@ mod tests {
                 let stands = network.vertiports().iter().map(|one| usize::from(one.stands));
                 assert!(stands.sum::<usize>() > fleet);
             }
+        }
+    }
+
+    #[test]
+    fn the_random_network_of_a_number_is_found_by_its_name() {
+        let seed = DaySeed::comparison(1).expect("a seed");
+        let found = Network::find("random:7").expect("a random network");
+        assert_eq!(found.draw(seed), random_network(Purpose::Comparison, 7).draw(seed));
+        for name in ["random:", "random:-1", "random:seven"] {
+            assert_eq!(Network::find(name).expect_err("no number").code().to_string(), "V119");
         }
     }
 

@@ -1,0 +1,66 @@
+//! `vertifleet generalise`: a day each of many random networks, many policies, one table and one report.
+
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use anstream::eprintln;
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, random_network};
+use vertifleet_optimize::Step;
+use vertifleet_study::generalisation::{self, NetworkRecord, Study, Summary};
+use vertifleet_study::report;
+
+use crate::args::GeneraliseArguments;
+use crate::commands::days::{bounded, command, play};
+use crate::entrants::{self, Asked};
+use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
+use crate::output::print;
+
+/// Seed of the random policy and of the planner's search: the days differ enough.
+const SEED: u64 = 0;
+
+pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
+    let step = Step::from_minutes(arguments.step)?;
+    let asked = Asked {
+        policies: &arguments.policies,
+        models: &arguments.models,
+        seed: SEED,
+        network: "random",
+    };
+    let entrants = asked.entrants()?;
+    let contenders = entrants::contenders(&entrants)?;
+    if let Some(folder) = &arguments.report {
+        report::check_folder(folder)?;
+    }
+    let numbers = || 0..u64::from(arguments.networks);
+    let scenarios: Vec<Arc<Scenario>> = numbers().map(day).collect::<Result<_, Failure>>()?;
+    for scenario in &scenarios {
+        entrants.iter().try_for_each(|entrant| entrant.check_fits(scenario))?;
+    }
+    let record = |(number, scenario): (u64, &Arc<Scenario>)| NetworkRecord {
+        name: Network::random_name(number),
+        vertiports: scenario.vertiports.len(),
+        aircraft: scenario.aircraft.len(),
+    };
+    let networks = numbers().zip(&scenarios).map(record).collect();
+    let days = bounded(scenarios, step)?;
+    let policies = play(&days, &contenders, entrants.len())?;
+    let study = Study { bound_step_s: step.seconds(), command: command(), networks, policies };
+    let summary = Summary::of(&study)?;
+    if arguments.json {
+        print(&summary.to_json())?;
+    } else {
+        print(&generalisation::text(&summary))?;
+    }
+    if let Some(folder) = &arguments.report {
+        eprintln!("report: {}", generalisation::write(&study, folder)?.display());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The day of a random network that has the same number.
+fn day(number: u64) -> Result<Arc<Scenario>, Failure> {
+    let network = random_network(Purpose::Comparison, number);
+    Ok(Arc::new(network.draw(DaySeed::comparison(number)?)))
+}

@@ -1,0 +1,59 @@
+//! The study as plain text for a terminal: one row a policy.
+
+use super::{PolicySummary, Summary};
+use crate::numbers::{counted, grouped, minutes, p_value, signed};
+use crate::table::{append_aligned, estimate};
+
+/// Behind the name of who knows the day.
+const OFFLINE_MARK: &str = " *";
+
+/// The text that `generalise` prints. No line end after the last line.
+pub fn text(summary: &Summary) -> String {
+    let first = &summary.first().name;
+    let networks = counted(summary.networks.len(), "random network", "random networks");
+    let mut text = format!("{networks}, a day of each\n\n");
+    let heading = [
+        "policy".to_owned(),
+        "of bound, %".to_owned(),
+        "lowest, %".to_owned(),
+        format!("above {first}"),
+        format!("minus {first}, points"),
+        "p".to_owned(),
+    ];
+    let mut rows = vec![heading.to_vec()];
+    rows.extend(summary.policies.iter().map(|policy| row(policy, summary.networks.len())));
+    append_aligned(&mut text, &rows);
+    text.push_str("means over the networks; ± is the 95 % interval of the mean; p is of paired t-tests, two-sided\n");
+    let step = minutes(summary.bound_step_s);
+    text += &format!(
+        "of bound: share of what no schedule of the day earns more than (steps of {step})"
+    );
+    if summary.policies.iter().any(|policy| policy.knows_the_day) {
+        text.push_str("\n* knows the whole day beforehand: a reference, no policy");
+    }
+    text
+}
+
+fn row(policy: &PolicySummary, networks: usize) -> Vec<String> {
+    let mark = if policy.knows_the_day { OFFLINE_MARK } else { "" };
+    let percent = |share: f64| grouped(100.0 * share, 2);
+    let [above, minus, p] = match &policy.minus_first {
+        None => [const { String::new() }; 3],
+        Some(test) => {
+            let half = test.difference.half_width_95.map(|half| format!(" ± {}", percent(half)));
+            [
+                format!("{} of {networks}", test.first_larger),
+                signed(100.0 * test.difference.mean, 2) + &half.unwrap_or_default(),
+                p_value(test.p_value),
+            ]
+        }
+    };
+    vec![
+        policy.name.clone() + mark,
+        estimate(&policy.bound_share, percent),
+        percent(policy.lowest_bound_share),
+        above,
+        minus,
+        p,
+    ]
+}
