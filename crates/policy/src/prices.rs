@@ -19,10 +19,11 @@ use vertifleet_sim::{Decision, View};
 use relaxation::Relaxation;
 use volume::{Effort, Volume};
 
-/// Passes over the day where there are no prices yet, and length of the first step.
-const FIRST: Effort = Effort { passes: 500, step: 1.0 };
+/// Passes over the day where there are no prices yet, and length of the first step. Days of up to about 60 vertiports have
+/// all the passes, here and below up to 30; on larger ones more would take longer than a dispatcher can wait.
+const FIRST: Effort = Effort { passes: 500, hops: 480_000_000, step: 1.0 };
 /// The same where there are some. Longer steps leave good prices behind: days earned 0.8 % less with 1.0.
-const AGAIN: Effort = Effort { passes: 150, step: 0.1 };
+const AGAIN: Effort = Effort { passes: 150, hops: 37_000_000, step: 0.1 };
 /// Seconds after which prices are found anew. On days of `paper` 5 minutes earned no more.
 const RENEWAL_S: u32 = 900;
 
@@ -32,6 +33,8 @@ pub struct DayPrices {
     relaxation: Relaxation,
     volume: Volume,
     made_at: Time,
+    /// Openings and closings of routes that the prices know.
+    route_changes: usize,
 }
 
 impl DayPrices {
@@ -41,13 +44,15 @@ impl DayPrices {
         let mut volume = Volume::new(&relaxation);
         relaxation.take_up(view);
         volume.search(&mut relaxation, FIRST);
-        Self { relaxation, volume, made_at: now }
+        Self { relaxation, volume, made_at: now, route_changes: view.route_changes() }
     }
 
-    /// Keeps up with the day: after a quarter of an hour, prices are found anew from these ones, with the fleet and the
-    /// demand as they are by then. `now` is the view's moment, later on the same day.
+    /// Keeps up with the day: after a quarter of an hour, and at once when a route closes or opens, prices are found anew from
+    /// these ones, with the fleet and the demand as they are by then. `now` is the view's moment, later on the same day.
     pub fn keep_up(&mut self, view: View<'_>, now: Time) {
-        if now >= self.made_at + RENEWAL_S {
+        let changes = view.route_changes();
+        if now >= self.made_at + RENEWAL_S || changes != self.route_changes {
+            self.route_changes = changes;
             self.relaxation.take_up(view);
             self.volume.search(&mut self.relaxation, AGAIN);
             self.made_at = now;
@@ -76,16 +81,14 @@ impl DayPrices {
     pub fn choice_usd(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
         let Decision { time, aircraft, at: from, .. } = *decision;
         let kind = view.kind(aircraft);
-        let way_on_usd =
-            |ready_s| self.relaxation.ways_on().usd(kind, to, time.seconds(), ready_s);
+        let way_on_usd = |ready_s| self.relaxation.ways_on().usd(kind, to, time.seconds(), ready_s);
         if to == from {
             return way_on_usd((time + view.hold_s()).seconds());
         }
         let period = view.period();
         let waiting = view.demand_left(period, from, to);
         let ready = time + view.leg(kind, from, to).block_s();
-        view.flight_profit_usd(time, kind, (from, to), waiting)
-            + way_on_usd(ready.seconds())
+        view.flight_profit_usd(time, kind, (from, to), waiting) + way_on_usd(ready.seconds())
     }
 
     /// The feasible choice that is worth most; the vertiport listed first among equals.

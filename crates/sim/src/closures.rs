@@ -72,6 +72,12 @@ impl Closures {
         self.next = 0;
     }
 
+    /// Openings and closings that have happened.
+    #[inline]
+    pub(crate) fn changes_so_far(&self) -> usize {
+        self.next
+    }
+
     /// Whether the day has no closures at all.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
