@@ -21,10 +21,11 @@ use relaxation::Relaxation;
 use units::units_usd;
 use volume::{Effort, Volume};
 
-/// Passes over the day where there are no prices yet, and length of the first step.
-const FIRST: Effort = Effort { passes: 500, step: 1.0 };
+/// Passes over the day where there are no prices yet, and length of the first step. Days of up to about 60 vertiports have
+/// all the passes, here and below up to 30; on larger ones more would take longer than a dispatcher can wait.
+const FIRST: Effort = Effort { passes: 500, hops: 480_000_000, step: 1.0 };
 /// The same where there are some. Longer steps leave good prices behind: days earned 0.8 % less with 1.0.
-const AGAIN: Effort = Effort { passes: 150, step: 0.1 };
+const AGAIN: Effort = Effort { passes: 150, hops: 37_000_000, step: 0.1 };
 /// Seconds after which prices are found anew. On days of `paper` 5 minutes earned no more.
 const RENEWAL_S: u32 = 900;
 
@@ -35,6 +36,8 @@ pub struct DayPrices {
     volume: Volume,
     units_usd: Vec<f64>,
     made_at: Time,
+    /// Openings and closings of routes that the prices know.
+    route_changes: usize,
 }
 
 impl DayPrices {
@@ -44,13 +47,16 @@ impl DayPrices {
         let mut volume = Volume::new(&relaxation);
         relaxation.take_up(view);
         volume.search(&mut relaxation, FIRST);
-        Self { relaxation, volume, units_usd: units_usd(view), made_at: now }
+        let route_changes = view.route_changes();
+        Self { relaxation, volume, units_usd: units_usd(view), made_at: now, route_changes }
     }
 
-    /// Keeps up with the day: after a quarter of an hour, prices are found anew from these ones, with the fleet and the
-    /// demand as they are by then. `now` is the view's moment, later on the same day.
+    /// Keeps up with the day: after a quarter of an hour, and at once when a route closes or opens, prices are found anew from
+    /// these ones, with the fleet and the demand as they are by then. `now` is the view's moment, later on the same day.
     pub fn keep_up(&mut self, view: View<'_>, now: Time) {
-        if now >= self.made_at + RENEWAL_S {
+        let changes = view.route_changes();
+        if now >= self.made_at + RENEWAL_S || changes != self.route_changes {
+            self.route_changes = changes;
             self.relaxation.take_up(view);
             self.volume.search(&mut self.relaxation, AGAIN);
             self.made_at = now;

@@ -69,6 +69,12 @@ impl Closures {
         }
     }
 
+    /// Openings and closings that have happened.
+    #[inline]
+    pub(crate) fn changes_so_far(&self) -> usize {
+        self.next
+    }
+
     /// Whether the day has no closures at all.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {

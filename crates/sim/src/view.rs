@@ -89,6 +89,12 @@ impl<'a> View<'a> {
         self.simulation.closures().from(from)
     }
 
+    /// How often routes have closed or opened so far: while it stays the same, so does what is closed.
+    #[inline]
+    pub fn route_changes(&self) -> usize {
+        self.simulation.closures().changes_so_far()
+    }
+
     /// Where each aircraft stands or will land.
     #[inline]
     pub fn places(&self) -> &'a [VertiportIx] {

@@ -13,7 +13,7 @@ use common::extended::extended_day;
 /// Everything that a view shows at a decision, as text.
 fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     let mut shown = vec![format!(
-        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
         view.feasible(decision),
         view.places(),
         view.stands_taken(),
@@ -26,6 +26,7 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         view.vertiports(),
         view.period_at(decision.time + 1800),
         view.day() == view.day(),
+        view.route_changes(),
     )];
     for aircraft in AircraftIx::all(view.places().len()) {
         let kind = view.kind(aircraft);

@@ -99,6 +99,11 @@ impl Relaxation {
         (self.first_slot * self.vertiports, self.first_period * pairs)
     }
 
+    /// Hops that a pass looks at, in all slots from now on.
+    pub(super) fn hops_a_pass(&self) -> usize {
+        self.hops.len() * (self.clock.slots - self.first_slot)
+    }
+
     /// What the fleet earns for itself at the prices, and what they give back for all that there is; sets the excess.
     pub(super) fn evaluate(&mut self) -> f64 {
         self.hops.charge(self.first_period, &self.passenger_usd);
@@ -107,14 +112,13 @@ impl Relaxation {
         self.offer_usd() + self.send_fleet()
     }
 
-    /// Sets the excess to what there is, with nobody asking. Returns what all of it costs.
+    /// Sets the excess of passengers to what there is, with nobody asking, and that of stands to nothing. Returns what all
+    /// that there is costs.
     fn offer_usd(&mut self) -> f64 {
         let (stand, passenger) = self.begins();
         let mut usd = 0.0;
-        let stands = self.stands.iter().cycle();
-        let offers = self.stand_excess[stand..].iter_mut().zip(&self.stand_usd[stand..]);
-        for ((excess, price_usd), stands) in offers.zip(stands) {
-            *excess = -stands;
+        self.stand_excess[stand..].fill(0.0);
+        for (price_usd, stands) in self.stand_usd[stand..].iter().zip(self.stands.iter().cycle()) {
             usd += price_usd * stands;
         }
         let offers = self.passenger_excess[passenger..].iter_mut();
@@ -135,6 +139,7 @@ impl Relaxation {
             usd += self.ways_on.usd(kind, place, self.clock.begin_s(self.first_slot), at_s);
             self.send(kind, place, at_s);
         }
+        self.count_stands();
         usd
     }
 
@@ -164,12 +169,30 @@ impl Relaxation {
         self.ask(place, slot, slots);
     }
 
+    /// Notes that a stand is asked for from one slot until another: one more from the first on, one less from the other on.
     #[inline]
     fn ask(&mut self, place: VertiportIx, from: usize, until: usize) {
-        let size = self.vertiports;
-        let asked = self.stand_excess[from * size..until * size].iter_mut();
-        for excess in asked.skip(place.at()).step_by(size) {
-            *excess += 1.0;
+        for (slot, more) in [(from, 1.0), (until, -1.0)] {
+            // Past the last slot nobody counts.
+            if let Some(excess) = self.stand_excess.get_mut(slot * self.vertiports + place.at()) {
+                *excess += more;
+            }
+        }
+    }
+
+    /// Turns what was noted into what is asked for in each slot beyond what there is.
+    fn count_stands(&mut self) {
+        let first = self.first_slot * self.vertiports;
+        let (mut before, mut rest) = self.stand_excess[first..].split_at_mut(self.vertiports);
+        for (excess, stands) in before.iter_mut().zip(&self.stands) {
+            *excess -= stands;
+        }
+        while !rest.is_empty() {
+            let (row, later) = rest.split_at_mut(self.vertiports);
+            for (excess, before) in row.iter_mut().zip(&*before) {
+                *excess += before;
+            }
+            (before, rest) = (row, later);
         }
     }
 

@@ -235,3 +235,44 @@ impl BackwardPass<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use pulp::Arch;
+    use vertifleet_core::{DaySeed, Network};
+    use vertifleet_sim::Simulation;
+
+    use super::super::clock::Clock;
+    use super::super::hops::Hops;
+    use super::WaysOn;
+
+    #[test]
+    fn vectors_of_any_width_give_the_same_tables() {
+        let network = Network::shipped("new-york").expect("a shipped network");
+        let day = Arc::new(network.draw(DaySeed::validation(1).expect("a seed")));
+        let simulation = Simulation::new(day);
+        let view = simulation.view();
+        let clock = Clock::of(view);
+        let mut hops = Hops::of(view, &clock);
+        hops.take_up(view);
+        let pairs = view.period_starts().len() * view.vertiports() * view.vertiports();
+        hops.charge(0, &vec![1.5; pairs]);
+        let stand_usd: Vec<f64> =
+            (0..clock.slots * view.vertiports()).map(|at| (at % 7) as f64 / 3.0).collect();
+        let periods: Vec<usize> = (0..clock.slots)
+            .map(|slot| view.period_at(view.day_start() + (clock.begin_s(slot) - clock.start_s)))
+            .collect();
+        let tables = |arch: Arch| {
+            let mut ways_on = WaysOn::of(view, &clock);
+            ways_on.arch = arch;
+            ways_on.pay(&stand_usd, 3);
+            ways_on.value(&hops, &periods, 3);
+            (ways_on.worth_less_paid_usd, ways_on.best)
+        };
+        let widest = tables(Arch::new());
+        assert!(widest.0.iter().any(|&usd| usd > 100.0), "flights are worth something");
+        assert_eq!(tables(Arch::Scalar), widest);
+    }
+}
