@@ -20,7 +20,6 @@ mod training;
 mod weights;
 
 pub use course::Course;
-pub use lessons::Expert;
 pub use policy::GcapsX;
 pub use training::{Plan, Round, Study};
 pub use weights::{AnyHeader, AnyModel, AnyShape};

@@ -49,16 +49,23 @@ fn no_sequence_of_decisions_of_a_tiny_day_earns_more_than_its_bound() {
 
 #[test]
 fn no_sequence_of_decisions_of_a_tiny_disturbed_day_earns_more_than_its_bound() {
-    let compared = (0..200_u32).into_par_iter().filter(|&number| {
-        let day = any_extended_day(number.into(), Size { vertiports: 3, fleet: 3, hours: 2 });
-        let Some(best) = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000) else {
-            return false;
-        };
-        let bound = bound_usd(&day, [1, 5, 13, 60][number as usize % 4]);
-        assert!(bound >= best, "day {number}: bound {bound}, possible {best}");
-        true
-    });
-    assert!(compared.count() >= 40, "enough days have few sequences");
+    let excess_usd: Vec<f64> = (0..200_u32)
+        .into_par_iter()
+        .filter_map(|number| {
+            let day = any_extended_day(number.into(), Size { vertiports: 3, fleet: 3, hours: 2 });
+            let best = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000)?;
+            let bounds = [1, [5, 13, 60][number as usize % 3]].map(|step| bound_usd(&day, step));
+            for bound in bounds {
+                assert!(bound >= best, "day {number}: bound {bound}, possible {best}");
+            }
+            (best > 0.0).then_some(bounds[0] - best)
+        })
+        .collect();
+    let compared = excess_usd.len();
+    assert!(compared >= 40, "{compared} days have few sequences");
+    // The others have stands, passengers or outages that no prices can put right.
+    let exact = excess_usd.iter().filter(|&&excess_usd| excess_usd < 0.01).count();
+    assert!(3 * exact >= compared, "{exact} of {compared} bounds are the optimum");
 }
 
 #[test]
@@ -83,6 +90,41 @@ fn where_nothing_is_scarce_the_bound_is_the_optimum() {
     assert!(compared >= 40, "{compared} days have few enough sequences");
 }
 
+/// A day on which the bound gives nothing away: one aircraft, passengers for every flight who all pay more than they cost,
+/// electricity at one price, no outages, and routes that close and open only when a demand period begins.
+fn ample_disturbed_day(number: u64) -> Arc<Scenario> {
+    let day = any_extended_day(number, Size { vertiports: 3, fleet: 1, hours: 4 });
+    let mut ample = Scenario::clone(&day).into_day();
+    for table in &mut ample.demand {
+        let size = table.size();
+        *table = Matrix::from_fn(size, |from, to| if from == to { 0 } else { 1_000 });
+    }
+    ample.energy_price_usd.fill(0.25);
+    ample.passenger_cost_usd.cells_mut().fill(0.0);
+    ample.disturbances.outages.clear();
+    let changes = ample.periods.clone();
+    let over = ample.operations.end + 2 * 3600;
+    let next = |time| changes.iter().copied().find(|&change| change >= time).unwrap_or(over);
+    for closure in &mut ample.disturbances.closures {
+        (closure.start, closure.end) = (next(closure.start), next(closure.end));
+    }
+    Arc::new(ample.check("ample").expect("a day within the rules"))
+}
+
+#[test]
+fn where_nothing_is_scarce_the_bound_of_a_disturbed_day_is_the_optimum() {
+    let compared = (0..400_u32).into_par_iter().filter(|&number| {
+        let day = ample_disturbed_day(number.into());
+        let Some(best) = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 20_000) else {
+            return false;
+        };
+        let bound = bound_usd(&day, 60);
+        assert!((bound - best).abs() < 0.01, "day {number}: bound {bound}, optimum {best}");
+        best > 0.0
+    });
+    assert!(compared.count() >= 40, "enough days have few sequences");
+}
+
 #[test]
 fn no_policy_earns_more_than_the_bound_on_200_networks() {
     (1_000..1_200_u32).into_par_iter().for_each(|number| {
@@ -103,13 +145,19 @@ fn no_policy_earns_more_than_the_bound_on_200_networks() {
 }
 
 #[test]
-fn no_rule_earns_more_than_the_bound_on_200_disturbed_networks() {
+fn no_policy_earns_more_than_the_bound_on_200_disturbed_networks() {
     (2_000..2_200_u32).into_par_iter().for_each(|number| {
         let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 5 });
         let bound = bound_usd(&day, [5, 7, 15, 30, 60][number as usize % 5]);
-        let rules: [&mut dyn Policy; 3] = [&mut Random::new(1), &mut Greedy, &mut Lookahead];
-        for rule in rules {
-            let earned = earned_usd(&day, rule);
+        let policies: [&mut dyn Policy; 5] = [
+            &mut Random::new(1),
+            &mut Greedy,
+            &mut Lookahead,
+            &mut Priced::default(),
+            &mut Rolling::default(),
+        ];
+        for policy in policies {
+            let earned = earned_usd(&day, policy);
             assert!(bound >= earned, "day {number}: bound {bound}, earned {earned}");
         }
     });

@@ -1,5 +1,7 @@
-//! How long prices of a `paper` day take to find, to find anew, and to decide by.
+//! How long prices of a `paper` day take to find, to find anew, and to decide by, and a whole day of 100 vertiports and
+//! 2,000 aircraft.
 
+use std::fmt::Write;
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -40,5 +42,49 @@ fn prices(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, prices);
+/// 100 vertiports spread evenly over 45 x 45 miles, with 26 stands each, and 2,000 aircraft; all else as in `paper`, but for
+/// demand that a fleet of this size can just about carry.
+fn large_network() -> Network {
+    let paper = include_str!("../../../networks/paper.toml");
+    let (head, _) = paper.split_once("[[vertiports]]").expect("paper lists its vertiports");
+    let (_, tail) = paper.split_once("[[aircraft_types]]").expect("paper lists its types");
+    let mut text = head.to_owned();
+    for at in 0..100_u32 {
+        // A low-discrepancy sequence: powers of the plastic number.
+        let spread = |ratio: f64| 45.0 * (ratio * f64::from(at)).fract();
+        let (x_mi, y_mi) = (spread(0.754_877_666), spread(0.569_840_291));
+        write!(
+            text,
+            "[[vertiports]]\nid = \"V{at}\"\nx_mi = {x_mi:.1}\ny_mi = {y_mi:.1}\nstands = 26\nbusy = {}\n\n",
+            at < 25
+        )
+        .expect("memory takes everything");
+    }
+    text.push_str("[[aircraft_types]]");
+    text.push_str(
+        &tail
+            .replace("count = 40", "count = 2000")
+            .replace("peak = { mean = 100, sd = 10 }", "peak = { mean = 9, sd = 2 }")
+            .replace("busy_pairs = { mean = 50, sd = 10 }", "busy_pairs = { mean = 5, sd = 1 }")
+            .replace("otherwise = { mean = 30, sd = 5 }", "otherwise = { mean = 3, sd = 0.6 }"),
+    );
+    Network::from_toml(&text, "a large network").expect("a valid network")
+}
+
+fn large(criterion: &mut Criterion) {
+    let day = Arc::new(large_network().draw(DaySeed::comparison(1).expect("a seed")));
+    assert_eq!((day.vertiports.len(), day.aircraft.len()), (100, 2_000));
+    let mut group = criterion.benchmark_group("prices");
+    group.sample_size(10);
+    group.bench_function("100 vertiports and 2,000 aircraft, one day", |bencher| {
+        bencher.iter(|| {
+            let mut simulation = Simulation::new(Arc::clone(&day));
+            play(&mut simulation, &mut Priced::default(), |_| ()).expect("prices always answer");
+            simulation
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, prices, large);
 criterion_main!(benches);

@@ -22,4 +22,4 @@ pub use priced::Priced;
 pub use prices::DayPrices;
 pub use random::Random;
 pub use replay::Replay;
-pub use try_out::{Shortlist, fleet_worth_usd, tried_out_usd};
+pub use try_out::{Shortlist, Trial, TryOut, fleet_worth_usd, noise};

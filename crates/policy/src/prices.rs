@@ -10,18 +10,22 @@
 mod clock;
 mod hops;
 mod relaxation;
+mod units;
 mod volume;
+mod ways_on;
 
 use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 use relaxation::Relaxation;
+use units::units_usd;
 use volume::{Effort, Volume};
 
-/// Passes over the day where there are no prices yet, and length of the first step.
-const FIRST: Effort = Effort { passes: 500, step: 1.0 };
+/// Passes over the day where there are no prices yet, and length of the first step. Days of up to about 60 vertiports have
+/// all the passes, here and below up to 30; on larger ones more would take longer than a dispatcher can wait.
+const FIRST: Effort = Effort { passes: 500, hops: 480_000_000, step: 1.0 };
 /// The same where there are some. Longer steps leave good prices behind: days earned 0.8 % less with 1.0.
-const AGAIN: Effort = Effort { passes: 150, step: 0.1 };
+const AGAIN: Effort = Effort { passes: 150, hops: 37_000_000, step: 0.1 };
 /// Seconds after which prices are found anew. On days of `paper` 5 minutes earned no more.
 const RENEWAL_S: u32 = 900;
 
@@ -30,7 +34,10 @@ const RENEWAL_S: u32 = 900;
 pub struct DayPrices {
     relaxation: Relaxation,
     volume: Volume,
+    units_usd: Vec<f64>,
     made_at: Time,
+    /// Openings and closings of routes that the prices know.
+    route_changes: usize,
 }
 
 impl DayPrices {
@@ -40,13 +47,16 @@ impl DayPrices {
         let mut volume = Volume::new(&relaxation);
         relaxation.take_up(view);
         volume.search(&mut relaxation, FIRST);
-        Self { relaxation, volume, made_at: now }
+        let route_changes = view.route_changes();
+        Self { relaxation, volume, units_usd: units_usd(view), made_at: now, route_changes }
     }
 
-    /// Keeps up with the day: after a quarter of an hour, prices are found anew from these ones, with the fleet and the
-    /// demand as they are by then. `now` is the view's moment, later on the same day.
+    /// Keeps up with the day: after a quarter of an hour, and at once when a route closes or opens, prices are found anew from
+    /// these ones, with the fleet and the demand as they are by then. `now` is the view's moment, later on the same day.
     pub fn keep_up(&mut self, view: View<'_>, now: Time) {
-        if now >= self.made_at + RENEWAL_S {
+        let changes = view.route_changes();
+        if now >= self.made_at + RENEWAL_S || changes != self.route_changes {
+            self.route_changes = changes;
             self.relaxation.take_up(view);
             self.volume.search(&mut self.relaxation, AGAIN);
             self.made_at = now;
@@ -56,17 +66,22 @@ impl DayPrices {
     /// What an aircraft of a type that is ready at a vertiport at a time may still earn, less what it pays for stands and
     /// passengers, dollars; 0 past the end of operations. `time` is not before the view's moment.
     pub fn worth_usd(&self, kind: TypeIx, vertiport: VertiportIx, time: Time) -> f64 {
-        self.relaxation.worth_usd(kind, vertiport, time.seconds())
+        self.relaxation.ways_on().worth_usd(kind, vertiport, time.seconds())
     }
 
     /// What a stand costs from one time to another, dollars.
     pub fn rent_usd(&self, vertiport: VertiportIx, from: Time, until: Time) -> f64 {
-        self.relaxation.rent_usd(vertiport, from.seconds(), until.seconds())
+        self.relaxation.ways_on().rent_usd(vertiport, from.seconds(), until.seconds())
     }
 
     /// What the right to carry one more passenger of a demand period costs, dollars.
     pub fn passenger_usd(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
         self.relaxation.passenger_usd(period, from, to)
+    }
+
+    /// Profit of a typical full flight of a type, dollars: the unit in which differences in worth are small or large.
+    pub fn unit_usd(&self, kind: TypeIx) -> f64 {
+        self.units_usd[kind.at()]
     }
 
     /// What a feasible choice is worth: what its flight earns, what follows from being ready at its end, less what the
@@ -75,7 +90,7 @@ impl DayPrices {
     pub fn choice_usd(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
         let Decision { time, aircraft, at: from, .. } = *decision;
         let kind = view.kind(aircraft);
-        let way_on_usd = |ready_s| self.relaxation.way_on_usd(kind, to, time.seconds(), ready_s);
+        let way_on_usd = |ready_s| self.relaxation.ways_on().usd(kind, to, time.seconds(), ready_s);
         if to == from {
             return way_on_usd((time + view.hold_s()).seconds());
         }

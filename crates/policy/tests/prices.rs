@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, DaySeed, Network, Scenario, TypeIx, VertiportIx};
+use vertifleet_core::{
+    AircraftIx, Closure, DaySeed, Network, Route, Scenario, TypeIx, VertiportIx,
+};
 use vertifleet_policy::{DayPrices, Greedy, Policy, Priced, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
@@ -35,6 +37,49 @@ fn all_rents_usd(day: &Scenario, prices: &DayPrices) -> f64 {
     let (start, end) = (day.operations.start, day.operations.end);
     let vertiports = VertiportIx::all(day.vertiports.len());
     vertiports.map(|vertiport| prices.rent_usd(vertiport, start, end)).sum()
+}
+
+/// A day of one aircraft, which no route leads away from until some seconds after the start, and which holds for 300 s.
+fn shut_in(seed: u64, closed_s: u32) -> Arc<Scenario> {
+    let mut day = Scenario::clone(&changed(seed, 1, 1)).into_day();
+    let (start, from) = (day.operations.start, day.aircraft[0].at);
+    day.operations.hold_s = 300;
+    let others = VertiportIx::all(day.vertiports.len()).filter(|&to| to != from);
+    let routes = others.map(|to| Route { from, to, both_ways: false });
+    day.disturbances.closures =
+        routes.map(|route| Closure { route, start, end: start + closed_s }).collect();
+    Arc::new(day.check("a day with closed routes").expect("a day"))
+}
+
+#[test]
+fn nobody_counts_on_a_route_that_is_closed() {
+    let day = shut_in(1, 600);
+    let mut simulation = Simulation::new(Arc::clone(&day));
+    let decision = simulation.next_decision().expect("the day is young");
+    let prices = DayPrices::of(simulation.view(), decision.time);
+    let worth = |place, after_s| prices.worth_usd(TypeIx(0), place, decision.time + after_s);
+    // Nothing leads away in the first two hours, so all of them are lost, and no more than they.
+    assert_eq!(worth(decision.at, 0), worth(decision.at, 7_200 - 300));
+    assert!(worth(decision.at, 0) > 500.0, "routes open again some time");
+    let elsewhere = VertiportIx((decision.at.0 + 1) % 8);
+    assert!(worth(elsewhere, 0) > worth(decision.at, 0) + 50.0);
+}
+
+#[test]
+fn prices_are_found_anew_at_once_when_routes_open() {
+    let mut simulation = Simulation::new(shut_in(1, 600));
+    let decision = simulation.next_decision().expect("the day is young");
+    let mut prices = DayPrices::of(simulation.view(), decision.time);
+    let mut worths = Vec::new();
+    for wait_s in [0, 300, 600] {
+        let decision = simulation.next_decision().expect("the day is young");
+        assert_eq!(decision.time.since(simulation.view().day_start()), wait_s);
+        prices.keep_up(simulation.view(), decision.time);
+        worths.push(prices.worth_usd(TypeIx(0), decision.at, decision.time));
+        simulation.apply(decision.at).expect("holding is always allowed");
+    }
+    assert_eq!(worths[0], worths[1], "nothing has changed by then");
+    assert!(worths[2] > worths[1] + 50.0, "flights may leave again");
 }
 
 #[test]

@@ -3,9 +3,10 @@
 use vertifleet_core::{Scenario, Time, VertiportIx};
 
 use crate::VertiportSet;
+use crate::room::clone_into_room;
 
 /// The closures of a day, up to now.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Closures {
     /// Every opening and closing of a route, in order of time; those before `next` have happened.
     changes: Vec<Change>,
@@ -15,6 +16,8 @@ pub(crate) struct Closures {
     /// By vertiport: where flights from it may not go now.
     closed: Vec<VertiportSet>,
 }
+
+clone_into_room!(Closures { changes, next, in_force, closed });
 
 #[derive(Debug, Clone, Copy)]
 struct Change {
@@ -66,10 +69,10 @@ impl Closures {
         }
     }
 
-    /// What is closed now stays closed, and nothing else will be.
-    pub(crate) fn freeze(&mut self) {
-        self.changes.clear();
-        self.next = 0;
+    /// Openings and closings that have happened.
+    #[inline]
+    pub(crate) fn changes_so_far(&self) -> usize {
+        self.next
     }
 
     /// Whether the day has no closures at all.

@@ -2,15 +2,19 @@
 
 use vertifleet_core::{Matrix, Scenario, VertiportIx};
 
+use crate::room::clone_into_room;
+
 /// What is left of the day's demand, as far as it is known: the actual one of periods that have begun, the forecast of the
 /// others. A flight takes its passengers at the moment it is decided.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Demand {
     vertiports: usize,
     /// By period, then from, then to.
     left: Vec<u32>,
     total: u64,
 }
+
+clone_into_room!(Demand { vertiports, left, total });
 
 impl Demand {
     /// The demand of a day before its first flight.

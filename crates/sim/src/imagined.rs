@@ -7,12 +7,31 @@ use crate::{Decision, Ledger, Refusal, Simulation, TraceRow, View};
 /// A day that goes on from a decision as expected: demand comes as forecast, flights take off on time, aircraft are ready
 /// when they are expected to be, no further route closes, and what is closed now stays closed. Made by
 /// [`View::imagined`]; the day it was made from does not change, and nothing that is not known yet can be learned from it.
-#[derive(Debug, Clone)]
+///
+/// [`Clone::clone_from`] copies a course that has begun into the room of another and takes no memory if both are of one day.
+#[derive(Debug)]
 pub struct Imagined(Simulation);
 
+impl Clone for Imagined {
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.0.clone_from(&other.0);
+    }
+}
+
 impl Imagined {
-    pub(crate) fn of(simulation: Simulation) -> Self {
-        Self(simulation)
+    pub(crate) fn of(day: &Simulation) -> Self {
+        let mut imagined = Self(day.clone());
+        imagined.0.expect_no_surprises();
+        imagined
+    }
+
+    pub(crate) fn restart(&mut self, day: &Simulation) {
+        self.0.clone_from(day);
+        self.0.expect_no_surprises();
     }
 
     /// As [`Simulation::next_decision`].

@@ -13,6 +13,7 @@ mod ledger;
 mod legs;
 mod outages;
 mod queue;
+mod room;
 mod simulation;
 mod stands;
 mod trace;

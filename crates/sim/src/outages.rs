@@ -2,17 +2,21 @@
 
 use vertifleet_core::{AircraftIx, Scenario, Time};
 
+use crate::room::clone_into_room;
+
 /// The landing of an aircraft that has not landed since it last stood still; no outage lasts that long.
 const NONE: Time = Time::from_seconds(u32::MAX);
 
 /// The outages of a day by aircraft, and the landings that they may concern.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Outages {
     /// First and last instant of each outage with its aircraft, in order of aircraft.
     all: Vec<(AircraftIx, Time, Time)>,
     /// Each aircraft's latest landing, decided or done, with the time at which it is charged. Empty on a day without.
     landings: Vec<(Time, Time)>,
 }
+
+clone_into_room!(Outages { all, landings });
 
 impl Outages {
     /// A day's outages.
@@ -24,11 +28,6 @@ impl Outages {
         let start = scenario.operations.start;
         let fleet = if all.is_empty() { 0 } else { scenario.aircraft.len() };
         Self { all, landings: vec![(NONE, start); fleet] }
-    }
-
-    /// None that anybody knows of.
-    pub(crate) fn none() -> Self {
-        Self { all: Vec::new(), landings: Vec::new() }
     }
 
     /// Whether the day has any.

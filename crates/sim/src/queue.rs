@@ -5,13 +5,17 @@
 
 use vertifleet_core::{AircraftIx, Time};
 
+use crate::room::clone_into_room;
+
 /// The time at which each aircraft of a fleet will be ready, earliest first.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct ReadyQueue {
     /// Root at 1, children of `n` at `2n` and `2n + 1`, aircraft from `first_leaf` on.
     nodes: Vec<u64>,
     first_leaf: usize,
 }
+
+clone_into_room!(ReadyQueue { nodes, first_leaf });
 
 /// Orders by time, then by aircraft index.
 #[inline]
@@ -24,13 +28,18 @@ impl ReadyQueue {
     pub(crate) fn new(aircraft_count: usize, ready_at: Time) -> Self {
         let first_leaf = aircraft_count.next_power_of_two().max(2);
         let mut queue = Self { nodes: vec![u64::MAX; 2 * first_leaf], first_leaf };
-        for aircraft in AircraftIx::all(aircraft_count) {
-            queue.nodes[first_leaf + aircraft.at()] = key(aircraft, ready_at);
-        }
-        for node in (1..first_leaf).rev() {
-            queue.nodes[node] = queue.nodes[2 * node].min(queue.nodes[2 * node + 1]);
-        }
+        queue.set_all(aircraft_count, |_| ready_at);
         queue
+    }
+
+    /// Gives every aircraft of a fleet a new time.
+    pub(crate) fn set_all(&mut self, aircraft_count: usize, ready_at: impl Fn(AircraftIx) -> Time) {
+        for aircraft in AircraftIx::all(aircraft_count) {
+            self.nodes[self.first_leaf + aircraft.at()] = key(aircraft, ready_at(aircraft));
+        }
+        for node in (1..self.first_leaf).rev() {
+            self.nodes[node] = self.nodes[2 * node].min(self.nodes[2 * node + 1]);
+        }
     }
 
     /// The aircraft that is ready first, the lowest index among equals, and its time.

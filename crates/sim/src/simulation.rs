@@ -8,6 +8,7 @@ use crate::closures::Closures;
 use crate::demand::Demand;
 use crate::outages::Outages;
 use crate::queue::ReadyQueue;
+use crate::room::clone_into_room;
 use crate::stands::Stands;
 use crate::{Ledger, Legs, Refusal, Summary, TraceRow, VertiportSet, View};
 
@@ -25,7 +26,7 @@ pub struct Decision {
 }
 
 /// A day being flown. Same scenario and same decisions, same course, bit for bit.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Simulation {
     scenario: Arc<Scenario>,
     /// Shared by all who imagine the day from some moment on.
@@ -38,7 +39,8 @@ pub struct Simulation {
     ledger: Ledger,
     closures: Closures,
     outages: Outages,
-    /// Whether anything may yet happen that nobody expects; never on an imagined day.
+    /// Whether anything may yet happen that nobody expects; never on an imagined day, where closures stay as they are and
+    /// outages count in `queue` only.
     surprises: bool,
     /// Time of the latest decision asked for, the start of operations before the first; not kept without surprises.
     now: Time,
@@ -48,6 +50,23 @@ pub struct Simulation {
     period: usize,
     potential_usd: f64,
 }
+
+clone_into_room!(Simulation {
+    scenario,
+    legs,
+    stands,
+    demand,
+    queue,
+    place,
+    ledger,
+    closures,
+    outages,
+    surprises,
+    now,
+    known_period,
+    period,
+    potential_usd,
+});
 
 impl Simulation {
     /// The day before its first decision.
@@ -238,24 +257,19 @@ impl Simulation {
     /// When an aircraft can be expected to be ready, as far as anybody knows now.
     #[inline]
     pub(crate) fn expected_ready(&self, aircraft: AircraftIx) -> Time {
-        if self.outages.is_empty() {
+        if !self.surprises || self.outages.is_empty() {
             return self.queue.ready_at(aircraft);
         }
         self.outages.ready(aircraft, self.now)
     }
 
-    /// The rest of the day without surprises.
-    pub(crate) fn imagined(&self) -> Self {
-        let mut imagined = self.clone();
-        if self.surprises {
-            imagined.surprises = false;
-            imagined.closures.freeze();
-            for aircraft in AircraftIx::all(self.place.len()) {
-                imagined.queue.set(aircraft, self.expected_ready(aircraft));
-            }
-            imagined.outages = Outages::none();
+    /// From now on everything goes as it can be expected to.
+    pub(crate) fn expect_no_surprises(&mut self) {
+        if self.surprises && !self.outages.is_empty() {
+            let (outages, now) = (&self.outages, self.now);
+            self.queue.set_all(self.place.len(), |aircraft| outages.ready(aircraft, now));
         }
-        imagined
+        self.surprises = false;
     }
 
     /// What a policy may look at.

@@ -9,9 +9,10 @@
 use vertifleet_core::{AircraftIx, Scenario, VertiportIx};
 
 use crate::VertiportSet;
+use crate::room::clone_into_room;
 
 /// U_i and U_max of every vertiport, and which of them can promise a place.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Stands {
     /// Aircraft on places that flights need, or in the air towards one.
     taken: Vec<u16>,
@@ -20,8 +21,10 @@ pub(crate) struct Stands {
     parking: Option<Parking>,
 }
 
+clone_into_room!(Stands { taken, limit, open, parking });
+
 /// The stands of vertiports that have chargers too.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 struct Parking {
     taken: Vec<u16>,
     /// 0 where stands are the only pool.
@@ -29,6 +32,8 @@ struct Parking {
     /// Whether each aircraft waits on a stand beside the chargers.
     waits: Vec<bool>,
 }
+
+clone_into_room!(Parking { taken, limit, waits });
 
 impl Stands {
     /// The places as the fleet's start positions take them: on stands.

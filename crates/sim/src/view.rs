@@ -89,6 +89,12 @@ impl<'a> View<'a> {
         self.simulation.closures().from(from)
     }
 
+    /// How often routes have closed or opened so far: while it stays the same, so does what is closed.
+    #[inline]
+    pub fn route_changes(&self) -> usize {
+        self.simulation.closures().changes_so_far()
+    }
+
     /// Where each aircraft stands or will land.
     #[inline]
     pub fn places(&self) -> &'a [VertiportIx] {
@@ -213,7 +219,15 @@ impl<'a> View<'a> {
 
     /// The rest of the day as it can be imagined from here, to be played out.
     pub fn imagined(&self) -> Imagined {
-        Imagined::of(self.simulation.imagined())
+        Imagined::of(self.simulation)
+    }
+
+    /// The same in the room of an earlier course, which is written over; takes no memory if that was of the same day.
+    pub fn imagined_in<'room>(&self, room: &'room mut Option<Imagined>) -> &'room mut Imagined {
+        if let Some(imagined) = room {
+            imagined.restart(self.simulation);
+        }
+        room.get_or_insert_with(|| self.imagined())
     }
 
     /// The day itself, to be told from every other.

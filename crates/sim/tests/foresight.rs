@@ -6,14 +6,14 @@ use std::sync::Arc;
 
 use proptest::prelude::{ProptestConfig, any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_core::{AircraftIx, Closure, Outage, Route, Scenario, Time, TypeIx, VertiportIx};
-use vertifleet_sim::{Decision, Simulation, View};
+use vertifleet_sim::{Decision, Imagined, Simulation, View};
 
 use common::extended::extended_day;
 
 /// Everything that a view shows at a decision, as text.
 fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     let mut shown = vec![format!(
-        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
         view.feasible(decision),
         view.places(),
         view.stands_taken(),
@@ -26,6 +26,7 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         view.vertiports(),
         view.period_at(decision.time + 1800),
         view.day() == view.day(),
+        view.route_changes(),
     )];
     for aircraft in AircraftIx::all(view.places().len()) {
         let kind = view.kind(aircraft);
@@ -62,7 +63,14 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
 
 /// The rest of the day as it can be imagined, each aircraft going to the last vertiport of its mask.
 fn played_out(view: View<'_>) -> String {
-    let mut imagined = view.imagined();
+    let mut fresh = view.imagined();
+    let rest = played_on(&mut fresh);
+    // In the room of a course that is over it is the same.
+    assert_eq!(played_on(view.imagined_in(&mut Some(fresh))), rest);
+    rest
+}
+
+fn played_on(imagined: &mut Imagined) -> String {
     let mut rows = Vec::new();
     while let Some(decision) = imagined.next_decision() {
         let mask = imagined.view().feasible(&decision);

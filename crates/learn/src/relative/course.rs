@@ -1,9 +1,9 @@
 //! The settings of a `gcaps-x` run.
 
 use serde::{Deserialize, Serialize};
+use vertifleet_policy::TryOut;
 
 use crate::error::Error;
-use crate::relative::lessons::Expert;
 use crate::settings::{with_member, within};
 
 /// What a run learns from, and how.
@@ -25,7 +25,7 @@ pub struct Course {
     pub exploration: f64,
     /// How choices are tried out.
     #[serde(flatten)]
-    pub expert: Expert,
+    pub expert: TryOut,
     /// Validation days of the network, and as many of random networks.
     pub validation_days: u32,
 }
@@ -41,7 +41,7 @@ impl Default for Course {
             learning_rate: 1e-3,
             entropy_weight: 1.0,
             exploration: 0.05,
-            expert: Expert { horizon_s: 7_200, courses: 8, noise: 0.08, own: 0.5 },
+            expert: TryOut { horizon_s: 7_200, courses: 8, noise: 0.08, own: 0.5 },
             validation_days: 12,
         }
     }

@@ -5,7 +5,7 @@
 //! everything is bounded. A row takes one pass over the vertiports and one over the fleet, and of those who are ready soon up to
 //! 48 are asked where they want to go.
 
-use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
+use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_policy::DayPrices;
 use vertifleet_sim::{Decision, View};
 
@@ -30,41 +30,6 @@ pub(crate) fn shape(vertiports: usize) -> Shape {
     Shape { vertiports, node_features: NODE_FEATURES, aircraft_features: AIRCRAFT_FEATURES }
 }
 
-/// Profit of a typical full flight of each type of aircraft, dollars: the measure of all money of a day.
-#[derive(Debug, Clone)]
-pub(crate) struct Units {
-    usd: Vec<f64>,
-}
-
-impl Units {
-    /// The mean over all pairs within range, at the energy price of the first period; a dollar where there is no such pair
-    /// or flying does not pay.
-    pub(crate) fn of(view: View<'_>) -> Self {
-        let unit_usd = |kind: TypeIx| {
-            let energy_price_usd = view.energy_prices_usd()[0];
-            let seats = f64::from(view.aircraft_type(kind).seats);
-            let (mut sum_usd, mut pairs) = (0.0, 0_u32);
-            for from in VertiportIx::all(view.vertiports()) {
-                for to in view.within_range(kind, from).iter() {
-                    let margin_usd =
-                        view.fares_usd(0, from)[to.at()] - view.passenger_costs_usd(from)[to.at()];
-                    let energy_kwh = view.leg(kind, from, to).energy_kwh;
-                    sum_usd += seats * margin_usd - energy_kwh * energy_price_usd;
-                    pairs += 1;
-                }
-            }
-            (sum_usd / f64::from(pairs.max(1))).max(1.0)
-        };
-        Self { usd: TypeIx::all(view.aircraft_types().len()).map(unit_usd).collect() }
-    }
-
-    /// The unit of a type, dollars.
-    #[inline]
-    pub(crate) fn usd(&self, kind: TypeIx) -> f64 {
-        self.usd[kind.at()]
-    }
-}
-
 /// A decision as everybody sees it who looks at it closely.
 #[derive(Clone, Copy)]
 pub(crate) struct Scene<'a> {
@@ -72,6 +37,12 @@ pub(crate) struct Scene<'a> {
     pub(crate) decision: &'a Decision,
     pub(crate) prices: &'a DayPrices,
     pub(crate) unit_usd: f64,
+}
+
+impl<'a> Scene<'a> {
+    pub(crate) fn of(view: View<'a>, decision: &'a Decision, prices: &'a DayPrices) -> Self {
+        Self { view, decision, prices, unit_usd: prices.unit_usd(view.kind(decision.aircraft)) }
+    }
 }
 
 /// Rows of features, side by side; room grows with the rows and stays.

@@ -5,26 +5,21 @@
 //! ```
 //!
 //! with the profit of a typical full flight as unit. A network of zeros adds nothing, so it decides as `prices` does. Only
-//! choices that are worth nearly as much as the best are judged: [`Listing`] says how many and how near.
+//! choices that are worth nearly as much as the best are judged: those of a [`Shortlist`].
 
 use std::sync::Arc;
 
 use vertifleet_core::VertiportIx;
-use vertifleet_policy::{DayPrices, Shortlist};
-use vertifleet_sim::{Decision, View};
+use vertifleet_policy::Shortlist;
 
 use crate::nn::{self, Architecture, Prepared, Workspace};
-use crate::relative::features::{Rows, Scene, Units, shape};
+use crate::relative::features::{Rows, Scene, shape};
 use crate::relative::rollouts::COURSES;
 
 /// A logit of 1 is worth the unit over this.
 pub(crate) const LOGITS_A_UNIT: f64 = 20.0;
-/// Choices judged at most.
-pub(crate) const MOST_LISTED: usize = 5;
-/// How much worse than the best at the prices a choice may be to be judged, in units.
-pub(crate) const TOO_BAD: f64 = 0.5;
 /// Rows judged at once at most: one decision, or one of every course of all choices tried out.
-const BATCH: usize = MOST_LISTED * COURSES as usize;
+const BATCH: usize = Shortlist::MOST * COURSES as usize;
 
 /// The network at one number of vertiports, and what a pass needs.
 pub(crate) struct Judge {
@@ -108,15 +103,4 @@ pub(crate) fn network(architecture: &Architecture, vertiports: usize) -> nn::Net
     nn::Network::new(architecture.clone(), shape(vertiports)).expect(
         "sizes were checked when the weights were made, and days have at most 256 vertiports",
     )
-}
-
-/// Ranks the choices of a decision and keeps those to be judged.
-pub(crate) fn list<'a>(
-    shortlist: &'a mut Shortlist,
-    prices: &DayPrices,
-    units: &Units,
-    (view, decision): (View<'_>, &Decision),
-) -> &'a [(f64, VertiportIx)] {
-    let unit_usd = units.usd(view.kind(decision.aircraft));
-    shortlist.rank(prices, view, decision, (MOST_LISTED, TOO_BAD * unit_usd))
 }

@@ -7,8 +7,8 @@ use vertifleet_policy::{DayMemory, DayPrices, Policy, PolicyError, Shortlist};
 use vertifleet_sim::{Decision, View};
 
 use crate::nn::Prepared;
-use crate::relative::features::{Scene, Units};
-use crate::relative::judge::{Judge, MOST_LISTED, list};
+use crate::relative::features::Scene;
+use crate::relative::judge::Judge;
 use crate::relative::rollouts::Rollouts;
 use crate::relative::weights::AnyModel;
 
@@ -19,24 +19,12 @@ pub struct GcapsX {
     prepared: Arc<Prepared>,
     /// Made for the number of vertiports that is met, and kept until another one is.
     judge: Option<Judge>,
-    day: DayMemory<Today>,
+    day: DayMemory<DayPrices>,
     shortlist: Shortlist,
     /// Choices with what they are judged to be worth, dollars.
     judged: Vec<(f64, VertiportIx)>,
     /// How many choices are tried out, where any are.
     rollouts: Option<(usize, Rollouts)>,
-}
-
-/// What is remembered of a day.
-pub(crate) struct Today {
-    pub(crate) prices: DayPrices,
-    pub(crate) units: Units,
-}
-
-impl Today {
-    pub(crate) fn of(view: View<'_>, decision: &Decision) -> Self {
-        Self { prices: DayPrices::of(view, decision.time), units: Units::of(view) }
-    }
 }
 
 impl GcapsX {
@@ -52,7 +40,7 @@ impl GcapsX {
     }
 
     /// No more choices than this are judged, so no more can be tried out.
-    pub const MOST_TRIED: usize = MOST_LISTED;
+    pub const MOST_TRIED: usize = Shortlist::MOST;
 
     fn with(model: Arc<AnyModel>, rollouts: Option<(usize, Rollouts)>) -> Self {
         let params: Arc<[f32]> = model.params().into();
@@ -72,10 +60,9 @@ impl GcapsX {
 
 impl Policy for GcapsX {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
-        let today = self.day.of_day(*view, decision, || Today::of(*view, decision));
-        today.prices.keep_up(*view, decision.time);
-        let Today { prices, units } = &*today;
-        let listed = list(&mut self.shortlist, prices, units, (*view, decision));
+        let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
+        prices.keep_up(*view, decision.time);
+        let listed = self.shortlist.rank(prices, *view, decision);
         if let [(_, only)] = *listed {
             return Ok(only);
         }
@@ -89,16 +76,17 @@ impl Policy for GcapsX {
                 vertiports,
             )),
         };
-        let unit_usd = units.usd(view.kind(decision.aircraft));
-        judge.judge(Scene { view: *view, decision, prices, unit_usd }, listed);
+        let scene = Scene::of(*view, decision, prices);
+        judge.judge(scene, listed);
         let Some((most_tried, rollouts)) = &mut self.rollouts else {
-            return Ok(judge.best_of_row(0, unit_usd, listed));
+            return Ok(judge.best_of_row(0, scene.unit_usd, listed));
         };
-        let judged = listed.iter().map(|&choice| (judge.worth_usd(0, unit_usd, choice), choice.1));
+        let judged =
+            listed.iter().map(|&choice| (judge.worth_usd(0, scene.unit_usd, choice), choice.1));
         self.judged.clear();
         self.judged.extend(judged);
         self.judged.sort_by(|one, other| other.0.total_cmp(&one.0));
         self.judged.truncate(*most_tried);
-        Ok(rollouts.best(judge, (prices, units), (*view, decision), &self.judged))
+        Ok(rollouts.best(judge, prices, (*view, decision), &self.judged))
     }
 }

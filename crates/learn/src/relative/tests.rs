@@ -4,22 +4,21 @@ use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
 use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, random_network};
-use vertifleet_policy::{Policy, Priced, Shortlist, play};
+use vertifleet_policy::{DayPrices, Policy, Priced, Shortlist, TryOut, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
 use crate::nn::{Architecture, GcapsSettings, Inputs};
 use crate::relative::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Rows, Scene};
-use crate::relative::judge::{list, network};
-use crate::relative::policy::Today;
+use crate::relative::judge::network;
 use crate::relative::weights::Source;
-use crate::relative::{AnyModel, Course, Expert, GcapsX, Plan, Study};
+use crate::relative::{AnyModel, Course, GcapsX, Plan, Study};
 
 fn small() -> Architecture {
     Architecture::GcapsX(GcapsSettings { width: 8, heads: 2 })
 }
 
 fn course() -> Course {
-    let expert = Expert { horizon_s: 900, courses: 2, ..Course::default().expert };
+    let expert = TryOut { horizon_s: 900, courses: 2, ..Course::default().expert };
     let small = Course { rounds: 2, days: 2, passes: 2, validation_days: 1, ..Course::default() };
     Course { expert, random_share: 0.5, ..small }
 }
@@ -117,14 +116,12 @@ fn features_are_bounded_on_every_network() {
     for day in days() {
         let mut simulation = Simulation::new(Arc::clone(&day));
         let mut rows = Rows::new(day.vertiports.len());
-        let (mut shortlist, mut today) = (Shortlist::default(), None);
+        let (mut shortlist, mut prices) = (Shortlist::default(), None);
         while let Some(decision) = simulation.next_decision() {
             let view = simulation.view();
-            let today = today.get_or_insert_with(|| Today::of(view, &decision));
-            let (prices, units) = (&today.prices, &today.units);
-            let listed = list(&mut shortlist, prices, units, (view, &decision));
-            let unit_usd = units.usd(view.kind(decision.aircraft));
-            rows.push(Scene { view, decision: &decision, prices, unit_usd }, listed);
+            let prices = prices.get_or_insert_with(|| DayPrices::of(view, decision.time));
+            let listed = shortlist.rank(prices, view, &decision);
+            rows.push(Scene::of(view, &decision, prices), listed);
             let choice: VertiportIx = listed[0].1;
             simulation.apply(choice).expect("a choice from the mask");
         }

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{DaySeed, Network, Purpose, Scenario, random_network};
-use vertifleet_policy::{Policy, Priced, draw, play};
+use vertifleet_policy::{DayPrices, Policy, Priced, Shortlist, Trial, draw, play};
 use vertifleet_sim::{Simulation, Summary};
 
 use crate::error::Error;
@@ -19,9 +19,9 @@ use crate::relative::checkpoint::{self, Progress, Run};
 use crate::relative::course::Course;
 use crate::relative::features::{Scene, shape};
 use crate::relative::fit::{Fit, Learner, Pace};
-use crate::relative::judge::{Judge, list};
-use crate::relative::lessons::{Desk, Lessons, Library};
-use crate::relative::policy::{GcapsX, Today};
+use crate::relative::judge::Judge;
+use crate::relative::lessons::{Lessons, Library};
+use crate::relative::policy::GcapsX;
 use crate::relative::weights::{AnyModel, Source};
 use crate::train::{check_finite, network_print};
 
@@ -247,22 +247,21 @@ impl Study {
         });
         let share = LESSONS_A_DAY / (DECISIONS_AN_AIRCRAFT * day.aircraft.len() as f64);
         let mut lessons = Lessons::new(vertiports);
-        let mut desk = Desk::default();
+        let mut shortlist = Shortlist::default();
+        let mut trial = Trial::new(self.plan.course.expert.clone());
         let mut simulation = Simulation::new(Arc::clone(day));
-        let mut today: Option<Today> = None;
+        let mut prices: Option<DayPrices> = None;
         while let Some(decision) = simulation.next_decision() {
             let view = simulation.view();
-            let today = today.get_or_insert_with(|| Today::of(view, &decision));
-            today.prices.keep_up(view, decision.time);
-            let Today { prices, units } = &*today;
-            let listed = list(&mut desk.shortlist, prices, units, (view, &decision));
-            let unit_usd = units.usd(view.kind(decision.aircraft));
-            let scene = Scene { view, decision: &decision, prices, unit_usd };
+            let prices = prices.get_or_insert_with(|| DayPrices::of(view, decision.time));
+            prices.keep_up(view, decision.time);
+            let listed = shortlist.rank(prices, view, &decision);
+            let scene = Scene::of(view, &decision, prices);
             let bits = |what: u64| draw(what, day.seed, decision.index) >> 11;
             let chance = |what: u64| bits(what) as f64 / (1_u64 << 53) as f64;
             if listed.len() > 1 && chance(1) < share {
-                self.plan.course.expert.values(scene, listed, &mut desk.values);
-                lessons.push(scene, listed, &desk.values);
+                let values_usd = trial.values_usd(prices, (view, &decision), listed);
+                lessons.push(scene, listed, values_usd);
             }
             let choice = if chance(2) < self.plan.course.exploration {
                 listed[((u128::from(bits(3)) * listed.len() as u128) >> 53) as usize].1

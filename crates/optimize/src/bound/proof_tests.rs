@@ -1,26 +1,36 @@
-//! The proof's steps, checked on real days at arbitrary prices: what an aircraft pays and earns, and what is given back.
+//! The proof's steps, checked on real days at arbitrary prices: what an aircraft pays and earns, and what is given back. The
+//! days are of `paper`, of `disrupted`, and small ones with everything that a day may hold.
+
+#[path = "../../tests/common/mod.rs"]
+mod days;
 
 use std::sync::Arc;
 
-use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
-use vertifleet_core::{AircraftIx, DaySeed, Network as Days, Scenario, Time};
+use proptest::prelude::{ProptestConfig, any, proptest};
+use vertifleet_core::{AircraftIx, DaySeed, Network as Days, Scenario, TakeoffDelays, Time};
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, draw, play};
 use vertifleet_sim::{Simulation, Trace};
 
 use super::certificate::Certificate;
 use super::money;
-use super::network::Network;
+use super::network::{Layer, Network};
 use super::prices::Prices;
+use days::{Size, any_extended_day};
 
-/// A day of `paper`, cut short to `hours`, with fewer stands free and less demand, so that limits bind.
-fn scarce_day(seed: u64, hours: u32) -> Arc<Scenario> {
-    let network = Days::shipped("paper").expect("a shipped network");
+/// A day of a shipped network, cut short to `hours`, with fewer stands free and less demand, so that limits bind.
+fn scarce_day(name: &str, seed: u64, hours: u32) -> Arc<Scenario> {
+    let network = Days::shipped(name).expect("a shipped network");
     let mut day = network.draw(DaySeed::comparison(seed).expect("a seed")).into_day();
     day.operations.end = day.operations.start + hours * 3600 + 1_234;
     for (at, price) in day.energy_price_usd.iter_mut().enumerate() {
         *price = [0.2, 0.9, 0.05][at % 3];
     }
-    for table in &mut day.demand {
+    if let Some(delays) = &mut day.disturbances.takeoff_delays {
+        let (start, end) = (day.operations.start, day.operations.end);
+        delays.delay_s.truncate(TakeoffDelays::slots(delays.slot_s, start, end));
+    }
+    let forecast = day.disturbances.forecast.iter_mut().flatten();
+    for table in day.demand.iter_mut().chain(forecast) {
         table.cells_mut().iter_mut().for_each(|passengers| *passengers /= 8);
     }
     Arc::new(day.check("scarce").expect("a day within the rules"))
@@ -61,47 +71,84 @@ fn places(day: &Scenario, network: &Network, trace: &Trace, aircraft: AircraftIx
     (0..network.slices.len()).map(at_end).collect()
 }
 
+/// The layer that an aircraft belongs to.
+fn layer_of(day: &Scenario, network: &Network, aircraft: AircraftIx) -> usize {
+    let waits_freely = day.disturbances.outages.iter().any(|outage| outage.aircraft == aircraft);
+    let kind = day.aircraft[aircraft.at()].kind;
+    let own = |layer: &Layer| (layer.kind, layer.waits_freely) == (kind, waits_freely);
+    network.layers.iter().position(own).expect("every aircraft has a layer")
+}
+
+/// Plays a day by several rules and holds what each aircraft does, and what all do together, against the proof.
+fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
+    let network = Network::of(day, step_s).expect("a small day");
+    let prices = any_prices(&network, mix);
+    let mut certificate = Certificate::new(&network);
+    let bound = certificate.evaluate(&network, &prices);
+    for trace in traces(day) {
+        let mut taken = vec![0; prices.stand.len()];
+        let mut carried = vec![0; prices.demand.len()];
+        let mut profit = 0;
+        for aircraft in AircraftIx::all(day.aircraft.len()) {
+            let mut left = 0;
+            for (slice, place) in places(day, &network, &trace, aircraft).into_iter().enumerate() {
+                taken[slice * network.size() + place] += 1;
+                left -= prices.stand[slice * network.size() + place];
+            }
+            for row in
+                trace.rows.iter().filter(|row| row.aircraft == aircraft && row.to != row.from)
+            {
+                let period = day.period_at(row.time);
+                let cell = (period * network.size() + row.from.at()) * network.size() + row.to.at();
+                carried[cell] += u32::from(row.passengers);
+                // Rounded down: the proof must not need the rounding of the amounts of a real day.
+                let earned = money::down(row.profit_usd());
+                profit += i128::from(earned);
+                left += earned - i64::from(row.passengers) * prices.demand[cell];
+            }
+            // An aircraft does no better than the longest path.
+            let start = day.aircraft[aircraft.at()].at.at();
+            let layer = layer_of(day, &network, aircraft);
+            let worth = certificate.worth(&network, layer, start, 0);
+            assert!(left <= worth, "aircraft {aircraft:?} has {left} left, its best way {worth}");
+        }
+        // What is paid is no more than what is given back.
+        for (at, &count) in taken.iter().enumerate() {
+            assert!(count <= network.stands[at % network.size()]);
+        }
+        for (&count, &waiting) in carried.iter().zip(&network.demand) {
+            assert!(count <= waiting);
+        }
+        assert!(profit <= bound, "{profit} is earned, the bound is {bound}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
     #[test]
-    fn a_real_day_takes_each_step_of_the_proof(seed in 0_u64..1_000, minutes in 1_u32..60, hours in 1_u32..5, mix in any::<u64>()) {
-        let day = scarce_day(seed, hours);
-        let network = Network::of(&day, 60 * minutes).expect("a small day");
-        let prices = any_prices(&network, mix);
-        let mut certificate = Certificate::new(&network);
-        let bound = certificate.evaluate(&network, &prices);
-        for trace in traces(&day) {
-            let mut taken = vec![0; prices.stand.len()];
-            let mut carried = vec![0; prices.demand.len()];
-            let mut profit = 0;
-            for aircraft in AircraftIx::all(day.aircraft.len()) {
-                let mut left = 0;
-                for (slice, place) in places(&day, &network, &trace, aircraft).into_iter().enumerate() {
-                    taken[slice * network.size() + place] += 1;
-                    left -= prices.stand[slice * network.size() + place];
-                }
-                for row in trace.rows.iter().filter(|row| row.aircraft == aircraft && row.to != row.from) {
-                    let period = day.period_at(row.time);
-                    let cell = (period * network.size() + row.from.at()) * network.size() + row.to.at();
-                    carried[cell] += u32::from(row.passengers);
-                    // Rounded down: the proof must not need the rounding of the amounts of a real day.
-                    let earned = money::down(row.profit_usd());
-                    profit += i128::from(earned);
-                    left += earned - i64::from(row.passengers) * prices.demand[cell];
-                }
-                // An aircraft does no better than the longest path.
-                let start = day.aircraft[aircraft.at()].at.at();
-                prop_assert!(left <= certificate.worth(&network, 0, start, 0));
-            }
-            // What is paid is no more than what is given back.
-            for (at, &count) in taken.iter().enumerate() {
-                prop_assert!(count <= network.stands[at % network.size()]);
-            }
-            for (&count, &waiting) in carried.iter().zip(&network.demand) {
-                prop_assert!(count <= waiting);
-            }
-            prop_assert!(profit <= bound);
-        }
+    fn a_real_day_takes_each_step_of_the_proof(
+        seed in 0_u64..1_000, minutes in 1_u32..60, hours in 1_u32..5, mix in any::<u64>()
+    ) {
+        takes_each_step_of_the_proof(&scarce_day("paper", seed, hours), 60 * minutes, mix);
+    }
+
+    #[test]
+    fn a_disturbed_day_takes_each_step_of_the_proof(
+        seed in 0_u64..1_000, minutes in 1_u32..60, hours in 1_u32..12, mix in any::<u64>()
+    ) {
+        takes_each_step_of_the_proof(&scarce_day("disrupted", seed, hours), 60 * minutes, mix);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn a_day_of_any_kind_takes_each_step_of_the_proof(
+        number in any::<u32>(), minutes in 1_u32..60, mix in any::<u64>()
+    ) {
+        let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 6 });
+        takes_each_step_of_the_proof(&day, 60 * minutes, mix);
     }
 }

@@ -5,16 +5,43 @@ use std::ops::Range;
 use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
-use super::clock::SLOT_S;
+use super::clock::{Clock, SLOT_S};
 
-/// A flight from one vertiport to another, in slots of the clock.
+/// Demand periods for which a route that is closed now is taken to stay so, this one and the next: nobody knows how long it
+/// will be. On 60 days of `disrupted`, 1, 3 and all of them earned a little less, within chance.
+const CLOSED_PERIODS: usize = 2;
+
+/// A flight or a hold in slots of the clock, from its decision until the aircraft is ready again.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stay {
+    /// Whole slots, and the part of a slot beside them. What takes less than a slot counts as one: at the boundary before,
+    /// worth is not known yet.
+    pub(super) slots: usize,
+    pub(super) share: f64,
+    /// The first boundary from which it ends past the end of operations.
+    pub(super) first_late: usize,
+}
+
+impl Stay {
+    pub(super) fn of(block_s: u32, clock: &Clock) -> Self {
+        let block_s = block_s.max(SLOT_S);
+        let last_s = clock.end_s - clock.start_s;
+        let first_late = last_s.checked_sub(block_s).map_or(0, |latest_s| latest_s / SLOT_S + 1);
+        Self {
+            slots: ((block_s / SLOT_S) as usize).min(clock.slots),
+            share: f64::from(block_s % SLOT_S) / f64::from(SLOT_S),
+            first_late: first_late as usize,
+        }
+    }
+}
+
+/// A flight from one vertiport to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hop {
     pub(super) to: VertiportIx,
     pub(super) block_s: u32,
-    /// Whole slots from take-off until ready again, and the part of a slot beside them.
-    pub(super) slots: usize,
-    pub(super) share: f64,
+    pub(super) stay: Stay,
+    flight_s: u32,
     energy_kwh: f64,
     seats: u32,
     /// Place of the pair among all pairs of vertiports.
@@ -36,7 +63,7 @@ pub(super) struct Hops {
 }
 
 impl Hops {
-    pub(super) fn of(view: View<'_>) -> Self {
+    pub(super) fn of(view: View<'_>, clock: &Clock) -> Self {
         let vertiports = view.vertiports();
         let (mut hops, mut begins) = (Vec::new(), vec![0]);
         for kind in TypeIx::all(view.aircraft_types().len()) {
@@ -48,8 +75,8 @@ impl Hops {
                     Hop {
                         to,
                         block_s,
-                        slots: (block_s / SLOT_S) as usize,
-                        share: f64::from(block_s % SLOT_S) / f64::from(SLOT_S),
+                        stay: Stay::of(block_s, clock),
+                        flight_s: leg.flight_s,
                         energy_kwh: leg.energy_kwh,
                         seats,
                         pair: from.at() * vertiports + to.at(),
@@ -69,21 +96,25 @@ impl Hops {
         }
     }
 
-    /// Reads what every flight from now on would carry and earn. Energy is charged at the price of the period of
-    /// take-off, which is that of the arrival but for flights across its end.
+    /// Reads what every flight from now on would carry and earn.
     pub(super) fn take_up(&mut self, view: View<'_>) {
         let count = self.all.len();
+        let closed_until = view.period() + CLOSED_PERIODS;
         for period in view.period()..view.period_starts().len() {
-            let energy_price_usd = view.energy_prices_usd()[period];
             for (at, hop) in self.all.iter().enumerate() {
                 let from = VertiportIx::new(hop.pair / self.vertiports);
+                if period < closed_until && view.closed(from).contains(hop.to) {
+                    self.passengers[period * count + at] = 0.0;
+                    self.profit_usd[period * count + at] = f64::NEG_INFINITY;
+                    continue;
+                }
                 let waiting = view.demand_left(period, from, hop.to);
                 let passengers = f64::from(waiting.min(hop.seats));
                 let margin_usd = view.fares_usd(period, from)[hop.to.at()]
                     - view.passenger_costs_usd(from)[hop.to.at()];
                 self.passengers[period * count + at] = passengers;
-                self.profit_usd[period * count + at] =
-                    passengers * margin_usd - hop.energy_kwh * energy_price_usd;
+                self.profit_usd[period * count + at] = passengers * margin_usd
+                    - hop.energy_kwh * energy_price_usd(view, period, hop.flight_s);
             }
         }
     }
@@ -109,6 +140,17 @@ impl Hops {
         self.begins[at]..self.begins[at + 1]
     }
 
+    /// Slots that every hop of a type takes at least.
+    pub(super) fn shortest(&self, kind: TypeIx) -> usize {
+        let all = kind.at() * self.vertiports;
+        let hops = &self.all[self.begins[all]..self.begins[all + self.vertiports]];
+        hops.iter().map(|hop| hop.stay.slots).min().unwrap_or(1)
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.all.len()
+    }
+
     #[inline]
     pub(super) fn hop(&self, at: usize) -> &Hop {
         &self.all[at]
@@ -130,4 +172,20 @@ impl Hops {
     pub(super) fn passengers(&self, period: usize, at: usize) -> f64 {
         self.passengers[period * self.all.len() + at]
     }
+}
+
+/// Price of the energy of flights of some length that take off in a period, dollars per kWh: the mean over their take-offs
+/// of the price at arrival.
+fn energy_price_usd(view: View<'_>, period: usize, flight_s: u32) -> f64 {
+    let (starts, prices) = (view.period_starts(), view.energy_prices_usd());
+    let (begin, price_usd) = (starts[period], prices[period]);
+    let Some(&end) = starts.get(period + 1) else { return price_usd };
+    let (first, last) = (begin + flight_s, end + flight_s);
+    let later = (period + 1..starts.len()).take_while(|&later| starts[later] < last);
+    let mean_rise_usd = |later: usize| {
+        let until = starts.get(later + 1).map_or(last, |&until| until.min(last));
+        let arriving_s = until.since(starts[later].max(first));
+        f64::from(arriving_s) / f64::from(end.since(begin)) * (prices[later] - price_usd)
+    };
+    price_usd + later.map(mean_rise_usd).sum::<f64>()
 }

@@ -13,13 +13,25 @@ const AIM: f64 = 0.05;
 /// Passes without a lower value after which steps get shorter, and by what factor.
 const PATIENCE: u32 = 20;
 const SHORTER: f64 = 0.7;
+/// On large days too, prices settle in no fewer passes.
+const LEAST_PASSES: usize = 10;
 
 /// How much to search.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Effort {
-    pub(super) passes: u32,
+    /// Passes, if the day is not so large that they come to more than `hops`.
+    pub(super) passes: usize,
+    /// Hops that all passes together may look at.
+    pub(super) hops: usize,
     /// Length of the first step; 1 would reach the aim if the excess stayed what it is.
     pub(super) step: f64,
+}
+
+impl Effort {
+    fn passes_over(self, relaxation: &Relaxation) -> usize {
+        let affordable = self.hops / relaxation.hops_a_pass().max(1);
+        self.passes.min(affordable.max(LEAST_PASSES))
+    }
 }
 
 /// The search's memory: the best prices so far, and the running mean of the excess.
@@ -45,7 +57,7 @@ impl Volume {
     pub(super) fn search(&mut self, relaxation: &mut Relaxation, effort: Effort) {
         let mut lowest_usd = f64::INFINITY;
         let (mut step, mut failures) = (effort.step, 0);
-        for pass in 0..effort.passes {
+        for pass in 0..effort.passes_over(relaxation) {
             let usd = relaxation.evaluate();
             if usd < lowest_usd {
                 lowest_usd = usd;
