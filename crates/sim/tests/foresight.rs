@@ -25,8 +25,7 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         (view.day_start(), view.day_end(), view.hold_s(), view.day_seed()),
         view.vertiports(),
         view.period_at(decision.time + 1800),
-        view.day() == view.day(),
-        view.route_changes(),
+        (view.day() == view.day(), view.route_changes()),
     )];
     for aircraft in AircraftIx::all(view.places().len()) {
         let kind = view.kind(aircraft);
