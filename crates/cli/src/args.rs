@@ -55,7 +55,7 @@ pub(crate) struct ScenarioArguments {
 pub(crate) struct SimulateArguments {
     /// Scenario file
     pub(crate) scenario: PathBuf,
-    /// random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x (with --model), gcaps-x:rollouts=K, or replay:TRACE
+    /// random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K, or replay:TRACE
     #[arg(long)]
     pub(crate) policy: String,
     /// Seed of the random policy

@@ -13,7 +13,7 @@ use common::extended::extended_day;
 /// Everything that a view shows at a decision, as text.
 fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     let mut shown = vec![format!(
-        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
         view.feasible(decision),
         view.places(),
         view.stands_taken(),

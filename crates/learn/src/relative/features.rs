@@ -19,9 +19,11 @@ pub(crate) const AIRCRAFT_FEATURES: usize = 10;
 const SHARPER: f64 = 8.0;
 /// Others who are ready this long before or after the aircraft want the same flights, seconds.
 const NEAR_S: u32 = 900;
-/// Others who are ready within this time are asked where they want to go, seconds; no more than so many.
+/// Others who are ready within this time are asked where they want to go, seconds; no more than so many, and fewer where there
+/// are more than 30 vertiports to choose from.
 const SUITORS_S: u32 = 1_800;
-const MOST_SUITORS: u32 = 48;
+const MOST_SUITORS: usize = 48;
+const MOST_ASKED: usize = 30 * MOST_SUITORS;
 /// How soon others at the same vertiport are ready, seconds; the aircraft shows how many in each time.
 const RIVALS_S: [u32; 3] = [900, 1_800, 3_600];
 
@@ -166,6 +168,7 @@ impl Rows {
             let block_s = if stays { view.hold_s() } else { leg.block_s() };
             *seen = Seen { ready: decision.time + block_s, ..Seen::default() };
         }
+        let most_suitors = (MOST_ASKED / self.vertiports).min(MOST_SUITORS);
         let (mut rivals, mut suitors) = ([0; 3], 0);
         for (other, place) in AircraftIx::all(view.places().len()).zip(view.places()) {
             if other == decision.aircraft {
@@ -176,7 +179,7 @@ impl Rows {
             seen.before += u16::from(ready < seen.ready);
             let apart_s = ready.since(seen.ready).max(seen.ready.since(ready));
             seen.near += u16::from(apart_s <= NEAR_S);
-            if ready <= decision.time + SUITORS_S && suitors < MOST_SUITORS {
+            if ready <= decision.time + SUITORS_S && suitors < most_suitors {
                 suitors += 1;
                 self.court(
                     scene,
