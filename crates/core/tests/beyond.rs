@@ -7,6 +7,7 @@ use vertifleet_core::{
 
 const SCENARIO: &str = include_str!("data/small.json");
 const PAPER: &str = include_str!("../../../networks/paper.toml");
+const NEW_YORK: &str = include_str!("../../../networks/new-york.toml");
 
 const DISTURBANCES: &str = r#"
 [disturbances]
@@ -237,6 +238,28 @@ fn disrupted_is_paper_with_disturbances() {
     disrupted.fare_usd.clone_from(&paper.fare_usd);
     disrupted.energy_price_usd.clone_from(&paper.energy_price_usd);
     assert_eq!(disrupted, paper);
+}
+
+/// FHWA, Highway Statistics 2006, table NT-3: vehicle trips of a Wednesday by the hour in which they start, from midnight on.
+const NT_3_WEDNESDAY: [u32; 24] = [
+    147, 82, 83, 36, 249, 639, 1607, 3893, 2994, 2294, 2600, 2967, 3166, 3032, 3321, 3888, 3959,
+    4377, 3746, 2819, 2061, 1559, 783, 381,
+];
+
+#[test]
+fn the_hours_of_new_york_have_the_shares_of_a_wednesday() {
+    let file: toml::Table = NEW_YORK.parse().expect("TOML");
+    let demand = &file["daily_demand"];
+    let all: u32 = NT_3_WEDNESDAY.iter().sum();
+    let due = NT_3_WEDNESDAY[6..=22].iter().map(|&trips| f64::from(trips) / f64::from(all));
+    let found = demand["shares_percent"].as_array().expect("a list");
+    let starts = demand["periods"].as_array().expect("a list");
+    assert_eq!((found.len(), starts.len()), (17, 17));
+    for ((hour, due), (found, start)) in (6..).zip(due).zip(found.iter().zip(starts)) {
+        let found = found.as_float().expect("a number");
+        assert!((found - 100.0 * due).abs() < 0.051, "{hour}: {found} and not {due}");
+        assert_eq!(start.as_str(), Some(format!("{hour:02}:00:00").as_str()));
+    }
 }
 
 /// As `networks/new-york.toml` says.
