@@ -19,12 +19,13 @@ clone_into_room!(Demand { vertiports, left, total });
 impl Demand {
     /// The demand of a day before its first flight.
     pub(crate) fn of(scenario: &Scenario) -> Self {
-        let cells = |tables: &[Matrix<u32>]| -> Vec<u32> {
-            tables.iter().flat_map(Matrix::cells).copied().collect()
+        let known = scenario.disturbances.forecast.as_ref().unwrap_or(&scenario.demand);
+        // Table by table: of all that a new day needs, this is the most.
+        let left: Vec<u32> = known.iter().map(Matrix::cells).collect::<Vec<_>>().concat();
+        let sum = |table: &Matrix<u32>| {
+            table.cells().iter().map(|&waiting| u64::from(waiting)).sum::<u64>()
         };
-        let left = cells(scenario.disturbances.forecast.as_ref().unwrap_or(&scenario.demand));
-        let actual = scenario.demand.iter().flat_map(Matrix::cells);
-        let total = actual.map(|&passengers| u64::from(passengers)).sum();
+        let total = scenario.demand.iter().map(sum).sum();
         let mut demand = Self { vertiports: scenario.vertiports.len(), left, total };
         demand.begin(0, &scenario.demand[0]);
         demand

@@ -162,6 +162,7 @@ impl Simulation {
         }
     }
 
+    #[inline]
     fn hold(&mut self, decision: &Decision) -> TraceRow {
         let ready = decision.time + self.scenario.operations.hold_s;
         self.queue.set(decision.aircraft, ready);
