@@ -150,10 +150,10 @@ impl Model {
         let header: Header =
             tensor_file::header(bytes, FORMAT, |header: &Header| &header.format).map_err(broken)?;
         header.settings.check()?;
+        let net = nn::Network::new(header.policy.clone(), header.shape).map_err(broken)?;
         if header.shape != features::shape(header.shape.vertiports) {
             return Err(broken(format!("{:?} is not the shape of our features", header.shape)));
         }
-        let net = nn::Network::new(header.policy.clone(), header.shape).map_err(broken)?;
         // A header may promise more weights than any memory holds; the file has to have them.
         if net.layout().len() > bytes.len() / 4 {
             return Err(broken(format!("{} weights do not fit in the file", net.layout().len())));

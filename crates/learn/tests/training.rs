@@ -153,6 +153,24 @@ fn damaged_weights_are_refused_and_never_a_panic() {
 }
 
 #[test]
+fn a_shape_that_no_network_has_is_refused() {
+    let training = Training::start(plan(small_mlp(), Reward::Dense)).expect("a plan");
+    let bytes = training.best_model().to_bytes();
+    let (length, rest) = bytes.split_at(8);
+    let length = u64::from_le_bytes(length.try_into().expect("eight bytes"));
+    let (header, tensors) = rest.split_at(usize::try_from(length).expect("small"));
+    let header = str::from_utf8(header).expect("JSON");
+    for vertiports in [0, 3, 4_097, u64::MAX] {
+        let changed = header.replace(r#"vertiports\":8"#, &format!(r#"vertiports\":{vertiports}"#));
+        assert_ne!(changed, header);
+        let length = u64::try_from(changed.len()).expect("small").to_le_bytes();
+        let changed = [&length, changed.as_bytes(), tensors].concat();
+        let error = Model::from_bytes(&changed, "changed").expect_err("another shape");
+        assert_eq!(error.code().to_string(), "V304", "{error}");
+    }
+}
+
+#[test]
 fn learning_raises_the_reward() {
     let mut plan = plan(small_gcaps(), Reward::Dense);
     plan.settings.total_steps = 60 * 40 * 30;
