@@ -5,7 +5,7 @@
 # The main job: all policies on 100 unseen days of the paper's network.
 demo: prepare
 	cargo build --release --locked -p vertifleet-cli
-	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,prices,rolling,mlp,gcaps --days 100 --seed 1 --report out/report
+	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,prices,rolling,mlp,gcaps,gcaps-x --days 100 --seed 1 --report out/report
 
 test: prepare
 	cargo test --workspace --locked
@@ -22,8 +22,8 @@ deny:
 bench: prepare
 	cargo bench --workspace --locked
 
-# How the shipped weights were made; they are then copied from out/train to models/paper, with their curves. None of gcaps-x
-# are shipped yet.
+# How the shipped weights were made; they are then copied from out/train to models/paper, those of gcaps-x to models/any, with
+# their curves. Beside gcaps-x lie the curves of --seed 2 and --seed 3.
 train: prepare
 	cargo build --release --locked -p vertifleet-cli
 	./target/release/vertifleet train --network paper --policy gcaps --seed 1 --out out/train

@@ -7,7 +7,9 @@ use indicatif::HumanCount;
 use vertifleet_core::{Code, Scenario};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::relative::{AnyModel, GcapsX, Round};
-use vertifleet_learn::{CurveRow, Learned, Model, Trained, Weights, read_curves, shipped};
+use vertifleet_learn::{
+    CurveRow, Learned, Model, Trained, TrainedAny, Weights, read_curves, shipped, shipped_any,
+};
 use vertifleet_optimize::Rolling;
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, Replay};
 use vertifleet_sim::Trace;
@@ -138,13 +140,11 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// The shipped policy of a network.
+    /// The shipped policy of a network, or for all of them.
     pub(crate) fn shipped(name: &str, network: &str) -> Result<Self, Failure> {
-        if tried_by(name)?.is_some() {
-            return Err(Failure::usage(
-                format!("policy {name:?} has no shipped weights"),
-                "`vertifleet train --network paper --policy gcaps-x --out DIR` makes some; give them with --model",
-            ));
+        if let Some(tried) = tried_by(name)? {
+            let TrainedAny { model, curves } = shipped_any()?;
+            return Ok(Self::AnySize { model: Arc::new(model), tried, curves });
         }
         let Trained { model, curve } = shipped(network, name)?;
         Ok(Self::Learned { model: Arc::new(model), curves: vec![curve], shipped: true })

@@ -32,6 +32,6 @@ pub use error::Error;
 pub use features::{Observations, Scales, shape};
 pub use learned::Learned;
 pub use settings::{Reward, Schedule, Settings};
-pub use shipped::{Trained, shipped};
+pub use shipped::{Trained, TrainedAny, shipped, shipped_any};
 pub use train::{Plan, Training};
 pub use weights::{Header, Model, Origin};

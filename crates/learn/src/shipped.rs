@@ -2,6 +2,7 @@
 
 use crate::curve::{self, CurveRow};
 use crate::error::Error;
+use crate::relative::{AnyModel, Round};
 use crate::weights::Model;
 
 /// A trained policy and how its training went.
@@ -61,9 +62,48 @@ pub fn shipped(network: &str, policy: &str) -> Result<Trained, Error> {
     })
 }
 
+/// The shipped `gcaps-x`, which decides on every network.
+#[derive(Debug, Clone)]
+pub struct TrainedAny {
+    /// The policy.
+    pub model: AnyModel,
+    /// Its learning curve, then those of runs with other seeds.
+    pub curves: Vec<Vec<Round>>,
+}
+
+const ANY: &[u8] = include_bytes!("../../../models/any/gcaps-x.safetensors");
+const ANY_CURVES: [&str; 3] = [
+    include_str!("../../../models/any/gcaps-x-curve.csv"),
+    include_str!("../../../models/any/gcaps-x-seed-2-curve.csv"),
+    include_str!("../../../models/any/gcaps-x-seed-3-curve.csv"),
+];
+
+/// The shipped policy for networks of any size.
+///
+/// # Errors
+/// None, unless the files inside the program are not what they should be.
+pub fn shipped_any() -> Result<TrainedAny, Error> {
+    let origin = "shipped gcaps-x";
+    let curves = ANY_CURVES.iter().map(|text| curve::from_csv(text, origin));
+    Ok(TrainedAny {
+        model: AnyModel::from_bytes(ANY, origin)?,
+        curves: curves.collect::<Result<_, _>>()?,
+    })
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{SHIPPED, shipped};
+    use super::{SHIPPED, shipped, shipped_any};
+
+    #[test]
+    fn the_shipped_policy_for_any_network_lies_on_its_curve() {
+        let trained = shipped_any().expect("a shipped policy");
+        let header = trained.model.header();
+        let ends = trained.curves.iter().map(|rounds| rounds.last().expect("rounds").decisions);
+        let ends: Vec<u64> = ends.collect();
+        assert_eq!(ends[0], header.decisions);
+        assert!(ends[1] != ends[0] && ends[2] != ends[1], "each curve is of a run of its own");
+    }
 
     #[test]
     fn every_shipped_policy_loads_and_is_what_it_is_called() {
