@@ -43,7 +43,8 @@ const ON_VALIDATION_DAYS: Chart = Chart {
     subtitle: "Mean reward, best choices, against decisions learned from",
     axis: "decisions learned from",
     caption: "Policies that learn in different ways, on one scale: decisions learned from are steps of PPO, and decisions whose choices were \
-              tried out of gcaps-x. A thick line with marks is the run whose weights play; thin lines are runs with other seeds.",
+              tried out of gcaps-x. A thick line with marks is the run whose weights play; thin lines are runs with other \
+              seeds. Every policy looks at as many validation days as its settings say.",
 };
 
 /// The runs of a policy; the first is the one whose weights play.
