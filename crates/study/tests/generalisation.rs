@@ -11,7 +11,7 @@ fn study(networks: usize) -> Study {
     let mut policies = made_up::study(networks).policies;
     policies.swap(0, 1);
     let mut plan = policies[4].clone();
-    plan.name = "plan".to_owned();
+    "plan".clone_into(&mut plan.name);
     plan.decision_ns = None;
     policies.push(plan);
     for (position, policy) in policies.iter_mut().enumerate() {

@@ -24,10 +24,9 @@ pub fn text(summary: &Summary) -> String {
     rows.extend(summary.policies.iter().map(|policy| row(policy, summary.networks.len())));
     append_aligned(&mut text, &rows);
     text.push_str("means over the networks; ± is the 95 % interval of the mean; p is of paired t-tests, two-sided\n");
-    let step = minutes(summary.bound_step_s);
-    text += &format!(
-        "of bound: share of what no schedule of the day earns more than (steps of {step})"
-    );
+    text.push_str("of bound: share of what no schedule of the day earns more than (steps of ");
+    text.push_str(&minutes(summary.bound_step_s));
+    text.push(')');
     if summary.policies.iter().any(|policy| policy.knows_the_day) {
         text.push_str("\n* knows the whole day beforehand: a reference, no policy");
     }
