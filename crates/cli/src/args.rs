@@ -32,7 +32,7 @@ pub(crate) enum Command {
     Train(TrainArguments),
     /// Play many days with many policies and report who earns what
     Compare(CompareArguments),
-    /// Play a day each of many random networks with many policies and report who earns what share of the bound
+    /// Play a day each of many random networks and report who comes how near the bound
     Generalise(GeneraliseArguments),
 }
 
