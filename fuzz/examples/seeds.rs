@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use vertifleet_core::Network;
 use vertifleet_learn::nn::{self, Architecture, GcapsSettings, MlpSettings};
-use vertifleet_learn::relative::{Course, Study};
+use vertifleet_learn::relative::{Course, Plan, Study};
 use vertifleet_learn::{Model, Origin, Settings, shape};
 
 const VERTIPORTS: usize = 3;
@@ -23,7 +23,7 @@ fn main() {
         let origin = Origin {
             network: "small".to_owned(),
             feature_scales: network.feature_scales(),
-            settings: Settings::default(),
+            settings: Settings::tuned(),
             seed: 1,
             commit: String::new(),
         };
@@ -32,9 +32,14 @@ fn main() {
         let params = net.init(1);
         Model::new(net, params, origin, 0).write(&path).expect("a folder of ours");
     }
-    let course = Course { validation_days: 1, ..Course::default() };
-    let kind = Architecture::GcapsX(tiny());
-    let study = Study::start(Arc::new(network), kind, course, (1, String::new()));
+    let plan = Plan {
+        network: Arc::new(network),
+        policy: Architecture::GcapsX(tiny()),
+        course: Course { validation_days: 1, ..Course::default() },
+        seed: 1,
+        commit: String::new(),
+    };
+    let study = Study::start(plan);
     let model = study.expect("settings within their bounds").model();
     model.write(&folder.join("gcaps-x")).expect("a folder of ours");
 }
