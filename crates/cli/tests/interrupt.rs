@@ -102,7 +102,7 @@ fn a_training_of_gcaps_x_ended_by_ctrl_c_goes_on_to_the_same_weights() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
     let train = |more: &str| {
-        let course = "--set rounds=2 --set days=8 --set passes=1 --set validation_days=1 --set courses=1 --set horizon_s=600";
+        let course = "--set rounds=2 --set days=3 --set random_share=0 --set passes=1 --set validation_days=1 --set courses=1 --set horizon_s=600";
         vertifleet(at, &format!("train --network paper --policy gcaps-x --seed 5 {course} {more}"))
     };
     let whole = train("--out whole").output().expect("the program runs");
