@@ -1,8 +1,8 @@
 //! Share of the bound against the size of the network: a panel over aircraft and one over vertiports, a mark a network and
 //! policy.
 //!
-//! Policies differ by the shape of their mark as well as by its colour. Marks are small and never filled over each other's
-//! outline, so that those of one network, which stand above each other, can be told apart.
+//! Policies differ by the shape of their mark as well as by its colour. A ring in the colour of the ground keeps marks apart that
+//! lie on each other.
 
 use super::Figure;
 use super::axis::Scale;
@@ -76,7 +76,7 @@ fn draw_panel(canvas: &mut Canvas, summary: &Summary, size: &Size, top: f64) {
     );
     let y = Scale::around(shares.map(|share| 100.0 * share).chain([100.0]), (floor, top), 6);
     draw_axes(canvas, (&x, &y), size.axis, (top, floor));
-    // A policy at a time, so that no policy's marks always lie on top by the order of networks.
+    // A policy at a time: where marks lie on each other, those of the policy named later can be seen.
     for (position, _) in summary.policies.iter().enumerate() {
         for network in networks() {
             let share = 100.0 * network.results[position].bound_share;
