@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use clap::builder::{PathBufValueParser, TypedValueParser as _};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use vertifleet_study::policies::Given;
 
 /// Decides where every electric air taxi of an urban fleet flies next.
 #[derive(Debug, Parser)]
@@ -62,8 +64,8 @@ pub(crate) struct SimulateArguments {
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
     /// Weights of a learned policy [default: the shipped ones of the scenario's network]
-    #[arg(long, value_name = "PATH")]
-    pub(crate) model: Option<PathBuf>,
+    #[arg(long, value_name = "PATH", value_parser = PathBufValueParser::new().map(Given::File))]
+    pub(crate) model: Option<Given>,
     /// Write every decision to this CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
@@ -182,8 +184,8 @@ pub(crate) struct CompareArguments {
     #[arg(long)]
     pub(crate) seed: u64,
     /// Weights for a policy name; may be given several times
-    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_pair)]
-    pub(crate) models: Vec<(String, String)>,
+    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
+    pub(crate) models: Vec<(String, Given)>,
     /// Prove an upper bound of every day and show each policy's share of it
     #[arg(long)]
     pub(crate) bound: bool,
@@ -207,8 +209,8 @@ pub(crate) struct GeneraliseArguments {
     #[arg(long, value_delimiter = ',', required = true)]
     pub(crate) policies: Vec<String>,
     /// Weights for a policy name; may be given several times
-    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_pair)]
-    pub(crate) models: Vec<(String, String)>,
+    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
+    pub(crate) models: Vec<(String, Given)>,
     /// Minutes for which the bounds' prices stay the same, 1 to 60; fewer give tighter bounds, later
     #[arg(long, value_name = "MIN", default_value_t = 3)]
     pub(crate) step: u32,
@@ -227,6 +229,10 @@ fn parse_pair(text: &str) -> Result<(String, String), String> {
         }
         _ => Err("expected a name, an equals sign and a value".to_owned()),
     }
+}
+
+fn parse_model(text: &str) -> Result<(String, Given), String> {
+    parse_pair(text).map(|(name, path)| (name, Given::File(path.into())))
 }
 
 fn parse_threads(text: &str) -> Result<usize, String> {

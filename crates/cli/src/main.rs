@@ -5,12 +5,9 @@
 
 mod args;
 mod commands;
-mod entrants;
 mod failure;
 mod interrupt;
-mod kept_bounds;
 mod output;
-mod policies;
 mod progress;
 mod worth;
 

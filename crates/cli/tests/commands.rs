@@ -286,18 +286,18 @@ fn what_users_get_wrong_has_a_code_and_a_way_out() {
         ("scenario paper --seed 9999999999999999", "V1"),
         ("simulate day.json --policy fastest", "V307"),
         ("simulate day.json --policy gcaps --model day.json", "V304"),
-        ("simulate day.json --policy greedy --model day.json", "V450"),
+        ("simulate day.json --policy greedy --model day.json", "V407"),
         ("simulate day.json --policy replay:other.csv", "V406"),
         ("train --network paper --policy mlp --out run --set speed=9", "V302"),
         ("train --network paper --policy mlp --out run --set gamma=9", "V303"),
         ("train --network paper --policy mlp --out run --preset best", "V301"),
-        ("compare --network paper --policies greedy --days 1 --seed 1 --model gcaps=x", "V450"),
+        ("compare --network paper --policies greedy --days 1 --seed 1 --model gcaps=x", "V407"),
         (
             "compare --network paper --policies greedy,greedy --days 1 --seed 1 --report twice",
             "V404",
         ),
-        ("compare --network paper --policies greedy --days 1 --seed 1 --model greedy=x", "V450"),
-        ("simulate day.json --policy mlp --model gcaps.safetensors", "V450"),
+        ("compare --network paper --policies greedy --days 1 --seed 1 --model greedy=x", "V407"),
+        ("simulate day.json --policy mlp --model gcaps.safetensors", "V407"),
         ("train --network paper --policy gcaps --out .", "V450"),
     ];
     for (arguments, code) in cases {

@@ -71,7 +71,8 @@ fn codes_behind(text: &str, before: &str) -> Vec<String> {
 #[test]
 fn every_error_code_has_an_entry_and_every_entry_a_code() {
     let mut used = Names::new();
-    for source in files(&root().join("crates"), ".rs") {
+    let folders = ["crates", "python/src"].map(|folder| root().join(folder));
+    for source in folders.iter().flat_map(|folder| files(folder, ".rs")) {
         if source.components().any(|part| part.as_os_str() == "src") {
             let source = text(source);
             used.extend(codes_behind(&source, "Code("));

@@ -267,6 +267,16 @@ pub enum Error {
         vertiport: String,
     },
 
+    /// V123. A change of a network names a member by a path that leads nowhere. Fix: name members as they stand in the network
+    /// file, and the entries of a list by their `id` or their position from 0.
+    #[error("{path:?} leads nowhere: there is no {part:?}")]
+    NoSuchMember {
+        /// The path.
+        path: String,
+        /// Its first part that is not there.
+        part: String,
+    },
+
     /// V119. A name is neither a shipped network, nor a random one, nor a file. Fix: give one of the names that the
     /// message lists, `random:` and a number, or the path of a network file.
     #[error(
@@ -331,6 +341,7 @@ impl Error {
             Self::UnknownNetwork { .. } => 119,
             Self::NotOneOf { .. } => 121,
             Self::RouteToItself { .. } => 122,
+            Self::NoSuchMember { .. } => 123,
         })
     }
 
@@ -358,6 +369,9 @@ impl Error {
                 Some("seeds for comparison, validation and training are kept apart by their size")
             }
             Self::UnknownNetwork { .. } => Some("a network file is TOML, see networks/paper.toml"),
+            Self::NoSuchMember { .. } => Some(
+                "members are named as in the network file, entries of a list by id, position or *",
+            ),
             _ => None,
         }
     }

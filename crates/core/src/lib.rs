@@ -4,6 +4,7 @@
 //! what days are drawn from. Both are read in two stages: raw text, then checked types that cannot hold nonsense.
 //! This crate knows no clock, no policy and no motion; its only randomness is the one that draws a day or a network.
 
+mod change;
 mod check;
 mod code;
 mod demand_model;

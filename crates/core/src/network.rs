@@ -23,6 +23,8 @@ const SHIPPED: &[(&str, &str)] = &[
 #[derive(Debug, Clone)]
 pub struct Network {
     pub(crate) name: String,
+    /// The text that it was read from.
+    pub(crate) toml: String,
     /// All that is the same every day. Its aircraft stand anywhere that is allowed, and nobody wants to fly.
     pub(crate) idle_day: Scenario,
     pub(crate) demand: DemandModel,
@@ -96,6 +98,11 @@ impl Network {
     /// Its name; the days drawn from it are called `{name}-{seed}`.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The text of its network file: reading it again gives the same network.
+    pub fn toml(&self) -> &str {
+        &self.toml
     }
 
     /// The vertiports, in file order.

@@ -97,6 +97,7 @@ pub(crate) fn network(text: &str, origin: &str) -> Result<Network, Error> {
     };
     Ok(Network {
         name: raw.name,
+        toml: text.to_owned(),
         idle_day: idle_day.check(origin)?,
         demand,
         disturbances,

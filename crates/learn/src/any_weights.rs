@@ -22,11 +22,18 @@ impl Weights {
     /// As [`Model::read`] and [`AnyModel::read`].
     pub fn read(path: &Path) -> Result<Self, Error> {
         let bytes = vertifleet_core::read_at_most(path, weights::LIMIT_BYTES)?;
-        let origin = path.display().to_string();
-        if AnyModel::wrote(&bytes) {
-            return Ok(Self::OfAnySize(Box::new(AnyModel::from_bytes(&bytes, &origin)?)));
+        Self::from_bytes(&bytes, &path.display().to_string())
+    }
+
+    /// Reads a weight file's bytes; `origin` names them in errors.
+    ///
+    /// # Errors
+    /// As [`Model::from_bytes`] and [`AnyModel::from_bytes`].
+    pub fn from_bytes(bytes: &[u8], origin: &str) -> Result<Self, Error> {
+        if AnyModel::wrote(bytes) {
+            return Ok(Self::OfAnySize(Box::new(AnyModel::from_bytes(bytes, origin)?)));
         }
-        Ok(Self::OfOneSize(Box::new(Model::from_bytes(&bytes, &origin)?)))
+        Ok(Self::OfOneSize(Box::new(Model::from_bytes(bytes, origin)?)))
     }
 
     /// The name of the policy's kind.

@@ -77,20 +77,16 @@ impl Observations {
     /// If the view is of a network with another number of vertiports, or there is no such row.
     pub fn write(&mut self, row: usize, decision: &Decision, view: &View<'_>, scales: &Scales) {
         let Shape { vertiports, node_features, aircraft_features } = self.shape;
-        assert_eq!(view.vertiports(), vertiports, "features are of one shape");
         let nodes =
             &mut self.nodes[row * vertiports * node_features..][..vertiports * node_features];
-        write_nodes(nodes, *view, scales);
         let aircraft = &mut self.aircraft[row * aircraft_features..][..aircraft_features];
-        write_aircraft(aircraft, decision, *view, scales);
+        self.clock[row] = scales.write((nodes, aircraft), decision, *view);
 
         let mask = &mut self.mask[row * vertiports..][..vertiports];
         mask.fill(0);
         for feasible in view.feasible(decision).iter() {
             mask[feasible.at()] = 1;
         }
-        let day_s = view.day_end().since(view.day_start()).max(1);
-        self.clock[row] = view.day_end().since(decision.time) as f32 / day_s as f32;
     }
 }
 
@@ -117,6 +113,27 @@ impl From<FeatureScales> for Scales {
             battery_kwh: 1.0 / scales.battery_kwh,
             power_kw: 1.0 / scales.power_kw,
         }
+    }
+}
+
+impl Scales {
+    /// Writes the features of a decision: of the nodes [N x F], of the aircraft [G]. Returns the share of the day left.
+    ///
+    /// # Panics
+    /// If the room is for a network with another number of vertiports.
+    pub fn write(
+        &self,
+        (nodes, aircraft): (&mut [f32], &mut [f32]),
+        decision: &Decision,
+        view: View<'_>,
+    ) -> f32 {
+        let Shape { vertiports, node_features, aircraft_features } = shape(view.vertiports());
+        assert_eq!(nodes.len(), vertiports * node_features, "features are of one shape");
+        assert_eq!(aircraft.len(), aircraft_features, "features are of one shape");
+        write_nodes(nodes, view, self);
+        write_aircraft(aircraft, decision, view, self);
+        let day_s = view.day_end().since(view.day_start()).max(1);
+        view.day_end().since(decision.time) as f32 / day_s as f32
     }
 }
 

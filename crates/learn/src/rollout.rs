@@ -15,7 +15,7 @@ use vertifleet_sim::{Decision, Simulation};
 use crate::error::Error;
 use crate::features::{Observations, Scales, shape};
 use crate::nn::{self, Prepared, Workspace};
-use crate::settings::{Reward, Settings};
+use crate::settings::Settings;
 
 /// Days that share one inference. Large enough for the matrix products, small enough for the cache.
 const GROUP: usize = 32;
@@ -238,11 +238,7 @@ impl Group {
         let outcome = day.simulation.apply(choice).expect("the choice was drawn from the mask");
         day.progress.choices.push(choice.0);
         let over = day.simulation.next_decision().is_none();
-        let reward = match settings.reward {
-            Reward::Dense => dense_reward(outcome.profit_usd(), day.simulation.potential_usd()),
-            Reward::Terminal if over => day.simulation.summary().reward,
-            Reward::Terminal => 0.0,
-        };
+        let reward = settings.reward.of(&outcome, &day.simulation, over);
 
         stretch.observations.copy_row(row, present, at);
         stretch.choices[row] = choice.0;
@@ -257,11 +253,6 @@ impl Group {
         }
         Ok(())
     }
-}
-
-/// The share of the day's reward that one flight pays at its decision.
-fn dense_reward(profit_usd: f64, potential_usd: f64) -> f64 {
-    if potential_usd > 0.0 { profit_usd / potential_usd } else { 0.0 }
 }
 
 /// Draws from the softmax of the logits; `uniform` is in [0, 1). Returns the choice and the logarithm of its
@@ -292,7 +283,7 @@ mod tests {
 
     use vertifleet_core::Network;
 
-    use super::{DayInProgress, Group, PlayedDay, Source, dense_reward, sample};
+    use super::{DayInProgress, Group, PlayedDay, Source, sample};
     use crate::features::{Scales, shape};
     use crate::nn::{Architecture, GcapsSettings, Network as Net};
     use crate::settings::{Reward, Settings};
@@ -332,11 +323,6 @@ mod tests {
         assert!(terminal[..end].iter().all(|&reward| reward == 0.0));
         let sum: f32 = dense[..=end].iter().sum();
         assert!((sum - terminal[end]).abs() < 1e-6, "{sum} is not {}", terminal[end]);
-    }
-
-    #[test]
-    fn a_day_without_demand_pays_nothing() {
-        assert_eq!(dense_reward(-10.0, 0.0), 0.0);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use vertifleet_sim::{Simulation, TraceRow};
 
 use crate::error::Error;
 
@@ -13,6 +14,22 @@ pub enum Reward {
     Terminal,
     /// Each flight's share when it is decided; the shares of a day add up to the same total.
     Dense,
+}
+
+impl Reward {
+    /// What a decision pays, given what it came to and the day after it; `over` says whether it was the day's last.
+    pub fn of(self, outcome: &TraceRow, day: &Simulation, over: bool) -> f64 {
+        match self {
+            Self::Dense => share(outcome.profit_usd(), day.potential_usd()),
+            Self::Terminal if over => day.summary().reward,
+            Self::Terminal => 0.0,
+        }
+    }
+}
+
+/// The share of the day's reward that one flight pays at its decision; nothing on a day without demand.
+fn share(profit_usd: f64, potential_usd: f64) -> f64 {
+    if potential_usd > 0.0 { profit_usd / potential_usd } else { 0.0 }
 }
 
 /// How the learning rate goes over the run.
@@ -228,7 +245,12 @@ pub(crate) fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), 
 
 #[cfg(test)]
 mod tests {
-    use super::{Reward, Settings};
+    use super::{Reward, Settings, share};
+
+    #[test]
+    fn a_day_without_demand_pays_nothing() {
+        assert_eq!(share(-10.0, 0.0), 0.0);
+    }
 
     #[test]
     fn the_paper_preset_is_table_2() {

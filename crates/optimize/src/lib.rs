@@ -6,9 +6,11 @@
 mod bound;
 pub mod error;
 mod plan;
+mod proof;
 mod rolling;
 
 pub use bound::{Bound, Step, cached_upper_bound, upper_bound};
 pub use error::Error;
 pub use plan::{Budget, Plan, Progress, Settings, can_plan, plan};
+pub use proof::Proof;
 pub use rolling::Rolling;

@@ -10,6 +10,7 @@ mod priced;
 mod prices;
 mod random;
 mod replay;
+mod stoppable;
 mod try_out;
 
 pub use day_memory::DayMemory;
@@ -22,4 +23,5 @@ pub use priced::Priced;
 pub use prices::DayPrices;
 pub use random::Random;
 pub use replay::Replay;
+pub use stoppable::Stoppable;
 pub use try_out::{Shortlist, Trial, TryOut, fleet_worth_usd, noise};

@@ -40,6 +40,9 @@ pub trait Policy: Send {
 /// A policy that has no answer.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PolicyError {
+    /// Whoever asked wants no more answers.
+    #[error("it was stopped")]
+    Stopped,
     /// The trace ends before the day does.
     #[error("the trace has {rows} rows, but the day asks for another decision at {time}")]
     TraceTooShort {

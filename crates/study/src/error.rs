@@ -12,6 +12,18 @@ pub enum Error {
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
+    /// Weights that do not fit or do not load (V3xx), as `vertifleet-learn` says it.
+    #[error(transparent)]
+    Learn(#[from] vertifleet_learn::Error),
+
+    /// A day that is too large for a bound, or cannot be planned (V5xx), as `vertifleet-optimize` says it.
+    #[error(transparent)]
+    Optimize(#[from] vertifleet_optimize::Error),
+
+    /// A trace to be replayed (V2xx), as `vertifleet-sim` says it.
+    #[error(transparent)]
+    Trace(#[from] vertifleet_sim::TraceError),
+
     /// V401. The report's folder cannot be made. Cause: missing rights, or a file where the folder should be. Fix: name
     /// another folder.
     #[error("{}: cannot make the folder of the report: {cause}", path.display())]
@@ -78,6 +90,27 @@ pub enum Error {
         /// Where it got stuck.
         cause: PlayError,
     },
+
+    /// V407. Policies and models are asked for that do not go together. Cause and fix are in the message and its hint.
+    #[error("{rule}")]
+    Asked {
+        /// What does not go together.
+        rule: String,
+        /// What helps.
+        hint: &'static str,
+    },
+
+    /// V408. Somebody stopped it before it was done. Nothing was written.
+    #[error("stopped before all days were played")]
+    Stopped,
+
+    /// V409. Parts of a study do not go together. Cause: they are of different comparisons, or days are missing between them.
+    /// Fix: join all parts of one comparison, in the order of their days.
+    #[error("the parts do not go together: {rule}")]
+    PartsDiffer {
+        /// What differs.
+        rule: String,
+    },
 }
 
 impl Error {
@@ -85,12 +118,18 @@ impl Error {
     pub fn code(&self) -> Code {
         Code(match self {
             Self::Core(error) => return error.code(),
+            Self::Learn(error) => return error.code(),
+            Self::Optimize(error) => return error.code(),
+            Self::Trace(error) => return error.code(),
             Self::CannotMakeFolder { .. } => 401,
             Self::Empty { .. } => 402,
             Self::Unpaired { .. } => 403,
             Self::DuplicatePolicy { .. } => 404,
             Self::NotFinite { .. } => 405,
             Self::Stuck { .. } => 406,
+            Self::Asked { .. } => 407,
+            Self::Stopped => 408,
+            Self::PartsDiffer { .. } => 409,
         })
     }
 
@@ -98,6 +137,9 @@ impl Error {
     pub fn hint(&self) -> Option<&str> {
         match self {
             Self::Core(error) => error.hint(),
+            Self::Learn(error) => error.hint(),
+            Self::Optimize(error) => error.hint(),
+            Self::Trace(error) => error.hint(),
             Self::CannotMakeFolder { .. } => {
                 Some("name a folder that is yours, or one that is not there yet")
             }
@@ -107,7 +149,11 @@ impl Error {
             ),
             Self::Unpaired { .. } => Some("run all policies in one comparison"),
             Self::Stuck { .. } => Some("a replay needs the trace of the very day that is played"),
-            Self::NotFinite { .. } => None,
+            Self::Asked { hint, .. } => Some(hint),
+            Self::PartsDiffer { .. } => {
+                Some("join all parts of one comparison, in the order of their days")
+            }
+            Self::NotFinite { .. } | Self::Stopped => None,
         }
     }
 }

@@ -1,16 +1,21 @@
 //! Many policies on many days: statistics, figures, report.
 //!
-//! [`run`] plays the days, [`record`] holds what they leave behind, [`Summary`] turns it into statistics, and [`table`], [`figure`] and
+//! [`policies`] and [`entrants`] know who is meant by a name, [`comparison`] goes from what is asked for to its records, [`run`] plays the days, [`record`] holds what they leave behind, [`Summary`] turns it into statistics, and [`table`], [`figure`] and
 //! [`report`] present those; [`generalisation`] does the same for a day each of many networks. Presentation computes nothing; statistics know nothing of pages.
 
+pub mod comparison;
 mod days_csv;
+pub mod entrants;
 mod error;
 pub mod figure;
 pub mod generalisation;
 mod headline;
+mod join;
+mod kept_bounds;
 mod numbers;
 mod origin;
 mod page;
+pub mod policies;
 pub mod published;
 pub mod record;
 pub mod report;
@@ -20,6 +25,7 @@ pub mod summary;
 pub mod table;
 
 pub use error::Error;
+pub use kept_bounds::KeptBounds;
 pub use origin::NetworkOrigin;
 pub use record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study, Training};
 pub use summary::Summary;

@@ -3,11 +3,11 @@
 //! Whoever wants more aircraft copies `networks/paper.toml`, changes a number and leaves the name as it is. What is known
 //! of the shipped network, the published figures above all, then says nothing about the copy.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vertifleet_core::{Network, Scenario};
 
 /// Where the network of some days comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NetworkOrigin {
     /// The program ships it.
@@ -26,6 +26,11 @@ impl NetworkOrigin {
             Some(shipped) if days.into_iter().all(|day| shipped.draws(day)) => Self::Shipped,
             Some(_) => Self::Changed,
         }
+    }
+
+    /// The origin of all days together, some of which have this one and some another.
+    pub(crate) fn with(self, other: Self) -> Self {
+        if self == other { self } else { Self::Changed }
     }
 }
 

@@ -3,10 +3,12 @@
 //! These are plain numbers, so that everything after them (statistics, figures, report) can be tested without a
 //! simulation. Days stand in the same order for every policy: that is what makes the tests paired.
 
+use serde::{Deserialize, Serialize};
+
 use crate::origin::NetworkOrigin;
 
 /// One policy's result on one day.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DayRecord {
     /// Position of the policy in [`Study::policies`].
     pub policy: usize,
@@ -61,7 +63,7 @@ impl DayRecord {
 }
 
 /// Time that one decision takes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct LatencySummary {
     /// Half of the decisions take at most this long, in nanoseconds.
     pub median_ns: u64,
@@ -70,7 +72,7 @@ pub struct LatencySummary {
 }
 
 /// One policy on every day of the study.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PolicyRecord {
     /// Name as the user gave it, for example `greedy`.
     pub name: String,
@@ -84,7 +86,7 @@ pub struct PolicyRecord {
 }
 
 /// How a policy's training went (Fig. 3).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// Name of the policy that was trained.
     pub name: String,
@@ -93,7 +95,7 @@ pub struct Curve {
 }
 
 /// How a policy does on the validation days while it learns, one run a seed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Training {
     /// Name of the policy.
     pub name: String,
@@ -103,7 +105,7 @@ pub struct Training {
 }
 
 /// Many policies on the same days.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Study {
     /// Name of the network that the days were drawn from.
     pub network: String,

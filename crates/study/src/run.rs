@@ -4,11 +4,12 @@
 //! Only the times per decision are measurements of this machine, taken while its other threads play too.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use vertifleet_core::{Scenario, VertiportIx};
-use vertifleet_policy::{Policy, PolicyError, Replay, play};
+use vertifleet_policy::{PlayError, Policy, PolicyError, Replay, Stoppable, play};
 use vertifleet_sim::{Decision, Simulation, Trace, View};
 
 use crate::error::Error;
@@ -20,6 +21,13 @@ pub struct Day {
     pub scenario: Arc<Scenario>,
     /// What no schedule of it earns more than, dollars, where that is asked for.
     pub upper_bound_usd: Option<f64>,
+}
+
+impl Day {
+    /// A day whose bound nobody asks for.
+    pub fn unbounded(scenario: Arc<Scenario>) -> Self {
+        Self { scenario, upper_bound_usd: None }
+    }
 }
 
 /// Who takes part: its name and how it comes to its decisions.
@@ -40,8 +48,8 @@ pub enum Way<'a> {
     Offline(Planner<'a>),
 }
 
-/// The whole schedule of a day that is known.
-pub type Planner<'a> = Box<dyn Fn(&Arc<Scenario>) -> Trace + Sync + 'a>;
+/// The whole schedule of a day that is known; some schedule soon once the flag is raised.
+pub type Planner<'a> = Box<dyn Fn(&Arc<Scenario>, &AtomicBool) -> Trace + Sync + 'a>;
 
 /// Those who take part, no two of the same name: everything after this tells them apart by it.
 pub struct Contenders<'a>(Vec<Contender<'a>>);
@@ -65,14 +73,15 @@ impl<'a> Contenders<'a> {
 /// gives what is called after each of its days, from any thread.
 ///
 /// # Errors
-/// [`Error::Stuck`] if a policy cannot play a day to its end.
+/// [`Error::Stuck`] if a policy cannot play a day to its end; [`Error::Stopped`] soon after `stop` is raised.
 pub fn run<Played: Fn() + Sync>(
     days: &[Day],
     contenders: &Contenders<'_>,
+    stop: &AtomicBool,
     mut begin: impl FnMut(&str) -> Played,
 ) -> Result<Vec<PolicyRecord>, Error> {
     let mut play = |(position, contender): (usize, &Contender<'_>)| {
-        play_days(position, contender, days, &begin(&contender.name))
+        play_days(position, contender, (days, stop), &begin(&contender.name))
     };
     contenders.0.iter().enumerate().map(&mut play).collect()
 }
@@ -80,7 +89,7 @@ pub fn run<Played: Fn() + Sync>(
 fn play_days(
     position: usize,
     contender: &Contender<'_>,
-    days: &[Day],
+    (days, stop): (&[Day], &AtomicBool),
     played: &(impl Fn() + Sync),
 ) -> Result<PolicyRecord, Error> {
     let (records, decision_ns) = match &contender.way {
@@ -88,7 +97,8 @@ fn play_days(
             let results: Vec<(DayRecord, Vec<u64>)> = days
                 .par_iter()
                 .map_init(make, |policy, day| {
-                    let mut timed = Timed { policy: policy.as_mut(), nanoseconds: Vec::new() };
+                    let policy = Stoppable { policy: policy.as_mut(), stop };
+                    let mut timed = Timed { policy, nanoseconds: Vec::new() };
                     let record = play_day(position, contender, &mut timed, day)?;
                     played();
                     Ok((record, timed.nanoseconds))
@@ -102,7 +112,10 @@ fn play_days(
             let records = days
                 .par_iter()
                 .map(|day| {
-                    let mut planned = Replay::new(Arc::new(plan(&day.scenario)));
+                    let mut planned = Replay::new(Arc::new(plan(&day.scenario, stop)));
+                    if stop.load(Ordering::Relaxed) {
+                        return Err(Error::Stopped);
+                    }
                     let record = play_day(position, contender, &mut planned, day)?;
                     played();
                     Ok(record)
@@ -126,10 +139,11 @@ fn play_day(
     day: &Day,
 ) -> Result<DayRecord, Error> {
     let mut simulation = Simulation::new(Arc::clone(&day.scenario));
-    play(&mut simulation, policy, |_| ()).map_err(|cause| Error::Stuck {
-        policy: contender.name.clone(),
-        day: day.scenario.name.clone(),
-        cause,
+    play(&mut simulation, policy, |_| ()).map_err(|cause| match cause {
+        PlayError::NoAnswer(PolicyError::Stopped) => Error::Stopped,
+        cause => {
+            Error::Stuck { policy: contender.name.clone(), day: day.scenario.name.clone(), cause }
+        }
     })?;
     Ok(record(position, day, &simulation.summary()))
 }
@@ -157,9 +171,9 @@ fn record(policy: usize, day: &Day, summary: &vertifleet_sim::Summary) -> DayRec
     }
 }
 
-/// A policy whose every choice is timed, one by one as a dispatcher would ask.
+/// A policy whose every choice is timed, one by one as a dispatcher would ask, until it is stopped.
 struct Timed<'a> {
-    policy: &'a mut dyn Policy,
+    policy: Stoppable<'a, dyn Policy>,
     nanoseconds: Vec<u64>,
 }
 
@@ -185,6 +199,7 @@ fn latency(mut nanoseconds: Vec<u64>) -> LatencySummary {
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
+    use std::sync::atomic::AtomicBool;
 
     use vertifleet_core::{DaySeed, Network};
     use vertifleet_policy::{Greedy, Random, play};
@@ -212,7 +227,7 @@ mod tests {
         let plan = Contender {
             name: "plan".to_owned(),
             description: String::new(),
-            way: Way::Offline(Box::new(|day| {
+            way: Way::Offline(Box::new(|day, _| {
                 let mut trace = Trace::default();
                 let mut simulation = Simulation::new(Arc::clone(day));
                 play(&mut simulation, &mut Greedy, |row| trace.rows.push(*row)).expect("a day");
@@ -237,7 +252,8 @@ mod tests {
             |seed| Day { scenario: Arc::new(network.draw(seed)), upper_bound_usd: Some(50_000.0) };
         let days: Vec<Day> = seeds.map(day).collect();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| run(&days, &contenders(), |_| || ())).expect("every day is played")
+        pool.install(|| run(&days, &contenders(), &AtomicBool::new(false), |_| || ()))
+            .expect("every day is played")
     }
 
     #[test]
@@ -246,6 +262,16 @@ mod tests {
             policies.into_iter().map(|policy| policy.days).collect::<Vec<Vec<DayRecord>>>()
         };
         assert_eq!(records(played_on(1)), records(played_on(3)));
+    }
+
+    #[test]
+    fn a_run_that_is_stopped_says_so() {
+        let network = Network::shipped("paper").expect("a shipped network");
+        let day = network.draw(DaySeed::comparison(1).expect("a seed for comparison"));
+        let days = [Day::unbounded(Arc::new(day))];
+        let error = run(&days, &contenders(), &AtomicBool::new(true), |_| || ())
+            .expect_err("nothing was to be played");
+        assert_eq!(error.code().to_string(), "V408");
     }
 
     #[test]

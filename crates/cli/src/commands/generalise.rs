@@ -2,16 +2,19 @@
 
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use anstream::eprintln;
 use vertifleet_core::{DaySeed, Network, Purpose, Scenario, random_network};
 use vertifleet_optimize::Step;
+use vertifleet_study::comparison::Watch as _;
+use vertifleet_study::entrants::{Asked, contenders};
 use vertifleet_study::generalisation::{self, NetworkRecord, Study, Summary};
-use vertifleet_study::report;
+use vertifleet_study::run::run as play_all;
+use vertifleet_study::{KeptBounds, report};
 
 use crate::args::GeneraliseArguments;
-use crate::commands::days::{bounded, command, play};
-use crate::entrants::{self, Asked};
+use crate::commands::days::{Bars, command};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::print;
@@ -29,7 +32,7 @@ pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> 
         network: "random",
     };
     let entrants = asked.entrants()?;
-    let contenders = entrants::contenders(&entrants)?;
+    let contenders = contenders(&entrants)?;
     if let Some(folder) = &arguments.report {
         report::check_folder(folder)?;
     }
@@ -44,8 +47,13 @@ pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> 
         aircraft: scenario.aircraft.len(),
     };
     let networks = numbers().zip(&scenarios).map(record).collect();
-    let days = bounded(scenarios, step)?;
-    let policies = play(&days, &contenders, entrants.len())?;
+    let (number, never) = (scenarios.len(), AtomicBool::new(false));
+    let days = KeptBounds::of_this_user().days(scenarios, step, &never, &Bars.bounds(number))?;
+    let mut begun = 0;
+    let policies = play_all(&days, &contenders, &never, |name| {
+        begun += 1;
+        Bars.policy(name, begun, entrants.len(), number)
+    })?;
     let study = Study { bound_step_s: step.seconds(), command: command(), networks, policies };
     let summary = Summary::of(&study)?;
     if arguments.json {

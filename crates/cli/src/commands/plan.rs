@@ -3,12 +3,11 @@
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use vertifleet_core::Scenario;
-use vertifleet_optimize::{Bound, Budget, Error, Plan, Settings, Step, plan, upper_bound};
+use vertifleet_optimize::{Bound, Budget, Error, Plan, Proof, Settings, plan};
 
 use crate::args::PlanArguments;
 use crate::commands::read_scenario;
@@ -18,66 +17,10 @@ use crate::output::print;
 use crate::progress::Progress;
 use crate::worth;
 
-/// Minutes of the bound's slices, finest first; those after the first are for days that are too large for it.
-const STEPS_MIN: [u32; 4] = [3, 5, 15, 60];
 /// How often somebody who waits for the bound looks up.
 const GLANCE: Duration = Duration::from_millis(50);
 /// Units of the progress bar.
 const BAR: u64 = 100;
-
-/// The bound, being proven on a thread of its own.
-struct Proof {
-    from: Receiver<Result<Bound, Error>>,
-    outcome: Option<Result<Bound, Error>>,
-}
-
-impl Proof {
-    fn begin(scenario: &Arc<Scenario>) -> Self {
-        let (to, from) = channel();
-        let scenario = Arc::clone(scenario);
-        // Not joined: whoever presses Ctrl-C need not wait for it.
-        std::thread::spawn(move || {
-            // Nobody listens any more if the plan was stopped.
-            let _ = to.send(finest_bound(&scenario));
-        });
-        Self { from, outcome: None }
-    }
-
-    /// Waits for the outcome, but no longer than `patience`.
-    fn wait(&mut self, patience: Duration) {
-        if self.outcome.is_none() {
-            self.outcome = match self.from.recv_timeout(patience) {
-                Ok(outcome) => Some(outcome),
-                Err(RecvTimeoutError::Timeout) => None,
-                Err(RecvTimeoutError::Disconnected) => {
-                    panic!("a proof ends with a bound or with an error")
-                }
-            };
-        }
-    }
-
-    /// The bound, if it is proven by now.
-    fn bound(&self) -> Option<&Bound> {
-        self.outcome.as_ref()?.as_ref().ok()
-    }
-}
-
-/// Share of the bound by which a profit is below it.
-fn gap(bound: &Bound, profit_usd: f64) -> f64 {
-    let bound_usd = bound.upper_bound_usd();
-    if bound_usd > 0.0 { (bound_usd - profit_usd) / bound_usd } else { 0.0 }
-}
-
-/// The bound with the finest slices that the day is not too large for.
-fn finest_bound(scenario: &Scenario) -> Result<Bound, Error> {
-    let bound = |minutes| upper_bound(scenario, Step::from_minutes(minutes)?);
-    let too_large =
-        |outcome: &Result<Bound, Error>| matches!(outcome, Err(Error::TooManyFlights { .. }));
-    let [finest, coarser @ ..] = STEPS_MIN;
-    coarser.into_iter().fold(bound(finest), |outcome, minutes| {
-        if too_large(&outcome) { bound(minutes) } else { outcome }
-    })
-}
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = Arc::new(read_scenario(&arguments.scenario)?);
@@ -88,10 +31,8 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let seconds = begun.elapsed().as_secs_f64();
     // The schedule first: it is worth having whatever becomes of the bound.
     plan.trace.write(&scenario, &arguments.output)?;
-    while proof.outcome.is_none() && !stop.load(Ordering::Relaxed) {
-        proof.wait(GLANCE);
-    }
-    let bound = proof.outcome.transpose()?;
+    while !proof.wait(GLANCE) && !stop.load(Ordering::Relaxed) {}
+    let bound = proof.outcome()?;
     if arguments.json {
         let numbers = numbers(&scenario, &plan, bound.as_ref(), seconds);
         print(&serde_json::to_string_pretty(&numbers).expect("numbers are plain data"))?;
@@ -117,8 +58,7 @@ fn search(
     let mut shown = 0;
     plan(scenario, &settings, &mut |now| {
         proof.wait(Duration::ZERO);
-        let known =
-            proof.bound().map(|bound| (bound.upper_bound_usd(), gap(bound, now.profit_usd)));
+        let known = proof.bound().map(|bound| (bound.upper_bound_usd(), bound.gap(now.profit_usd)));
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
         let done = (now.share * BAR as f64) as u64;
         progress.advance(done.saturating_sub(shown));
@@ -141,7 +81,7 @@ fn numbers(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64
         "profit": plan.profit_usd,
         "best_policy": plan.best_policy_usd,
         "upper_bound": bound.map(Bound::upper_bound_usd),
-        "gap": bound.map(|bound| gap(bound, plan.profit_usd)),
+        "gap": bound.map(|bound| bound.gap(plan.profit_usd)),
         "step_s": bound.map(Bound::step_s),
         "seconds": seconds,
         "steps": plan.steps,
@@ -160,7 +100,7 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
         lines.push("  upper bound     not known: stopped before it was proven".to_owned());
         return lines.join("\n");
     };
-    let gap_percent = 100.0 * gap(bound, plan.profit_usd);
+    let gap_percent = 100.0 * bound.gap(plan.profit_usd);
     let (bound_usd, step_min) = (bound.upper_bound_usd(), bound.step_s() / 60);
     lines.push(format!(
         "  upper bound     {bound_usd:>12.2} $    no schedule earns more (steps of {step_min} min)"

@@ -3,32 +3,35 @@
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use vertifleet_core::Scenario;
+use vertifleet_core::{Code, Scenario};
 use vertifleet_policy::play;
 use vertifleet_sim::{Simulation, Summary, Trace};
+use vertifleet_study::policies::{self, Choice};
 
 use crate::args::SimulateArguments;
 use crate::commands::read_scenario;
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
-use crate::output::print;
-use crate::policies::{self, Choice};
+use crate::output::{print, warn};
 
 pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
     let scenario = Arc::new(read_scenario(&arguments.scenario)?);
     let choice =
-        Choice { name: &arguments.policy, seed: arguments.seed, model: arguments.model.as_deref() };
-    let mut policy = policies::for_scenario(&choice, &scenario)?;
+        Choice { name: &arguments.policy, seed: arguments.seed, model: arguments.model.as_ref() };
+    let (recipe, warning) = policies::for_scenario(&choice, &scenario)?;
+    if let Some(warning) = warning {
+        warn(Code(310), &warning);
+    }
     let mut simulation = Simulation::new(Arc::clone(&scenario));
     let mut trace = Trace::default();
-    play(&mut simulation, policy.as_mut(), |row| trace.rows.push(*row)).map_err(|cause| {
-        vertifleet_study::Error::Stuck {
+    play(&mut simulation, recipe.make().as_mut(), |row| trace.rows.push(*row)).map_err(
+        |cause| vertifleet_study::Error::Stuck {
             policy: arguments.policy.clone(),
             day: scenario.name.clone(),
             cause,
-        }
-    })?;
+        },
+    )?;
     if let Some(path) = &arguments.trace {
         trace.write(&scenario, path)?;
     }

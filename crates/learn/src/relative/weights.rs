@@ -97,6 +97,14 @@ impl AnyModel {
         &self.params
     }
 
+    /// The network that the parameters are of, for a number of vertiports.
+    ///
+    /// # Panics
+    /// If there are no vertiports or more than 4,096.
+    pub fn net(&self, vertiports: usize) -> nn::Network {
+        judge::network(&self.header.policy, vertiports)
+    }
+
     pub(crate) fn architecture(&self) -> &Architecture {
         &self.header.policy
     }

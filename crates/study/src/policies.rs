@@ -1,10 +1,9 @@
-//! Policies by their names.
+//! Policies by their names, as commands and the Python package take them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use indicatif::HumanCount;
-use vertifleet_core::{Code, Scenario};
+use vertifleet_core::Scenario;
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::relative::{AnyModel, GcapsX, Round};
 use vertifleet_learn::{
@@ -13,41 +12,63 @@ use vertifleet_learn::{
 use vertifleet_optimize::Rolling;
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, Replay};
 use vertifleet_sim::Trace;
-use vertifleet_study::NetworkOrigin;
 
-use crate::failure::Failure;
-use crate::output::warn;
+use crate::error::Error;
+use crate::numbers::grouped;
+use crate::origin::NetworkOrigin;
 
 /// The policy whose weights fit networks of any size.
 const ANY_SIZE: &str = "gcaps-x";
 
+/// Weights that are given for a policy.
+#[derive(Debug, Clone)]
+pub enum Given {
+    /// In a weight file, with the learning curves that may lie beside it.
+    File(PathBuf),
+    /// Read already.
+    Weights(Weights),
+}
+
 /// A policy as the command line names it.
-pub(crate) struct Choice<'a> {
-    pub(crate) name: &'a str,
+#[derive(Debug, Clone, Copy)]
+pub struct Choice<'a> {
+    /// Its name.
+    pub name: &'a str,
     /// Seed of the random policy.
-    pub(crate) seed: u64,
+    pub seed: u64,
     /// Weights in place of the shipped ones.
-    pub(crate) model: Option<&'a Path>,
+    pub model: Option<&'a Given>,
 }
 
 /// A policy that may be made as often as there are threads that need one.
-#[derive(Clone)]
-pub(crate) enum Recipe {
+#[derive(Debug, Clone)]
+pub enum Recipe {
+    /// [`Random`] with this seed.
     Random(u64),
+    /// [`Greedy`].
     Greedy,
+    /// [`Lookahead`].
     Lookahead,
+    /// [`Priced`].
     Priced,
+    /// [`Rolling`].
     Rolling,
+    /// [`Replay`] of a trace.
     Replay(Arc<Trace>),
+    /// [`Learned`].
     Learned {
+        /// Its weights.
         model: Arc<Model>,
         /// Of the run that these weights are of, then of runs with other seeds.
         curves: Vec<Vec<CurveRow>>,
+        /// Whether the program ships them.
         shipped: bool,
     },
-    /// How many choices are tried out; 1 decides at once.
+    /// [`GcapsX`].
     AnySize {
+        /// Its weights.
         model: Arc<AnyModel>,
+        /// How many choices are tried out; 1 decides at once.
         tried: usize,
         /// As above.
         curves: Vec<Vec<Round>>,
@@ -55,7 +76,8 @@ pub(crate) enum Recipe {
 }
 
 impl Recipe {
-    pub(crate) fn make(&self) -> Box<dyn Policy> {
+    /// A policy of this recipe.
+    pub fn make(&self) -> Box<dyn Policy> {
         match self {
             Self::Random(seed) => Box::new(Random::new(*seed)),
             Self::Greedy => Box::new(Greedy),
@@ -82,10 +104,14 @@ impl Recipe {
             Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
             Self::Learned { model, .. } => {
                 let header = model.header();
-                format!("learned on {} from {} decisions", header.network, HumanCount(header.steps))
+                format!(
+                    "learned on {} from {} decisions",
+                    header.network,
+                    grouped(header.steps as f64, 0)
+                )
             }
             Self::AnySize { model, tried, .. } => {
-                let decisions = HumanCount(model.header().decisions);
+                let decisions = grouped(model.header().decisions as f64, 0);
                 let tries = match tried {
                     1 => String::new(),
                     tried => format!("; tries its {tried} best choices out"),
@@ -107,14 +133,18 @@ impl Recipe {
         }
     }
 
-    /// The policy of a weight file. Where `name` is that of a kind of policy, the weights must be of that kind.
-    pub(crate) fn of_file(name: &str, path: &Path) -> Result<Self, Failure> {
-        let weights = Weights::read(path)?;
+    /// The policy of given weights. Where `name` is that of a kind of policy, the weights must be of that kind.
+    fn of(name: &str, given: &Given) -> Result<Self, Error> {
+        let (weights, origin) = match given {
+            Given::File(path) => (Weights::read(path)?, path.display().to_string()),
+            Given::Weights(weights) => (weights.clone(), "the model".to_owned()),
+        };
         let (kind, asked) = (weights.kind(), kind_of(name));
         if Architecture::named(asked).is_some() && asked != kind {
-            let message =
-                format!("{} has weights of {kind:?}, but {asked:?} is asked for", path.display());
-            return Err(Failure::usage(message, "name the policy as its weights do"));
+            return Err(Error::Asked {
+                rule: format!("{origin} has weights of {kind:?}, but {asked:?} is asked for"),
+                hint: "name the policy as its weights do",
+            });
         }
         Ok(match weights {
             Weights::OfOneSize(model) => {
@@ -128,20 +158,22 @@ impl Recipe {
         })
     }
 
-    /// The policy of a weight file, with the learning curve that `train` left beside it, and those of runs with other seeds that
-    /// were put there.
-    pub(crate) fn of_file_with_curves(name: &str, path: &Path) -> Result<Self, Failure> {
-        let mut recipe = Self::of_file(name, path)?;
-        match &mut recipe {
-            Self::Learned { curves, .. } => *curves = read_curves(path)?,
-            Self::AnySize { curves, .. } => *curves = read_curves(path)?,
-            _ => {}
+    /// The policy of given weights, with the learning curve that `train` left beside a file, and those of runs with other seeds
+    /// that were put there.
+    pub(crate) fn with_curves(name: &str, given: &Given) -> Result<Self, Error> {
+        let mut recipe = Self::of(name, given)?;
+        if let Given::File(path) = given {
+            match &mut recipe {
+                Self::Learned { curves, .. } => *curves = read_curves(path)?,
+                Self::AnySize { curves, .. } => *curves = read_curves(path)?,
+                _ => {}
+            }
         }
         Ok(recipe)
     }
 
     /// The shipped policy of a network, or for all of them.
-    pub(crate) fn shipped(name: &str, network: &str) -> Result<Self, Failure> {
+    pub(crate) fn shipped(name: &str, network: &str) -> Result<Self, Error> {
         if let Some(tried) = tried_by(name)? {
             let TrainedAny { model, curves } = shipped_any()?;
             return Ok(Self::AnySize { model: Arc::new(model), tried, curves });
@@ -151,27 +183,23 @@ impl Recipe {
     }
 
     /// Whether the policy can play this day.
-    pub(crate) fn check_fits(&self, scenario: &Scenario) -> Result<(), Failure> {
+    pub(crate) fn check_fits(&self, scenario: &Scenario) -> Result<(), Error> {
         match self {
             Self::Learned { model, .. } => Ok(model.check_fits(scenario)?),
             _ => Ok(()),
         }
     }
 
-    /// V310: says so where shipped weights decide on a network that only bears the name of theirs. Cause: the network
+    /// V310: what to say where shipped weights decide on a network that only bears the name of theirs. Cause: the network
     /// was copied and changed, or the scenario was. Fix: train weights on it, or take it that these know the other one.
-    pub(crate) fn warn_if_shipped_for_another(
-        &self,
-        name: &str,
-        network: &str,
-        origin: NetworkOrigin,
-    ) {
-        if origin == NetworkOrigin::Changed && matches!(self, Self::Learned { shipped: true, .. }) {
-            let message = format!(
+    pub fn warning(&self, name: &str, network: &str, origin: NetworkOrigin) -> Option<String> {
+        let for_another =
+            origin == NetworkOrigin::Changed && matches!(self, Self::Learned { shipped: true, .. });
+        for_another.then(|| {
+            format!(
                 "policy {name:?} was trained on network {network:?} as it is shipped, but this is a changed copy of it; `vertifleet train` makes weights for the copy"
-            );
-            warn(Code(310), &message);
-        }
+            )
+        })
     }
 
     /// Steps and mean episode reward on the training days; nothing for who does not learn from rewards.
@@ -211,32 +239,35 @@ pub(crate) fn kind_of(name: &str) -> &str {
 }
 
 /// How many choices a name of `gcaps-x` asks to be tried out, 1 for none; nothing for other names.
-fn tried_by(name: &str) -> Result<Option<usize>, Failure> {
+fn tried_by(name: &str) -> Result<Option<usize>, Error> {
     match name.strip_prefix(ANY_SIZE) {
         Some("") => Ok(Some(1)),
         Some(rest) if rest.starts_with(':') => {
             let most = rest.strip_prefix(":rollouts=").and_then(|most| most.parse().ok());
             match most {
                 Some(most @ 2..=GcapsX::MOST_TRIED) => Ok(Some(most)),
-                _ => Err(Failure::usage(
-                    format!("policy {name:?} is not understood"),
-                    "gcaps-x:rollouts=3 tries the 3 best choices out; from 2 to 5 can be",
-                )),
+                _ => Err(Error::Asked {
+                    rule: format!("policy {name:?} is not understood"),
+                    hint: "gcaps-x:rollouts=3 tries the 3 best choices out; from 2 to 5 can be",
+                }),
             }
         }
         _ => Ok(None),
     }
 }
 
-/// The policy that is asked for on one day.
-pub(crate) fn for_scenario(
+/// The policy that is asked for on one day, and what is to be said of it, if anything ([`Recipe::warning`]).
+///
+/// # Errors
+/// If there is no such policy, its weights cannot be read, or it cannot play this day.
+pub fn for_scenario(
     choice: &Choice<'_>,
     scenario: &Scenario,
-) -> Result<Box<dyn Policy>, Failure> {
+) -> Result<(Recipe, Option<String>), Error> {
     let replayed = choice.name.strip_prefix("replay:");
     let recipe = match (choice.model, Recipe::rule(choice.name, choice.seed), replayed) {
-        (Some(path), None, None) if Architecture::named(kind_of(choice.name)).is_some() => {
-            Recipe::of_file(choice.name, path)?
+        (Some(given), None, None) if Architecture::named(kind_of(choice.name)).is_some() => {
+            Recipe::of(choice.name, given)?
         }
         (Some(_), ..) => return Err(takes_no_weights(choice.name)),
         (None, Some(rule), _) => rule,
@@ -247,20 +278,16 @@ pub(crate) fn for_scenario(
     };
     recipe.check_fits(scenario)?;
     let network = network_of(scenario);
-    recipe.warn_if_shipped_for_another(
-        choice.name,
-        network,
-        NetworkOrigin::of(network, [scenario]),
-    );
-    Ok(recipe.make())
+    let warning = recipe.warning(choice.name, network, NetworkOrigin::of(network, [scenario]));
+    Ok((recipe, warning))
 }
 
 /// Weights given for a policy that has none.
-pub(crate) fn takes_no_weights(policy: &str) -> Failure {
-    Failure::usage(
-        format!("policy {policy:?} takes no weights, but --model is given"),
-        "leave --model out, or name a learned policy (gcaps, mlp, gcaps-x)",
-    )
+pub(crate) fn takes_no_weights(policy: &str) -> Error {
+    Error::Asked {
+        rule: format!("policy {policy:?} takes no weights, but a model is given for it"),
+        hint: "leave the model out, or name a learned policy (gcaps, mlp, gcaps-x)",
+    }
 }
 
 /// The network a day was drawn from, by its name: `paper` of `paper-7`.

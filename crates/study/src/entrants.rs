@@ -1,77 +1,82 @@
 //! Who enters a comparison: policies by their names, and the planner as a reference that knows the days.
 
-use std::path::Path;
+use std::sync::atomic::Ordering;
 
-use indicatif::HumanCount;
 use vertifleet_core::Scenario;
 use vertifleet_optimize::{Budget, Settings, can_plan, plan};
-use vertifleet_study::run::{Contender, Contenders, Way};
-use vertifleet_study::{Curve, Training};
 
-use crate::failure::Failure;
-use crate::policies::{self, Recipe, kind_of};
+use crate::error::Error;
+use crate::numbers::grouped;
+use crate::policies::{self, Given, Recipe, kind_of};
+use crate::record::{Curve, Training};
+use crate::run::{Contender, Contenders, Way};
 
 /// Steps of the planner a day: no time limit, so that the plan is the same everywhere. On `paper` they take about a quarter
 /// of a minute on one core.
 const PLAN_STEPS: u64 = 200_000;
 
 /// Somebody who takes part, with its name.
-pub(crate) struct Entrant {
-    pub(crate) name: String,
-    pub(crate) kind: Kind,
+pub struct Entrant {
+    /// Its name.
+    pub name: String,
+    kind: Kind,
 }
 
 /// How an entrant comes to its decisions.
-pub(crate) enum Kind {
+enum Kind {
     Policy(Recipe),
     /// The planner, with the seed of its search.
     Plan(u64),
 }
 
 /// Who is asked for.
-pub(crate) struct Asked<'a> {
-    pub(crate) policies: &'a [String],
+pub struct Asked<'a> {
+    /// Names, in the order of the results.
+    pub policies: &'a [String],
     /// Names with their weights.
-    pub(crate) models: &'a [(String, String)],
+    pub models: &'a [(String, Given)],
     /// Seed of the random policy and of the planner's search.
-    pub(crate) seed: u64,
+    pub seed: u64,
     /// Network whose shipped weights are taken where none are given.
-    pub(crate) network: &'a str,
+    pub network: &'a str,
 }
 
 impl Asked<'_> {
-    /// Everybody: weights given by --model first, then rules, then the network's shipped weights.
-    pub(crate) fn entrants(&self) -> Result<Vec<Entrant>, Failure> {
+    /// Everybody: given weights first, then rules, then the network's shipped weights.
+    ///
+    /// # Errors
+    /// If there is no such policy, weights cannot be read, or names and weights do not go together.
+    pub fn entrants(&self) -> Result<Vec<Entrant>, Error> {
         let models: Vec<&String> = self.models.iter().map(|(name, _)| name).collect();
         if let Some(twice) = first_repeated(&models) {
-            return Err(Failure::usage(
-                format!("--model names {twice:?} twice"),
-                "give each name one path",
-            ));
+            return Err(Error::Asked {
+                rule: format!("two models are given for {twice:?}"),
+                hint: "give each name one path",
+            });
         }
         let asked = |name: &str| {
             self.policies.iter().any(|policy| policy == name || kind_of(policy) == name)
         };
         if let Some(unused) = models.iter().find(|name| !asked(name)) {
-            return Err(Failure::usage(
-                format!("--model names {unused:?}, which is not among --policies"),
-                "add the name to --policies",
-            ));
+            return Err(Error::Asked {
+                rule: format!("a model is given for {unused:?}, which is not among the policies"),
+                hint: "add the name to the policies",
+            });
         }
         self.policies.iter().map(|name| self.entrant(name)).collect()
     }
 
-    fn entrant(&self, name: &str) -> Result<Entrant, Failure> {
+    fn entrant(&self, name: &str) -> Result<Entrant, Error> {
         // Weights of gcaps-x are those of gcaps-x:rollouts=K too.
         let given = self.models.iter().find(|(given, _)| given == name || given == kind_of(name));
-        let weights = given.map(|(_, path)| Path::new(path));
+        let weights = given.map(|(_, given)| given);
         let rule = match name {
             "plan" => Some(Kind::Plan(self.seed)),
             _ => Recipe::rule(name, self.seed).map(Kind::Policy),
         };
         let kind = match (weights, rule) {
             (Some(_), Some(_)) => return Err(policies::takes_no_weights(name)),
-            (Some(path), None) => Kind::Policy(Recipe::of_file_with_curves(name, path)?),
+            (Some(given), None) => Kind::Policy(Recipe::with_curves(name, given)?),
             (None, Some(rule)) => rule,
             (None, None) => Kind::Policy(Recipe::shipped(name, self.network)?),
         };
@@ -81,7 +86,7 @@ impl Asked<'_> {
 
 impl Entrant {
     /// What it is made of, where it is a policy.
-    pub(crate) fn recipe(&self) -> Option<&Recipe> {
+    pub fn recipe(&self) -> Option<&Recipe> {
         match &self.kind {
             Kind::Policy(recipe) => Some(recipe),
             Kind::Plan(_) => None,
@@ -89,7 +94,10 @@ impl Entrant {
     }
 
     /// Whether it can take part on days like this one.
-    pub(crate) fn check_fits(&self, scenario: &Scenario) -> Result<(), Failure> {
+    ///
+    /// # Errors
+    /// If its weights are of another network, or the day has what the planner does not know.
+    pub fn check_fits(&self, scenario: &Scenario) -> Result<(), Error> {
         match &self.kind {
             Kind::Policy(recipe) => recipe.check_fits(scenario),
             Kind::Plan(_) => Ok(can_plan(scenario)?),
@@ -114,7 +122,7 @@ impl Entrant {
             Kind::Plan(seed) => (
                 format!(
                     "knows the day beforehand and searches for its best schedule in {} steps",
-                    HumanCount(PLAN_STEPS)
+                    grouped(PLAN_STEPS as f64, 0)
                 ),
                 planned(*seed),
             ),
@@ -126,14 +134,18 @@ impl Entrant {
 /// Days take turns on the threads, so each plan needs but one search.
 fn planned(seed: u64) -> Way<'static> {
     let settings = Settings { budget: Budget::Steps(PLAN_STEPS), searches: 1, seed };
-    Way::Offline(Box::new(move |day| {
-        plan(day, &settings, &mut |_| true).expect("the days were found to be fit for it").trace
+    Way::Offline(Box::new(move |day, stop| {
+        let plan = plan(day, &settings, &mut |_| !stop.load(Ordering::Relaxed));
+        plan.expect("the days were found to be fit for it").trace
     }))
 }
 
 /// Everybody, for the comparison.
-pub(crate) fn contenders(entrants: &[Entrant]) -> Result<Contenders<'_>, Failure> {
-    Ok(Contenders::new(entrants.iter().map(Entrant::contender).collect())?)
+///
+/// # Errors
+/// [`Error::DuplicatePolicy`] if two have one name.
+pub fn contenders(entrants: &[Entrant]) -> Result<Contenders<'_>, Error> {
+    Contenders::new(entrants.iter().map(Entrant::contender).collect())
 }
 
 fn first_repeated<'a>(names: &[&'a String]) -> Option<&'a String> {

@@ -1,0 +1,130 @@
+//! Networks like another but for some members of its file: what a planner asks with "and with 12 more aircraft?".
+
+use serde_json::{Map, Value};
+
+use crate::parse::shortened;
+use crate::{Error, Network};
+
+impl Network {
+    /// The network whose file differs from this one's in some members. A path names members from the outside in, with dots
+    /// between; the entries of a list by their `id`, by their position from 0, or by `*` for all of them: `fleet.0.count`,
+    /// `vertiports.V3.stands`, `vertiports.*.stands`. The file's format then has to allow what it says.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form in TOML; then as
+    /// [`from_toml`](Self::from_toml).
+    pub fn changed(&self, changes: &Map<String, Value>) -> Result<Self, Error> {
+        let origin = format!("{}, changed", self.name());
+        let mut file: toml::Value =
+            toml::from_str(self.toml()).expect("the text has been read before");
+        for (path, value) in changes {
+            let nowhere =
+                |part: &str| Error::NoSuchMember { path: path.clone(), part: shortened(part, 64) };
+            let value = toml::Value::try_from(value).map_err(|error| Error::NotParsed {
+                origin: origin.clone(),
+                line: 1,
+                column: 1,
+                problem: format!("{path}: {error}"),
+            })?;
+            let parts: Vec<&str> = path.split('.').collect();
+            set(&mut file, &parts, &value).map_err(|part| nowhere(&part))?;
+        }
+        let text = toml::to_string(&file).expect("what was read can be written");
+        Self::from_toml(&text, &origin)
+    }
+}
+
+/// Sets what a path leads to; the error is the part that leads nowhere.
+fn set(at: &mut toml::Value, path: &[&str], value: &toml::Value) -> Result<(), String> {
+    let [part, rest @ ..] = path else {
+        *at = value.clone();
+        return Ok(());
+    };
+    let lost = || Err((*part).to_owned());
+    match at {
+        // A member that the file does not have may be one that it can have.
+        toml::Value::Table(members) if rest.is_empty() => {
+            members.insert((*part).to_owned(), value.clone());
+            Ok(())
+        }
+        toml::Value::Table(members) => match members.get_mut(*part) {
+            Some(member) => set(member, rest, value),
+            None => lost(),
+        },
+        toml::Value::Array(entries) if *part == "*" => {
+            entries.iter_mut().try_for_each(|entry| set(entry, rest, value))
+        }
+        toml::Value::Array(entries) => match position(entries, part) {
+            Some(position) => set(&mut entries[position], rest, value),
+            None => lost(),
+        },
+        _ => lost(),
+    }
+}
+
+/// The entry of that id, or else at that position.
+fn position(entries: &[toml::Value], part: &str) -> Option<usize> {
+    let of_id = |entry: &toml::Value| entry.get("id").and_then(toml::Value::as_str) == Some(part);
+    let counted = || part.parse().ok().filter(|&position| position < entries.len());
+    entries.iter().position(of_id).or_else(counted)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use crate::{DaySeed, Error, Network};
+
+    fn changed(changes: &Value) -> Result<Network, Error> {
+        let paper = Network::shipped("paper").expect("a shipped network");
+        paper.changed(changes.as_object().expect("changes by their paths"))
+    }
+
+    #[test]
+    fn a_change_is_made_and_nothing_else() {
+        let network = changed(&json!({"fleet.0.count": 44, "vertiports.V3.stands": 9}));
+        let network = network.expect("a network");
+        let paper = Network::shipped("paper").expect("a shipped network");
+        assert_eq!(network.fleet_size(), 44);
+        let stands = |network: &Network| -> Vec<u16> {
+            network.vertiports().iter().map(|vertiport| vertiport.stands).collect()
+        };
+        let mut expected = stands(&paper);
+        expected[2] = 9;
+        assert_eq!(stands(&network), expected);
+        assert_eq!(paper.vertiports()[2].id, "V3");
+        assert_eq!(network.mean_demand(), paper.mean_demand());
+        let same = changed(&json!({})).expect("a network");
+        let day = |network: &Network| network.draw(DaySeed::comparison(3).expect("a seed"));
+        assert_eq!(day(&same), day(&paper), "numbers survive being written");
+    }
+
+    #[test]
+    fn a_star_is_every_entry() {
+        let network = changed(&json!({"vertiports.*.stands": 8})).expect("a network");
+        assert!(network.vertiports().iter().all(|vertiport| vertiport.stands == 8));
+    }
+
+    #[test]
+    fn a_path_that_leads_nowhere_is_named() {
+        for path in ["vertiports.V99.stands", "fleet.7.count", "operation.hold_s", "name.first"] {
+            let error = changed(&json!({path: 1})).expect_err("no such member");
+            assert_eq!(error.code().to_string(), "V123", "{path}: {error}");
+            assert!(error.to_string().contains(path), "{error}");
+        }
+    }
+
+    #[test]
+    fn what_the_format_does_not_know_is_refused() {
+        let codes = [
+            (json!({"fleet.0.colour": "red"}), "V106"),
+            (json!({"fleet.0.count": -1}), "V104"),
+            (json!({"fleet.0.count": 4000}), "V117"),
+            (json!({"fleet.0.count": null}), "V105"),
+        ];
+        for (changes, code) in codes {
+            let error = changed(&changes).expect_err("no such network");
+            assert_eq!(error.code().to_string(), code, "{error}");
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! A comparison from what is asked for to its records: who takes part, on which days, measured against what.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use vertifleet_core::{DaySeed, Network, Scenario};
+use vertifleet_optimize::Step;
+
+use crate::entrants::{Asked, Entrant, contenders};
+use crate::error::Error;
+use crate::kept_bounds::KeptBounds;
+use crate::origin::NetworkOrigin;
+use crate::record::Study;
+use crate::run::{Day, run};
+
+/// Some days of a network and who will play them; everything that can be found wrong beforehand has been looked for.
+pub struct Comparison<'a> {
+    network: &'a Network,
+    origin: NetworkOrigin,
+    entrants: Vec<Entrant>,
+    scenarios: Vec<Arc<Scenario>>,
+    first_seed: u64,
+    step: Option<Step>,
+}
+
+/// Who is told how far a comparison is. Each member is asked for something to call after every day, from any thread.
+pub trait Watch {
+    /// What is called after a day.
+    type Bar: Fn() + Sync;
+    /// So many days are being bounded.
+    fn bounds(&self, days: usize) -> Self::Bar;
+    /// So many days are being played by this policy; `position` of `policies`, from 1.
+    fn policy(&self, name: &str, position: usize, policies: usize, days: usize) -> Self::Bar;
+}
+
+/// Nobody looks.
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    type Bar = fn();
+
+    fn bounds(&self, _days: usize) -> fn() {
+        || ()
+    }
+
+    fn policy(&self, _name: &str, _position: usize, _policies: usize, _days: usize) -> fn() {
+        || ()
+    }
+}
+
+impl<'a> Comparison<'a> {
+    /// The days of a network from `first_seed` on, each with its upper bound where a step is given.
+    ///
+    /// # Errors
+    /// If there is no such policy or day, two policies have one name, or a policy cannot play these days.
+    pub fn new(
+        network: &'a Network,
+        asked: &Asked<'_>,
+        first_seed: u64,
+        days: u32,
+        step: Option<Step>,
+    ) -> Result<Self, Error> {
+        let entrants = asked.entrants()?;
+        contenders(&entrants)?;
+        let scenarios = draw(network, first_seed, days)?;
+        let first = scenarios.first().ok_or(Error::Empty { policies: entrants.len(), days: 0 })?;
+        entrants.iter().try_for_each(|entrant| entrant.check_fits(first))?;
+        let origin = NetworkOrigin::of(network.name(), scenarios.iter().map(Arc::as_ref));
+        Ok(Self { network, origin, entrants, scenarios, first_seed, step })
+    }
+
+    /// What is allowed but hardly meant ([`Recipe::warning`](crate::policies::Recipe::warning)).
+    pub fn warnings(&self) -> impl Iterator<Item = String> {
+        self.entrants.iter().filter_map(|entrant| {
+            entrant.recipe()?.warning(&entrant.name, self.network.name(), self.origin)
+        })
+    }
+
+    /// Plays all days with everybody; `command` is what the study says it was made with.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] soon after `stopped` is raised; else if a day is too large for its bound, or a policy cannot play
+    /// one to its end.
+    pub fn run(
+        self,
+        command: String,
+        stopped: &AtomicBool,
+        watch: &impl Watch,
+    ) -> Result<Study, Error> {
+        let Self { network, origin, entrants, scenarios, first_seed, step } = self;
+        let number = scenarios.len();
+        let days = match step {
+            Some(step) => {
+                KeptBounds::of_this_user().days(scenarios, step, stopped, &watch.bounds(number))?
+            }
+            None => scenarios.into_iter().map(Day::unbounded).collect(),
+        };
+        let mut begun = 0;
+        let policies = run(&days, &contenders(&entrants)?, stopped, |name| {
+            begun += 1;
+            watch.policy(name, begun, entrants.len(), number)
+        })?;
+        Ok(Study {
+            network: network.name().to_owned(),
+            network_origin: origin,
+            seed: first_seed,
+            days: number,
+            bound_step_s: step.map(Step::seconds),
+            command,
+            policies,
+            curves: entrants.iter().filter_map(Entrant::curve).collect(),
+            trainings: entrants.iter().filter_map(Entrant::training).collect(),
+        })
+    }
+}
+
+fn draw(network: &Network, first: u64, days: u32) -> Result<Vec<Arc<Scenario>>, Error> {
+    let seed = |day: u32| DaySeed::comparison(first.saturating_add(u64::from(day)));
+    // The last seed first, so that nothing is drawn where not everything can be.
+    seed(days.saturating_sub(1))?;
+    (0..days).map(|day| Ok(Arc::new(network.draw(seed(day)?)))).collect()
+}

@@ -1,0 +1,99 @@
+//! Parts of a study that were played apart, on other machines perhaps, put together again.
+
+use crate::error::Error;
+use crate::record::{LatencySummary, PolicyRecord, Study};
+
+impl Study {
+    /// The study of all days of some parts, each of which goes on with the day after the last of the part before it.
+    ///
+    /// The records are those of a study that was never parted. The times per decision cannot be: the parts' percentiles do not
+    /// say what those of all decisions are, so each is the highest of the parts', which no part exceeded.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] if there are no parts; [`Error::PartsDiffer`] if they are not of one network and the same policies, or
+    /// days are missing or come twice.
+    pub fn join(parts: Vec<Self>) -> Result<Self, Error> {
+        let mut parts = parts.into_iter();
+        let mut whole = parts.next().ok_or(Error::Empty { policies: 0, days: 0 })?;
+        for part in parts {
+            whole.check_goes_on(&part)?;
+            whole.days += part.days;
+            // Found on the days of a part: one of them may have missed that the network was changed.
+            whole.network_origin = whole.network_origin.with(part.network_origin);
+            for (policy, part) in whole.policies.iter_mut().zip(part.policies) {
+                policy.decision_ns = slower(policy.decision_ns, part.decision_ns);
+                policy.days.extend(part.days);
+            }
+        }
+        Ok(whole)
+    }
+
+    fn check_goes_on(&self, part: &Self) -> Result<(), Error> {
+        let names = |study: &Self| -> Vec<String> {
+            study.policies.iter().map(|policy: &PolicyRecord| policy.name.clone()).collect()
+        };
+        let next_seed = self.seed + self.days as u64;
+        let rule = if part.network != self.network {
+            format!("network {:?} after {:?}", part.network, self.network)
+        } else if part.bound_step_s != self.bound_step_s {
+            format!("bound step {:?} s after {:?} s", part.bound_step_s, self.bound_step_s)
+        } else if names(part) != names(self) {
+            format!("policies {:?} after {:?}", names(part), names(self))
+        } else if part.seed != next_seed {
+            format!("days from seed {} after those up to {}", part.seed, next_seed - 1)
+        } else {
+            return Ok(());
+        };
+        Err(Error::PartsDiffer { rule })
+    }
+}
+
+fn slower(one: Option<LatencySummary>, other: Option<LatencySummary>) -> Option<LatencySummary> {
+    let (one, other) = (one?, other?);
+    Some(LatencySummary {
+        median_ns: one.median_ns.max(other.median_ns),
+        p99_ns: one.p99_ns.max(other.p99_ns),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
+
+    use vertifleet_core::Network;
+
+    use crate::comparison::{Comparison, Unwatched};
+    use crate::entrants::Asked;
+    use crate::record::{DayRecord, Study};
+
+    fn study(policies: &[&str], seed: u64, days: u32) -> Study {
+        let network = Network::shipped("paper").expect("a shipped network");
+        let policies: Vec<String> = policies.iter().map(|&name| name.to_owned()).collect();
+        let asked = Asked { policies: &policies, models: &[], seed: 0, network: "paper" };
+        let comparison = Comparison::new(&network, &asked, seed, days, None).expect("days");
+        comparison.run(String::new(), &AtomicBool::new(false), &Unwatched).expect("played days")
+    }
+
+    #[test]
+    fn a_study_in_parts_is_the_study_of_all_days() {
+        let policies = ["random", "greedy"];
+        let parts = vec![study(&policies, 5, 2), study(&policies, 7, 1), study(&policies, 8, 3)];
+        let (joined, whole) = (Study::join(parts).expect("parts"), study(&policies, 5, 6));
+        let days = |study: &Study| -> Vec<Vec<DayRecord>> {
+            study.policies.iter().map(|policy| policy.days.clone()).collect()
+        };
+        assert_eq!(days(&joined), days(&whole));
+        assert_eq!((joined.seed, joined.days), (whole.seed, whole.days));
+    }
+
+    #[test]
+    fn parts_that_do_not_go_together_are_refused() {
+        let first = || study(&["greedy"], 5, 2);
+        for other in [study(&["greedy"], 8, 1), study(&["random"], 7, 1), study(&["greedy"], 6, 1)]
+        {
+            let error = Study::join(vec![first(), other]).expect_err("no parts of one study");
+            assert_eq!(error.code().to_string(), "V409");
+        }
+        assert_eq!(Study::join(Vec::new()).expect_err("no parts").code().to_string(), "V402");
+    }
+}
