@@ -1,0 +1,156 @@
+//! `compare`: many policies on many days.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use vertifleet_optimize::Step;
+use vertifleet_study::comparison::{self, Unwatched};
+use vertifleet_study::entrants::Asked;
+use vertifleet_study::{DayRecord, Study, Summary, report, table};
+
+use crate::failure::{self, Failure};
+use crate::frames::{Columns, frame, plain};
+use crate::interruptible::interruptible;
+use crate::model::Weighed;
+use crate::network::Network;
+
+/// Many policies on the same days: every policy's every day, and the statistics of them.
+#[pyclass(frozen, module = "vertifleet")]
+#[derive(Clone)]
+pub(crate) struct Comparison {
+    study: Study,
+}
+
+#[pymethods]
+impl Comparison {
+    /// A row for each policy and day, as numpy arrays by column: dollars, kWh, counts. `upper_bound` and `bound_share` are there where
+    /// bounds were asked for.
+    #[getter]
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let columns = Columns::new(py);
+        let days = || self.study.policies.iter().flat_map(|policy| &policy.days);
+        let names = self.study.policies.iter();
+        columns.texts(
+            "policy",
+            names.flat_map(|policy| policy.days.iter().map(|_| policy.name.as_str())),
+        )?;
+        columns.texts("day", days().map(|day| day.day.as_str()))?;
+        columns.numbers("seed", days().map(|day| day.seed))?;
+        columns.numbers("profit", days().map(|day| day.profit_usd))?;
+        columns.numbers("revenue", days().map(|day| day.revenue_usd))?;
+        columns.numbers("passenger_cost", days().map(|day| day.passenger_cost_usd))?;
+        columns.numbers("energy_cost", days().map(|day| day.energy_cost_usd))?;
+        columns.numbers("energy_kwh", days().map(|day| day.energy_kwh))?;
+        columns.numbers("potential", days().map(|day| day.potential_usd))?;
+        columns.numbers("reward", days().map(|day| day.reward))?;
+        columns.numbers("flights", days().map(|day| day.flights))?;
+        columns.numbers("repositioning_flights", days().map(|day| day.repositioning_flights))?;
+        columns.numbers("holds", days().map(|day| day.holds))?;
+        columns.numbers("decisions", days().map(|day| day.decisions))?;
+        columns.numbers("passengers", days().map(|day| day.passengers))?;
+        columns.numbers("spilled_passengers", days().map(|day| day.spilled_passengers))?;
+        columns.numbers("load_factor", days().map(|day| day.load_factor))?;
+        if self.study.bound_step_s.is_some() {
+            columns.numbers("upper_bound", days().filter_map(|day| day.upper_bound_usd))?;
+            columns.numbers("bound_share", days().filter_map(DayRecord::bound_share))?;
+        }
+        Ok(columns.into_dict())
+    }
+
+    /// Its rows as a pandas frame.
+    fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        frame(&self.columns(py)?, "pandas")
+    }
+
+    /// Its rows as a polars frame.
+    fn to_polars<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        frame(&self.columns(py)?, "polars")
+    }
+
+    /// The statistics, as `vertifleet compare --json` prints them: means with confidence intervals, paired tests, times per decision.
+    #[getter]
+    fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        plain(py, &Summary::of(&self.study).map_err(Failure::from)?.to_json())
+    }
+
+    /// Writes table, figures and a report page into a folder; returns the path of the page.
+    fn report(&self, py: Python<'_>, folder: PathBuf) -> Result<PathBuf, Failure> {
+        Ok(py.detach(|| report::write(&self.study, &folder))?.report)
+    }
+
+    /// All days of some comparisons of the same policies, each of which goes on with the day after the last of the one before it.
+    /// Of the times per decision, the highest of the parts' are kept.
+    #[staticmethod]
+    fn join(parts: Vec<PyRef<'_, Self>>) -> Result<Self, Failure> {
+        let studies = parts.iter().map(|part| part.study.clone()).collect();
+        Ok(Self { study: Study::join(studies)? })
+    }
+
+    /// What `pickle` keeps, read back.
+    #[staticmethod]
+    fn from_json(text: &str) -> Result<Self, Failure> {
+        let study = serde_json::from_str(text);
+        let study = study.map_err(|error| Failure::argument(format!("no comparison: {error}")))?;
+        // Whatever is shown of it rests on what statistics check.
+        Summary::of(&study)?;
+        Ok(Self { study })
+    }
+
+    fn __str__(&self) -> Result<String, Failure> {
+        Ok(table::text(&Summary::of(&self.study)?))
+    }
+
+    fn __repr__(&self) -> String {
+        let (policies, days) = (self.study.policies.len(), self.study.days);
+        format!("<Comparison on {}: {policies} policies, {days} days>", self.study.network)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        let make = py.get_type::<Self>().getattr("from_json")?;
+        let text = serde_json::to_string(&self.study).expect("records are plain data");
+        Ok((make, (text,)))
+    }
+}
+
+/// Plays days of a network, the first of seed `seed`, with every policy; all meet the same days.
+///
+/// `policies` are named as `vertifleet compare` names them; `models` gives weight files or
+/// `Model`s by name. `bound` proves an upper bound of every
+/// day, with prices that stay the same for `step` minutes. `policy_seed` is that of the random policy and of the planner's search.
+#[pyfunction]
+#[pyo3(signature = (network, policies, *, days = 100, seed = 1, models = None, bound = false, step = 5, policy_seed = None, threads = None))]
+#[expect(clippy::too_many_arguments, reason = "Python names them")]
+pub(crate) fn compare(
+    py: Python<'_>,
+    network: &Network,
+    policies: Vec<String>,
+    days: u32,
+    seed: u64,
+    models: Option<BTreeMap<String, Weighed<'_>>>,
+    bound: bool,
+    step: u32,
+    policy_seed: Option<u64>,
+    threads: Option<usize>,
+) -> PyResult<Comparison> {
+    let step = bound.then(|| Step::from_minutes(step)).transpose().map_err(Failure::from)?;
+    let models = models.unwrap_or_default().into_iter();
+    let models: Vec<_> = models.map(|(name, weighed)| (name, weighed.given())).collect();
+    let network = &network.network;
+    let asked = Asked {
+        policies: &policies,
+        models: &models,
+        seed: policy_seed.unwrap_or(seed),
+        network: network.name(),
+    };
+    let comparison = comparison::Comparison::new(network, &asked, seed, days, step);
+    let comparison = comparison.map_err(Failure::from)?;
+    for warning in comparison.warnings() {
+        failure::warn(py, &warning)?;
+    }
+    let command =
+        format!("vertifleet.compare({:?}, {policies:?}, days={days}, seed={seed})", network.name());
+    let study = interruptible(py, threads, |stop| comparison.run(command, stop, &Unwatched))?;
+    Ok(Comparison { study: study.map_err(Failure::from)? })
+}

@@ -1,0 +1,64 @@
+//! Columns as Python likes them: a dict of numpy arrays, and frames of pandas and polars where those are installed.
+
+use numpy::ndarray::IntoDimension;
+use numpy::{Element, PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+/// Columns by name, in their order.
+pub(crate) struct Columns<'py>(Bound<'py, PyDict>);
+
+impl<'py> Columns<'py> {
+    pub(crate) fn new(py: Python<'py>) -> Self {
+        Self(PyDict::new(py))
+    }
+
+    /// A column of numbers.
+    pub(crate) fn numbers<T: Element>(
+        &self,
+        name: &str,
+        values: impl IntoIterator<Item = T>,
+    ) -> PyResult<()> {
+        self.0.set_item(name, PyArray1::from_iter(self.0.py(), values))
+    }
+
+    /// A column of texts, as a numpy array of strings.
+    pub(crate) fn texts<'a>(
+        &self,
+        name: &str,
+        values: impl IntoIterator<Item = &'a str>,
+    ) -> PyResult<()> {
+        let py = self.0.py();
+        let list = PyList::empty(py);
+        for value in values {
+            list.append(value)?;
+        }
+        self.0.set_item(name, py.import("numpy")?.call_method1("array", (list, "U"))?)
+    }
+
+    pub(crate) fn into_dict(self) -> Bound<'py, PyDict> {
+        self.0
+    }
+}
+
+/// The columns as `library.DataFrame`; without the library, Python's own `ModuleNotFoundError` says what to install.
+pub(crate) fn frame<'py>(
+    columns: &Bound<'py, PyDict>,
+    library: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    columns.py().import(library)?.call_method1("DataFrame", (columns,))
+}
+
+/// An array of this shape with these entries, row by row.
+pub(crate) fn table<T: Element>(
+    py: Python<'_>,
+    entries: impl IntoIterator<Item = T>,
+    shape: impl IntoDimension,
+) -> PyResult<Bound<'_, PyAny>> {
+    Ok(PyArray1::from_iter(py, entries).reshape(shape)?.into_any())
+}
+
+/// What `serde_json` makes of something, as Python's own dicts, lists and numbers.
+pub(crate) fn plain<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("json")?.call_method1("loads", (json,))
+}

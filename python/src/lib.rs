@@ -1,0 +1,47 @@
+//! `vertifleet._native`: the Python package's door to the crates. It converts and forwards; every rule lives below.
+//!
+//! Calls that may take long leave Python to its other threads and look for Ctrl-C ([`interruptible`]). Arrays are filled in
+//! place; docstrings come from the comments here, types from `vertifleet/_native.pyi`.
+
+#![expect(
+    clippy::needless_pass_by_value,
+    reason = "arguments from Python are converted, and so are ours to keep"
+)]
+
+mod batch;
+mod buffers;
+mod comparison;
+mod environment;
+mod failure;
+mod frames;
+mod interruptible;
+mod model;
+mod network;
+mod optimize;
+mod played;
+mod scenario;
+mod trace;
+
+use pyo3::prelude::pymodule;
+
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::batch::Batch;
+    #[pymodule_export]
+    use crate::comparison::{Comparison, compare};
+    #[pymodule_export]
+    use crate::environment::Environment;
+    #[pymodule_export]
+    use crate::model::{Model, settings};
+    #[pymodule_export]
+    use crate::network::Network;
+    #[pymodule_export]
+    use crate::optimize::{Bound, Plan, bound, plan};
+    #[pymodule_export]
+    use crate::played::{Played, simulate};
+    #[pymodule_export]
+    use crate::scenario::Scenario;
+    #[pymodule_export]
+    use crate::trace::{Trace, check};
+}

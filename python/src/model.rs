@@ -1,0 +1,189 @@
+//! `Model`: the weights of a learned policy.
+
+use std::path::PathBuf;
+
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use vertifleet_learn::nn::{self, Inputs};
+use vertifleet_learn::{Settings, Weights, shipped, shipped_any};
+use vertifleet_study::policies::Given;
+
+use crate::failure::Failure;
+use crate::frames::{plain, table};
+
+/// The weights of a learned policy: `gcaps` or `mlp` of one network, or `gcaps-x` for any. Never changes.
+#[pyclass(frozen, module = "vertifleet")]
+pub(crate) struct Model {
+    weights: Weights,
+}
+
+/// Weights as they may be given for a policy: a path, or a model.
+#[derive(FromPyObject)]
+pub(crate) enum Weighed<'py> {
+    Model(PyRef<'py, Model>),
+    Path(PathBuf),
+}
+
+impl Weighed<'_> {
+    pub(crate) fn given(self) -> Given {
+        match self {
+            Self::Model(model) => Given::Weights(model.weights.clone()),
+            Self::Path(path) => Given::File(path),
+        }
+    }
+}
+
+#[pymethods]
+impl Model {
+    /// Reads a weight file, a safetensors file of any of the kinds.
+    #[staticmethod]
+    fn read(path: PathBuf) -> Result<Self, Failure> {
+        Ok(Self { weights: Weights::read(&path)? })
+    }
+
+    /// The weights in the bytes of a weight file; `origin` stands for the file in messages.
+    #[staticmethod]
+    #[pyo3(signature = (bytes, origin = "<bytes>"))]
+    fn from_bytes(bytes: &[u8], origin: &str) -> Result<Self, Failure> {
+        Ok(Self { weights: Weights::from_bytes(bytes, origin)? })
+    }
+
+    /// The shipped weights of a policy for a network.
+    #[staticmethod]
+    #[pyo3(signature = (policy = "gcaps-x", network = "paper"))]
+    fn shipped(policy: &str, network: &str) -> Result<Self, Failure> {
+        let weights = if policy == "gcaps-x" {
+            Weights::OfAnySize(Box::new(shipped_any()?.model))
+        } else {
+            Weights::OfOneSize(Box::new(shipped(network, policy)?.model))
+        };
+        Ok(Self { weights })
+    }
+
+    /// Writes the weights as a weight file.
+    fn write(&self, path: PathBuf) -> Result<(), Failure> {
+        match &self.weights {
+            Weights::OfOneSize(model) => model.write(&path)?,
+            Weights::OfAnySize(model) => model.write(&path)?,
+        }
+        Ok(())
+    }
+
+    /// The bytes of its weight file.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.bytes())
+    }
+
+    /// The policy's name: gcaps, mlp or gcaps-x.
+    #[getter]
+    fn kind(&self) -> &'static str {
+        self.weights.kind()
+    }
+
+    /// What the weights are of and where they came from: the header of the file, as a dict.
+    #[getter]
+    fn header<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let header = match &self.weights {
+            Weights::OfOneSize(model) => serde_json::to_string(model.header()),
+            Weights::OfAnySize(model) => serde_json::to_string(model.header()),
+        };
+        plain(py, &header.expect("a header is plain data"))
+    }
+
+    /// Copies of the tensors by name.
+    #[getter]
+    fn tensors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (layout, params) = match &self.weights {
+            Weights::OfOneSize(model) => (model.net().layout().clone(), model.params()),
+            Weights::OfAnySize(model) => (model.net(2).layout().clone(), model.params()),
+        };
+        let tensors = PyDict::new(py);
+        for tensor in layout.tensors() {
+            let entries = &params[tensor.offset..][..tensor.len()];
+            let array = PyArray1::from_slice(py, entries);
+            tensors.set_item(&tensor.name, array.reshape(tensor.shape.clone())?)?;
+        }
+        Ok(tensors)
+    }
+
+    /// Logits [B, N], minus infinity where the mask is 0, and values [B] of a batch of decisions, as the policy in Rust works them
+    /// out. `nodes` [B, N, F] and `aircraft` [B, G] are float32, `mask` [B, N] is uint8, `clock` [B] (float32) is the share of the
+    /// day left. Of gcaps-x these are the layers alone, without the day's prices.
+    fn forward<'py>(
+        &self,
+        py: Python<'py>,
+        nodes: PyReadonlyArray3<'py, f32>,
+        aircraft: PyReadonlyArray2<'py, f32>,
+        mask: PyReadonlyArray2<'py, u8>,
+        clock: PyReadonlyArray1<'py, f32>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let [batch, vertiports, node_features] = *nodes.as_array().shape() else {
+            unreachable!("an array of three dimensions")
+        };
+        let (net, params) = match &self.weights {
+            Weights::OfOneSize(model) => (model.net().clone(), model.params()),
+            // No network has more vertiports.
+            Weights::OfAnySize(model) => (model.net(vertiports.clamp(1, 256)), model.params()),
+        };
+        let shape = net.shape();
+        let asked = (vertiports, node_features, aircraft.as_array().shape().to_vec());
+        let expected =
+            (shape.vertiports, shape.node_features, vec![batch, shape.aircraft_features]);
+        let agree =
+            mask.as_array().shape() == [batch, vertiports] && clock.as_array().len() == batch;
+        if asked != expected || !agree {
+            let message = format!(
+                "a batch of {batch} must have nodes [{batch}, {n}, {f}], aircraft [{batch}, {g}], mask [{batch}, {n}] and clock [{batch}]",
+                n = shape.vertiports,
+                f = shape.node_features,
+                g = shape.aircraft_features,
+            );
+            return Err(Failure::argument(message).into());
+        }
+        let (nodes, aircraft) = (nodes.as_slice()?, aircraft.as_slice()?);
+        let (mask, clock) = (mask.as_slice()?, clock.as_slice()?);
+        let inputs = Inputs { batch, nodes, aircraft, mask, clock };
+        let space = py.detach(|| pass(&net, params, inputs));
+        let logits = table(py, space.logits().iter().copied(), [batch, vertiports])?;
+        Ok((logits, PyArray1::from_slice(py, space.values()).into_any()))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Model {}>", self.weights.kind())
+    }
+
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let make = py.get_type::<Self>().getattr("from_bytes")?;
+        Ok((make, (self.to_bytes(py),)))
+    }
+}
+
+impl Model {
+    fn bytes(&self) -> Vec<u8> {
+        match &self.weights {
+            Weights::OfOneSize(model) => model.to_bytes(),
+            Weights::OfAnySize(model) => model.to_bytes(),
+        }
+    }
+}
+
+fn pass(net: &nn::Network, params: &[f32], inputs: Inputs<'_>) -> nn::Workspace {
+    let mut prepared = net.prepared();
+    net.prepare(params, &mut prepared);
+    let mut space = net.workspace(inputs.batch);
+    net.forward(params, &prepared, inputs, &mut space);
+    space
+}
+
+/// The settings of a training preset, `default` or `paper` (Table 2), by name; a weight file's header has the ones it was trained
+/// with.
+#[pyfunction]
+#[pyo3(signature = (preset = "default"))]
+pub(crate) fn settings<'py>(py: Python<'py>, preset: &str) -> PyResult<Bound<'py, PyAny>> {
+    let settings = Settings::preset(preset).map_err(Failure::from)?;
+    plain(py, &serde_json::to_string(&settings).expect("settings are plain data"))
+}

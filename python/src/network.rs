@@ -1,0 +1,143 @@
+//! `Network`: what days are drawn from.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use vertifleet_core::{self as core, DaySeed};
+
+use crate::failure::Failure;
+use crate::frames::{plain, table};
+use crate::scenario::Scenario;
+
+/// A network: vertiports, fleet, tariffs, and how demand is distributed. Days are drawn from it.
+///
+/// `Network("paper")` is the shipped network of that name (`Network.shipped` lists them), `Network("random:7")` the random
+/// network of that number, `Network("mine.toml")` the network file at that path. Never changes; pickles with all that it says.
+#[pyclass(frozen, module = "vertifleet")]
+#[derive(Clone)]
+pub(crate) struct Network {
+    pub(crate) network: Arc<core::Network>,
+}
+
+#[pymethods]
+impl Network {
+    #[new]
+    fn new(name_or_path: PathBuf) -> Result<Self, Failure> {
+        Ok(Self::of(core::Network::find(&name_or_path.to_string_lossy())?))
+    }
+
+    /// The network that the text of a network file describes; `origin` stands for the file in messages.
+    #[staticmethod]
+    #[pyo3(signature = (text, origin = "<text>"))]
+    fn from_toml(text: &str, origin: &str) -> Result<Self, Failure> {
+        Ok(Self::of(core::Network::from_toml(text, origin)?))
+    }
+
+    /// The names of the shipped networks.
+    #[staticmethod]
+    fn shipped() -> Vec<&'static str> {
+        core::Network::shipped_names().collect()
+    }
+
+    /// The same network with some members of its file changed: `network.changed({"fleet.0.count": 52, "vertiports.V3.stands": 8})`.
+    ///
+    /// A path names members from the outside in, a list's entries by their `id`, by their position from 0, or `*` for all of them.
+    /// The result is checked like any network file.
+    fn changed(&self, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let json = changes.py().import("json")?.call_method1("dumps", (changes,))?;
+        let changes: serde_json::Map<String, serde_json::Value> =
+            serde_json::from_str(&json.extract::<String>()?)
+                .map_err(|error| Failure::argument(format!("changes: {error}")))?;
+        Ok(Self::of(self.network.changed(&changes).map_err(Failure::from)?))
+    }
+
+    /// Its name; the days drawn from it are called `{name}-{seed}`.
+    #[getter]
+    fn name(&self) -> &str {
+        self.network.name()
+    }
+
+    /// The text of its network file.
+    #[getter]
+    fn toml(&self) -> &str {
+        self.network.toml()
+    }
+
+    /// Ids of the vertiports; their order is that of all arrays.
+    #[getter]
+    fn vertiports(&self) -> Vec<&str> {
+        self.network.vertiports().iter().map(|vertiport| vertiport.id.as_str()).collect()
+    }
+
+    /// Number of aircraft.
+    #[getter]
+    fn fleet_size(&self) -> usize {
+        self.network.fleet_size()
+    }
+
+    /// What the features of learned policies are divided by, as weight files state it.
+    #[getter]
+    fn feature_scales<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let scales = serde_json::to_string(&self.network.feature_scales());
+        plain(py, &scales.expect("scales are plain data"))
+    }
+
+    /// Means of demand, passengers [periods, vertiports, vertiports]: what the days' draws scatter around.
+    #[getter]
+    fn mean_demand<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let means = self.network.mean_demand();
+        let size = self.network.vertiports().len();
+        table(
+            py,
+            means.iter().flat_map(|mean| mean.cells().iter().copied()),
+            [means.len(), size, size],
+        )
+    }
+
+    /// The day of a seed. The same seed gives the same day everywhere.
+    ///
+    /// Days of different purposes ("comparison", "validation", "training") are never the same, so that no policy is judged on
+    /// a day that it learned from.
+    #[pyo3(signature = (seed, purpose = "comparison"))]
+    fn draw(&self, seed: u64, purpose: &str) -> Result<Scenario, Failure> {
+        let seed = match purpose {
+            "comparison" => DaySeed::comparison(seed)?,
+            "validation" => DaySeed::validation(seed)?,
+            "training" => training_seed(seed)?,
+            _ => {
+                return Err(Failure::argument(format!(
+                    "purpose must be \"comparison\", \"validation\" or \"training\", found {purpose:?}"
+                )));
+            }
+        };
+        Ok(Scenario::of(self.network.draw(seed)))
+    }
+
+    fn __repr__(&self) -> String {
+        let (vertiports, fleet) = (self.network.vertiports().len(), self.network.fleet_size());
+        format!("<Network {}: {vertiports} vertiports, {fleet} aircraft>", self.network.name())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (&str, &str))> {
+        let make = py.get_type::<Self>().getattr("from_toml")?;
+        Ok((make, (self.network.toml(), self.network.name())))
+    }
+}
+
+impl Network {
+    pub(crate) fn of(network: core::Network) -> Self {
+        Self { network: Arc::new(network) }
+    }
+}
+
+/// Days that one run may learn from; a training day's number counts through all runs.
+const RUN_DAYS: u64 = 1 << 28;
+
+/// The training day of this number, below 2^52.
+pub(crate) fn training_seed(number: u64) -> Result<DaySeed, core::Error> {
+    // A run too high is refused as such.
+    let run = u32::try_from(number / RUN_DAYS).unwrap_or(u32::MAX);
+    DaySeed::training(run, number % RUN_DAYS)
+}

@@ -1,0 +1,113 @@
+//! `Trace`: every decision of a day, and `check`, the independent verdict on it.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use vertifleet_core as core;
+use vertifleet_sim as sim;
+
+use crate::failure::Failure;
+use crate::frames::{Columns, frame, plain};
+use crate::scenario::Scenario;
+
+/// Every decision of a day, one row each, in the order they were taken: a complete schedule.
+#[pyclass(frozen, module = "vertifleet")]
+#[derive(Clone)]
+pub(crate) struct Trace {
+    pub(crate) scenario: Arc<core::Scenario>,
+    pub(crate) trace: Arc<sim::Trace>,
+}
+
+#[pymethods]
+impl Trace {
+    /// Reads a trace of a day, a CSV file.
+    #[staticmethod]
+    fn read(path: PathBuf, scenario: &Scenario) -> Result<Self, Failure> {
+        let trace = sim::Trace::read(&path, &scenario.scenario)?;
+        Ok(Self { scenario: Arc::clone(&scenario.scenario), trace: Arc::new(trace) })
+    }
+
+    /// The trace that the text of a CSV file describes; `origin` stands for the file in messages.
+    #[staticmethod]
+    #[pyo3(signature = (text, scenario, origin = "<text>"))]
+    fn from_csv(text: &str, scenario: &Scenario, origin: &str) -> Result<Self, Failure> {
+        let trace = sim::Trace::from_csv(text.as_bytes(), &scenario.scenario, origin)?;
+        Ok(Self { scenario: Arc::clone(&scenario.scenario), trace: Arc::new(trace) })
+    }
+
+    /// Writes it as a CSV file.
+    fn write(&self, path: PathBuf) -> Result<(), Failure> {
+        Ok(self.trace.write(&self.scenario, &path)?)
+    }
+
+    /// The text of its CSV file.
+    fn to_csv(&self) -> String {
+        self.trace.to_csv(&self.scenario)
+    }
+
+    /// Its columns as numpy arrays, named as in the file: times in seconds since midnight; `aircraft`, `from` and `to` as positions in
+    /// `Scenario.aircraft` and `Scenario.vertiports`; dollars and kWh. A hold goes from a vertiport to itself.
+    #[getter]
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let rows = &self.trace.rows;
+        let columns = Columns::new(py);
+        columns.numbers("time", rows.iter().map(|row| row.time.seconds()))?;
+        columns.numbers("aircraft", rows.iter().map(|row| row.aircraft.0))?;
+        columns.numbers("from", rows.iter().map(|row| row.from.0))?;
+        columns.numbers("to", rows.iter().map(|row| row.to.0))?;
+        columns.numbers("passengers", rows.iter().map(|row| row.passengers))?;
+        columns.numbers("revenue", rows.iter().map(|row| row.revenue_usd))?;
+        columns.numbers("passenger_cost", rows.iter().map(|row| row.passenger_cost_usd))?;
+        columns.numbers("energy_kwh", rows.iter().map(|row| row.energy_kwh))?;
+        columns.numbers("energy_cost", rows.iter().map(|row| row.energy_cost_usd))?;
+        columns.numbers("arrival", rows.iter().map(|row| row.arrival.seconds()))?;
+        columns.numbers("ready", rows.iter().map(|row| row.ready.seconds()))?;
+        Ok(columns.into_dict())
+    }
+
+    /// Its columns as a pandas frame.
+    fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        frame(&self.columns(py)?, "pandas")
+    }
+
+    /// Its columns as a polars frame.
+    fn to_polars<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        frame(&self.columns(py)?, "polars")
+    }
+
+    fn __len__(&self) -> usize {
+        self.trace.rows.len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Trace of {}: {} decisions>", self.scenario.name, self.trace.rows.len())
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.trace == other.trace && self.scenario == other.scenario
+    }
+
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (String, Scenario))> {
+        let make = py.get_type::<Self>().getattr("from_csv")?;
+        let scenario = Scenario { scenario: Arc::clone(&self.scenario) };
+        Ok((make, (self.to_csv(), scenario)))
+    }
+}
+
+/// Judges a schedule by the rules, independently of the simulator. Returns the verdict as a dict: `valid`, `totals` (the day's
+/// account, worked out anew), `broken` (how often each rule is) and `findings` (where).
+#[pyfunction]
+#[pyo3(signature = (scenario, trace))]
+pub(crate) fn check<'py>(
+    py: Python<'py>,
+    scenario: &Scenario,
+    trace: &Trace,
+) -> PyResult<Bound<'py, PyAny>> {
+    let report = py.detach(|| sim::check::check(&scenario.scenario, &trace.trace));
+    plain(py, &serde_json::to_string(&report).expect("a verdict is plain data"))
+}

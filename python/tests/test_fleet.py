@@ -1,0 +1,193 @@
+"""One day at a time: `vertifleet/Fleet-v0`."""
+
+from __future__ import annotations
+
+import pickle
+import warnings
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+import vertifleet
+from vertifleet.envs import FleetEnv
+
+Step = tuple[dict[str, np.ndarray], float, bool, dict[str, object]]
+
+
+def play(
+    env: FleetEnv, seed: int | None, choices: np.random.Generator, infeasible: float = 0.0
+) -> list[Step]:
+    """A whole day of random actions, a share of them drawn without looking at the mask."""
+    _, info = env.reset(seed=seed)
+    steps = []
+    over = False
+    while not over:
+        mask = info["action_mask"] if choices.random() >= infeasible else None
+        action = env.action_space.start + choices.choice(
+            np.flatnonzero(mask if mask is not None else np.ones(8))
+        )
+        observation, reward, over, truncated, info = env.step(action)
+        assert not truncated
+        steps.append((observation, reward, over, info))
+    return steps
+
+
+def test_gymnasium_finds_nothing_to_warn_of() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(gymnasium.make("vertifleet/Fleet-v0", network="paper", reward="dense").unwrapped)
+
+
+def test_stable_baselines3_finds_nothing_to_warn_of() -> None:
+    checker = pytest.importorskip("stable_baselines3.common.env_checker")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        checker.check_env(gymnasium.make("vertifleet/Fleet-v0", reward="terminal").unwrapped)
+
+
+def test_the_same_seed_gives_the_same_day_and_another_seed_another() -> None:
+    env = FleetEnv()
+
+    def first(seed: int | None) -> np.ndarray:
+        observation, _ = env.reset(seed=seed)
+        return observation["nodes"]
+
+    assert np.array_equal(first(3), first(3))
+    later = first(None)
+    assert not np.array_equal(later, first(3)), "a reset without a seed goes on"
+    assert np.array_equal(later, first(None)), "from the same state to the same day"
+    assert not np.array_equal(first(3), first(4))
+
+
+def test_all_randomness_is_from_np_random() -> None:
+    env = FleetEnv()
+    env.reset(seed=1)
+    env.np_random = np.random.default_rng(5)
+    expected = int(np.random.default_rng(5).integers(1 << 52))
+    env.reset()
+    seed = vertifleet.Network("paper").draw(expected, "training").seed
+    assert env._environment.day == f"paper-{seed}"
+
+
+def test_the_mask_is_the_same_in_every_form() -> None:
+    env = FleetEnv()
+    choices = np.random.default_rng(1)
+    _, info = env.reset(seed=1)
+    for _ in range(300):
+        observation, _, _, _, info = env.step(choices.choice(np.flatnonzero(info["action_mask"])))
+        masks = env.action_masks()
+        assert masks.dtype == np.bool_
+        assert info["action_mask"].dtype == np.int8
+        assert np.array_equal(masks, info["action_mask"])
+        assert np.array_equal(masks, observation["action_mask"])
+        assert masks.any()
+
+
+def test_an_infeasible_action_holds_and_says_so(day: vertifleet.Scenario) -> None:
+    infeasible, holding = FleetEnv(), FleetEnv()
+    _, info = infeasible.reset(options={"scenario": day})
+    holding.reset(options={"scenario": day})
+    held = 0
+    for step in range(400):
+        closed = np.flatnonzero(info["action_mask"] == 0)
+        at = int(np.flatnonzero(infeasible.action_masks())[step % infeasible.action_masks().sum()])
+        action = int(closed[0]) if closed.size else at
+        own = int(np.argmax(holding._environment.observe(holding._environment.aircraft)[1][1:9]))
+        one = infeasible.step(action)
+        other = holding.step(own if closed.size else at)
+        info = one[4]
+        assert info["invalid_action"] is bool(closed.size)
+        assert other[4]["invalid_action"] is False
+        for key, array in one[0].items():
+            assert np.array_equal(array, other[0][key])
+        held += bool(closed.size)
+        if one[2]:
+            break
+    assert held > 20
+    for action in (-1, 8, 10**6):
+        infeasible.reset(options={"scenario": day})
+        assert infeasible.step(action)[4]["invalid_action"]
+
+
+def test_dense_rewards_add_up_to_the_terminal_one() -> None:
+    dense = play(FleetEnv(reward="dense"), 7, np.random.default_rng(2))
+    terminal = play(FleetEnv(reward="terminal"), 7, np.random.default_rng(2))
+    assert all(reward == 0 for _, reward, over, _ in terminal if not over)
+    assert len(dense) == len(terminal)
+    assert sum(reward for _, reward, _, _ in dense) == pytest.approx(terminal[-1][1], abs=1e-12)
+    summary = terminal[-1][3]["summary"]
+    assert terminal[-1][1] == summary["reward"] == summary["profit"] / summary["potential"]
+
+
+@pytest.mark.parametrize("network", ["paper", "disrupted", "new-york"])
+def test_the_decisions_of_a_policy_come_to_what_the_library_says(network: str) -> None:
+    day = vertifleet.Network(network).draw(5)
+    played = vertifleet.simulate(day, "greedy")
+    env = FleetEnv(network)
+    env.reset(options={"scenario": day})
+    trace = played.trace.columns
+    over = False
+    for step in range(len(played.trace)):
+        assert not over
+        assert env._environment.aircraft == trace["aircraft"][step]
+        assert env._environment.time_s == trace["time"][step]
+        _, _, over, _, info = env.step(trace["to"][step])
+        assert not info["invalid_action"]
+    assert over
+    assert info["summary"] == played.summary
+
+
+def test_observations_are_within_their_space_whatever_is_done() -> None:
+    env = FleetEnv("disrupted")
+    size = len(env.network.vertiports)
+    choices = np.random.default_rng(3)
+    _, info = env.reset(seed=2)
+    for _ in range(3000):
+        observation, _, over, _, info = env.step(choices.integers(size))
+        assert env.observation_space.contains(observation)
+        if over:
+            assert observation["clock"] == 0
+            assert info["action_mask"].sum() == 1
+            env.reset()
+
+
+def test_adjacency_has_the_pairs_that_can_be_flown(day: vertifleet.Scenario) -> None:
+    env = FleetEnv()
+    observation, _ = env.reset(options={"scenario": day})
+    assert np.array_equal(observation["adjacency"].reshape(8, 8), 1 - np.eye(8))
+    near = vertifleet.Network("paper").changed({"aircraft_types.0.battery_kwh": 50.0})
+    env = FleetEnv(near)
+    observation, _ = env.reset(seed=1)
+    distances = near.draw(1).distance_mi
+    expected = (distances * 2.2 <= 50.0) & ~np.eye(8, dtype=bool)
+    assert 0 < expected.sum() < 56
+    assert np.array_equal(observation["adjacency"].reshape(8, 8), expected)
+
+
+def test_what_is_wrong_is_named() -> None:
+    with pytest.raises(vertifleet.Error, match="reward must be") as error:
+        FleetEnv(reward="weekly")  # type: ignore[arg-type]
+    assert error.value.code == "V451"
+    with pytest.raises(vertifleet.Error, match="call reset"):
+        FleetEnv().step(0)
+    with pytest.raises(vertifleet.Error) as error:
+        FleetEnv("nowhere")
+    assert error.value.code == "V119"
+    other = vertifleet.Network("new-york").draw(1)
+    with pytest.raises(vertifleet.Error, match="vertiports"):
+        FleetEnv("paper").reset(options={"scenario": other})
+
+
+def test_a_day_that_is_over_must_be_followed_by_a_reset() -> None:
+    env = FleetEnv()
+    play(env, 1, np.random.default_rng(1))
+    with pytest.raises(vertifleet.Error, match="call reset"):
+        env.step(0)
+
+
+def test_a_network_object_may_be_passed_and_travels() -> None:
+    network = pickle.loads(pickle.dumps(vertifleet.Network("paper").changed({"fleet.0.count": 12})))
+    env = gymnasium.make("vertifleet/Fleet-v0", network=network)
+    assert env.unwrapped.network.fleet_size == 12

@@ -1,0 +1,218 @@
+"""Networks, days, policies, bounds, plans, checks and comparisons."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import vertifleet
+from vertifleet import Comparison, Model, Network, Scenario, Trace
+
+POLICIES = ["random", "greedy", "prices", "gcaps", "gcaps-x"]
+
+
+def test_networks_are_found_by_name_number_and_path(paper: Network, tmp_path: Path) -> None:
+    assert "paper" in Network.shipped()
+    assert len(paper.vertiports) == 8
+    assert paper.fleet_size == 40
+    assert paper.mean_demand.shape == (13, 8, 8)
+    path = tmp_path / "mine.toml"
+    path.write_text(paper.toml, encoding="utf-8")
+    assert Network(path).draw(4) == paper.draw(4)
+    assert Network("random:3").draw(1) == Network.from_toml(Network("random:3").toml).draw(1)
+
+
+def test_a_changed_network_differs_in_what_was_changed(paper: Network) -> None:
+    changed = paper.changed({"fleet.0.count": 44, "vertiports.*.stands": 8, "tariffs.fare_base": 2.5})
+    assert changed.fleet_size == 44
+    assert (changed.draw(1).stands == 8).all()
+    assert np.array_equal(changed.draw(1).demand, paper.draw(1).demand)
+    assert (changed.draw(1).fare_usd > paper.draw(1).fare_usd)[:, ~np.eye(8, dtype=bool)].all()
+    with pytest.raises(vertifleet.Error, match="leads nowhere") as error:
+        paper.changed({"vertiports.V99.stands": 8})
+    assert error.value.code == "V123"
+    with pytest.raises(vertifleet.Error, match="changes"):
+        paper.changed({"fleet.0.count": float("nan")})
+
+
+def test_days_of_different_purposes_are_different_days(paper: Network) -> None:
+    seeds = {paper.draw(5, purpose).seed for purpose in ("comparison", "validation", "training")}
+    assert len(seeds) == 3
+    with pytest.raises(vertifleet.Error, match="purpose"):
+        paper.draw(1, "fun")  # type: ignore[arg-type]
+    with pytest.raises(vertifleet.Error) as error:
+        paper.draw(1 << 41)
+    assert error.value.code == "V118"
+
+
+def test_a_day_is_written_and_read(day: Scenario, tmp_path: Path) -> None:
+    day.write(tmp_path / "day.json")
+    assert Scenario.read(tmp_path / "day.json") == day == Scenario.from_json(day.to_json())
+    with pytest.raises(vertifleet.Error) as error:
+        Scenario.read(tmp_path / "night.json")
+    assert (error.value.code, "night.json" in error.value.message) == ("V101", True)
+
+
+def test_arrays_of_a_day_have_the_shapes_they_say(day: Scenario) -> None:
+    assert day.demand.shape == day.fare_usd.shape == (13, 8, 8)
+    assert day.distance_mi.shape == day.passenger_cost_usd.shape == (8, 8)
+    assert day.start_positions.shape == (40,)
+    assert day.energy_price_usd.shape == day.periods_s.shape == (13,)
+    expected = (day.demand * day.fare_usd).sum()
+    assert day.potential_usd == pytest.approx(expected)
+    positions = day.positions_mi
+    distances = np.linalg.norm(positions[:, None] - positions, axis=2)
+    assert np.allclose(distances, day.distance_mi)
+
+
+def test_everything_that_travels_arrives_as_it_was(paper: Network, day: Scenario) -> None:
+    trace = vertifleet.simulate(day, "greedy").trace
+    model = Model.shipped("mlp")
+    comparison = vertifleet.compare(paper, ["greedy"], days=2)
+    for one in (day, trace):
+        assert pickle.loads(pickle.dumps(one)) == one
+    assert pickle.loads(pickle.dumps(paper)).draw(1) == day
+    assert pickle.loads(pickle.dumps(model)).to_bytes() == model.to_bytes()
+    again = pickle.loads(pickle.dumps(comparison))
+    assert again.summary == comparison.summary
+
+
+def test_a_trace_is_a_schedule_that_can_be_kept_replayed_and_judged(day: Scenario, tmp_path: Path) -> None:
+    played = vertifleet.simulate(day, "gcaps-x")
+    path = tmp_path / "trace.csv"
+    played.trace.write(path)
+    assert Trace.read(path, day) == played.trace
+    assert vertifleet.simulate(day, f"replay:{path}").summary == played.summary
+    verdict = vertifleet.check(day, played.trace)
+    assert verdict["valid"]
+    assert verdict["totals"]["profit"] == pytest.approx(played.profit)
+    columns = played.trace.columns
+    profit = (columns["revenue"] - columns["passenger_cost"] - columns["energy_cost"]).sum()
+    assert profit == pytest.approx(played.profit)
+    lines = played.trace.to_csv().splitlines()
+    broken = Trace.from_csv("\n".join([*lines[:40], *lines[41:]]), day)
+    assert not vertifleet.check(day, broken)["valid"]
+
+
+@pytest.mark.parametrize("library", ["pandas", "polars"])
+def test_results_are_frames_where_the_libraries_are_installed(
+    paper: Network, day: Scenario, library: str
+) -> None:
+    pytest.importorskip(library)
+    trace = vertifleet.simulate(day).trace
+    frame = getattr(trace, f"to_{library}")()
+    assert frame.shape == (len(trace), 11)
+    comparison = vertifleet.compare(paper, ["greedy", "prices"], days=3)
+    frame = getattr(comparison, f"to_{library}")()
+    assert list(frame["policy"]) == ["greedy"] * 3 + ["prices"] * 3
+
+
+def test_a_comparison_is_the_days_one_by_one(paper: Network) -> None:
+    comparison = vertifleet.compare(paper, POLICIES, days=4, seed=20, policy_seed=6)
+    columns = comparison.columns
+    assert columns["profit"].shape == (20,)
+    for row in range(20):
+        day = paper.draw(int(columns["seed"][row]))
+        alone = vertifleet.simulate(day, str(columns["policy"][row]), seed=6)
+        assert alone.profit == columns["profit"][row]
+        assert alone.summary["flights"] == columns["flights"][row]
+    assert [policy["name"] for policy in comparison.summary["policies"]].count("gcaps") == 1
+    assert "gcaps-x" in str(comparison)
+
+
+def test_a_comparison_in_parts_is_the_whole(paper: Network) -> None:
+    whole = vertifleet.compare(paper, ["random", "greedy"], days=5, seed=3)
+    first = vertifleet.compare(paper, ["random", "greedy"], days=2, seed=3)
+    second = vertifleet.compare(paper, ["random", "greedy"], days=3, seed=5, policy_seed=3)
+    joined = Comparison.join([first, second])
+    for name, column in whole.columns.items():
+        assert np.array_equal(column, joined.columns[name]), name
+    with pytest.raises(vertifleet.Error) as error:
+        Comparison.join([second, first])
+    assert error.value.code == "V409"
+
+
+def test_bounds_hold_and_plans_come_close_to_them(day: Scenario) -> None:
+    bound = vertifleet.bound(day, step=15)
+    plan = vertifleet.plan(day, steps=2000, threads=2)
+    assert plan.best_policy <= plan.profit <= plan.bound.upper_bound_usd <= bound.upper_bound_usd + 0.01
+    assert plan.gap == pytest.approx(1 - plan.profit / plan.bound.upper_bound_usd)
+    assert bound.gap(plan.profit) >= plan.gap
+    assert vertifleet.check(day, plan.trace)["valid"]
+    assert bound.stand_worth_usd.shape == (8,)
+    assert bound.passenger_worth_usd.shape == (13, 8, 8)
+    again = vertifleet.plan(day, steps=2000, threads=2)
+    assert again.trace == plan.trace
+
+
+def test_a_comparison_with_bounds_has_shares_of_them(paper: Network) -> None:
+    columns = vertifleet.compare(paper, ["greedy"], days=2, bound=True, step=30).columns
+    assert np.allclose(columns["bound_share"], columns["profit"] / columns["upper_bound"])
+    assert (columns["bound_share"] < 1).all()
+
+
+def test_a_report_is_written(paper: Network, tmp_path: Path) -> None:
+    page = Path(vertifleet.compare(paper, ["random", "greedy"], days=5).report(tmp_path / "report"))
+    assert page.exists()
+    assert "greedy" in page.read_text(encoding="utf-8")
+
+
+def test_weights_may_be_given_as_paths_and_as_models(paper: Network, day: Scenario, tmp_path: Path) -> None:
+    model = Model.shipped("gcaps")
+    model.write(tmp_path / "mine.safetensors")
+    expected = vertifleet.simulate(day, "gcaps").summary
+    for given in (model, tmp_path / "mine.safetensors", str(tmp_path / "mine.safetensors")):
+        assert vertifleet.simulate(day, "gcaps", model=given).summary == expected
+    comparison = vertifleet.compare(
+        paper, ["mine", "other"], days=2, models={"mine": model, "other": tmp_path / "mine.safetensors"}
+    )
+    profit = comparison.columns["profit"]
+    assert profit[0] == expected["profit"]
+    assert np.array_equal(profit[:2], profit[2:])
+
+
+def test_the_shipped_models_say_what_they_are() -> None:
+    for kind in ("gcaps", "mlp", "gcaps-x"):
+        model = Model.shipped(kind)
+        assert model.kind == kind
+        assert model.header["policy"]["kind"] == kind
+        assert all(np.isfinite(tensor).all() for tensor in model.tensors.values())
+    assert vertifleet.settings("paper")["total_steps"] == 2_000_000
+
+
+@pytest.mark.parametrize(
+    ("call", "code"),
+    [
+        (lambda day, paper: vertifleet.simulate(day, "fastest"), "V307"),
+        (lambda day, paper: vertifleet.simulate(day, "greedy", model="x.safetensors"), "V407"),
+        (lambda day, paper: vertifleet.simulate(day, "gcaps", model="x.safetensors"), "V101"),
+        (lambda day, paper: vertifleet.simulate(day, "replay:none.csv"), "V101"),
+        (lambda day, paper: vertifleet.bound(day, step=0), "V501"),
+        (lambda day, paper: vertifleet.plan(day, time_limit=-1.0), "V451"),
+        (lambda day, paper: vertifleet.compare(paper, ["greedy", "greedy"], days=1), "V404"),
+        (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=0), "V402"),
+        (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=1, models={"x": "y"}), "V407"),
+        (lambda day, paper: vertifleet.settings("best"), "V301"),
+        (lambda day, paper: Model.from_bytes(b"no weights"), "V304"),
+        (lambda day, paper: Comparison.from_json("{}"), "V451"),
+        (lambda day, paper: Network.from_toml("format = 1"), "V106"),
+        (lambda day, paper: Trace.from_csv("nothing", day), "V205"),
+    ],
+)
+def test_errors_are_exceptions_with_the_codes_of_the_program(
+    day: Scenario, paper: Network, call: object, code: str
+) -> None:
+    with pytest.raises(vertifleet.Error) as error:
+        call(day, paper)  # type: ignore[operator]
+    assert error.value.code == code
+    assert str(error.value).startswith(f"{code}: ")
+    assert pickle.loads(pickle.dumps(error.value)).args == error.value.args
+
+
+def test_weights_shipped_for_a_network_warn_on_a_copy_of_it(paper: Network) -> None:
+    other = paper.changed({"fleet.0.count": 30}).draw(1)
+    with pytest.warns(UserWarning, match="changed copy"):
+        vertifleet.simulate(other, "gcaps")

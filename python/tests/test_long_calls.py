@@ -1,0 +1,54 @@
+"""Long calls leave Python to its other threads, and end when Ctrl-C is pressed."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+import vertifleet
+
+LONG = {
+    "compare": "vertifleet.compare(vertifleet.Network('paper'), ['rolling'], days=2000)",
+    "bounds": "vertifleet.compare(vertifleet.Network('paper'), ['random'], days=500, seed=70000, bound=True)",
+    "plans": "vertifleet.compare(vertifleet.Network('paper'), ['plan'], days=20)",
+    "plan": "vertifleet.plan(vertifleet.Network('paper').draw(1), time_limit=600)",
+}
+
+
+@pytest.mark.parametrize("call", LONG)
+def test_ctrl_c_ends_a_long_call(call: str) -> None:
+    program = f"import vertifleet\nprint('begun', flush=True)\n{LONG[call]}\nprint('done', flush=True)"
+    process = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == "begun\n"
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    # Far below what the call would take: a bound that is being proven ends first.
+    out, errors = process.communicate(timeout=60)
+    assert out == ""
+    assert "KeyboardInterrupt" in errors
+
+
+def test_other_threads_go_on_meanwhile(day: vertifleet.Scenario) -> None:
+    ticks = 0
+    stop = threading.Event()
+
+    def tick() -> None:
+        nonlocal ticks
+        while not stop.is_set():
+            ticks += 1
+            time.sleep(0.001)
+
+    clock = threading.Thread(target=tick)
+    clock.start()
+    vertifleet.plan(day, time_limit=1.0)
+    stop.set()
+    clock.join()
+    assert ticks > 20, "a call that holds Python's lock would have let through a few at most"

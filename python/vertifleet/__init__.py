@@ -1,0 +1,51 @@
+"""Fleets of electric air taxis: where every aircraft flies next, so that the day earns the most.
+
+Everything here is the Rust program's own work on the same rules. `Network` draws days, `simulate` plays
+one, `compare` many with many policies, `sweep` does so on variations of a network, `bound` proves what a day
+can earn at most, `plan` looks for the best schedule, `check` judges one. Importing the package registers
+the Gymnasium environment ``vertifleet/Fleet-v0``. `vertifleet.torch` has the learned policies as PyTorch
+modules; `vertifleet.sb3` and `vertifleet.ray` train them.
+"""
+
+from __future__ import annotations
+
+from vertifleet._errors import Error
+from vertifleet._native import (
+    Bound,
+    Comparison,
+    Model,
+    Network,
+    Plan,
+    Played,
+    Scenario,
+    Trace,
+    bound,
+    check,
+    compare,
+    plan,
+    settings,
+    simulate,
+)
+from vertifleet._sweep import sweep
+from vertifleet.envs import register as _register
+
+__all__ = [
+    "Bound",
+    "Comparison",
+    "Error",
+    "Model",
+    "Network",
+    "Plan",
+    "Played",
+    "Scenario",
+    "Trace",
+    "bound",
+    "check",
+    "compare",
+    "plan",
+    "settings",
+    "simulate",
+    "sweep",
+]
+
+_register()

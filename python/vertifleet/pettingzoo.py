@@ -1,0 +1,119 @@
+"""The fleet as a PettingZoo environment: agents act in turn (AEC), one agent an aircraft.
+
+Needs PettingZoo: ``pip install vertifleet[pettingzoo]``.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from gymnasium import spaces
+from gymnasium.utils import seeding
+from pettingzoo import AECEnv
+from pettingzoo.utils import wrappers
+
+from vertifleet._native import Environment, Network, Scenario
+from vertifleet.envs.spaces import NUMBERS, network_of, observation_space
+
+
+def env(
+    network: str | Network = "paper", reward: Literal["terminal", "dense"] = "terminal"
+) -> AECEnv[str, dict[str, Any], int]:
+    """The environment with PettingZoo's usual wrapper, which tells when calls come in a wrong order."""
+    return wrappers.OrderEnforcingWrapper(FleetAEC(network, reward))
+
+
+class FleetAEC(AECEnv[str, dict[str, Any], int]):
+    """Agent ``aircraft_k`` decides for aircraft k whenever that one is ready for take-off.
+
+    Actions, features and masks are those of ``vertifleet/Fleet-v0``; an observation is ``{"observation":
+    {"nodes", "aircraft", "clock", "adjacency"}, "action_mask"}``, as the agent would see the network now. An
+    agent is paid what its own flights earn, over the potential revenue of the day: by the flight
+    (``reward="dense"``) or all at the end (``"terminal"``). The rewards of all agents add up to that of
+    ``vertifleet/Fleet-v0``. All agents terminate with the day.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": [], "name": "fleet_v0", "is_parallelizable": False}
+
+    def __init__(
+        self, network: str | Network = "paper", reward: Literal["terminal", "dense"] = "terminal"
+    ) -> None:
+        super().__init__()
+        self.network = network_of(network)
+        self.reward = reward
+        self.render_mode = None
+        # Paid by the flight, so that it is known whose each dollar is.
+        self._environment = Environment(self.network, "dense")
+        self.possible_agents = [f"aircraft_{position}" for position in range(self.network.fleet_size)]
+        self._positions = {agent: position for position, agent in enumerate(self.possible_agents)}
+        vertiports = len(self.network.vertiports)
+        shown = observation_space(vertiports)
+        box = spaces.Dict({key: space for key, space in shown.items() if key != "action_mask"})
+        mask = spaces.Box(0, 1, (vertiports,), np.int8)
+        space = spaces.Dict({"observation": box, "action_mask": mask})
+        self.observation_spaces = dict.fromkeys(self.possible_agents, space)
+        self.action_spaces: dict[str, spaces.Space[Any]] = {
+            agent: spaces.Discrete(vertiports) for agent in self.possible_agents
+        }
+        self._np_random: np.random.Generator | None = None
+
+    def observation_space(self, agent: str) -> spaces.Space[Any]:
+        """The same for all agents."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> spaces.Space[Any]:
+        """The vertiports; the agent's own means hold."""
+        return self.action_spaces[agent]
+
+    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
+        """Begins the day that ``vertifleet/Fleet-v0`` has for this seed, or ``options["scenario"]``."""
+        if seed is not None or self._np_random is None:
+            self._np_random = seeding.np_random(seed)[0]
+        scenario: Scenario | None = (options or {}).get("scenario")
+        if scenario is None:
+            self._environment.reset(int(self._np_random.integers(NUMBERS)))
+        else:
+            self._environment.begin(scenario)
+        self.agents = list(self.possible_agents)
+        self.rewards = dict.fromkeys(self.agents, 0.0)
+        self._cumulative_rewards = dict.fromkeys(self.agents, 0.0)
+        self._earned = dict.fromkeys(self.agents, 0.0)
+        self.terminations = dict.fromkeys(self.agents, False)
+        self.truncations = dict.fromkeys(self.agents, False)
+        self.infos = {agent: {"invalid_action": False} for agent in self.agents}
+        self.agent_selection = self._deciding()
+
+    def observe(self, agent: str) -> dict[str, Any]:
+        """What the network shows to an agent now; to one that does not decide, only hold is feasible."""
+        nodes, aircraft, clock, adjacency, _, mask = self._environment.observe(self._positions[agent])
+        observation = {"nodes": nodes, "aircraft": aircraft, "clock": clock, "adjacency": adjacency}
+        return {"observation": observation, "action_mask": mask}
+
+    def step(self, action: int | None) -> None:
+        """Carries the decision of the selected agent out and goes on to the next."""
+        agent = self.agent_selection
+        if self.terminations[agent]:
+            self._was_dead_step(action)
+            return
+        if action is None:
+            raise TypeError("an agent that has not terminated acts; None is for those that have")
+        _, earned, over, invalid = self._environment.step(int(action))
+        self._cumulative_rewards[agent] = 0.0
+        self._clear_rewards()
+        self._earned[agent] += earned
+        self.infos[agent] = {"invalid_action": invalid}
+        if self.reward == "dense":
+            self.rewards[agent] = earned
+        elif over:
+            self.rewards = dict(self._earned)
+        if over:
+            self.terminations = dict.fromkeys(self.agents, True)
+        else:
+            self.agent_selection = self._deciding()
+        self._accumulate_rewards()
+
+    def _deciding(self) -> str:
+        position = self._environment.aircraft
+        assert position is not None, "a day has begun"
+        return self.possible_agents[position]
