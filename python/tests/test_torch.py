@@ -1,0 +1,272 @@
+"""The networks in PyTorch: what they compute, what they start from, what they decide."""
+
+import math
+
+import numpy as np
+import pytest
+
+import vertifleet
+
+torch = pytest.importorskip("torch")
+
+from torch.nn.functional import layer_norm, relu  # noqa: E402
+
+from vertifleet.torch import Gcaps, GcapsX, Mlp, act, masked  # noqa: E402
+
+VERTIPORTS = 5
+SMALL = {
+    "gcaps": lambda: Gcaps(VERTIPORTS, width=16, heads=4),
+    "gcaps-x": lambda: GcapsX(width=16, heads=4),
+    "mlp": lambda: Mlp(VERTIPORTS, width=16, layers=2, value_width=8),
+}
+GAIN_RELU, GAIN_LOGITS, GAIN_VALUE = math.sqrt(2), 0.01, 0.1
+
+
+def small(kind, seed=1):
+    """A small network in double precision, every weight drawn: biases and scales too."""
+    torch.manual_seed(seed)
+    twin = SMALL[kind]().double()
+    with torch.no_grad():
+        for weight in twin.parameters():
+            weight.add_(0.3 * torch.randn_like(weight))
+    return twin
+
+
+def inputs(twin, batch=3, vertiports=VERTIPORTS):
+    """Nodes [B, N, F], aircraft [B, G] and clock [B] out of nothing."""
+    random = torch.Generator().manual_seed(7)
+
+    def draw(*shape):
+        return torch.rand(shape, generator=random, dtype=torch.float64) * 2 - 1
+
+    return draw(batch, vertiports, twin.node_features), draw(batch, twin.aircraft_features), draw(batch).abs()
+
+
+def gcaps_to_the_letter(w, heads, nodes, aircraft, clock):
+    """Eq. 18-21 with the Laplacian as a matrix, and a key and a value for every node."""
+    n, h = nodes.shape[1], w["encoder.node.bias"].shape[0]
+    laplacian = n * torch.eye(n, dtype=nodes.dtype) - torch.ones(n, n, dtype=nodes.dtype)
+    powers = [torch.eye(n, dtype=nodes.dtype), laplacian, laplacian @ laplacian]
+    f_0 = nodes @ w["encoder.node.weight"] + w["encoder.node.bias"]
+    # W_pa = V_pa / N^a: the files hold V_pa.
+    capsules = [
+        relu(sum(powers[a] @ f_0**p @ w[f"encoder.moment_{p}.hop_{a}.weight"] / n**a for a in (0, 1, 2)))
+        for p in (1, 2)
+    ]
+    embeddings = torch.cat(capsules, -1) @ w["encoder.feed_forward.weight"] + w["encoder.feed_forward.bias"]
+
+    q = aircraft @ w["decoder.query.weight"] + w["decoder.query.bias"]
+    keys, values = embeddings @ w["decoder.key.weight"], embeddings @ w["decoder.value.weight"]
+    collected = []
+    for part in torch.arange(h).chunk(heads):
+        scores = torch.einsum("bd,bnd->bn", q[:, part], keys[:, :, part]) / math.sqrt(h // heads)
+        collected.append(torch.einsum("bn,bnd->bd", scores.softmax(-1), values[:, :, part]))
+    attended = torch.cat(collected, -1) @ w["decoder.output.weight"]
+    z = layer_norm(q + attended, (h,), w["decoder.norm_1.scale"], w["decoder.norm_1.shift"])
+    lifted = relu(z @ w["decoder.feed_forward.weight"] + w["decoder.feed_forward.bias"])
+    y = layer_norm(z + lifted, (h,), w["decoder.norm_2.scale"], w["decoder.norm_2.shift"])
+    logits = torch.einsum("bh,bnh->bn", y @ w["decoder.pointer.weight"], embeddings) / math.sqrt(h)
+
+    rows = torch.cat([w["value.means.weight"], w["value.hidden.weight"]])
+    seen = torch.cat([embeddings.mean(1), y, clock[:, None]], -1)
+    hidden = relu(seen @ rows + w["value.hidden.bias"])
+    return logits, hidden @ w["value.output.weight"] + w["value.output.bias"]
+
+
+def mlp_to_the_letter(w, nodes, aircraft, clock):
+    x = torch.cat([nodes.flatten(1), aircraft], -1)
+    for layer in (1, 2):
+        x = relu(x @ w[f"trunk.{layer}.weight"] + w[f"trunk.{layer}.bias"])
+    seen = torch.cat([x, clock[:, None]], -1)
+    hidden = relu(seen @ w["value.hidden.weight"] + w["value.hidden.bias"])
+    values = hidden @ w["value.output.weight"] + w["value.output.bias"]
+    return x @ w["logits.weight"] + w["logits.bias"], values
+
+
+@pytest.mark.parametrize("kind", ["gcaps", "gcaps-x"])
+def test_gcaps_is_equations_18_to_21_to_the_letter(kind):
+    twin = small(kind)
+    expected = gcaps_to_the_letter(twin.state_dict(), 4, *inputs(twin))
+    torch.testing.assert_close(twin(*inputs(twin)), expected, rtol=1e-9, atol=1e-9)
+
+
+def test_mlp_is_plain_layers_on_the_flattened_features():
+    twin = small("mlp")
+    expected = mlp_to_the_letter(twin.state_dict(), *inputs(twin))
+    torch.testing.assert_close(twin(*inputs(twin)), expected, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", SMALL)
+def test_features_may_come_flat_and_the_clock_as_a_column(kind):
+    twin = small(kind)
+    nodes, aircraft, clock = inputs(twin)
+    expected = twin(nodes, aircraft, clock)
+    assert [tuple(answer.shape) for answer in expected] == [(3, VERTIPORTS), (3,)]
+    torch.testing.assert_close(twin(nodes.flatten(1), aircraft, clock[:, None]), expected)
+
+
+@pytest.mark.parametrize("kind", ["gcaps", "gcaps-x"])
+def test_gcaps_does_not_depend_on_the_order_of_the_vertiports(kind):
+    twin = small(kind)
+    nodes, aircraft, clock = inputs(twin)
+    order = torch.tensor([3, 0, 4, 1, 2])
+    logits, values = twin(nodes, aircraft, clock)
+    moved = twin(nodes[:, order], aircraft, clock)
+    torch.testing.assert_close(moved, (logits[:, order], values))
+
+
+def test_gcaps_x_takes_any_number_of_vertiports():
+    twin = small("gcaps-x")
+    for vertiports in (1, 2, 30):
+        logits, values = twin(*inputs(twin, vertiports=vertiports))
+        assert logits.shape == (3, vertiports)
+        assert values.shape == (3,)
+
+
+@pytest.mark.parametrize("kind", SMALL)
+def test_the_clock_moves_the_value_alone(kind):
+    twin = small(kind)
+    nodes, aircraft, clock = inputs(twin)
+    (logits, values), (later_logits, later_values) = (twin(nodes, aircraft, at) for at in (clock, clock / 2))
+    assert torch.equal(logits, later_logits)
+    assert not torch.allclose(values, later_values)
+
+
+@pytest.mark.parametrize("kind", SMALL)
+def test_every_weight_learns(kind):
+    twin = small(kind)
+    logits, values = twin(*inputs(twin, batch=20))
+    (logits.log_softmax(-1)[:, 1].sum() + values.sum()).backward()
+    for name, weight in twin.named_parameters():
+        assert weight.grad is not None, name
+        assert weight.grad.abs().sum() > 0, name
+
+
+@pytest.mark.parametrize("kind", SMALL)
+def test_the_gradient_is_that_of_the_letter(kind):
+    twin = small(kind)
+    logits, values = twin(*inputs(twin))
+    (logits.sin().sum() + values.sum()).backward()
+    letter = {name: weight.detach().clone().requires_grad_() for name, weight in twin.named_parameters()}
+    data = inputs(twin)
+    logits, values = (
+        mlp_to_the_letter(letter, *data) if kind == "mlp" else gcaps_to_the_letter(letter, 4, *data)
+    )
+    (logits.sin().sum() + values.sum()).backward()
+    for name, weight in twin.named_parameters():
+        torch.testing.assert_close(weight.grad, letter[name].grad, rtol=1e-8, atol=1e-8, msg=name)
+
+
+def first_spread(kind):
+    """What each tensor's first entries have as standard deviation, for the default sizes on 8 vertiports."""
+    if kind == "mlp":
+        return {
+            "trunk.1.weight": GAIN_RELU / math.sqrt(8 * 20 + 18),
+            "trunk.2.weight": GAIN_RELU / math.sqrt(800),
+            "logits.weight": GAIN_LOGITS / math.sqrt(800),
+            "value.hidden.weight": GAIN_RELU / math.sqrt(801),
+            "value.output.weight": GAIN_VALUE / math.sqrt(256),
+        }
+    hops = {
+        f"encoder.moment_{p}.hop_{a}.weight": GAIN_RELU / math.sqrt(3 * 256)
+        for p in (1, 2)
+        for a in (0, 1, 2)
+    }
+    square = 1 / math.sqrt(256)
+    return hops | {
+        "encoder.node.weight": 1 / math.sqrt(20),
+        "encoder.feed_forward.weight": 1 / math.sqrt(512),
+        "decoder.query.weight": 1 / math.sqrt(18),
+        "decoder.key.weight": square,
+        "decoder.value.weight": square,
+        "decoder.output.weight": square,
+        "decoder.feed_forward.weight": GAIN_RELU * square,
+        "decoder.pointer.weight": GAIN_LOGITS * square,
+        "value.means.weight": GAIN_RELU / math.sqrt(2 * 256 + 1),
+        "value.hidden.weight": GAIN_RELU / math.sqrt(2 * 256 + 1),
+        "value.output.weight": GAIN_VALUE * square,
+    }
+
+
+@pytest.mark.parametrize("kind", ["gcaps", "mlp"])
+def test_first_weights_are_spread_as_those_of_the_program(kind):
+    torch.manual_seed(1)
+    twin = {"gcaps": Gcaps, "mlp": Mlp}[kind](8)
+    spread = first_spread(kind)
+    for name, weight in twin.state_dict().items():
+        if name in spread:
+            # Uniform: the largest entry says what the reach is, the spread that nothing is piled up.
+            reach = math.sqrt(3) * spread[name]
+            assert 0.95 * reach < weight.abs().max() <= reach, name
+            assert weight.std().item() == pytest.approx(spread[name], rel=0.15), name
+        else:
+            assert torch.equal(weight, torch.full_like(weight, 1.0 if name.endswith(".scale") else 0.0)), name
+
+
+def test_first_weights_follow_from_the_seed():
+    def weights(seed):
+        torch.manual_seed(seed)
+        return torch.cat([weight.flatten() for weight in SMALL["gcaps"]().parameters()])
+
+    assert torch.equal(weights(3), weights(3))
+    assert not torch.equal(weights(3), weights(4))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Gcaps(0),
+        lambda: Gcaps(5000),
+        lambda: Gcaps(8, width=0),
+        lambda: Gcaps(8, width=10, heads=4),
+        lambda: Mlp(8, layers=17),
+        lambda: Mlp(8, value_width=-1),
+        lambda: GcapsX(heads=2.0),
+    ],
+)
+def test_sizes_that_no_network_has_are_refused(make):
+    with pytest.raises(vertifleet.Error) as refused:
+        make()
+    assert refused.value.code == "V451"
+
+
+def test_what_is_masked_has_no_probability():
+    logits, mask = torch.tensor([[5.0, 1.0, 2.0]]), torch.tensor([[0.0, 1.0, 1.0]])
+    probabilities = masked(logits, mask).softmax(-1)
+    assert probabilities[0, 0] == 0
+    torch.testing.assert_close(probabilities[0, 1:], torch.tensor([1.0, 2.0]).softmax(-1))
+
+
+class Fixed(Mlp):
+    """Gives its aircraft features as logits."""
+
+    def forward(self, nodes, aircraft, clock):  # noqa: ARG002
+        return aircraft, clock
+
+
+def observation(logits, mask):
+    nodes, clock = np.zeros(len(logits), np.float32), np.zeros((*np.shape(logits)[:-1], 1), np.float32)
+    return {
+        "nodes": nodes,
+        "aircraft": np.array(logits, np.float32),
+        "clock": clock,
+        "action_mask": np.array(mask, np.float32),
+    }
+
+
+def test_the_feasible_vertiport_with_the_highest_logit_is_chosen_the_first_among_equals():
+    twin = Fixed(2, width=1)
+    assert act(twin, observation([1.0, 9.0, 3.0, 3.0], [1, 0, 1, 1])) == 2
+    assert act(twin, observation([-9.0, -1.0], [1, 0])) == 0
+    batch = observation([[0.0, 0.0, 0.0], [0.0, 1.0, 2.0]], [[0, 1, 1], [1, 1, 1]])
+    assert act(twin, batch).tolist() == [1, 2]
+
+
+@pytest.mark.skipif(not torch.cuda.is_available(), reason="needs a GPU")
+@pytest.mark.parametrize("kind", SMALL)
+def test_a_gpu_computes_the_same(kind):
+    twin = small(kind)
+    data = inputs(twin)
+    expected = [answer.detach() for answer in twin(*data)]
+    found = twin.cuda()(*(part.cuda() for part in data))
+    torch.testing.assert_close([answer.detach().cpu() for answer in found], expected)

@@ -1,0 +1,257 @@
+"""Weight files between PyTorch and the program: the same tensors, the same answers, the same decisions."""
+
+import json
+import struct
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pytest
+
+import vertifleet
+
+torch = pytest.importorskip("torch")
+safetensors = pytest.importorskip("safetensors.torch")
+
+from vertifleet.torch import Gcaps, GcapsX, Mlp, act, load, masked, save  # noqa: E402
+
+MODELS = Path(__file__).parents[2] / "models"
+SHIPPED = {
+    "gcaps": MODELS / "paper" / "gcaps.safetensors",
+    "mlp": MODELS / "paper" / "mlp.safetensors",
+    "gcaps-x": MODELS / "any" / "gcaps-x.safetensors",
+}
+NETWORK = vertifleet.Network("paper")
+COURSE = load(SHIPPED["gcaps-x"]).header["course"]
+
+
+def fresh(kind):
+    torch.manual_seed(5)
+    match kind:
+        case "gcaps":
+            return Gcaps(8, width=32, heads=2)
+        case "mlp":
+            return Mlp(8, width=24, layers=3, value_width=16)
+        case _:
+            return GcapsX(width=24, heads=3)
+
+
+def save_fresh(twin, path):
+    settings = COURSE if twin.kind == "gcaps-x" else vertifleet.settings("paper")
+    save(twin, path, network=NETWORK, settings=settings, seed=3, steps=1234)
+
+
+def played(day, decisions):
+    """What the environment shows before each of these decisions, [decisions, ...]."""
+    environment = gymnasium.make("vertifleet/Fleet-v0", network=NETWORK, disable_env_checker=True)
+    seen, _ = environment.reset(options={"scenario": day})
+    shown = [seen]
+    for decision in decisions[:-1]:
+        seen, _, over, _, _ = environment.step(int(decision))
+        assert not over
+        shown.append(seen)
+    return {name: np.stack([seen[name] for seen in shown]) for name in seen}
+
+
+def made_up(twin, vertiports, batch=16):
+    """Observations out of nothing, [B, ...]."""
+    random = np.random.default_rng(2)
+    mask = random.random((batch, vertiports)) < 0.7
+    mask[:, random.integers(vertiports)] = True
+    return {
+        "nodes": random.random((batch, vertiports * twin.node_features), np.float32),
+        "aircraft": random.random((batch, twin.aircraft_features), np.float32),
+        "clock": random.random((batch, 1), np.float32),
+        "action_mask": mask.astype(np.float32),
+    }
+
+
+def assert_answers_are_those_of_the_program(twin, path, seen):
+    mask, batch = seen["action_mask"], len(seen["clock"])
+    nodes = seen["nodes"].reshape(batch, mask.shape[1], -1)
+    model = vertifleet.Model.read(path)
+    expected = model.forward(nodes, seen["aircraft"], mask.astype(np.uint8), seen["clock"].reshape(batch))
+    tensors = (torch.from_numpy(seen[name]) for name in ("nodes", "aircraft", "clock"))
+    with torch.inference_mode():
+        logits, values = twin(*tensors)
+    found = masked(logits, torch.from_numpy(mask)).numpy(), values.numpy()
+    for answers, expected_answers in zip(found, expected, strict=True):
+        largest = np.abs(expected_answers[np.isfinite(expected_answers)]).max()
+        np.testing.assert_allclose(answers, expected_answers, rtol=0, atol=1e-5 * max(largest, 1))
+
+
+@pytest.mark.parametrize("kind", SHIPPED)
+def test_the_keys_of_a_twin_are_the_tensors_of_the_shipped_file(kind):
+    tensors = vertifleet.Model.read(SHIPPED[kind]).tensors
+    twin = {"gcaps": Gcaps, "mlp": Mlp, "gcaps-x": lambda _: GcapsX()}[kind](8)
+    assert {name: tuple(tensor.shape) for name, tensor in twin.state_dict().items()} == {
+        name: tensor.shape for name, tensor in tensors.items()
+    }
+    assert list(twin.state_dict()) == [name for name, _ in twin.named_parameters()]
+
+
+@pytest.mark.parametrize("kind", SHIPPED)
+def test_a_file_that_is_loaded_and_saved_has_the_same_bytes(kind, tmp_path):
+    twin = load(SHIPPED[kind])
+    assert twin.header == vertifleet.Model.read(SHIPPED[kind]).header
+    save(twin, tmp_path / "again.safetensors")
+    assert (tmp_path / "again.safetensors").read_bytes() == SHIPPED[kind].read_bytes()
+
+
+def test_the_bytes_of_a_file_load_as_the_file_does():
+    twin = load(SHIPPED["gcaps-x"].read_bytes())
+    for name, tensor in load(SHIPPED["gcaps-x"]).state_dict().items():
+        assert torch.equal(twin.state_dict()[name], tensor)
+
+
+def test_loaded_weights_learn():
+    twin = load(SHIPPED["gcaps"])
+    assert all(weight.requires_grad for weight in twin.parameters())
+
+
+@pytest.mark.parametrize("kind", ["gcaps", "mlp"])
+def test_shipped_weights_answer_real_observations_as_the_program_does(kind):
+    day = NETWORK.draw(11)
+    decisions = vertifleet.simulate(day, policy="greedy").trace.columns["to"]
+    twin = load(SHIPPED[kind])
+    assert_answers_are_those_of_the_program(twin, SHIPPED[kind], played(day, decisions))
+
+
+@pytest.mark.parametrize("vertiports", [2, 8, 31])
+def test_gcaps_x_answers_as_the_program_does_on_networks_of_any_size(vertiports):
+    twin = load(SHIPPED["gcaps-x"])
+    assert_answers_are_those_of_the_program(twin, SHIPPED["gcaps-x"], made_up(twin, vertiports))
+
+
+@pytest.mark.parametrize("kind", SHIPPED)
+def test_fresh_weights_are_read_by_the_program_and_answer_alike(kind, tmp_path):
+    twin, path = fresh(kind), tmp_path / "fresh.safetensors"
+    save_fresh(twin, path)
+    assert vertifleet.Model.read(path).kind == kind
+    assert_answers_are_those_of_the_program(twin, path, made_up(twin, 8))
+    header = load(path).header
+    assert (header["network"], header["seed"]) == ("paper", 3)
+    if kind == "gcaps-x":
+        assert (header["decisions"], header["course"]) == (1234, COURSE)
+    else:
+        assert (header["steps"], header["feature_scales"]) == (1234, NETWORK.feature_scales)
+        assert header["settings"] == vertifleet.settings("paper")
+
+
+@pytest.mark.parametrize(("kind", "days"), [("gcaps", 100), ("mlp", 10)])
+def test_a_twin_decides_as_the_program_does(kind, days):
+    # Rounding decides nothing here: no two best logits are closer than 1e-4 on these days.
+    twin = load(SHIPPED[kind])
+    for seed in range(1, days + 1):
+        day = NETWORK.draw(seed)
+        decisions = vertifleet.simulate(day, policy=kind).trace.columns["to"]
+        choices = act(twin, played(day, decisions))
+        np.testing.assert_array_equal(choices, decisions, err_msg=f"day {seed}")
+
+
+def test_a_single_observation_is_decided_as_in_a_batch():
+    twin = load(SHIPPED["gcaps"])
+    day = NETWORK.draw(4)
+    decisions = vertifleet.simulate(day, policy="gcaps").trace.columns["to"][:20]
+    seen = played(day, decisions)
+    singly = [act(twin, {name: column[row] for name, column in seen.items()}) for row in range(20)]
+    assert all(type(choice) is int for choice in singly)
+    assert singly == decisions.tolist()
+
+
+def test_only_what_is_said_anew_changes_in_a_header(tmp_path):
+    twin = load(SHIPPED["gcaps"])
+    save(twin, tmp_path / "trained-on.safetensors", steps=7)
+    found = load(tmp_path / "trained-on.safetensors").header
+    assert found["steps"] == 7
+    assert found["commit"] != twin.header["commit"]
+    assert {**found, "steps": 0, "commit": ""} == {**twin.header, "steps": 0, "commit": ""}
+
+
+def parts(path):
+    """A file's tensors, and its header as a dict."""
+    file = path.read_bytes()
+    (length,) = struct.unpack_from("<Q", file)
+    text = json.loads(file[8 : 8 + length])["__metadata__"]["vertifleet"]
+    return safetensors.load(file), json.loads(text)
+
+
+def damaged(change):
+    """The bytes of a file after `change` was done to its tensors and its header."""
+    tensors, header = parts(SHIPPED["gcaps-x"])
+    change(tensors, header)
+    return safetensors.save(tensors, metadata={"vertifleet": json.dumps(header)})
+
+
+def broken_tensor(tensors, value):
+    tensors["encoder.node.bias"] = value(tensors["encoder.node.bias"])
+
+
+DAMAGES = {
+    "a missing tensor": lambda tensors, _: tensors.pop("value.output.bias"),
+    "an extra tensor": lambda tensors, _: tensors.update(extra=torch.zeros(1)),
+    "a wrong shape": lambda tensors, _: broken_tensor(tensors, lambda bias: bias[:-1].clone()),
+    "half precision": lambda tensors, _: broken_tensor(tensors, lambda bias: bias.half()),
+    "not a number": lambda tensors, _: broken_tensor(tensors, lambda bias: bias * float("nan")),
+    "infinity": lambda tensors, _: broken_tensor(tensors, lambda bias: bias + float("inf")),
+    "another format": lambda _, header: header.update(format="vertifleet-weights/9"),
+    "no format": lambda _, header: header.pop("format"),
+    "an unknown member": lambda _, header: header.update(colour="blue"),
+    "a missing member": lambda _, header: header.pop("seed"),
+    "another kind": lambda _, header: header["policy"].update(kind="mlp"),
+    "another width": lambda _, header: header["policy"].update(width=64),
+    "a width beyond all reason": lambda _, header: header["policy"].update(width=10**9),
+    "heads that do not divide the width": lambda _, header: header["policy"].update(heads=5),
+    "other features": lambda _, header: header["shape"].update(node_features=25),
+    "a negative seed": lambda _, header: header.update(seed=-1),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_file_is_refused(damage):
+    with pytest.raises(vertifleet.Error) as refused:
+        load(damaged(DAMAGES[damage]))
+    assert refused.value.code == "V304"
+    assert refused.value.hint
+
+
+def test_a_file_that_is_cut_or_no_weight_file_is_refused():
+    file = SHIPPED["gcaps-x"].read_bytes()
+    without_header = safetensors.save({"weight": torch.zeros(2)})
+    for contents in (b"", b"no weights", file[:-1], file[:1000], file + b"x", without_header):
+        with pytest.raises(vertifleet.Error) as refused:
+            load(contents)
+        assert refused.value.code == "V304"
+
+
+def test_a_file_that_is_not_there_is_an_error_that_names_it(tmp_path):
+    with pytest.raises(vertifleet.Error, match="nowhere") as refused:
+        load(tmp_path / "nowhere.safetensors")
+    assert refused.value.code == "V101"
+
+
+def refused_code(twin, path, **origin):
+    with pytest.raises(vertifleet.Error) as refused:
+        save(twin, path, **origin)
+    return refused.value.code
+
+
+def test_what_is_refused_is_not_written(tmp_path):
+    path = tmp_path / "weights.safetensors"
+    path.write_bytes(b"what was there before")
+    origin = {"network": NETWORK, "settings": vertifleet.settings("paper"), "seed": 1, "steps": 1}
+    assert refused_code(fresh("gcaps"), path) == "V451"
+    assert refused_code(fresh("gcaps"), path, **{**origin, "seed": None}) == "V451"
+    assert refused_code(Gcaps(9, width=8, heads=2), path, **origin) == "V451"
+    assert refused_code(fresh("gcaps"), path, **{**origin, "seed": -1}) == "V304"
+    assert refused_code(fresh("gcaps"), path, **{**origin, "settings": {"gamma": 1.0}}) == "V304"
+    assert (
+        refused_code(fresh("mlp"), path, **{**origin, "settings": origin["settings"] | {"gamma": 2.0}})
+        == "V303"
+    )
+    diverged = fresh("mlp")
+    with torch.no_grad():
+        diverged.logits.bias[0] = float("nan")
+    assert refused_code(diverged, path, **origin) == "V304"
+    assert path.read_bytes() == b"what was there before"
+    assert list(tmp_path.iterdir()) == [path]

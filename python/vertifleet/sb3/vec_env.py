@@ -1,0 +1,108 @@
+"""Many days side by side as an environment of stable-baselines3, on the environments' native batch."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from stable_baselines3.common.vec_env import VecEnv
+
+from vertifleet.envs import FleetVectorEnv
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvObs, VecEnvStepReturn
+
+    from vertifleet import Network
+
+
+class FleetVecEnv(VecEnv):
+    """Training days of a network, with action masks for MaskablePPO.
+
+    A day that is over makes room for the next in the same step; its end is in the step's infos, with the
+    day's reward ("episode") for the logs.
+
+    Args:
+        network: the network or its name.
+        num_envs: number of days side by side.
+        reward: "terminal", all of it at the end of the day, or "dense", each flight's share when decided.
+        reward_scale: what rewards are multiplied by before learning; logs show them as they are.
+    """
+
+    def __init__(
+        self,
+        network: Network | str,
+        num_envs: int,
+        reward: Literal["terminal", "dense"] = "terminal",
+        reward_scale: float = 1.0,
+    ) -> None:
+        self.days = FleetVectorEnv(num_envs, network, reward, AutoresetMode.SAME_STEP)
+        self.reward = reward
+        self.reward_scale = reward_scale
+        self.render_mode = None
+        self._actions = np.zeros(num_envs, dtype=np.int64)
+        self._masks = np.ones((num_envs, 1), dtype=np.bool_)
+        self._decisions = np.zeros(num_envs, dtype=np.int64)
+        super().__init__(num_envs, self.days.single_observation_space, self.days.single_action_space)
+
+    def reset(self) -> VecEnvObs:
+        """Begins new days, from the seeds given before where there are any."""
+        observations, _ = self.days.reset(seed=self._seeds)
+        self._reset_seeds()
+        self._decisions[:] = 0
+        return self._show(observations)
+
+    def step_async(self, actions: NDArray[np.int64]) -> None:
+        """Takes note of a decision for every day [days]."""
+        self._actions = actions
+
+    def step_wait(self) -> VecEnvStepReturn:
+        """Carries the decisions out; observations stay as they are until the step after next."""
+        observations, rewards, over, _, told = self.days.step(self._actions)
+        self._decisions += 1
+        infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
+        day_rewards = told["final_info"]["summary"]["reward"] if over.any() else ()
+        for day in np.flatnonzero(over).tolist():
+            infos[day] = {
+                "terminal_observation": told["final_obs"][day],
+                "TimeLimit.truncated": False,
+                "episode": {"r": float(day_rewards[day]), "l": int(self._decisions[day])},
+            }
+        self._decisions[over] = 0
+        return self._show(observations), (self.reward_scale * rewards).astype(np.float32), over.copy(), infos
+
+    def _show(self, observations: dict[str, NDArray[np.float32]]) -> dict[str, NDArray[np.float32]]:
+        self._masks = observations["action_mask"] > 0
+        return observations
+
+    def close(self) -> None:
+        """Ends the days."""
+        self.days.close()
+
+    def action_masks(self) -> NDArray[np.bool_]:
+        """Which vertiports may be chosen next [days, N]."""
+        return self._masks
+
+    def get_attr(self, attr_name: str, indices: VecEnvIndices = None) -> list[Any]:
+        """What all days share, once for each of them."""
+        value = getattr(self, attr_name)
+        return [value for _ in self._get_indices(indices)]
+
+    def set_attr(self, attr_name: str, value: Any, indices: VecEnvIndices = None) -> None:
+        """Sets what all days share; a single day cannot be changed."""
+        if indices is not None:
+            raise AttributeError(f"{attr_name} is the same for all days: set it without indices")
+        setattr(self, attr_name, value)
+
+    def env_method(
+        self, method_name: str, *method_args: Any, indices: VecEnvIndices = None, **method_kwargs: Any
+    ) -> list[Any]:
+        """What a method says of single days; the only one is "action_masks", for which MaskablePPO asks."""
+        if method_name != "action_masks" or method_args or method_kwargs:
+            raise AttributeError(f"single days have a method action_masks(), no {method_name}")
+        return [self._masks[day] for day in self._get_indices(indices)]
+
+    def env_is_wrapped(self, wrapper_class: Any, indices: VecEnvIndices = None) -> list[bool]:  # noqa: ARG002
+        """Whether single days are wrapped: none is."""
+        return [False for _ in self._get_indices(indices)]

@@ -1,0 +1,160 @@
+"""GCAPS (§IV, Eq. 18-21, Table 3): graph-capsule encoder, attention decoder, a value head beside it.
+
+P = 2, K = 2 and L_e = 1 are fixed. h is the embedding length, h_e the number of heads, d = h / h_e.
+"""
+
+from __future__ import annotations
+
+import math
+
+import torch
+from torch import Tensor, nn
+from torch.nn.functional import relu
+
+from vertifleet import Error
+from vertifleet.torch.layers import BEFORE_RELU, LOGITS, LayerNorm, Linear, Matrix, ValueHead
+from vertifleet.torch.twin import Twin, check_size, paper_features
+
+
+class Gcaps(Twin):
+    """The paper's network, for one number of vertiports.
+
+    Args:
+        vertiports: N.
+        width: h, the embedding length.
+        heads: h_e, the number of attention heads; divides the width.
+    """
+
+    kind = "gcaps"
+
+    def __init__(self, vertiports: int, width: int = 256, heads: int = 8) -> None:
+        node_features, aircraft_features = paper_features(vertiports)
+        super().__init__(vertiports, node_features, aircraft_features)
+        self._add_layers(width, heads)
+
+    def _add_layers(self, width: int, heads: int) -> None:
+        check_size("width", width)
+        check_size("heads", heads)
+        if width % heads:
+            raise Error("V451", f"width must be a multiple of heads ({heads}), found {width}")
+        self.width, self.heads = width, heads
+        self.encoder = Encoder(self.node_features, width)
+        self.decoder = Decoder(self.aircraft_features, width, heads)
+        self.value = ValueHead(width, width, means_width=width)
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """The embedding length and the number of heads."""
+        return {"width": self.width, "heads": self.heads}
+
+    def forward(self, nodes: Tensor, aircraft: Tensor, clock: Tensor) -> tuple[Tensor, Tensor]:
+        """Logits [B, N], not masked, and values [B]."""
+        embeddings = self.encoder(self.by_node(nodes))
+        logits, y = self.decoder(embeddings, aircraft)
+        return logits, self.value(y, clock, embeddings.mean(dim=1))
+
+
+class GcapsX(Gcaps):
+    """The layers of :class:`Gcaps` on features that do not grow with the network.
+
+    So its weights fit any number of vertiports. The features are the program's own (the environments show
+    those of the paper), and the program adds the logits to what the day's prices say.
+    """
+
+    kind = "gcaps-x"
+
+    def __init__(self, width: int = 32, heads: int = 4) -> None:
+        Twin.__init__(self, None, node_features=24, aircraft_features=10)
+        self._add_layers(width, heads)
+
+
+class Encoder(nn.Module):
+    """§IV.A.1: an embedding of every vertiport from the features of all."""
+
+    def __init__(self, features: int, width: int) -> None:
+        super().__init__()
+        self.node = Linear(features, width)
+        self.moment_1 = Hops(width)
+        self.moment_2 = Hops(width)
+        self.feed_forward = Linear(2 * width, width)
+
+    def forward(self, nodes: Tensor) -> Tensor:
+        """[B, N, F] -> [B, N, h]."""
+        f_0 = self.node(nodes)  # F_0i = δ_i W_0 + b_0
+        f_1 = self.moment_1(f_0)  # Eq. 18 with p = 1
+        f_2 = self.moment_2(f_0 * f_0)  # Eq. 18 with p = 2
+        capsules = torch.cat([f_1, f_2], dim=-1)  # Eq. 19
+        embeddings: Tensor = self.feed_forward(capsules)
+        return embeddings
+
+
+class Hops(nn.Module):
+    """Eq. 18 for one p on the complete graph: ``f_p = ReLU(sum over a of (L/N)^a F V_pa)``.
+
+    In powers of L / N rather than L = D - A: the same family of functions (W_pa = V_pa / N^a), with all terms
+    on one scale. On the complete graph L / N takes the mean over the nodes away, and doing so twice is doing
+    so once, so the sum is ``F (V_p0 + V_p1 + V_p2) - mean(F) (V_p1 + V_p2)``.
+    """
+
+    def __init__(self, width: int) -> None:
+        super().__init__()
+        # Three terms add up in front of the rectifier.
+        self.hop_0 = Matrix(width, width, BEFORE_RELU, inputs_in_all=3 * width)
+        self.hop_1 = Matrix(width, width, BEFORE_RELU, inputs_in_all=3 * width)
+        self.hop_2 = Matrix(width, width, BEFORE_RELU, inputs_in_all=3 * width)
+
+    def forward(self, f: Tensor) -> Tensor:
+        """[B, N, h] -> [B, N, h]."""
+        outer = self.hop_1.weight + self.hop_2.weight
+        mean = f.mean(dim=1, keepdim=True)
+        return relu(f @ (self.hop_0.weight + outer) - mean @ outer)
+
+
+class Decoder(nn.Module):
+    """§IV.B: logits of the vertiports, from their embeddings E and the aircraft's state ψ.
+
+    ::
+
+        q = ψ W_Q + b_Q
+        z = LayerNorm(q + MHA(q, E))
+        y = LayerNorm(z + ReLU(z W_1 + b_1))
+        logit_i = (y W_L) · E_i / sqrt(h)
+    """
+
+    def __init__(self, features: int, width: int, heads: int) -> None:
+        super().__init__()
+        self.heads = heads
+        self.query = Linear(features, width)
+        self.key = Matrix(width, width)
+        self.value = Matrix(width, width)
+        self.output = Matrix(width, width)
+        self.norm_1 = LayerNorm(width)
+        self.feed_forward = Linear(width, width, BEFORE_RELU)
+        self.norm_2 = LayerNorm(width)
+        self.pointer = Matrix(width, width, LOGITS)
+
+    def forward(self, embeddings: Tensor, aircraft: Tensor) -> tuple[Tensor, Tensor]:
+        """Logits [B, N] and y [B, h] from embeddings [B, N, h] and the aircraft's features [B, G]."""
+        q = self.query(aircraft)
+        z = self.norm_1(q + self.attend(q, embeddings))
+        y = self.norm_2(z + relu(self.feed_forward(z)))
+        pointer = self.pointer(y) / math.sqrt(y.shape[-1])
+        logits = torch.bmm(embeddings, pointer.unsqueeze(-1)).squeeze(-1)
+        return logits, y
+
+    def attend(self, q: Tensor, embeddings: Tensor) -> Tensor:
+        """MHA(q, E) of Eq. 20 and 21: [B, h] from a query [B, h] and embeddings [B, N, h].
+
+        There is one query for all nodes, so there is no key and no value of every node: a head's query is
+        brought to the embeddings' side, ``q · (E_i W_K) = (W_K q) · E_i``, and what its attention collects
+        goes through W_V.
+        """
+        batch, width = q.shape
+        of_heads = (width, self.heads, width // self.heads)  # h x h_e x d
+        queries = torch.einsum("bed,hed->beh", q.view(batch, *of_heads[1:]), self.key.weight.view(of_heads))
+        scores = torch.bmm(queries, embeddings.transpose(1, 2)) / math.sqrt(of_heads[2])
+        attention = torch.softmax(scores, dim=-1)  # [B, h_e, N]
+        collected = torch.bmm(attention, embeddings)  # [B, h_e, h]
+        heads = torch.einsum("beh,hed->bed", collected, self.value.weight.view(of_heads))
+        attended: Tensor = self.output(heads.reshape(batch, width))
+        return attended

@@ -1,0 +1,51 @@
+"""The paper's baseline (§V.B): plain layers on the flattened features, the same mask and value head."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+from torch.nn.functional import relu
+
+from vertifleet.torch.layers import BEFORE_RELU, LOGITS, Linear, ValueHead
+from vertifleet.torch.twin import Twin, check_size, paper_features
+
+MOST_LAYERS = 16
+
+
+class Mlp(Twin):
+    """The baseline's network, for one number of vertiports.
+
+    Args:
+        vertiports: N.
+        width: outputs of each layer.
+        layers: number of layers before the logits.
+        value_width: width of the value head's layer.
+    """
+
+    kind = "mlp"
+
+    def __init__(self, vertiports: int, width: int = 800, layers: int = 2, value_width: int = 256) -> None:
+        node_features, aircraft_features = paper_features(vertiports)
+        super().__init__(vertiports, node_features, aircraft_features)
+        check_size("width", width)
+        check_size("layers", layers, MOST_LAYERS)
+        check_size("value_width", value_width)
+        self.width, self.layers, self.value_width = width, layers, value_width
+        inputs = [vertiports * node_features + aircraft_features] + (layers - 1) * [width]
+        self.trunk = nn.ModuleDict(
+            {str(layer): Linear(count, width, BEFORE_RELU) for layer, count in enumerate(inputs, start=1)}
+        )
+        self.logits = Linear(width, vertiports, LOGITS)
+        self.value = ValueHead(width, value_width)
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Width and number of the layers, and the width of the value head."""
+        return {"width": self.width, "layers": self.layers, "value_width": self.value_width}
+
+    def forward(self, nodes: Tensor, aircraft: Tensor, clock: Tensor) -> tuple[Tensor, Tensor]:
+        """Logits [B, N], not masked, and values [B]."""
+        x = torch.cat([nodes.flatten(start_dim=1), aircraft], dim=-1)
+        for layer in self.trunk.values():
+            x = relu(layer(x))
+        return self.logits(x), self.value(x, clock)
