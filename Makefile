@@ -1,19 +1,31 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo test lint deny bench train prepare
+.PHONY: demo test lint deny bench train python python-test wheel prepare
 
 # The main job: all policies on 100 unseen days of the paper's network.
 demo: prepare
 	cargo build --release --locked -p vertifleet-cli
 	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,prices,rolling,mlp,gcaps,gcaps-x --days 100 --seed 1 --report out/report
 
-test: prepare
+test: prepare python-test
 	cargo test --workspace --locked
 
 # What CI adds to the tests.
-lint: prepare
+lint: prepare python
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
+	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check . && .venv/bin/mypy
+
+# The Python package with all its extras, in python/.venv.
+python: prepare
+	@scripts/python
+
+python-test: python
+	cd python && .venv/bin/pytest
+
+# A wheel for every Linux of the last ten years, in python/dist.
+wheel: python
+	cd python && .venv/bin/maturin build --release --locked --zig --compatibility manylinux2014 --out dist
 
 # Licences, versions and sources of the dependencies. Needs cargo-deny (`cargo install cargo-deny --locked`).
 deny:
