@@ -15,17 +15,20 @@ lint: prepare python
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check . && .venv/bin/mypy
+	cd docs && ../python/.venv/bin/stubtest vertifleet._native
 
 # The Python package with all its extras, in python/.venv.
 python: prepare
 	@scripts/python
 
 python-test: python
-	cd python && .venv/bin/pytest
+	# Not from python/: Ray's workers would take the package from there, which has no extension module in the sources.
+	python/.venv/bin/pytest -c python/pyproject.toml python/tests python/benches
 
 # A wheel for every Linux of the last ten years, in python/dist.
 wheel: python
-	cd python && .venv/bin/maturin build --release --locked --zig --compatibility manylinux2014 --out dist
+	rm -rf python/dist
+	cd python && PATH="$$PWD/.venv/bin:$$PATH" maturin build --release --locked --zig --compatibility manylinux2014 --out dist
 
 # Licences, versions and sources of the dependencies. Needs cargo-deny (`cargo install cargo-deny --locked`).
 deny:

@@ -1,37 +1,26 @@
-"""The baseline keeps the rules: it plays whole days as the program does, each decision to the last digit.
-
-Takes the program from VERTIFLEET_PROGRAM, else from target/release; skipped where there is none.
-"""
+"""The baseline keeps the rules: it plays whole days as the package does, each decision to the last digit."""
 
 import csv
+import io
 import json
-import os
-import subprocess
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
+import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 from plain_python import LEFT_OUT, Day, PlainPythonEnv, seconds
 
-PROGRAM = Path(
-    os.environ.get("VERTIFLEET_PROGRAM", Path(__file__).parents[2] / "target" / "release" / "vertifleet")
-)
+import vertifleet
+
 Scenario = dict[str, Any]
 Row = dict[str, str]
-
-pytestmark = pytest.mark.skipif(not PROGRAM.exists(), reason=f"{PROGRAM}: no such program; build or name it")
-
-
-def run(*arguments: str | Path) -> str:
-    return subprocess.run([PROGRAM, *arguments], check=True, capture_output=True, text=True).stdout
 
 
 def draw(network: str, seed: int) -> Scenario:
     """A day without what the baseline leaves out."""
-    scenario: Scenario = json.loads(run("scenario", network, "--seed", str(seed)))
+    scenario: Scenario = json.loads(vertifleet.Network(network).draw(seed).to_json())
     return {member: value for member, value in scenario.items() if member not in LEFT_OUT}
 
 
@@ -80,17 +69,14 @@ def scenario(request: pytest.FixtureRequest) -> Scenario:
     return change(draw(network, seed))
 
 
-def simulate(scenario: Scenario, folder: Path) -> tuple[list[Row], dict[str, float]]:
-    """Trace and summary of the program's random policy."""
-    day, trace = folder / "day.json", folder / "trace.csv"
-    day.write_text(json.dumps(scenario))
-    summary = run("simulate", day, "--policy", "random", "--seed", "3", "--trace", trace, "--json")
-    with trace.open(newline="") as file:
-        return list(csv.DictReader(file)), json.loads(summary)
+def simulate(scenario: Scenario) -> tuple[list[Row], dict[str, float]]:
+    """Trace and summary of the random policy."""
+    played = vertifleet.simulate(vertifleet.Scenario.from_json(json.dumps(scenario)), "random", seed=3)
+    return list(csv.DictReader(io.StringIO(played.trace.to_csv()))), played.summary
 
 
-def test_every_decision_comes_to_what_the_program_says(scenario: Scenario, tmp_path: Path) -> None:
-    rows, summary = simulate(scenario, tmp_path)
+def test_every_decision_comes_to_what_the_package_says(scenario: Scenario) -> None:
+    rows, summary = simulate(scenario)
     vertiports = [vertiport["id"] for vertiport in scenario["vertiports"]]
     day = Day(scenario)
     for row in rows:
@@ -108,10 +94,8 @@ def test_every_decision_comes_to_what_the_program_says(scenario: Scenario, tmp_p
     assert day.potential == pytest.approx(summary["potential"], rel=1e-12)
 
 
-def test_the_masks_admit_all_that_the_program_chose_and_the_reward_is_its_own(
-    scenario: Scenario, tmp_path: Path
-) -> None:
-    rows, summary = simulate(scenario, tmp_path)
+def test_the_masks_admit_all_that_the_package_chose_and_the_reward_is_its_own(scenario: Scenario) -> None:
+    rows, summary = simulate(scenario)
     vertiports = [vertiport["id"] for vertiport in scenario["vertiports"]]
     environment = PlainPythonEnv([scenario])
     _, info = environment.reset(seed=1)
@@ -163,9 +147,9 @@ def test_an_infeasible_action_holds() -> None:
 
 def test_a_day_with_what_is_left_out_is_refused() -> None:
     with pytest.raises(ValueError, match="outages"):
-        Day(json.loads(run("scenario", "disrupted", "--seed", "1")))
+        Day(json.loads(vertifleet.Network("disrupted").draw(1).to_json()))
     with pytest.raises(ValueError, match="chargers"):
-        Day(json.loads(run("scenario", "as-coded", "--seed", "1")))
+        Day(json.loads(vertifleet.Network("as-coded").draw(1).to_json()))
 
 
 @pytest.mark.filterwarnings("ignore:.*maximum value is infinity")
@@ -174,16 +158,12 @@ def test_gymnasium_finds_nothing_wrong() -> None:
     check_env(PlainPythonEnv([draw("paper", seed) for seed in (1, 2)]))
 
 
-def test_observations_are_those_of_the_native_environment(tmp_path: Path) -> None:
-    vertifleet = pytest.importorskip("vertifleet")
-    gymnasium = pytest.importorskip("gymnasium")
+def test_observations_are_those_of_the_native_environment() -> None:
     for seed in (1, 2):
         scenario = draw("paper", seed)
-        path = tmp_path / f"{seed}.json"
-        path.write_text(json.dumps(scenario))
         ours = PlainPythonEnv([scenario])
         native = gymnasium.make("vertifleet/Fleet-v0", network="paper")
-        options = {"scenario": vertifleet.Scenario.read(path)}
+        options = {"scenario": vertifleet.Scenario.from_json(json.dumps(scenario))}
         draws = np.random.default_rng(seed)
         one, info = ours.reset(seed=1)
         two, _ = native.reset(seed=1, options=options)

@@ -2,22 +2,25 @@
 //!
 //! Observations alternate between two sets of arrays, so that those of a step stay as they are while the next one is taken.
 
+use std::sync::{Arc, Mutex};
+
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use vertifleet_core::DaySeed;
 use vertifleet_sim::Summary;
 
 use crate::buffers::{Observations, Outcomes, Paying, Showing};
-use crate::environment::{Day, Outcome, Shown, World};
+use crate::environment::{Day, Outcome, World};
 use crate::failure::Failure;
 use crate::frames::plain;
 use crate::network::Network;
+use crate::scenario::Scenario;
+use crate::shown::Shown;
+use crate::threads::Threads;
 
 /// Days that one thread advances at a time: some ten microseconds of work, far more than it costs to share it out.
-const GRAIN: usize = 32;
-/// Numbers of training days are below this.
-const NUMBERS: u64 = 1 << 52;
+const GRAIN: usize = 16;
 
 /// What becomes of a day that is over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,9 +52,7 @@ pub(crate) struct Batch {
     finals: Observations,
     /// The set that the latest observations are in.
     latest: usize,
-    threads: usize,
-    /// Made when first needed: a process that forks has none of its parent's threads.
-    pool: Option<ThreadPool>,
+    threads: Threads,
 }
 
 #[pymethods]
@@ -82,14 +83,12 @@ impl Batch {
         }
         let vertiports = world.vertiports();
         let set = || (Observations::new(py, seats, vertiports), Outcomes::new(py, seats));
-        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         Ok(Self {
             sets: [set(), set()],
             finals: Observations::new(py, seats, vertiports),
             latest: 0,
             seats: std::iter::repeat_with(Seat::default).take(seats).collect(),
-            threads: threads.unwrap_or_else(cores).max(1),
-            pool: None,
+            threads: Threads::new(threads)?,
             autoreset,
             world,
         })
@@ -106,13 +105,18 @@ impl Batch {
         Ok(arrays)
     }
 
-    /// Begins the training days of these numbers at the seats that `which` has; every seat shows where it is. Returns the set.
+    /// Begins days at the seats that `which` has, the training days of these numbers or a given one; every seat shows where it is.
+    /// Returns the set.
     fn reset(
         &mut self,
         py: Python<'_>,
         which: PyReadonlyArray1<'_, bool>,
         numbers: PyReadonlyArray1<'_, u64>,
+        scenario: Option<&Scenario>,
     ) -> PyResult<usize> {
+        if let Some(scenario) = scenario {
+            self.world.check_fits(scenario)?;
+        }
         let which = self.one_each("which", which.as_slice()?)?;
         let numbers = self.one_each("numbers", numbers.as_slice()?)?;
         check_numbers(numbers)?;
@@ -125,8 +129,10 @@ impl Batch {
         }
         let (set, _) = self.on_all(py, |world, seat, mut row, at| {
             row.pay(0.0, false, false, which[at]);
-            if which[at] {
-                seat.begin(world, numbers[at]);
+            match scenario {
+                _ if !which[at] => {}
+                Some(scenario) => seat.day = Some(Day::new(Arc::clone(&scenario.scenario))),
+                None => seat.begin(world, numbers[at]),
             }
             row.show(world, seat);
         })?;
@@ -153,7 +159,7 @@ impl Batch {
                 row.pay(0.0, false, false, true);
                 return row.show(world, seat);
             }
-            let Outcome { reward, over, invalid } = seat.step(world, actions[at]);
+            let Outcome { reward, over, invalid, .. } = seat.step(world, actions[at]);
             let followed = over && autoreset == Autoreset::SameStep;
             row.pay(reward, over, invalid, followed);
             if followed {
@@ -202,34 +208,29 @@ impl Batch {
         each: impl Fn(&World, &mut Seat, Row<'_, '_>, usize) + Sync,
     ) -> PyResult<(usize, bool)> {
         self.latest = 1 - self.latest;
-        if self.pool.is_none() && self.seats.len() > GRAIN && self.threads > 1 {
-            self.pool = ThreadPoolBuilder::new().num_threads(self.threads).build().ok();
-        }
-        let Self { world, seats, sets, finals, latest, pool, .. } = self;
+        let Self { world, seats, sets, finals, latest, threads, .. } = self;
         let (observations, outcomes) = &sets[*latest];
-        let (mut showing, mut ending, mut paying) =
-            (observations.lend(py), finals.lend(py), outcomes.lend(py));
-        let (showing, ending, paying) = (showing.rows()?, ending.rows()?, paying.rows()?);
-        let mut part = Part { seats, showing, ending, paying, first: 0 };
+        let (mut showing, mut ending, mut outcomes) =
+            (observations.lend(py)?, finals.lend(py)?, outcomes.lend(py)?);
+        let (showing, ending, paying) = (showing.rows()?, ending.rows()?, outcomes.rows()?);
+        let part = Part { seats, showing, ending, paying, first: 0 };
         let world = &*world;
         let each = |seat: &mut Seat, row: Row<'_, '_>, at: usize| each(world, seat, row, at);
-        py.detach(|| match pool {
-            Some(pool) => pool.install(|| part.share_out(&each)),
-            None => part.each(&each),
+        py.detach(|| {
+            if part.seats.len() <= GRAIN {
+                return part.each(&each);
+            }
+            let shares = Shares::of(part, threads.number());
+            threads.all(|thread| shares.each(thread, &each));
         });
-        let eventful = part.paying.over.iter().chain(&*part.paying.begun).any(|&flag| flag);
-        Ok((*latest, eventful))
+        let Paying { over, begun, .. } = outcomes.rows()?;
+        Ok((*latest, over.iter().chain(&*begun).any(|&flag| flag)))
     }
 }
 
 /// Numbers of training days.
 fn check_numbers(numbers: &[u64]) -> Result<(), Failure> {
-    match numbers.iter().find(|&&number| number >= NUMBERS) {
-        Some(number) => {
-            Err(Failure::argument(format!("a training day's number is below 2^52, found {number}")))
-        }
-        None => Ok(()),
-    }
+    Ok(numbers.iter().try_for_each(|&number| DaySeed::training_number(number).map(|_| ()))?)
 }
 
 impl Seat {
@@ -264,38 +265,68 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    /// Does something at every seat, on the threads of the pool that this is called in.
-    fn share_out(&mut self, each: &(impl Fn(&mut Seat, Row<'_, '_>, usize) + Sync)) {
-        let seats = self.seats.len();
-        if seats <= GRAIN {
-            return self.each(each);
-        }
-        let (mut one, mut other) = self.split(seats / 2);
-        rayon::join(|| one.share_out(each), || other.share_out(each));
-    }
-
     /// Does something at every seat, one after the other.
-    fn each(&mut self, each: &impl Fn(&mut Seat, Row<'_, '_>, usize)) {
-        let Self { seats, showing, ending, paying, first } = self;
+    fn each(self, each: &impl Fn(&mut Seat, Row<'_, '_>, usize)) {
+        let Self { seats, mut showing, mut ending, mut paying, first } = self;
+        let (showing, ending, paying) = (&mut showing, &mut ending, &mut paying);
         for (at, seat) in seats.iter_mut().enumerate() {
-            each(seat, Row { at, showing, ending, paying }, *first + at);
+            each(seat, Row { at, showing, ending, paying }, first + at);
         }
     }
 
-    fn split(&mut self, middle: usize) -> (Part<'_>, Part<'_>) {
+    fn split(self, middle: usize) -> (Self, Self) {
         let (seats, other_seats) = self.seats.split_at_mut(middle);
         let (showing, other_showing) = self.showing.split(middle);
         let (ending, other_ending) = self.ending.split(middle);
         let (paying, other_paying) = self.paying.split(middle);
-        let other = Part {
+        let other = Self {
             seats: other_seats,
             showing: other_showing,
             ending: other_ending,
             paying: other_paying,
             first: self.first + middle,
         };
-        (Part { seats, showing, ending, paying, first: self.first }, other)
+        (Self { seats, showing, ending, paying, first: self.first }, other)
     }
+}
+
+/// A share of the batch for every thread, the same in every step, so that its days stay in its core's cache.
+struct Shares<'a>(Vec<Mutex<Option<Part<'a>>>>);
+
+impl<'a> Shares<'a> {
+    fn of(mut part: Part<'a>, threads: usize) -> Self {
+        let mut shares = Vec::with_capacity(threads);
+        for left in (1..threads).rev() {
+            let seats = part.seats.len().div_ceil(left + 1);
+            let (share, others) = part.split(seats);
+            shares.push(Mutex::new(Some(share)));
+            part = others;
+        }
+        shares.push(Mutex::new(Some(part)));
+        Self(shares)
+    }
+
+    /// Does something at every seat of a thread's share, then of what others have not come to.
+    fn each(&self, thread: usize, each: &(impl Fn(&mut Seat, Row<'_, '_>, usize) + Sync)) {
+        let others = (thread..self.0.len()).chain(0..thread);
+        for share in others.map(|share| &self.0[share]) {
+            while let Some(part) = take(share) {
+                part.each(each);
+            }
+        }
+    }
+}
+
+/// Takes some seats of a share.
+fn take<'a>(share: &Mutex<Option<Part<'a>>>) -> Option<Part<'a>> {
+    let mut share = share.lock().expect("no thread ends while it takes a part");
+    let part = share.take()?;
+    if part.seats.len() <= GRAIN {
+        return Some(part);
+    }
+    let (first, others) = part.split(GRAIN);
+    *share = Some(others);
+    Some(first)
 }
 
 /// One seat's row of all arrays.

@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1, PyReadwriteAr
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::environment::Shown;
+use crate::shown::Shown;
 
 /// Arrays for one observation of every day of a batch.
 pub(crate) struct Observations {
@@ -81,15 +81,16 @@ impl Observations {
         (nodes, aircraft, clock, adjacency, mask, mask_i8).into_pyobject(py)
     }
 
-    pub(crate) fn lend<'py>(&self, py: Python<'py>) -> ObservationsLent<'py> {
-        ObservationsLent {
-            nodes: self.nodes.bind(py).readwrite(),
-            aircraft: self.aircraft.bind(py).readwrite(),
-            clock: self.clock.bind(py).readwrite(),
-            adjacency: self.adjacency.bind(py).readwrite(),
-            mask: self.mask.bind(py).readwrite(),
-            mask_i8: self.mask_i8.bind(py).readwrite(),
-        }
+    /// An error if somebody has made an array read-only.
+    pub(crate) fn lend<'py>(&self, py: Python<'py>) -> PyResult<ObservationsLent<'py>> {
+        Ok(ObservationsLent {
+            nodes: self.nodes.bind(py).try_readwrite()?,
+            aircraft: self.aircraft.bind(py).try_readwrite()?,
+            clock: self.clock.bind(py).try_readwrite()?,
+            adjacency: self.adjacency.bind(py).try_readwrite()?,
+            mask: self.mask.bind(py).try_readwrite()?,
+            mask_i8: self.mask_i8.bind(py).try_readwrite()?,
+        })
     }
 }
 
@@ -110,13 +111,14 @@ impl Outcomes {
         (rewards, over, invalid, begun).into_pyobject(py)
     }
 
-    pub(crate) fn lend<'py>(&self, py: Python<'py>) -> OutcomesLent<'py> {
-        OutcomesLent {
-            rewards: self.rewards.bind(py).readwrite(),
-            over: self.over.bind(py).readwrite(),
-            invalid: self.invalid.bind(py).readwrite(),
-            begun: self.begun.bind(py).readwrite(),
-        }
+    /// An error if somebody has made an array read-only.
+    pub(crate) fn lend<'py>(&self, py: Python<'py>) -> PyResult<OutcomesLent<'py>> {
+        Ok(OutcomesLent {
+            rewards: self.rewards.bind(py).try_readwrite()?,
+            over: self.over.bind(py).try_readwrite()?,
+            invalid: self.invalid.bind(py).try_readwrite()?,
+            begun: self.begun.bind(py).try_readwrite()?,
+        })
     }
 }
 
@@ -159,7 +161,7 @@ impl Showing<'_> {
     }
 
     /// The rows before `first`, and the others.
-    pub(crate) fn split(&mut self, first: usize) -> (Showing<'_>, Showing<'_>) {
+    pub(crate) fn split(self, first: usize) -> (Self, Self) {
         let rows = self.clock.len();
         let (nodes, more_nodes) = parted(self.nodes, first, rows);
         let (aircraft, more_aircraft) = parted(self.aircraft, first, rows);
@@ -167,7 +169,7 @@ impl Showing<'_> {
         let (adjacency, more_adjacency) = parted(self.adjacency, first, rows);
         let (mask, more_mask) = parted(self.mask, first, rows);
         let (mask_i8, more_mask_i8) = parted(self.mask_i8, first, rows);
-        let others = Showing {
+        let others = Self {
             nodes: more_nodes,
             aircraft: more_aircraft,
             clock: more_clock,
@@ -175,24 +177,24 @@ impl Showing<'_> {
             mask: more_mask,
             mask_i8: more_mask_i8,
         };
-        (Showing { nodes, aircraft, clock, adjacency, mask, mask_i8 }, others)
+        (Self { nodes, aircraft, clock, adjacency, mask, mask_i8 }, others)
     }
 }
 
 impl Paying<'_> {
     /// The rows before `first`, and the others.
-    pub(crate) fn split(&mut self, first: usize) -> (Paying<'_>, Paying<'_>) {
+    pub(crate) fn split(self, first: usize) -> (Self, Self) {
         let (rewards, more_rewards) = self.rewards.split_at_mut(first);
         let (over, more_over) = self.over.split_at_mut(first);
         let (invalid, more_invalid) = self.invalid.split_at_mut(first);
         let (begun, more_begun) = self.begun.split_at_mut(first);
-        let others = Paying {
+        let others = Self {
             rewards: more_rewards,
             over: more_over,
             invalid: more_invalid,
             begun: more_begun,
         };
-        (Paying { rewards, over, invalid, begun }, others)
+        (Self { rewards, over, invalid, begun }, others)
     }
 }
 

@@ -2,25 +2,29 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use vertifleet_learn::Scales;
 use vertifleet_optimize::Step;
 use vertifleet_study::comparison::{self, Unwatched};
 use vertifleet_study::entrants::Asked;
-use vertifleet_study::{DayRecord, Study, Summary, report, table};
+use vertifleet_study::{DayRecord, Error, Study, Summary, report, table};
 
-use crate::failure::{self, Failure};
+use crate::failure::Failure;
 use crate::frames::{Columns, frame, plain};
-use crate::interruptible::interruptible;
-use crate::model::Weighed;
+use crate::given::{Raised, given};
+use crate::interruptible::{self, interruptible};
 use crate::network::Network;
+use crate::pickle::{Reduced, reduced};
 
 /// Many policies on the same days: every policy's every day, and the statistics of them.
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Comparison {
     study: Study,
+    warnings: Vec<String>,
 }
 
 #[pymethods]
@@ -59,6 +63,12 @@ impl Comparison {
         Ok(columns.into_dict())
     }
 
+    /// What is allowed but hardly meant, such as shipped weights on a changed copy of their network.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.warnings.clone()
+    }
+
     /// Its rows as a pandas frame.
     fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(&self.columns(py)?, "pandas")
@@ -85,17 +95,24 @@ impl Comparison {
     #[staticmethod]
     fn join(parts: Vec<PyRef<'_, Self>>) -> Result<Self, Failure> {
         let studies = parts.iter().map(|part| part.study.clone()).collect();
-        Ok(Self { study: Study::join(studies)? })
+        let mut warnings: Vec<String> = Vec::new();
+        for warning in parts.iter().flat_map(|part| &part.warnings) {
+            if !warnings.contains(warning) {
+                warnings.push(warning.clone());
+            }
+        }
+        Ok(Self { study: Study::join(studies)?, warnings })
     }
 
     /// What `pickle` keeps, read back.
     #[staticmethod]
-    fn from_json(text: &str) -> Result<Self, Failure> {
+    #[pyo3(signature = (text, warnings = Vec::new()))]
+    fn from_json(text: &str, warnings: Vec<String>) -> Result<Self, Failure> {
         let study = serde_json::from_str(text);
         let study = study.map_err(|error| Failure::argument(format!("no comparison: {error}")))?;
         // Whatever is shown of it rests on what statistics check.
         Summary::of(&study)?;
-        Ok(Self { study })
+        Ok(Self { study, warnings })
     }
 
     fn __str__(&self) -> Result<String, Failure> {
@@ -107,20 +124,21 @@ impl Comparison {
         format!("<Comparison on {}: {policies} policies, {days} days>", self.study.network)
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let make = py.get_type::<Self>().getattr("from_json")?;
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (String, Vec<String>)> {
         let text = serde_json::to_string(&self.study).expect("records are plain data");
-        Ok((make, (text,)))
+        reduced::<Self, _>(py, "from_json", (text, self.warnings.clone()))
     }
 }
 
 /// Plays days of a network, the first of seed `seed`, with every policy; all meet the same days.
 ///
-/// `policies` are named as `vertifleet compare` names them; `models` gives weight files or
-/// `Model`s by name. `bound` proves an upper bound of every
-/// day, with prices that stay the same for `step` minutes. `policy_seed` is that of the random policy and of the planner's search.
+/// `policies` are named as `vertifleet compare` names them; `models` gives what a name stands
+/// for: a weight file, a `Model`, or a function of the caller's own, which is given what the environment shows (a dict of arrays) and
+/// returns the position of a feasible vertiport. `bound` proves an upper bound of every
+/// day, with prices that stay the same for `step` minutes. `policy_seed` is that of the random policy and of the planner's search;
+/// `command` is what the report says it was made with. What is allowed but hardly meant is told by the result's `warnings`.
 #[pyfunction]
-#[pyo3(signature = (network, policies, *, days = 100, seed = 1, models = None, bound = false, step = 5, policy_seed = None, threads = None))]
+#[pyo3(signature = (network, policies, *, days = 100, seed = 1, models = None, bound = false, step = 5, policy_seed = None, threads = None, command = ""))]
 #[expect(clippy::too_many_arguments, reason = "Python names them")]
 pub(crate) fn compare(
     py: Python<'_>,
@@ -128,29 +146,36 @@ pub(crate) fn compare(
     policies: Vec<String>,
     days: u32,
     seed: u64,
-    models: Option<BTreeMap<String, Weighed<'_>>>,
+    models: Option<BTreeMap<String, Bound<'_, PyAny>>>,
     bound: bool,
     step: u32,
     policy_seed: Option<u64>,
     threads: Option<usize>,
+    command: &str,
 ) -> PyResult<Comparison> {
     let step = bound.then(|| Step::from_minutes(step)).transpose().map_err(Failure::from)?;
+    let (scales, raised) = (Scales::from(network.network.feature_scales()), Raised::default());
     let models = models.unwrap_or_default().into_iter();
-    let models: Vec<_> = models.map(|(name, weighed)| (name, weighed.given())).collect();
-    let network = &network.network;
-    let asked = Asked {
-        policies: &policies,
-        models: &models,
-        seed: policy_seed.unwrap_or(seed),
-        network: network.name(),
-    };
-    let comparison = comparison::Comparison::new(network, &asked, seed, days, step);
-    let comparison = comparison.map_err(Failure::from)?;
-    for warning in comparison.warnings() {
-        failure::warn(py, &warning)?;
+    let models = models
+        .map(|(name, value)| Ok((name, given(&value, scales, &raised)?)))
+        .collect::<PyResult<Vec<_>>>()?;
+    let command = command.to_owned();
+    let (network, threads) = (Arc::clone(&network.network), interruptible::threads(threads)?);
+    let policy_seed = policy_seed.unwrap_or(seed);
+    let outcome = interruptible(py, threads, move |stop| {
+        let asked = Asked {
+            policies: &policies,
+            models: &models,
+            seed: policy_seed,
+            network: network.name(),
+        };
+        let comparison = comparison::Comparison::new(&network, &asked, (seed, days), step, stop)?;
+        let warnings = comparison.warnings().collect();
+        let study = comparison.run(command, stop, &Unwatched)?;
+        Ok::<_, Error>(Comparison { study, warnings })
+    })?;
+    match raised.take() {
+        Some(error) => Err(error),
+        None => Ok(outcome.map_err(Failure::from)?),
     }
-    let command =
-        format!("vertifleet.compare({:?}, {policies:?}, days={days}, seed={seed})", network.name());
-    let study = interruptible(py, threads, |stop| comparison.run(command, stop, &Unwatched))?;
-    Ok(Comparison { study: study.map_err(Failure::from)? })
 }

@@ -2,17 +2,18 @@
 
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
-use vertifleet_core::{self as core, AircraftIx, TypeIx, VertiportIx};
+use vertifleet_core::{self as core, AircraftIx, DaySeed, VertiportIx};
 use vertifleet_learn::{Reward, Scales};
-use vertifleet_sim::{Decision, Simulation, Summary, View};
+use vertifleet_sim::{Decision, Simulation, Summary};
 
 use crate::failure::Failure;
 use crate::frames::plain;
-use crate::network::{Network, training_seed};
+use crate::network::Network;
+use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
+use crate::shown::{Arrays, Observation, Shown, To};
 
 /// What all days of an environment have in common.
 #[derive(Clone)]
@@ -23,26 +24,12 @@ pub(crate) struct World {
 }
 
 /// A day being played, and the decision that it stands at.
+#[derive(Clone)]
 pub(crate) struct Day {
     simulation: Simulation,
     /// The decision to be taken; the last one taken, from where its aircraft is now, once the day is over.
     decision: Decision,
     over: bool,
-}
-
-/// Room for what is shown at a decision.
-pub(crate) struct Shown<'a> {
-    /// [N x F].
-    pub(crate) nodes: &'a mut [f32],
-    /// [G].
-    pub(crate) aircraft: &'a mut [f32],
-    pub(crate) clock: &'a mut f32,
-    /// [N x N].
-    pub(crate) adjacency: &'a mut [f32],
-    /// [N].
-    pub(crate) mask: &'a mut [f32],
-    /// [N], the same as whole numbers.
-    pub(crate) mask_i8: &'a mut [i8],
 }
 
 /// What a step came to.
@@ -51,6 +38,8 @@ pub(crate) struct Outcome {
     pub(crate) over: bool,
     /// Whether the action was infeasible, so that the aircraft held.
     pub(crate) invalid: bool,
+    /// What was done.
+    choice: VertiportIx,
 }
 
 impl World {
@@ -69,18 +58,31 @@ impl World {
         Ok(Self { network, scales, reward })
     }
 
+    /// Whether a day has as many vertiports as the observations have room for.
+    pub(crate) fn check_fits(&self, day: &Scenario) -> Result<(), Failure> {
+        let (expected, found) = (self.vertiports(), day.scenario.vertiports.len());
+        if expected == found {
+            return Ok(());
+        }
+        Err(Failure::argument(format!(
+            "scenario {:?} has {found} vertiports, but this environment's network {:?} has {expected}",
+            day.scenario.name,
+            self.network.name()
+        )))
+    }
+
     pub(crate) fn vertiports(&self) -> usize {
         self.network.vertiports().len()
     }
 
     /// The training day of this number.
     pub(crate) fn day(&self, number: u64) -> Result<Day, core::Error> {
-        Ok(Day::new(Arc::new(self.network.draw(training_seed(number)?))))
+        Ok(Day::new(Arc::new(self.network.draw(DaySeed::training_number(number)?))))
     }
 }
 
 impl Day {
-    fn new(scenario: Arc<core::Scenario>) -> Self {
+    pub(crate) fn new(scenario: Arc<core::Scenario>) -> Self {
         let mut simulation = Simulation::new(scenario);
         let decision = simulation.next_decision().expect("an aircraft decides when the day starts");
         Self { simulation, decision, over: false }
@@ -110,88 +112,69 @@ impl Day {
             self.decision.at = choice;
         }
         let reward = reward.of(&outcome, &self.simulation, self.over);
-        Outcome { reward, over: self.over, invalid: asked.is_none() }
+        Outcome { reward, over: self.over, invalid: asked.is_none(), choice }
     }
 
     /// Shows the decision. A day that is over shows how it ended to the aircraft that decided last: no time is left, and nothing but
     /// hold is feasible.
     pub(crate) fn show(&self, scales: &Scales, to: Shown<'_>) {
-        self.show_as(&self.decision, scales, to);
+        to.fill(&self.decision, self.simulation.view(), scales, self.to(&self.decision));
+    }
+
+    /// Whom a decision of this day is shown to.
+    fn to(&self, decision: &Decision) -> To {
+        if self.over {
+            To::Remember
+        } else if decision.aircraft == self.decision.aircraft {
+            To::Decide
+        } else {
+            To::Watch
+        }
     }
 
     /// The decision as an aircraft would have it now, from where it stands or will land.
     fn seen_by(&self, aircraft: AircraftIx) -> Decision {
         Decision { aircraft, at: self.simulation.view().places()[aircraft.at()], ..self.decision }
     }
-
-    fn show_as(&self, decision: &Decision, scales: &Scales, to: Shown<'_>) {
-        let view = self.simulation.view();
-        let left = scales.write((to.nodes, to.aircraft), decision, view);
-        *to.clock = if self.over { 0.0 } else { left };
-        show_adjacency(view, view.kind(decision.aircraft), to.adjacency);
-        to.mask.fill(0.0);
-        to.mask_i8.fill(0);
-        let mut open = |vertiport: VertiportIx| {
-            to.mask[vertiport.at()] = 1.0;
-            to.mask_i8[vertiport.at()] = 1;
-        };
-        if self.over || decision.aircraft != self.decision.aircraft {
-            open(decision.at);
-        } else {
-            view.feasible(decision).iter().for_each(open);
-        }
-    }
 }
 
-/// 1 where aircraft of a type may fly between two vertiports now: a corridor leads there, a full battery reaches it, and the route
-/// is not closed.
-fn show_adjacency(view: View<'_>, kind: TypeIx, adjacency: &mut [f32]) {
-    adjacency.fill(0.0);
-    for (from, row) in adjacency.chunks_exact_mut(view.vertiports()).enumerate() {
-        let from = VertiportIx::new(from);
-        for to in view.within_range(kind, from).without(&view.closed(from)).iter() {
-            row[to.at()] = 1.0;
-        }
-    }
-}
+/// Arguments of [`Environment::resumed`].
+type Resumed = (Network, &'static str, Option<Scenario>, Vec<u16>);
 
-/// One day at a time.
-#[pyclass(module = "vertifleet")]
+/// One day at a time. Can be copied, and pickled, in the middle of a day.
+#[pyclass(module = "vertifleet._native")]
+#[derive(Clone)]
 pub(crate) struct Environment {
     world: World,
     day: Option<Day>,
+    /// What was chosen so far today.
+    choices: Vec<u16>,
 }
 
 #[pymethods]
 impl Environment {
     #[new]
     fn new(network: &Network, reward: &str) -> Result<Self, Failure> {
-        Ok(Self { world: World::new(network, reward)?, day: None })
+        Ok(Self { world: World::new(network, reward)?, day: None, choices: Vec::new() })
     }
 
     /// Begins the training day of this number, below 2^52; returns what its first decision shows.
-    fn reset<'py>(&mut self, py: Python<'py>, number: u64) -> PyResult<Bound<'py, PyTuple>> {
+    fn reset<'py>(&mut self, py: Python<'py>, number: u64) -> PyResult<Observation<'py>> {
         self.day = Some(self.world.day(number).map_err(Failure::from)?);
+        self.choices.clear();
         self.present(py)
     }
 
     /// Begins a given day.
-    fn begin<'py>(&mut self, py: Python<'py>, day: &Scenario) -> PyResult<Bound<'py, PyTuple>> {
-        let (expected, found) = (self.world.vertiports(), day.scenario.vertiports.len());
-        if expected != found {
-            return Err(Failure::argument(format!(
-                "scenario {:?} has {found} vertiports, but this environment's network {:?} has {expected}",
-                day.scenario.name,
-                self.world.network.name()
-            ))
-            .into());
-        }
+    fn begin<'py>(&mut self, py: Python<'py>, day: &Scenario) -> PyResult<Observation<'py>> {
+        self.world.check_fits(day)?;
         self.day = Some(Day::new(Arc::clone(&day.scenario)));
+        self.choices.clear();
         self.present(py)
     }
 
     /// What the day shows to an aircraft now. To one that does not decide, only hold is feasible.
-    fn observe<'py>(&self, py: Python<'py>, aircraft: u16) -> PyResult<Bound<'py, PyTuple>> {
+    fn observe<'py>(&self, py: Python<'py>, aircraft: u16) -> PyResult<Observation<'py>> {
         let day = self.day.as_ref();
         let day = day.filter(|day| usize::from(aircraft) < day.simulation.view().places().len());
         let day = day.ok_or_else(|| {
@@ -205,14 +188,57 @@ impl Environment {
         &mut self,
         py: Python<'py>,
         action: i64,
-    ) -> PyResult<(Bound<'py, PyTuple>, f64, bool, bool)> {
+    ) -> PyResult<(Observation<'py>, f64, bool, bool)> {
         let reward = self.world.reward;
         let day = self.day.as_mut().filter(|day| !day.over);
         let day = day.ok_or_else(|| {
             Failure::argument("no day is being played: call reset first".to_owned())
         })?;
-        let Outcome { reward, over, invalid } = day.step(action, reward);
+        let Outcome { reward, over, invalid, choice } = day.step(action, reward);
+        self.choices.push(choice.0);
         Ok((self.present(py)?, reward, over, invalid))
+    }
+
+    /// An environment that has come as far in a day as another did: what pickle makes.
+    #[staticmethod]
+    fn resumed(
+        network: &Network,
+        reward: &str,
+        scenario: Option<&Scenario>,
+        choices: Vec<u16>,
+    ) -> Result<Self, Failure> {
+        let mut environment = Self::new(network, reward)?;
+        if let Some(scenario) = scenario {
+            environment.world.check_fits(scenario)?;
+            let mut day = Day::new(Arc::clone(&scenario.scenario));
+            for &choice in &choices {
+                if day.over {
+                    return Err(Failure::argument("more choices than the day has".to_owned()));
+                }
+                day.step(choice.into(), environment.world.reward);
+            }
+            (environment.day, environment.choices) = (Some(day), choices);
+        }
+        Ok(environment)
+    }
+
+    fn __copy__(&self) -> Self {
+        self.clone()
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        self.clone()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, Resumed> {
+        let network = Network { network: Arc::clone(&self.world.network) };
+        let reward = match self.world.reward {
+            Reward::Terminal => "terminal",
+            Reward::Dense => "dense",
+        };
+        let scenario = self.day.as_ref().map(|day| day.simulation.scenario());
+        let scenario = scenario.map(|day| Scenario { scenario: Arc::clone(day) });
+        reduced::<Self, _>(py, "resumed", (network, reward, scenario, self.choices.clone()))
     }
 
     /// The feasible actions, as booleans [N]; none before the first day.
@@ -259,37 +285,19 @@ impl Environment {
 
 impl Environment {
     /// What the decision to be taken shows.
-    fn present<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+    fn present<'py>(&self, py: Python<'py>) -> PyResult<Observation<'py>> {
         let day = self.day.as_ref().expect("a day has begun");
         self.shown(py, day, &day.decision)
     }
 
-    /// Nodes, aircraft, clock, adjacency, mask, and the mask as int8, in new arrays.
     fn shown<'py>(
         &self,
         py: Python<'py>,
         day: &Day,
         decision: &Decision,
-    ) -> PyResult<Bound<'py, PyTuple>> {
-        let shape = vertifleet_learn::shape(self.world.vertiports());
-        let size = shape.vertiports;
-        let numbers = |len| PyArray1::<f32>::zeros(py, len, false);
-        let (nodes, aircraft) =
-            (numbers(size * shape.node_features), numbers(shape.aircraft_features));
-        let (clock, adjacency, mask) = (numbers(1), numbers(size * size), numbers(size));
-        let mask_i8 = PyArray1::<i8>::zeros(py, size, false);
-        day.show_as(
-            decision,
-            &self.world.scales,
-            Shown {
-                nodes: nodes.readwrite().as_slice_mut()?,
-                aircraft: aircraft.readwrite().as_slice_mut()?,
-                clock: &mut clock.readwrite().as_slice_mut()?[0],
-                adjacency: adjacency.readwrite().as_slice_mut()?,
-                mask: mask.readwrite().as_slice_mut()?,
-                mask_i8: mask_i8.readwrite().as_slice_mut()?,
-            },
-        );
-        (nodes, aircraft, clock, adjacency, mask, mask_i8).into_pyobject(py)
+    ) -> PyResult<Observation<'py>> {
+        let view = day.simulation.view();
+        let arrays = Arrays::of(py, decision, view, &self.world.scales, day.to(decision))?;
+        arrays.into_observation(py)
     }
 }

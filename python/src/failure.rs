@@ -1,6 +1,5 @@
 //! Expected errors as Python exceptions: `vertifleet.Error` with the code and the hint that the program prints.
 
-use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::{PyAnyMethods, PyErr, Python};
 use pyo3::sync::PyOnceLock;
 use pyo3::{Py, types::PyType};
@@ -14,9 +13,6 @@ pub(crate) struct Failure {
     hint: Option<String>,
 }
 
-/// The code of a comparison that was stopped: only Ctrl-C does that here.
-const STOPPED: Code = Code(408);
-
 impl Failure {
     /// V451: an argument that is none of those that are taken. Cause and fix are in the message.
     pub(crate) fn argument(message: String) -> Self {
@@ -26,9 +22,6 @@ impl Failure {
 
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
-        if failure.code == STOPPED {
-            return PyKeyboardInterrupt::new_err(());
-        }
         Python::attach(|py| match class(py) {
             Ok(class) => {
                 let arguments = (failure.code.to_string(), failure.message, failure.hint);

@@ -1,54 +1,69 @@
-//! Long calls: Python's other threads go on meanwhile, and Ctrl-C is heard.
+//! Long calls: Python's other threads go on meanwhile, and Ctrl-C is heard at once.
 
+use std::ops::RangeInclusive;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use pyo3::prelude::{PyResult, Python};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use crate::failure::Failure;
 
 /// How often Ctrl-C is looked for.
 const GLANCE: Duration = Duration::from_millis(50);
+/// Threads that may be asked for.
+const THREADS: RangeInclusive<usize> = 1..=1024;
 
-/// Does `work` on `threads` threads of its own (all cores without) while the thread that called waits and listens to Ctrl-C, which
-/// raises the flag that `work` is given. Work that does not look at the flag ends late, not never.
-///
-/// Threads are made for each call and end with it: a process that forks later, as Python's `multiprocessing` does on Linux, would
-/// find threads kept for longer gone, and wait for them for ever.
-pub(crate) fn interruptible<T: Send>(
-    py: Python<'_>,
-    threads: Option<usize>,
-    work: impl FnOnce(&AtomicBool) -> T + Send,
-) -> PyResult<T> {
-    let stop = AtomicBool::new(false);
-    std::thread::scope(|scope| {
-        let (to, mut from) = channel();
-        let raised = &stop;
-        scope.spawn(move || {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
-            // A machine that gives no more threads has this one.
-            let outcome = match pool {
-                Ok(pool) => pool.install(|| work(raised)),
-                Err(_) => work(raised),
-            };
-            // Nobody listens any more after Ctrl-C.
-            let _ = to.send(outcome);
-        });
-        loop {
-            let (glance, receiver) = py.detach(move || (from.recv_timeout(GLANCE), from));
-            from = receiver;
-            match glance {
-                Ok(outcome) => return Ok(outcome),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => panic!("the work ends with an outcome"),
-            }
-            if let Err(interrupt) = py.check_signals() {
-                stop.store(true, Ordering::Relaxed);
-                // The work ends soon, and meanwhile Python's other threads go on.
-                py.detach(
-                    move || while let Err(RecvTimeoutError::Timeout) = from.recv_timeout(GLANCE) {},
-                );
-                return Err(interrupt);
-            }
+/// So many threads, or as many as there are cores.
+pub(crate) fn threads(asked: Option<usize>) -> Result<usize, Failure> {
+    match asked {
+        None => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
+        Some(asked) if THREADS.contains(&asked) => Ok(asked),
+        Some(asked) => {
+            Err(Failure::argument(format!("threads must be from 1 to 1024, found {asked}")))
         }
+    }
+}
+
+/// A pool of threads; on a machine that gives no more of them, of the thread that calls.
+pub(crate) fn pool(threads: usize) -> ThreadPool {
+    ThreadPoolBuilder::new().num_threads(threads).build().unwrap_or_else(|_| {
+        let of_this_thread = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+        of_this_thread.build().expect("a pool that takes no thread can be made")
     })
+}
+
+/// Does `work` on so many threads of its own while the thread that called waits and listens to Ctrl-C, which raises the flag that
+/// `work` is given and ends the call. Work that does not look at the flag goes on behind it, and nobody hears of its outcome.
+///
+/// Threads are made for each call and end with it: a process that forks later, as Python's `multiprocessing` may, would find
+/// threads kept for longer gone, and wait for them for ever.
+pub(crate) fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    threads: usize,
+    work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
+) -> PyResult<T> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let (to, mut from) = channel();
+    let raised = Arc::clone(&stop);
+    std::thread::spawn(move || {
+        let outcome = pool(threads).install(|| work(&raised));
+        // Nobody listens any more after Ctrl-C.
+        let _ = to.send(outcome);
+    });
+    loop {
+        let (glance, receiver) = py.detach(move || (from.recv_timeout(GLANCE), from));
+        from = receiver;
+        match glance {
+            Ok(outcome) => return Ok(outcome),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => panic!("the work ends with an outcome"),
+        }
+        if let Err(interrupt) = py.check_signals() {
+            stop.store(true, Ordering::Relaxed);
+            return Err(interrupt);
+        }
+    }
 }

@@ -14,12 +14,16 @@ mod comparison;
 mod environment;
 mod failure;
 mod frames;
+mod given;
 mod interruptible;
 mod model;
 mod network;
 mod optimize;
+mod pickle;
 mod played;
 mod scenario;
+mod shown;
+mod threads;
 mod trace;
 
 use pyo3::prelude::pymodule;
@@ -44,4 +48,7 @@ mod _native {
     use crate::scenario::Scenario;
     #[pymodule_export]
     use crate::trace::{Trace, check};
+    /// Days that there are for training.
+    #[pymodule_export]
+    const TRAINING_DAYS: u64 = vertifleet_core::DaySeed::TRAINING_DAYS;
 }

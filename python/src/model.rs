@@ -2,36 +2,21 @@
 
 use std::path::PathBuf;
 
+use numpy::ndarray::{ArrayView, Dimension};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use vertifleet_learn::nn::{self, Inputs};
 use vertifleet_learn::{Settings, Weights, shipped, shipped_any};
-use vertifleet_study::policies::Given;
 
 use crate::failure::Failure;
 use crate::frames::{plain, table};
+use crate::pickle::{Reduced, reduced};
 
 /// The weights of a learned policy: `gcaps` or `mlp` of one network, or `gcaps-x` for any. Never changes.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Model {
-    weights: Weights,
-}
-
-/// Weights as they may be given for a policy: a path, or a model.
-#[derive(FromPyObject)]
-pub(crate) enum Weighed<'py> {
-    Model(PyRef<'py, Model>),
-    Path(PathBuf),
-}
-
-impl Weighed<'_> {
-    pub(crate) fn given(self) -> Given {
-        match self {
-            Self::Model(model) => Given::Weights(model.weights.clone()),
-            Self::Path(path) => Given::File(path),
-        }
-    }
+    pub(crate) weights: Weights,
 }
 
 #[pymethods]
@@ -117,7 +102,7 @@ impl Model {
         aircraft: PyReadonlyArray2<'py, f32>,
         mask: PyReadonlyArray2<'py, u8>,
         clock: PyReadonlyArray1<'py, f32>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+    ) -> Reduced<'py, Bound<'py, PyAny>> {
         let [batch, vertiports, node_features] = *nodes.as_array().shape() else {
             unreachable!("an array of three dimensions")
         };
@@ -141,9 +126,10 @@ impl Model {
             );
             return Err(Failure::argument(message).into());
         }
-        let (nodes, aircraft) = (nodes.as_slice()?, aircraft.as_slice()?);
-        let (mask, clock) = (mask.as_slice()?, clock.as_slice()?);
-        let inputs = Inputs { batch, nodes, aircraft, mask, clock };
+        let (nodes, aircraft) = (in_rows(nodes.as_array()), in_rows(aircraft.as_array()));
+        let (mask, clock) = (in_rows(mask.as_array()), in_rows(clock.as_array()));
+        let inputs =
+            Inputs { batch, nodes: &nodes, aircraft: &aircraft, mask: &mask, clock: &clock };
         let space = py.detach(|| pass(&net, params, inputs));
         let logits = table(py, space.logits().iter().copied(), [batch, vertiports])?;
         Ok((logits, PyArray1::from_slice(py, space.values()).into_any()))
@@ -153,12 +139,8 @@ impl Model {
         format!("<Model {}>", self.weights.kind())
     }
 
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let make = py.get_type::<Self>().getattr("from_bytes")?;
-        Ok((make, (self.to_bytes(py),)))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (Bound<'py, PyBytes>,)> {
+        reduced::<Self, _>(py, "from_bytes", (self.to_bytes(py),))
     }
 }
 
@@ -169,6 +151,11 @@ impl Model {
             Weights::OfAnySize(model) => model.to_bytes(),
         }
     }
+}
+
+/// The entries row by row, however the array lies in memory.
+fn in_rows<T: Copy, D: Dimension>(array: ArrayView<'_, T, D>) -> Vec<T> {
+    array.iter().copied().collect()
 }
 
 fn pass(net: &nn::Network, params: &[f32], inputs: Inputs<'_>) -> nn::Workspace {

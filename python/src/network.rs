@@ -4,11 +4,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict, PyMapping};
 use vertifleet_core::{self as core, DaySeed};
 
 use crate::failure::Failure;
 use crate::frames::{plain, table};
+use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 
 /// A network: vertiports, fleet, tariffs, and how demand is distributed. Days are drawn from it.
@@ -45,8 +46,13 @@ impl Network {
     ///
     /// A path names members from the outside in, a list's entries by their `id`, by their position from 0, or `*` for all of them.
     /// The result is checked like any network file.
-    fn changed(&self, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
-        let json = changes.py().import("json")?.call_method1("dumps", (changes,))?;
+    fn changed(&self, changes: &Bound<'_, PyMapping>) -> PyResult<Self> {
+        let py = changes.py();
+        // NumPy's numbers are none of JSON's; their item is.
+        let item = py.import("operator")?.call_method1("methodcaller", ("item",))?;
+        let named = [("default", item)].into_py_dict(py)?;
+        let changes = py.get_type::<PyDict>().call1((changes,))?;
+        let json = py.import("json")?.call_method("dumps", (changes,), Some(&named))?;
         let changes: serde_json::Map<String, serde_json::Value> =
             serde_json::from_str(&json.extract::<String>()?)
                 .map_err(|error| Failure::argument(format!("changes: {error}")))?;
@@ -105,7 +111,7 @@ impl Network {
         let seed = match purpose {
             "comparison" => DaySeed::comparison(seed)?,
             "validation" => DaySeed::validation(seed)?,
-            "training" => training_seed(seed)?,
+            "training" => DaySeed::training_number(seed)?,
             _ => {
                 return Err(Failure::argument(format!(
                     "purpose must be \"comparison\", \"validation\" or \"training\", found {purpose:?}"
@@ -120,9 +126,8 @@ impl Network {
         format!("<Network {}: {vertiports} vertiports, {fleet} aircraft>", self.network.name())
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (&str, &str))> {
-        let make = py.get_type::<Self>().getattr("from_toml")?;
-        Ok((make, (self.network.toml(), self.network.name())))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (&str, &str)> {
+        reduced::<Self, _>(py, "from_toml", (self.network.toml(), self.network.name()))
     }
 }
 
@@ -130,14 +135,4 @@ impl Network {
     pub(crate) fn of(network: core::Network) -> Self {
         Self { network: Arc::new(network) }
     }
-}
-
-/// Days that one run may learn from; a training day's number counts through all runs.
-const RUN_DAYS: u64 = 1 << 28;
-
-/// The training day of this number, below 2^52.
-pub(crate) fn training_seed(number: u64) -> Result<DaySeed, core::Error> {
-    // A run too high is refused as such.
-    let run = u32::try_from(number / RUN_DAYS).unwrap_or(u32::MAX);
-    DaySeed::training(run, number % RUN_DAYS)
 }

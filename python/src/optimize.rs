@@ -11,7 +11,8 @@ use vertifleet_optimize::{self as exact, Budget, Proof, Settings, Step};
 
 use crate::failure::Failure;
 use crate::frames::table;
-use crate::interruptible::interruptible;
+use crate::interruptible::{self, interruptible};
+use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
 
@@ -23,7 +24,12 @@ const GLANCE: Duration = Duration::from_millis(50);
 #[derive(Clone)]
 pub(crate) struct Bound {
     scenario: Arc<core::Scenario>,
-    bound: Arc<exact::Bound>,
+    step: u32,
+    upper_bound_usd: f64,
+    /// By vertiport.
+    stand_worth_usd: Vec<f64>,
+    /// By period, vertiport from, vertiport to.
+    passenger_worth_usd: Vec<f64>,
 }
 
 #[pymethods]
@@ -31,48 +37,84 @@ impl Bound {
     /// No schedule of the day earns more, dollars.
     #[getter]
     fn upper_bound_usd(&self) -> f64 {
-        self.bound.upper_bound_usd()
+        self.upper_bound_usd
     }
 
     /// Minutes for which the proof's prices stay the same.
     #[getter]
     fn step(&self) -> u32 {
-        self.bound.step_s() / 60
+        self.step
     }
 
     /// What one more stand is worth all day at most, dollars [vertiports].
     #[getter]
-    fn stand_worth_usd<'py>(&self, py: Python<'py>) -> Numbers<'py> {
-        let vertiports = VertiportIx::all(self.scenario.vertiports.len());
-        PyArray1::from_iter(py, vertiports.map(|at| self.bound.stand_worth_usd(at)))
+    fn stand_worth_usd<'py>(&self, py: Python<'py>) -> pyo3::Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.stand_worth_usd)
     }
 
     /// What one more passenger is worth at most, dollars [periods, vertiports, vertiports].
     #[getter]
     fn passenger_worth_usd<'py>(&self, py: Python<'py>) -> PyResult<pyo3::Bound<'py, PyAny>> {
         let (periods, size) = (self.scenario.periods.len(), self.scenario.vertiports.len());
-        let pairs = || {
-            VertiportIx::all(size).flat_map(|from| VertiportIx::all(size).map(move |to| (from, to)))
-        };
-        let worth = (0..periods).flat_map(|period| {
-            pairs().map(move |(from, to)| self.bound.passenger_worth_usd(period, from, to))
-        });
-        table(py, worth, [periods, size, size])
+        table(py, self.passenger_worth_usd.iter().copied(), [periods, size, size])
     }
 
     /// By which share of the bound a profit is below it.
     fn gap(&self, profit_usd: f64) -> f64 {
-        self.bound.gap(profit_usd)
+        exact::gap(self.upper_bound_usd, profit_usd)
     }
 
     fn __repr__(&self) -> String {
-        let (day, usd) = (&self.scenario.name, self.bound.upper_bound_usd());
-        format!("<Bound of {day}: ${usd:.2}>")
+        format!("<Bound of {}: ${:.2}>", self.scenario.name, self.upper_bound_usd)
+    }
+
+    /// What pickle makes.
+    #[staticmethod]
+    fn of_numbers(
+        scenario: &Scenario,
+        step: u32,
+        upper_bound_usd: f64,
+        stand_worth_usd: Vec<f64>,
+        passenger_worth_usd: Vec<f64>,
+    ) -> Self {
+        let scenario = Arc::clone(&scenario.scenario);
+        Self { scenario, step, upper_bound_usd, stand_worth_usd, passenger_worth_usd }
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, Numbers> {
+        let Self { step, upper_bound_usd, stand_worth_usd, passenger_worth_usd, .. } = self.clone();
+        let scenario = Scenario { scenario: Arc::clone(&self.scenario) };
+        reduced::<Self, _>(
+            py,
+            "of_numbers",
+            (scenario, step, upper_bound_usd, stand_worth_usd, passenger_worth_usd),
+        )
     }
 }
 
-/// An array of numbers.
-type Numbers<'py> = pyo3::Bound<'py, PyArray1<f64>>;
+/// Arguments of [`Bound::of_numbers`].
+type Numbers = (Scenario, u32, f64, Vec<f64>, Vec<f64>);
+
+impl Bound {
+    /// The numbers of a proof.
+    fn of(scenario: &Arc<core::Scenario>, bound: &exact::Bound) -> Self {
+        let size = scenario.vertiports.len();
+        let pairs = || {
+            VertiportIx::all(size)
+                .flat_map(move |from| VertiportIx::all(size).map(move |to| (from, to)))
+        };
+        let worth = (0..scenario.periods.len()).flat_map(|period| {
+            pairs().map(move |(from, to)| bound.passenger_worth_usd(period, from, to))
+        });
+        Self {
+            step: bound.step_s() / 60,
+            upper_bound_usd: bound.upper_bound_usd(),
+            stand_worth_usd: VertiportIx::all(size).map(|at| bound.stand_worth_usd(at)).collect(),
+            passenger_worth_usd: worth.collect(),
+            scenario: Arc::clone(scenario),
+        }
+    }
+}
 
 /// Proves how much a day can earn at most. `step`: minutes for which the proof's prices stay the same, 1 to 60; fewer give a
 /// tighter bound, later.
@@ -80,18 +122,20 @@ type Numbers<'py> = pyo3::Bound<'py, PyArray1<f64>>;
 #[pyo3(signature = (scenario, *, step = 5))]
 pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: u32) -> PyResult<Bound> {
     let step = Step::from_minutes(step).map_err(Failure::from)?;
-    let day = &scenario.scenario;
-    // A proof takes about a second and cannot be cut short; Ctrl-C is heard after it.
-    let bound = interruptible(py, Some(1), |_| exact::upper_bound(day, step))?;
-    let bound = bound.map_err(Failure::from)?;
-    Ok(Bound { scenario: Arc::clone(day), bound: Arc::new(bound) })
+    let day = Arc::clone(&scenario.scenario);
+    let bound = interruptible(py, 1, move |_| {
+        exact::upper_bound(&day, step).map(|bound| Bound::of(&day, &bound))
+    })?;
+    Ok(bound.map_err(Failure::from)?)
 }
 
 /// A schedule for a day that is known.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Plan {
     trace: Trace,
-    found: exact::Plan,
+    profit_usd: f64,
+    best_policy_usd: f64,
+    steps: u64,
     bound: Option<Bound>,
 }
 
@@ -105,20 +149,20 @@ impl Plan {
 
     /// What the day earns, as the simulator accounts for it, dollars.
     #[getter]
-    fn profit(&self) -> f64 {
-        self.found.profit_usd
+    fn profit_usd(&self) -> f64 {
+        self.profit_usd
     }
 
     /// What the best policy earns that the search began with, dollars; the plan is never worse.
     #[getter]
-    fn best_policy(&self) -> f64 {
-        self.found.best_policy_usd
+    fn best_policy_usd(&self) -> f64 {
+        self.best_policy_usd
     }
 
     /// Steps of each search.
     #[getter]
     fn steps(&self) -> u64 {
-        self.found.steps
+        self.steps
     }
 
     /// What no schedule earns more than.
@@ -130,11 +174,35 @@ impl Plan {
     /// Share of the bound by which the plan is below it: the best schedule is at most so far ahead.
     #[getter]
     fn gap(&self) -> Option<f64> {
-        self.bound.as_ref().map(|bound| bound.gap(self.found.profit_usd))
+        self.bound.as_ref().map(|bound| bound.gap(self.profit_usd))
+    }
+
+    /// What pickle makes.
+    #[staticmethod]
+    fn of_parts(
+        trace: &Trace,
+        profit_usd: f64,
+        best_policy_usd: f64,
+        steps: u64,
+        bound: Option<&Bound>,
+    ) -> Self {
+        Self { trace: trace.clone(), profit_usd, best_policy_usd, steps, bound: bound.cloned() }
+    }
+
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> Reduced<'py, (Trace, f64, f64, u64, Option<Bound>)> {
+        let Self { trace, profit_usd, best_policy_usd, steps, bound } = self;
+        reduced::<Self, _>(
+            py,
+            "of_parts",
+            (trace.clone(), *profit_usd, *best_policy_usd, *steps, bound.clone()),
+        )
     }
 
     fn __repr__(&self) -> String {
-        let (day, profit_usd) = (&self.trace.scenario.name, self.found.profit_usd);
+        let (day, profit_usd) = (&self.trace.scenario.name, self.profit_usd);
         let gap = self.gap().map_or(String::new(), |gap| format!(", gap {:.2} %", 100.0 * gap));
         format!("<Plan of {day}: profit ${profit_usd:.2}{gap}>")
     }
@@ -143,7 +211,8 @@ impl Plan {
 /// Finds the best schedule it can for a day that is known, while a proof of what is possible runs beside it.
 ///
 /// Searches for `time_limit` seconds, or for `steps` steps of each search if those are given (the plan then depends on nothing
-/// but the day, `seed`, `steps` and `threads`), or until the gap to the bound is no more than `gap`, as 0.03.
+/// but the day, `seed`, `steps` and `threads`), or until the gap to the bound is no more than `gap`, as 0.03. A proof that takes
+/// longer than the search is waited for.
 #[pyfunction]
 #[pyo3(signature = (scenario, *, time_limit = 60.0, steps = None, gap = None, seed = 0, threads = None))]
 pub(crate) fn plan(
@@ -157,34 +226,34 @@ pub(crate) fn plan(
 ) -> PyResult<Plan> {
     let budget = match steps {
         Some(steps) => Budget::Steps(steps),
-        None => Budget::Time(seconds(time_limit)?),
+        None => Budget::Time(Duration::from_secs_f64(within("time_limit", time_limit, 1e6)?)),
     };
-    let day = &scenario.scenario;
-    let outcome = interruptible(py, threads, |stop| {
-        let mut proof = Proof::begin(day);
-        let settings = Settings { budget, searches: rayon::current_num_threads(), seed };
-        let plan = exact::plan(day, &settings, &mut |now| {
+    let asked = gap.map(|gap| within("gap", gap, 1.0)).transpose()?;
+    let threads = interruptible::threads(threads)?;
+    let day = Arc::clone(&scenario.scenario);
+    let outcome = interruptible(py, threads, move |stop| {
+        let mut proof = Proof::begin(&day);
+        let settings = Settings { budget, searches: threads, seed };
+        let plan = exact::plan(&day, &settings, &mut |now| {
             proof.wait(Duration::ZERO);
             let found = proof.bound().map(|bound| bound.gap(now.profit_usd));
-            let good_enough = gap.zip(found).is_some_and(|(asked, found)| found <= asked);
+            let good_enough = asked.zip(found).is_some_and(|(asked, found)| found <= asked);
             !good_enough && !stop.load(Ordering::Relaxed)
         })?;
         while !proof.wait(GLANCE) && !stop.load(Ordering::Relaxed) {}
-        Ok::<_, exact::Error>((plan, proof.outcome()))
+        // A day too large for any bound has a plan all the same.
+        let bound = proof.outcome().ok().flatten().map(|bound| Bound::of(&day, &bound));
+        let exact::Plan { trace, profit_usd, best_policy_usd, steps } = plan;
+        let trace = Trace { scenario: day, trace: Arc::new(trace) };
+        Ok::<_, exact::Error>(Plan { trace, profit_usd, best_policy_usd, steps, bound })
     })?;
-    let (plan, proof) = outcome.map_err(Failure::from)?;
-    // A day too large for any bound has a plan all the same.
-    let bound = proof.ok().flatten();
-    let bound = bound.map(|bound| Bound { scenario: Arc::clone(day), bound: Arc::new(bound) });
-    let trace = Trace { scenario: Arc::clone(day), trace: Arc::new(plan.trace.clone()) };
-    Ok(Plan { trace, found: plan, bound })
+    Ok(outcome.map_err(Failure::from)?)
 }
 
-/// A time limit as the planner takes it.
-fn seconds(time_limit: f64) -> Result<Duration, Failure> {
-    if (0.0..=1e6).contains(&time_limit) {
-        return Ok(Duration::from_secs_f64(time_limit));
+/// An argument that must be from 0 to `most`.
+fn within(name: &str, found: f64, most: f64) -> Result<f64, Failure> {
+    if (0.0..=most).contains(&found) {
+        return Ok(found);
     }
-    let message = format!("time_limit must be seconds from 0 to 1000000, found {time_limit}");
-    Err(Failure::argument(message))
+    Err(Failure::argument(format!("{name} must be from 0 to {most}, found {found}")))
 }

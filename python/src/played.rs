@@ -3,15 +3,16 @@
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use vertifleet_policy::{PlayError, PolicyError, Stoppable, play};
+use vertifleet_policy::{Replay, Stoppable, play};
 use vertifleet_sim::{self as sim, Simulation, Summary};
 use vertifleet_study::Error;
 use vertifleet_study::policies::{Choice, for_scenario};
 
 use crate::failure::Failure;
 use crate::frames::plain;
+use crate::given::Weighed;
 use crate::interruptible::interruptible;
-use crate::model::Weighed;
+use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
 
@@ -26,7 +27,7 @@ pub(crate) struct Played {
 impl Played {
     /// Profit of the day, dollars.
     #[getter]
-    fn profit(&self) -> f64 {
+    fn profit_usd(&self) -> f64 {
         self.summary.profit
     }
 
@@ -40,6 +41,19 @@ impl Played {
     #[getter]
     fn trace(&self) -> Trace {
         self.trace.clone()
+    }
+
+    /// The day of a trace that was played to its end: what pickle makes.
+    #[staticmethod]
+    fn of_trace(trace: &Trace) -> Result<Self, Failure> {
+        let mut simulation = Simulation::new(Arc::clone(&trace.scenario));
+        play(&mut simulation, &mut Replay::new(Arc::clone(&trace.trace)), |_| ())
+            .map_err(|cause| Error::of_play("replay", &trace.scenario.name, cause))?;
+        Ok(Self { summary: simulation.summary(), trace: trace.clone() })
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (Trace,)> {
+        reduced::<Self, _>(py, "of_trace", (self.trace.clone(),))
     }
 
     fn __repr__(&self) -> String {
@@ -67,21 +81,17 @@ pub(crate) fn simulate(
     if let Some(warning) = warning {
         crate::failure::warn(py, &warning)?;
     }
-    let outcome = interruptible(py, Some(1), |stop| {
-        let mut simulation = Simulation::new(Arc::clone(day));
+    let played = Arc::clone(day);
+    let outcome = interruptible(py, 1, move |stop| {
+        let mut simulation = Simulation::new(played);
         let mut trace = sim::Trace::default();
         let mut policy = recipe.make();
         let mut stoppable = Stoppable { policy: policy.as_mut(), stop };
         play(&mut simulation, &mut stoppable, |row| trace.rows.push(*row))
             .map(|()| (simulation.summary(), trace))
     })?;
-    let (summary, trace) = outcome.map_err(|cause| {
-        let (policy, day) = (policy.to_owned(), day.name.clone());
-        Failure::from(match cause {
-            PlayError::NoAnswer(PolicyError::Stopped) => Error::Stopped,
-            cause => Error::Stuck { policy, day, cause },
-        })
-    })?;
+    let (summary, trace) =
+        outcome.map_err(|cause| Failure::from(Error::of_play(policy, &day.name, cause)))?;
     let trace = Trace { scenario: Arc::clone(day), trace: Arc::new(trace) };
     Ok(Played { summary, trace })
 }

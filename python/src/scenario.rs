@@ -9,6 +9,7 @@ use vertifleet_core as core;
 
 use crate::failure::Failure;
 use crate::frames::table;
+use crate::pickle::{Reduced, reduced};
 
 /// One operating day with everything exogenous in it: network, fleet, demand, tariffs, disturbances. Never changes.
 #[pyclass(frozen, module = "vertifleet")]
@@ -148,9 +149,8 @@ impl Scenario {
         self.scenario.seed
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String, &str))> {
-        let make = py.get_type::<Self>().getattr("from_json")?;
-        Ok((make, (self.scenario.to_json(), &self.scenario.name)))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (String, &str)> {
+        reduced::<Self, _>(py, "from_json", (self.scenario.to_json(), &self.scenario.name))
     }
 }
 

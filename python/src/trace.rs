@@ -10,6 +10,7 @@ use vertifleet_sim as sim;
 
 use crate::failure::Failure;
 use crate::frames::{Columns, frame, plain};
+use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 
 /// Every decision of a day, one row each, in the order they were taken: a complete schedule.
@@ -89,13 +90,9 @@ impl Trace {
         self.trace == other.trace && self.scenario == other.scenario
     }
 
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (String, Scenario))> {
-        let make = py.get_type::<Self>().getattr("from_csv")?;
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (String, Scenario)> {
         let scenario = Scenario { scenario: Arc::clone(&self.scenario) };
-        Ok((make, (self.to_csv(), scenario)))
+        reduced::<Self, _>(py, "from_csv", (self.to_csv(), scenario))
     }
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import pickle
 import warnings
 
@@ -11,6 +12,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import vertifleet
+from vertifleet._native import TRAINING_DAYS
 from vertifleet.envs import FleetEnv
 
 Step = tuple[dict[str, np.ndarray], float, bool, dict[str, object]]
@@ -65,7 +67,7 @@ def test_all_randomness_is_from_np_random() -> None:
     env = FleetEnv()
     env.reset(seed=1)
     env.np_random = np.random.default_rng(5)
-    expected = int(np.random.default_rng(5).integers(1 << 52))
+    expected = int(np.random.default_rng(5).integers(TRAINING_DAYS))
     env.reset()
     seed = vertifleet.Network("paper").draw(expected, "training").seed
     assert env._environment.day == f"paper-{seed}"
@@ -94,7 +96,7 @@ def test_an_infeasible_action_holds_and_says_so(day: vertifleet.Scenario) -> Non
         closed = np.flatnonzero(info["action_mask"] == 0)
         at = int(np.flatnonzero(infeasible.action_masks())[step % infeasible.action_masks().sum()])
         action = int(closed[0]) if closed.size else at
-        own = int(np.argmax(holding._environment.observe(holding._environment.aircraft)[1][1:9]))
+        own = int(np.argmax(holding._environment.observe(holding._environment.aircraft)[0]["aircraft"][1:9]))
         one = infeasible.step(action)
         other = holding.step(own if closed.size else at)
         info = one[4]
@@ -191,3 +193,22 @@ def test_a_network_object_may_be_passed_and_travels() -> None:
     network = pickle.loads(pickle.dumps(vertifleet.Network("paper").changed({"fleet.0.count": 12})))
     env = gymnasium.make("vertifleet/Fleet-v0", network=network)
     assert env.unwrapped.network.fleet_size == 12
+
+
+@pytest.mark.parametrize("how", ["deepcopy", "pickle"])
+def test_a_copy_in_the_middle_of_a_day_goes_on_as_the_day_would(how: str) -> None:
+    env = FleetEnv("disrupted", "dense")
+    choices = np.random.default_rng(8)
+    _, info = env.reset(seed=4)
+    for _ in range(150):
+        _, _, _, _, info = env.step(choices.choice(np.flatnonzero(info["action_mask"])))
+    other = copy.deepcopy(env) if how == "deepcopy" else pickle.loads(pickle.dumps(env))
+    over = False
+    while not over:
+        action = choices.choice(np.flatnonzero(info["action_mask"]))
+        (observation, reward, over, _, info), expected = env.step(action), other.step(action)
+        assert reward == expected[1]
+        for key, array in observation.items():
+            assert np.array_equal(array, expected[0][key])
+    assert info["summary"] == expected[4]["summary"]
+    assert np.array_equal(env.reset()[0]["nodes"], other.reset()[0]["nodes"]), "and to the same next day"

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import select
+import signal
 from collections.abc import Iterator
 from typing import Any
 
@@ -26,8 +29,8 @@ def same(one: Any, other: Any) -> bool:
 
 
 def actions(masks: np.ndarray, choices: np.random.Generator) -> np.ndarray:
-    """Random actions, one in twenty drawn without looking at the mask."""
-    weights = np.where(choices.random((len(masks), 1)) < 0.05, 1.0, masks)
+    """Random actions, half of them drawn without looking at the mask."""
+    weights = np.where(choices.random((len(masks), 1)) < 0.5, 1.0, masks)
     return (choices.random(masks.shape) * weights).argmax(axis=1)
 
 
@@ -100,6 +103,62 @@ def test_observations_are_not_copied_and_last_for_a_step() -> None:
     assert third["nodes"] is first["nodes"], "two sets of arrays take turns"
 
 
+def test_what_is_handed_out_may_be_changed() -> None:
+    env, other = FleetVectorEnv(3), FleetVectorEnv(3)
+    for one in (env, other):
+        one.reset(seed=1)
+    for _ in range(700):
+        taken = env.action_masks().argmax(axis=1)
+        observation, rewards, over, truncated, info = env.step(taken)
+        expected = other.step(taken)
+        assert same(over, expected[2])
+        assert not truncated.any()
+        assert same(rewards, expected[1])
+        observation.clear()
+        rewards[:], over[:], truncated[:] = 7, True, True
+        info["_action_mask"][:] = False
+        info["invalid_action"][:] = True
+
+
+def test_arrays_that_cannot_be_written_to_are_an_error_and_no_panic() -> None:
+    env = FleetVectorEnv(2)
+    observation, _ = env.reset(seed=1)
+    observation["nodes"].setflags(write=False)
+    env.step([0, 0])
+    with pytest.raises(Exception, match="writeable"):
+        env.step([0, 0])
+
+
+def test_a_given_day_may_be_played_by_all() -> None:
+    day = vertifleet.Network("paper").draw(9)
+    env = FleetVectorEnv(2)
+    expected, _ = FleetEnv().reset(options={"scenario": day})
+    observation, _ = env.reset(seed=1, options={"scenario": day})
+    for row in range(2):
+        assert np.array_equal(observation["nodes"][row], expected["nodes"])
+    with pytest.raises(vertifleet.Error, match="vertiports"):
+        env.reset(options={"scenario": vertifleet.Network("new-york").draw(1)})
+
+
+def test_a_process_that_was_forked_plays_on() -> None:
+    env = FleetVectorEnv(100, threads=2)
+    _, info = env.reset(seed=1)
+    taken = info["action_mask"].argmax(axis=1)
+    env.step(taken)
+    reader, writer = os.pipe()
+    child = os.fork()
+    if child == 0:
+        rewards = env.step(taken)[1]
+        os.write(writer, bytes([len(rewards)]))
+        os._exit(0)
+    ready, _, _ = select.select([reader], [], [], 30)
+    if not ready:
+        os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    assert ready
+    assert os.read(reader, 1) == bytes([100])
+
+
 def test_masks_agree_in_every_form() -> None:
     env = FleetVectorEnv(4)
     observation, info = env.reset(seed=1)
@@ -124,6 +183,13 @@ def test_what_is_wrong_is_named() -> None:
     env.reset(seed=1)
     with pytest.raises(vertifleet.Error, match="actions must have 2 entries"):
         env.step([0, 0, 0])
+    with pytest.raises(vertifleet.Error, match="whole numbers"):
+        env.step([0.5, 0.5])
+    for seeds in ([1], [1, 2, 3]):
+        with pytest.raises(vertifleet.Error, match="seed must be"):
+            env.reset(seed=seeds)
+    with pytest.raises(vertifleet.Error, match="threads"):
+        FleetVectorEnv(2, threads=0)
     over = np.zeros(2, bool)
     while not over.any():
         _, _, over, _, _ = env.step(env.action_masks().argmax(axis=1))

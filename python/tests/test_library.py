@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -36,6 +37,7 @@ def test_a_changed_network_differs_in_what_was_changed(paper: Network) -> None:
     assert error.value.code == "V123"
     with pytest.raises(vertifleet.Error, match="changes"):
         paper.changed({"fleet.0.count": float("nan")})
+    assert paper.changed(MappingProxyType({"fleet.0.count": np.int64(12)})).fleet_size == 12
 
 
 def test_days_of_different_purposes_are_different_days(paper: Network) -> None:
@@ -74,6 +76,13 @@ def test_everything_that_travels_arrives_as_it_was(paper: Network, day: Scenario
     comparison = vertifleet.compare(paper, ["greedy"], days=2)
     for one in (day, trace):
         assert pickle.loads(pickle.dumps(one)) == one
+    played = vertifleet.simulate(day, "gcaps-x")
+    assert pickle.loads(pickle.dumps(played)).summary == played.summary
+    plan = vertifleet.plan(day, steps=100, threads=1)
+    other = pickle.loads(pickle.dumps(plan))
+    assert (other.trace, other.profit_usd, other.gap) == (plan.trace, plan.profit_usd, plan.gap)
+    assert np.array_equal(other.bound.passenger_worth_usd, plan.bound.passenger_worth_usd)
+    assert np.array_equal(other.bound.stand_worth_usd, plan.bound.stand_worth_usd)
     assert pickle.loads(pickle.dumps(paper)).draw(1) == day
     assert pickle.loads(pickle.dumps(model)).to_bytes() == model.to_bytes()
     again = pickle.loads(pickle.dumps(comparison))
@@ -88,10 +97,10 @@ def test_a_trace_is_a_schedule_that_can_be_kept_replayed_and_judged(day: Scenari
     assert vertifleet.simulate(day, f"replay:{path}").summary == played.summary
     verdict = vertifleet.check(day, played.trace)
     assert verdict["valid"]
-    assert verdict["totals"]["profit"] == pytest.approx(played.profit)
+    assert verdict["totals"]["profit"] == pytest.approx(played.profit_usd)
     columns = played.trace.columns
     profit = (columns["revenue"] - columns["passenger_cost"] - columns["energy_cost"]).sum()
-    assert profit == pytest.approx(played.profit)
+    assert profit == pytest.approx(played.profit_usd)
     lines = played.trace.to_csv().splitlines()
     broken = Trace.from_csv("\n".join([*lines[:40], *lines[41:]]), day)
     assert not vertifleet.check(day, broken)["valid"]
@@ -117,7 +126,7 @@ def test_a_comparison_is_the_days_one_by_one(paper: Network) -> None:
     for row in range(20):
         day = paper.draw(int(columns["seed"][row]))
         alone = vertifleet.simulate(day, str(columns["policy"][row]), seed=6)
-        assert alone.profit == columns["profit"][row]
+        assert alone.profit_usd == columns["profit"][row]
         assert alone.summary["flights"] == columns["flights"][row]
     assert [policy["name"] for policy in comparison.summary["policies"]].count("gcaps") == 1
     assert "gcaps-x" in str(comparison)
@@ -138,9 +147,11 @@ def test_a_comparison_in_parts_is_the_whole(paper: Network) -> None:
 def test_bounds_hold_and_plans_come_close_to_them(day: Scenario) -> None:
     bound = vertifleet.bound(day, step=15)
     plan = vertifleet.plan(day, steps=2000, threads=2)
-    assert plan.best_policy <= plan.profit <= plan.bound.upper_bound_usd <= bound.upper_bound_usd + 0.01
-    assert plan.gap == pytest.approx(1 - plan.profit / plan.bound.upper_bound_usd)
-    assert bound.gap(plan.profit) >= plan.gap
+    assert (
+        plan.best_policy_usd <= plan.profit_usd <= plan.bound.upper_bound_usd <= bound.upper_bound_usd + 0.01
+    )
+    assert plan.gap == pytest.approx(1 - plan.profit_usd / plan.bound.upper_bound_usd)
+    assert bound.gap(plan.profit_usd) >= plan.gap
     assert vertifleet.check(day, plan.trace)["valid"]
     assert bound.stand_worth_usd.shape == (8,)
     assert bound.passenger_worth_usd.shape == (13, 8, 8)
@@ -174,6 +185,40 @@ def test_weights_may_be_given_as_paths_and_as_models(paper: Network, day: Scenar
     assert np.array_equal(profit[:2], profit[2:])
 
 
+def test_a_function_may_take_part_in_a_comparison(paper: Network) -> None:
+    seen = []
+
+    def first_feasible(observation: dict[str, np.ndarray]) -> int:
+        seen.append(set(observation))
+        return int(observation["action_mask"].argmax())
+
+    comparison = vertifleet.compare(
+        paper, ["greedy", "first"], days=3, models={"first": first_feasible}, bound=True, step=60
+    )
+    env = vertifleet.envs.FleetEnv()
+    for day in range(3):
+        _, info = env.reset(options={"scenario": paper.draw(1 + day)})
+        while "summary" not in info:
+            *_, info = env.step(info["action_mask"].argmax())
+        assert comparison.columns["profit"][3 + day] == info["summary"]["profit"]
+    assert all(keys == set(env.observation_space) for keys in seen)
+
+
+def test_what_a_function_raises_is_raised(paper: Network) -> None:
+    def broken(observation: dict[str, np.ndarray]) -> int:
+        raise ZeroDivisionError(f"by whoever wrote it, on {len(observation)} arrays")
+
+    with pytest.raises(ZeroDivisionError, match="whoever"):
+        vertifleet.compare(paper, ["mine"], days=20, models={"mine": broken})
+    with pytest.raises(vertifleet.Error, match="refused") as error:
+        vertifleet.compare(paper, ["mine"], days=1, models={"mine": lambda observation: 700})
+    assert error.value.code == "V406"
+    with pytest.raises(TypeError):
+        vertifleet.compare(paper, ["mine"], days=1, models={"mine": lambda observation: "V1"})
+    with pytest.raises(TypeError, match="a model is"):
+        vertifleet.compare(paper, ["mine"], days=1, models={"mine": 3})
+
+
 def test_the_shipped_models_say_what_they_are() -> None:
     for kind in ("gcaps", "mlp", "gcaps-x"):
         model = Model.shipped(kind)
@@ -192,6 +237,9 @@ def test_the_shipped_models_say_what_they_are() -> None:
         (lambda day, paper: vertifleet.simulate(day, "replay:none.csv"), "V101"),
         (lambda day, paper: vertifleet.bound(day, step=0), "V501"),
         (lambda day, paper: vertifleet.plan(day, time_limit=-1.0), "V451"),
+        (lambda day, paper: vertifleet.plan(day, gap=float("nan")), "V451"),
+        (lambda day, paper: vertifleet.compare(paper, "greedy", days=1), "V451"),
+        (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=1, threads=0), "V451"),
         (lambda day, paper: vertifleet.compare(paper, ["greedy", "greedy"], days=1), "V404"),
         (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=0), "V402"),
         (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=1, models={"x": "y"}), "V407"),
@@ -213,6 +261,32 @@ def test_errors_are_exceptions_with_the_codes_of_the_program(
 
 
 def test_weights_shipped_for_a_network_warn_on_a_copy_of_it(paper: Network) -> None:
-    other = paper.changed({"fleet.0.count": 30}).draw(1)
+    other = paper.changed({"fleet.0.count": 30})
     with pytest.warns(UserWarning, match="changed copy"):
-        vertifleet.simulate(other, "gcaps")
+        vertifleet.simulate(other.draw(1), "gcaps")
+    with pytest.warns(UserWarning, match="changed copy"):
+        comparison = vertifleet.compare(other, ["gcaps"], days=1)
+    assert pickle.loads(pickle.dumps(comparison)).warnings == comparison.warnings
+
+
+def test_a_comparison_says_how_it_was_made() -> None:
+    comparison = vertifleet.compare("paper", ["greedy", "random"], days=2, seed=5, policy_seed=3)
+    again = eval(comparison.summary["command"], {"vertifleet": vertifleet})
+    for name, column in comparison.columns.items():
+        assert np.array_equal(column, again.columns[name])
+
+
+def test_arrays_are_read_however_they_lie_in_memory() -> None:
+    model = Model.shipped("gcaps")
+    draws = np.random.default_rng(1)
+    nodes, aircraft = draws.random((6, 8, 20), np.float32), draws.random((6, 18), np.float32)
+    mask, clock = np.ones((6, 8), np.uint8), draws.random(6, np.float32)
+    mask[:, 3] = 0
+    logits, values = model.forward(nodes, aircraft, mask, clock)
+    fortran = [np.asfortranarray(array) for array in (nodes, aircraft, mask)]
+    assert np.array_equal(model.forward(*fortran, clock)[0], logits)
+    halves = model.forward(nodes[::2], aircraft[::2], mask[::2], clock[::2])
+    assert np.array_equal(halves[0], logits[::2])
+    assert np.array_equal(halves[1], values[::2])
+    with pytest.raises(vertifleet.Error, match="a batch of 6"):
+        model.forward(nodes, aircraft[:5], mask, clock)

@@ -65,3 +65,16 @@ def test_an_aircraft_that_does_not_decide_can_only_hold() -> None:
         shown = env.observe(agent)
         place = shown["observation"]["aircraft"][1:9]
         assert np.array_equal(shown["action_mask"], place)
+
+
+def test_masks_are_told_and_a_day_of_another_fleet_is_refused() -> None:
+    env = pettingzoo.env("paper", render_mode=None)
+    env.reset(seed=2)
+    for _ in range(50):
+        observation, _, _, _, info = env.last()
+        assert info["action_mask"].dtype == np.int8
+        assert np.array_equal(info["action_mask"], observation["action_mask"])
+        env.step(int(observation["action_mask"].argmax()))
+    with pytest.raises(vertifleet.Error, match="aircraft") as error:
+        env.reset(options={"scenario": SMALL.draw(1)})
+    assert error.value.code == "V451"

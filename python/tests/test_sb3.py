@@ -13,8 +13,10 @@ pytest.importorskip("sb3_contrib")
 
 from sb3_contrib import MaskablePPO  # noqa: E402
 from sb3_contrib.common.maskable.utils import get_action_masks, is_masking_supported  # noqa: E402
-from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor  # noqa: E402
+from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor, VecNormalize  # noqa: E402
 
+from vertifleet import Error, Network  # noqa: E402
+from vertifleet.envs import FleetEnv  # noqa: E402
 from vertifleet.sb3 import FleetVecEnv, GcapsPolicy, MlpPolicy, export, ppo_settings  # noqa: E402
 from vertifleet.torch import Gcaps, Mlp, act, load, masked  # noqa: E402
 
@@ -49,7 +51,8 @@ def test_days_side_by_side_are_an_environment_with_masks():
         observations, rewards, over, infos = days.step(masks.argmax(axis=1))
         assert rewards.shape == over.shape == (3,)
         assert rewards.dtype == np.float32
-        assert [bool(info) for info in infos] == over.tolist()
+        assert ["summary" in info for info in infos] == over.tolist()
+        assert not any(info["invalid_action"] for info in infos)
         for name, column in observations.items():
             assert column.shape == (3, *days.observation_space[name].shape)
 
@@ -215,3 +218,42 @@ def test_a_falling_learning_rate_falls_to_nothing():
     rate = ppo_settings(vertifleet.settings("default"))["learning_rate"]
     assert [rate(left) for left in (1.0, 0.5, 0.0)] == pytest.approx([4e-4, 2e-4, 0.0])
     assert not math.isnan(rate(0.25))
+
+
+def test_infeasible_actions_and_ended_days_are_told():
+    days = FleetVecEnv(NETWORK, 2, reward_scale=100.0)
+    observations = days.reset()
+    told = 0
+    # 49 holds of each of 40 aircraft are the longest day.
+    for _ in range(2100):
+        infeasible = observations["action_mask"].argmin(axis=1)
+        expected = [not mask[action] for mask, action in zip(days.action_masks(), infeasible, strict=True)]
+        observations, rewards, over, infos = days.step(infeasible)
+        assert [info["invalid_action"] for info in infos] == expected
+        for reward, info in zip(rewards[over], (info for info in infos if "summary" in info), strict=True):
+            assert reward == pytest.approx(100.0 * info["summary"]["reward"])
+            assert info["episode"]["r"] == info["summary"]["reward"]
+            told += 1
+    assert told >= 2
+
+
+def test_given_days_are_played():
+    day = NETWORK.draw(3)
+    days = FleetVecEnv(NETWORK, 2)
+    days.set_options({"scenario": day})
+    shown = days.reset()
+    single, _ = FleetEnv(NETWORK).reset(options={"scenario": day})
+    for row in range(2):
+        np.testing.assert_array_equal(shown["nodes"][row], single["nodes"])
+    assert not np.array_equal(days.reset()["nodes"][0], single["nodes"]), "options count once"
+
+
+def test_what_the_program_would_not_do_is_not_exported(tmp_path):
+    days = VecNormalize(FleetVecEnv("paper", 2), norm_obs_keys=["nodes"])
+    model = MaskablePPO(GcapsPolicy, days, n_steps=8, batch_size=16)
+    with pytest.raises(Error, match="VecNormalize") as error:
+        export(model, tmp_path / "mine.safetensors", network=Network("paper"))
+    assert error.value.code == "V451"
+    model = MaskablePPO(GcapsPolicy, FleetVecEnv("random:7", 2), n_steps=8, batch_size=16)
+    with pytest.raises(Error, match="trained on network"):
+        export(model, tmp_path / "mine.safetensors", network=Network("paper"))

@@ -9,6 +9,7 @@ modules; `vertifleet.sb3` and `vertifleet.ray` train them.
 
 from __future__ import annotations
 
+from vertifleet._compare import compare
 from vertifleet._errors import Error
 from vertifleet._native import (
     Bound,
@@ -21,12 +22,11 @@ from vertifleet._native import (
     Trace,
     bound,
     check,
-    compare,
     plan,
     settings,
     simulate,
 )
-from vertifleet._sweep import sweep
+from vertifleet._sweep import Sweep, sweep
 from vertifleet.envs import register as _register
 
 __all__ = [
@@ -38,6 +38,7 @@ __all__ = [
     "Plan",
     "Played",
     "Scenario",
+    "Sweep",
     "Trace",
     "bound",
     "check",

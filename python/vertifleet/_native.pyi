@@ -1,8 +1,9 @@
 """The extension module, as `python/src` has it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, TypeAlias
+from pathlib import Path
+from typing import Any, Literal, TypeAlias, final
 
 import numpy as np
 import pandas as pd
@@ -12,8 +13,31 @@ from numpy.typing import NDArray
 _Path: TypeAlias = str | PathLike[str]
 _Float: TypeAlias = NDArray[np.float64]
 _Float32: TypeAlias = NDArray[np.float32]
-_Shown: TypeAlias = tuple[_Float32, _Float32, _Float32, _Float32, _Float32, NDArray[np.int8]]
+_Shown: TypeAlias = tuple[dict[str, _Float32], NDArray[np.int8]]
 
+__all__ = [
+    "TRAINING_DAYS",
+    "Batch",
+    "Bound",
+    "Comparison",
+    "Environment",
+    "Model",
+    "Network",
+    "Plan",
+    "Played",
+    "Scenario",
+    "Trace",
+    "bound",
+    "check",
+    "compare",
+    "plan",
+    "settings",
+    "simulate",
+]
+
+TRAINING_DAYS: int
+
+@final
 class Network:
     def __new__(cls, name_or_path: _Path) -> Network: ...
     @staticmethod
@@ -37,6 +61,7 @@ class Network:
         self, seed: int, purpose: Literal["comparison", "validation", "training"] = "comparison"
     ) -> Scenario: ...
 
+@final
 class Scenario:
     @staticmethod
     def read(path: _Path) -> Scenario: ...
@@ -73,6 +98,7 @@ class Scenario:
     @property
     def potential_usd(self) -> float: ...
 
+@final
 class Trace:
     @staticmethod
     def read(path: _Path, scenario: Scenario) -> Trace: ...
@@ -86,15 +112,27 @@ class Trace:
     def to_polars(self) -> pl.DataFrame: ...
     def __len__(self) -> int: ...
 
+@final
 class Played:
+    @staticmethod
+    def of_trace(trace: Trace) -> Played: ...
     @property
-    def profit(self) -> float: ...
+    def profit_usd(self) -> float: ...
     @property
     def summary(self) -> dict[str, Any]: ...
     @property
     def trace(self) -> Trace: ...
 
+@final
 class Bound:
+    @staticmethod
+    def of_numbers(
+        scenario: Scenario,
+        step: int,
+        upper_bound_usd: float,
+        stand_worth_usd: Sequence[float],
+        passenger_worth_usd: Sequence[float],
+    ) -> Bound: ...
     @property
     def upper_bound_usd(self) -> float: ...
     @property
@@ -105,13 +143,18 @@ class Bound:
     def passenger_worth_usd(self) -> _Float: ...
     def gap(self, profit_usd: float) -> float: ...
 
+@final
 class Plan:
+    @staticmethod
+    def of_parts(
+        trace: Trace, profit_usd: float, best_policy_usd: float, steps: int, bound: Bound | None
+    ) -> Plan: ...
     @property
     def trace(self) -> Trace: ...
     @property
-    def profit(self) -> float: ...
+    def profit_usd(self) -> float: ...
     @property
-    def best_policy(self) -> float: ...
+    def best_policy_usd(self) -> float: ...
     @property
     def steps(self) -> int: ...
     @property
@@ -119,6 +162,7 @@ class Plan:
     @property
     def gap(self) -> float | None: ...
 
+@final
 class Model:
     @staticmethod
     def read(path: _Path) -> Model: ...
@@ -138,6 +182,7 @@ class Model:
         self, nodes: _Float32, aircraft: _Float32, mask: NDArray[np.uint8], clock: _Float32
     ) -> tuple[_Float32, _Float32]: ...
 
+@final
 class Comparison:
     @property
     def columns(self) -> dict[str, NDArray[Any]]: ...
@@ -145,16 +190,25 @@ class Comparison:
     def summary(self) -> dict[str, Any]: ...
     def to_pandas(self) -> pd.DataFrame: ...
     def to_polars(self) -> pl.DataFrame: ...
-    def report(self, folder: _Path) -> PathLike[str]: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    def report(self, folder: _Path) -> Path: ...
     @staticmethod
     def join(parts: Sequence[Comparison]) -> Comparison: ...
     @staticmethod
-    def from_json(text: str) -> Comparison: ...
+    def from_json(text: str, warnings: Sequence[str] = ...) -> Comparison: ...
 
+@final
 class Environment:
     def __new__(cls, network: Network, reward: str) -> Environment: ...
+    @staticmethod
+    def resumed(
+        network: Network, reward: str, scenario: Scenario | None, choices: Sequence[int]
+    ) -> Environment: ...
     def reset(self, number: int) -> _Shown: ...
     def begin(self, day: Scenario) -> _Shown: ...
+    def __copy__(self) -> Environment: ...
+    def __deepcopy__(self, _memo: Any) -> Environment: ...
     def observe(self, aircraft: int) -> _Shown: ...
     def step(self, action: int) -> tuple[_Shown, float, bool, bool]: ...
     def mask(self) -> NDArray[np.bool_]: ...
@@ -167,12 +221,15 @@ class Environment:
     @property
     def summary(self) -> dict[str, Any] | None: ...
 
+@final
 class Batch:
     def __new__(
         cls, network: Network, reward: str, seats: int, autoreset: str, threads: int | None = None
     ) -> Batch: ...
     def arrays(self) -> list[tuple[NDArray[Any], ...]]: ...
-    def reset(self, which: NDArray[np.bool_], numbers: NDArray[np.uint64]) -> int: ...
+    def reset(
+        self, which: NDArray[np.bool_], numbers: NDArray[np.uint64], scenario: Scenario | None
+    ) -> int: ...
     def step(self, actions: NDArray[np.int64], numbers: NDArray[np.uint64]) -> tuple[int, bool]: ...
     def summary(self, seat: int) -> dict[str, Any] | None: ...
 
@@ -196,10 +253,11 @@ def compare(
     *,
     days: int = 100,
     seed: int = 1,
-    models: Mapping[str, _Path | Model] | None = None,
+    models: dict[str, _Path | Model | Callable[[dict[str, _Float32]], int]] | None = None,
     bound: bool = False,
     step: int = 5,
     policy_seed: int | None = None,
     threads: int | None = None,
+    command: str = "",
 ) -> Comparison: ...
 def settings(preset: str = "default") -> dict[str, Any]: ...

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import itertools
 import math
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from vertifleet._compare import Asked, network_of, say
 from vertifleet._errors import Error
-from vertifleet._native import compare
-from vertifleet._warned import gathered
 
 if TYPE_CHECKING:
     import os
@@ -22,7 +20,8 @@ if TYPE_CHECKING:
     import polars
     from numpy.typing import NDArray
 
-    from vertifleet._native import Comparison, Model, Network
+    from vertifleet._compare import Given
+    from vertifleet._native import Comparison, Network
 
 MEANS = ("profit", "profit_low", "profit_high", "reward", "flights", "load_factor", "bound_share")
 """The columns that are means over the days; the last is there where bounds were asked for."""
@@ -61,7 +60,8 @@ class Sweep:
         """Its columns as a pandas frame."""
         from pandas import DataFrame
 
-        return DataFrame(self.columns)
+        frame: pandas.DataFrame = DataFrame(self.columns)
+        return frame
 
     def to_polars(self) -> polars.DataFrame:
         """Its columns as a polars frame."""
@@ -82,13 +82,13 @@ class Sweep:
 
 
 def sweep(
-    network: Network,
+    network: str | os.PathLike[str] | Network,
     changes: Mapping[str, Sequence[Any]],
     policies: Sequence[str],
     *,
     days: int = 100,
     seed: int = 1,
-    models: Mapping[str, str | os.PathLike[str] | Model] | None = None,
+    models: Mapping[str, Given] | None = None,
     bound: bool = False,
     step: int = 5,
     policy_seed: int | None = None,
@@ -101,13 +101,13 @@ def sweep(
         sweep(network, {"fleet.0.count": [36, 40, 44], "vertiports.*.stands": [6, 8]}, ["greedy", "prices"])
 
     Args:
-        network: what is varied.
+        network: what is varied: the network, its name, or the path of its file.
         changes: values by paths of the network file, as :meth:`Network.changed` takes them. Every combination
             is a point; the values of the last path change fastest.
         policies: as for :func:`compare`, and so is all that follows.
         days: number of days.
         seed: seed of the first day.
-        models: weights by name.
+        models: what names stand for: weight files, models, or functions from an observation to an action.
         bound: whether every day's upper bound is proven.
         step: minutes for which the bound's prices stay the same.
         policy_seed: seed of the random policy and of the planner's search.
@@ -117,29 +117,12 @@ def sweep(
         Error: V123 if a path leads nowhere, V451 if `changes` are no lists of values; else as a network file
             with the change would be refused, before any day is played, or as :func:`compare` refuses.
     """
+    network = network_of(network)
     points = variations(network, changes)
-    policies = tuple(policies)
-    heard: set[str] = set()
-    comparisons = []
-    for _, variation in points:
-        with gathered() as texts:
-            comparison = compare(
-                variation,
-                list(policies),
-                days=days,
-                seed=seed,
-                models=models,
-                bound=bound,
-                step=step,
-                policy_seed=policy_seed,
-                threads=threads,
-            )
-        comparisons.append(comparison)
-        for text in texts:
-            if text not in heard:
-                heard.add(text)
-                warnings.warn(text, stacklevel=2)
-    return Sweep(network.name, policies, together(points, comparisons))
+    asked = Asked.of("vertifleet.compare", network, policies, days, seed, models, bound, step, policy_seed)
+    comparisons = [asked.compare(variation, days, seed, threads) for _, variation in points]
+    say(comparisons)
+    return Sweep(network.name, asked.policies, together(points, comparisons))
 
 
 def variations(

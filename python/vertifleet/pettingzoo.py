@@ -5,6 +5,7 @@ Needs PettingZoo: ``pip install vertifleet[pettingzoo]``.
 
 from __future__ import annotations
 
+import os
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -13,15 +14,21 @@ from gymnasium.utils import seeding
 from pettingzoo import AECEnv
 from pettingzoo.utils import wrappers
 
-from vertifleet._native import Environment, Network, Scenario
-from vertifleet.envs.spaces import NUMBERS, network_of, observation_space
+from vertifleet._compare import network_of
+from vertifleet._errors import Error
+from vertifleet._native import TRAINING_DAYS, Environment, Network, Scenario
+from vertifleet.envs.spaces import observation_space
+
+__all__ = ["FleetAEC", "env"]
 
 
 def env(
-    network: str | Network = "paper", reward: Literal["terminal", "dense"] = "terminal"
+    network: str | os.PathLike[str] | Network = "paper",
+    reward: Literal["terminal", "dense"] = "terminal",
+    render_mode: None = None,
 ) -> AECEnv[str, dict[str, Any], int]:
     """The environment with PettingZoo's usual wrapper, which tells when calls come in a wrong order."""
-    return wrappers.OrderEnforcingWrapper(FleetAEC(network, reward))
+    return wrappers.OrderEnforcingWrapper(FleetAEC(network, reward, render_mode))
 
 
 class FleetAEC(AECEnv[str, dict[str, Any], int]):
@@ -37,12 +44,15 @@ class FleetAEC(AECEnv[str, dict[str, Any], int]):
     metadata: ClassVar[dict[str, Any]] = {"render_modes": [], "name": "fleet_v0", "is_parallelizable": False}
 
     def __init__(
-        self, network: str | Network = "paper", reward: Literal["terminal", "dense"] = "terminal"
+        self,
+        network: str | os.PathLike[str] | Network = "paper",
+        reward: Literal["terminal", "dense"] = "terminal",
+        render_mode: None = None,
     ) -> None:
         super().__init__()
         self.network = network_of(network)
         self.reward = reward
-        self.render_mode = None
+        self.render_mode = render_mode
         # Paid by the flight, so that it is known whose each dollar is.
         self._environment = Environment(self.network, "dense")
         self.possible_agents = [f"aircraft_{position}" for position in range(self.network.fleet_size)]
@@ -72,22 +82,27 @@ class FleetAEC(AECEnv[str, dict[str, Any], int]):
             self._np_random = seeding.np_random(seed)[0]
         scenario: Scenario | None = (options or {}).get("scenario")
         if scenario is None:
-            self._environment.reset(int(self._np_random.integers(NUMBERS)))
-        else:
+            self._environment.reset(int(self._np_random.integers(TRAINING_DAYS)))
+        elif len(scenario.aircraft) == len(self.possible_agents):
             self._environment.begin(scenario)
+        else:
+            found, agents = len(scenario.aircraft), len(self.possible_agents)
+            raise Error(
+                "V451", f"scenario {scenario.name!r} has {found} aircraft, but there are {agents} agents"
+            )
         self.agents = list(self.possible_agents)
         self.rewards = dict.fromkeys(self.agents, 0.0)
         self._cumulative_rewards = dict.fromkeys(self.agents, 0.0)
         self._earned = dict.fromkeys(self.agents, 0.0)
         self.terminations = dict.fromkeys(self.agents, False)
         self.truncations = dict.fromkeys(self.agents, False)
-        self.infos = {agent: {"invalid_action": False} for agent in self.agents}
-        self.agent_selection = self._deciding()
+        self.infos: dict[str, dict[str, Any]] = {agent: {"invalid_action": False} for agent in self.agents}
+        self._select()
 
     def observe(self, agent: str) -> dict[str, Any]:
         """What the network shows to an agent now; to one that does not decide, only hold is feasible."""
-        nodes, aircraft, clock, adjacency, _, mask = self._environment.observe(self._positions[agent])
-        observation = {"nodes": nodes, "aircraft": aircraft, "clock": clock, "adjacency": adjacency}
+        observation, mask = self._environment.observe(self._positions[agent])
+        del observation["action_mask"]
         return {"observation": observation, "action_mask": mask}
 
     def step(self, action: int | None) -> None:
@@ -102,7 +117,7 @@ class FleetAEC(AECEnv[str, dict[str, Any], int]):
         self._cumulative_rewards[agent] = 0.0
         self._clear_rewards()
         self._earned[agent] += earned
-        self.infos[agent] = {"invalid_action": invalid}
+        self.infos[agent]["invalid_action"] = invalid
         if self.reward == "dense":
             self.rewards[agent] = earned
         elif over:
@@ -110,10 +125,12 @@ class FleetAEC(AECEnv[str, dict[str, Any], int]):
         if over:
             self.terminations = dict.fromkeys(self.agents, True)
         else:
-            self.agent_selection = self._deciding()
+            self._select()
         self._accumulate_rewards()
 
-    def _deciding(self) -> str:
+    def _select(self) -> None:
+        """Selects the agent of the aircraft that decides."""
         position = self._environment.aircraft
         assert position is not None, "a day has begun"
-        return self.possible_agents[position]
+        self.agent_selection = self.possible_agents[position]
+        self.infos[self.agent_selection]["action_mask"] = self._environment.mask().astype(np.int8)

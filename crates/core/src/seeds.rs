@@ -75,8 +75,20 @@ impl DaySeed {
     pub fn training(run_seed: u32, day: u64) -> Result<Self, Error> {
         within("the training run's seed", run_seed.into(), RUNS)?;
         within("the number of the training day", day, RUN_DAYS)?;
-        Ok(Self(TRAINING + u64::from(run_seed) * RUN_DAYS + day))
+        Self::training_number(u64::from(run_seed) * RUN_DAYS + day)
     }
+
+    /// Training day number `number`, counted through the days of all runs; there are [`TRAINING_DAYS`](Self::TRAINING_DAYS).
+    ///
+    /// # Errors
+    /// [`Error::SeedOutOfRange`] from there on.
+    pub fn training_number(number: u64) -> Result<Self, Error> {
+        within("the number of the training day", number, Self::TRAINING_DAYS)?;
+        Ok(Self(TRAINING + number))
+    }
+
+    /// Days that there are for training.
+    pub const TRAINING_DAYS: u64 = RUNS * RUN_DAYS;
 
     /// The seed that a day says it was drawn from; a checked day has one within bounds.
     pub(crate) fn of(day: &Scenario) -> Self {

@@ -62,11 +62,15 @@ impl Proof {
 }
 
 impl Bound {
-    /// Share of the bound by which a profit is below it; 0 where nothing can be earned.
+    /// [`gap`] of a profit to this bound.
     pub fn gap(&self, profit_usd: f64) -> f64 {
-        let bound_usd = self.upper_bound_usd();
-        if bound_usd > 0.0 { (bound_usd - profit_usd) / bound_usd } else { 0.0 }
+        gap(self.upper_bound_usd(), profit_usd)
     }
+}
+
+/// Share of a bound by which a profit is below it; 0 where nothing can be earned.
+pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
+    if bound_usd > 0.0 { (bound_usd - profit_usd) / bound_usd } else { 0.0 }
 }
 
 /// The bound with the finest slices that the day is not too large for.

@@ -1,8 +1,9 @@
 //! A comparison from what is asked for to its records: who takes part, on which days, measured against what.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
+use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use vertifleet_core::{DaySeed, Network, Scenario};
 use vertifleet_optimize::Step;
 
@@ -52,20 +53,21 @@ impl<'a> Comparison<'a> {
     /// The days of a network from `first_seed` on, each with its upper bound where a step is given.
     ///
     /// # Errors
-    /// If there is no such policy or day, two policies have one name, or a policy cannot play these days.
+    /// If there is no such policy or day, two policies have one name, or a policy cannot play these days; [`Error::Stopped`]
+    /// soon after `stopped` is raised.
     pub fn new(
         network: &'a Network,
         asked: &Asked<'_>,
-        first_seed: u64,
-        days: u32,
+        (first_seed, days): (u64, u32),
         step: Option<Step>,
+        stopped: &AtomicBool,
     ) -> Result<Self, Error> {
         let entrants = asked.entrants()?;
         contenders(&entrants)?;
-        let scenarios = draw(network, first_seed, days)?;
+        let scenarios = draw(network, first_seed, days, stopped)?;
         let first = scenarios.first().ok_or(Error::Empty { policies: entrants.len(), days: 0 })?;
         entrants.iter().try_for_each(|entrant| entrant.check_fits(first))?;
-        let origin = NetworkOrigin::of(network.name(), scenarios.iter().map(Arc::as_ref));
+        let origin = NetworkOrigin::of_all(network.name(), &scenarios);
         Ok(Self { network, origin, entrants, scenarios, first_seed, step })
     }
 
@@ -114,9 +116,20 @@ impl<'a> Comparison<'a> {
     }
 }
 
-fn draw(network: &Network, first: u64, days: u32) -> Result<Vec<Arc<Scenario>>, Error> {
+fn draw(
+    network: &Network,
+    first: u64,
+    days: u32,
+    stopped: &AtomicBool,
+) -> Result<Vec<Arc<Scenario>>, Error> {
     let seed = |day: u32| DaySeed::comparison(first.saturating_add(u64::from(day)));
     // The last seed first, so that nothing is drawn where not everything can be.
     seed(days.saturating_sub(1))?;
-    (0..days).map(|day| Ok(Arc::new(network.draw(seed(day)?)))).collect()
+    let draw = |day: u32| {
+        if stopped.load(Ordering::Relaxed) {
+            return Err(Error::Stopped);
+        }
+        Ok(Arc::new(network.draw(seed(day)?)))
+    };
+    (0..days).into_par_iter().map(draw).collect()
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use vertifleet_core::Code;
-use vertifleet_policy::PlayError;
+use vertifleet_policy::{PlayError, PolicyError};
 
 /// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for machines and the error index.
 #[derive(Debug, thiserror::Error)]
@@ -114,6 +114,14 @@ pub enum Error {
 }
 
 impl Error {
+    /// That a policy could not play a day to its end, or was stopped.
+    pub fn of_play(policy: &str, day: &str, cause: PlayError) -> Self {
+        match cause {
+            PlayError::NoAnswer(PolicyError::Stopped) => Self::Stopped,
+            cause => Self::Stuck { policy: policy.to_owned(), day: day.to_owned(), cause },
+        }
+    }
+
     /// The stable number of this error, as in `V401`.
     pub fn code(&self) -> Code {
         Code(match self {

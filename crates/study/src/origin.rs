@@ -3,6 +3,9 @@
 //! Whoever wants more aircraft copies `networks/paper.toml`, changes a number and leaves the name as it is. What is known
 //! of the shipped network, the published figures above all, then says nothing about the copy.
 
+use std::sync::Arc;
+
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{Network, Scenario};
 
@@ -24,6 +27,15 @@ impl NetworkOrigin {
         match Network::shipped(network) {
             None => Self::Own,
             Some(shipped) if days.into_iter().all(|day| shipped.draws(day)) => Self::Shipped,
+            Some(_) => Self::Changed,
+        }
+    }
+
+    /// As [`of`](Self::of) for many days, on all threads.
+    pub(crate) fn of_all(network: &str, days: &[Arc<Scenario>]) -> Self {
+        match Network::shipped(network) {
+            None => Self::Own,
+            Some(shipped) if days.par_iter().all(|day| shipped.draws(day)) => Self::Shipped,
             Some(_) => Self::Changed,
         }
     }

@@ -1,5 +1,6 @@
 //! Policies by their names, as commands and the Python package take them.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -20,13 +21,25 @@ use crate::origin::NetworkOrigin;
 /// The policy whose weights fit networks of any size.
 const ANY_SIZE: &str = "gcaps-x";
 
-/// Weights that are given for a policy.
+/// What a name stands for, where whoever asks says so: weights, mostly.
 #[derive(Debug, Clone)]
 pub enum Given {
     /// In a weight file, with the learning curves that may lie beside it.
     File(PathBuf),
     /// Read already.
     Weights(Weights),
+    /// No weights, but whoever decides: a policy of the caller's own.
+    Policy(Maker),
+}
+
+/// Makes a policy, as often as there are threads that need one.
+#[derive(Clone)]
+pub struct Maker(pub Arc<dyn Fn() -> Box<dyn Policy> + Send + Sync>);
+
+impl fmt::Debug for Maker {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Maker")
+    }
 }
 
 /// A policy as the command line names it.
@@ -53,6 +66,8 @@ pub enum Recipe {
     Priced,
     /// [`Rolling`].
     Rolling,
+    /// Made by the caller.
+    Own(Maker),
     /// [`Replay`] of a trace.
     Replay(Arc<Trace>),
     /// [`Learned`].
@@ -84,6 +99,7 @@ impl Recipe {
             Self::Lookahead => Box::new(Lookahead),
             Self::Priced => Box::new(Priced::default()),
             Self::Rolling => Box::new(Rolling::default()),
+            Self::Own(Maker(make)) => make(),
             Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
             Self::Learned { model, .. } => Box::new(Learned::new(Arc::clone(model))),
             Self::AnySize { model, tried: 1, .. } => Box::new(GcapsX::new(Arc::clone(model))),
@@ -101,6 +117,7 @@ impl Recipe {
             Self::Lookahead => "takes the first of the best two flights in a row".to_owned(),
             Self::Priced => "takes what is worth most at the day's prices".to_owned(),
             Self::Rolling => "tries out what is worth most at the day's prices".to_owned(),
+            Self::Own(_) => "decides in a way of its own".to_owned(),
             Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
             Self::Learned { model, .. } => {
                 let header = model.header();
@@ -138,6 +155,7 @@ impl Recipe {
         let (weights, origin) = match given {
             Given::File(path) => (Weights::read(path)?, path.display().to_string()),
             Given::Weights(weights) => (weights.clone(), "the model".to_owned()),
+            Given::Policy(maker) => return Ok(Self::Own(maker.clone())),
         };
         let (kind, asked) = (weights.kind(), kind_of(name));
         if Architecture::named(asked).is_some() && asked != kind {

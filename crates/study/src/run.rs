@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use vertifleet_core::{Scenario, VertiportIx};
-use vertifleet_policy::{PlayError, Policy, PolicyError, Replay, Stoppable, play};
+use vertifleet_policy::{Policy, PolicyError, Replay, Stoppable, play};
 use vertifleet_sim::{Decision, Simulation, Trace, View};
 
 use crate::error::Error;
@@ -139,12 +139,8 @@ fn play_day(
     day: &Day,
 ) -> Result<DayRecord, Error> {
     let mut simulation = Simulation::new(Arc::clone(&day.scenario));
-    play(&mut simulation, policy, |_| ()).map_err(|cause| match cause {
-        PlayError::NoAnswer(PolicyError::Stopped) => Error::Stopped,
-        cause => {
-            Error::Stuck { policy: contender.name.clone(), day: day.scenario.name.clone(), cause }
-        }
-    })?;
+    play(&mut simulation, policy, |_| ())
+        .map_err(|cause| Error::of_play(&contender.name, &day.scenario.name, cause))?;
     Ok(record(position, day, &simulation.summary()))
 }
 

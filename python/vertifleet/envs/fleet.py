@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, Literal
 
 import gymnasium
@@ -9,8 +10,9 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from vertifleet._native import Environment, Network, Scenario
-from vertifleet.envs.spaces import NUMBERS, Info, Observation, network_of, observation_space
+from vertifleet._compare import network_of
+from vertifleet._native import TRAINING_DAYS, Environment, Network, Scenario
+from vertifleet.envs.spaces import Info, Observation, observation_space
 
 
 class FleetEnv(gymnasium.Env[Observation, np.int64]):
@@ -23,14 +25,15 @@ class FleetEnv(gymnasium.Env[Observation, np.int64]):
     each flight's share when it is decided (``"dense"``).
 
     `reset` draws a training day from ``np_random``, or plays ``options={"scenario": scenario}``. The last
-    step's info has the day's numbers as ``summary``.
+    step's info has the day's numbers as ``summary``. An environment can be copied and pickled in the middle
+    of a day.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - declared so by Gymnasium
 
     def __init__(
         self,
-        network: str | Network = "paper",
+        network: str | os.PathLike[str] | Network = "paper",
         reward: Literal["terminal", "dense"] = "terminal",
         render_mode: None = None,
     ) -> None:
@@ -48,31 +51,15 @@ class FleetEnv(gymnasium.Env[Observation, np.int64]):
         super().reset(seed=seed)
         scenario: Scenario | None = (options or {}).get("scenario")
         if scenario is None:
-            shown = self._environment.reset(int(self.np_random.integers(NUMBERS)))
+            observation, mask = self._environment.reset(int(self.np_random.integers(TRAINING_DAYS)))
         else:
-            shown = self._environment.begin(scenario)
-        nodes, aircraft, clock, adjacency, mask, mask_i8 = shown
-        observation = {
-            "nodes": nodes,
-            "aircraft": aircraft,
-            "clock": clock,
-            "adjacency": adjacency,
-            "action_mask": mask,
-        }
-        return observation, {"action_mask": mask_i8, "invalid_action": False}
+            observation, mask = self._environment.begin(scenario)
+        return observation, {"action_mask": mask, "invalid_action": False}
 
     def step(self, action: np.int64 | int) -> tuple[Observation, float, bool, bool, Info]:
         """Carries the decision out and goes on to the next."""
-        shown, reward, over, invalid = self._environment.step(int(action))
-        nodes, aircraft, clock, adjacency, mask, mask_i8 = shown
-        observation = {
-            "nodes": nodes,
-            "aircraft": aircraft,
-            "clock": clock,
-            "adjacency": adjacency,
-            "action_mask": mask,
-        }
-        info: Info = {"action_mask": mask_i8, "invalid_action": invalid}
+        (observation, mask), reward, over, invalid = self._environment.step(int(action))
+        info: Info = {"action_mask": mask, "invalid_action": invalid}
         if over:
             info["summary"] = self._environment.summary
         return observation, reward, over, False, info

@@ -8,8 +8,6 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from vertifleet._native import Network
-
 Observation: TypeAlias = dict[str, NDArray[np.float32]]
 """`nodes` [N * F], `aircraft` [G], `clock` [1], `adjacency` [N * N], `action_mask` [N]; F = 2N + 4,
 G = 2N + 2."""
@@ -17,14 +15,6 @@ G = 2N + 2."""
 Info: TypeAlias = dict[str, Any]
 
 KEYS = ("nodes", "aircraft", "clock", "adjacency", "action_mask")
-
-NUMBERS = 1 << 52
-"""Training days that there are; a reset draws one of them."""
-
-
-def network_of(network: str | Network) -> Network:
-    """The network itself, or the one of that name or path."""
-    return network if isinstance(network, Network) else Network(network)
 
 
 def observation_space(vertiports: int) -> spaces.Dict:

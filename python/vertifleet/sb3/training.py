@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from stable_baselines3.common.utils import FloatSchedule, LinearSchedule
+from stable_baselines3.common.vec_env import unwrap_vec_normalize
 
 from vertifleet import Error, Network
 from vertifleet.sb3.policies import TwinPolicy
 from vertifleet.torch import save
+from vertifleet.torch.weights import NEVER
 
 if TYPE_CHECKING:
     import os
@@ -18,8 +20,6 @@ if TYPE_CHECKING:
 
 SHARED = ("n_steps", "batch_size", "n_epochs", "gamma", "gae_lambda", "ent_coef", "vf_coef", "max_grad_norm")
 """Settings that MaskablePPO has under the same names and keeps as they are given."""
-NEVER = 1_000_000_000
-"""For "eval_every": nobody looks at validation days here, and the weights kept are the last."""
 
 
 def ppo_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
@@ -50,21 +50,32 @@ def export(model: MaskablePPO, path: str | os.PathLike[str], *, network: Network
 
     Raises:
         Error: V304 if a weight is not finite, V102 if the file cannot be written, V451 if the model has a
-            policy of another kind or was not trained on a :class:`~vertifleet.sb3.FleetVecEnv`.
+            policy of another kind, was not trained on a :class:`~vertifleet.sb3.FleetVecEnv` of this network,
+            or was shown observations that VecNormalize changed, which the program does not do.
     """
     policy = model.policy
     if not isinstance(policy, TwinPolicy):
         raise Error("V451", f"weight files are of GcapsPolicy and MlpPolicy, not of {type(policy).__name__}")
-    settings, seed = _settings_of(model), model.seed or 0
+    settings, seed = _settings_of(model, network), model.seed or 0
     save(policy.twin, path, network=network, settings=settings, seed=seed, steps=model.num_timesteps)
 
 
-def _settings_of(model: MaskablePPO) -> dict[str, Any]:
+def _settings_of(model: MaskablePPO, network: Network) -> dict[str, Any]:
     """What the model was trained with, under the program's names."""
     days = model.get_env()
     if days is None or not days.has_attr("reward_scale"):
         hint = "train on a FleetVecEnv, or use vertifleet.torch.save(model.policy.twin, ...)"
         raise Error("V451", "the model's environment does not say how it pays", hint)
+    trained_on = days.get_attr("days")[0].network
+    if trained_on.toml != network.toml:
+        rule = (
+            f"the model was trained on network {trained_on.name!r}, which is not the {network.name!r} given"
+        )
+        raise Error("V451", rule)
+    normalised = unwrap_vec_normalize(days)
+    if normalised is not None and normalised.norm_obs:
+        hint = "features are scaled by the network's own scales; train with norm_obs=False"
+        raise Error("V451", "the model was shown observations that VecNormalize changed", hint)
     first, last = model.lr_schedule(1.0), model.lr_schedule(0.0)
     return {name: getattr(model, name) for name in SHARED} | {
         "total_steps": max(model._total_timesteps, 1),

@@ -8,6 +8,7 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from stable_baselines3.common.vec_env import VecEnv
 
+from vertifleet import Error
 from vertifleet.envs import FleetVectorEnv
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ class FleetVecEnv(VecEnv):
         num_envs: number of days side by side.
         reward: "terminal", all of it at the end of the day, or "dense", each flight's share when decided.
         reward_scale: what rewards are multiplied by before learning; logs show them as they are.
+        threads: threads that advance the days; all cores by default.
     """
 
     def __init__(
@@ -36,8 +38,9 @@ class FleetVecEnv(VecEnv):
         num_envs: int,
         reward: Literal["terminal", "dense"] = "terminal",
         reward_scale: float = 1.0,
+        threads: int | None = None,
     ) -> None:
-        self.days = FleetVectorEnv(num_envs, network, reward, AutoresetMode.SAME_STEP)
+        self.days = FleetVectorEnv(num_envs, network, reward, AutoresetMode.SAME_STEP, threads)
         self.reward = reward
         self.reward_scale = reward_scale
         self.render_mode = None
@@ -47,9 +50,12 @@ class FleetVecEnv(VecEnv):
         super().__init__(num_envs, self.days.single_observation_space, self.days.single_action_space)
 
     def reset(self) -> VecEnvObs:
-        """Begins new days, from the seeds given before where there are any."""
-        observations, _ = self.days.reset(seed=self._seeds)
+        """Begins new days, with the seeds and options given before where there are any."""
+        if any(options != self._options[0] for options in self._options):
+            raise Error("V451", "the days are reset together: set_options takes one dict for all of them")
+        observations, _ = self.days.reset(seed=self._seeds, options=self._options[0])
         self._reset_seeds()
+        self._reset_options()
         self._decisions[:] = 0
         return self._show(observations)
 
@@ -61,16 +67,19 @@ class FleetVecEnv(VecEnv):
         """Carries the decisions out; observations stay as they are until the step after next."""
         observations, rewards, over, _, told = self.days.step(self._actions)
         self._decisions += 1
-        infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
-        day_rewards = told["final_info"]["summary"]["reward"] if over.any() else ()
+        infos: list[dict[str, Any]] = [{"invalid_action": held} for held in told["invalid_action"].tolist()]
         for day in np.flatnonzero(over).tolist():
+            end = told["final_info"]
+            summary = {name: column[day].item() for name, column in end["summary"].items() if name[0] != "_"}
             infos[day] = {
+                "invalid_action": bool(end["invalid_action"][day]),
+                "summary": summary,
                 "terminal_observation": told["final_obs"][day],
                 "TimeLimit.truncated": False,
-                "episode": {"r": float(day_rewards[day]), "l": int(self._decisions[day])},
+                "episode": {"r": summary["reward"], "l": int(self._decisions[day])},
             }
         self._decisions[over] = 0
-        return self._show(observations), (self.reward_scale * rewards).astype(np.float32), over.copy(), infos
+        return self._show(observations), (self.reward_scale * rewards).astype(np.float32), over, infos
 
     def _show(self, observations: dict[str, NDArray[np.float32]]) -> dict[str, NDArray[np.float32]]:
         self._masks = observations["action_mask"] > 0

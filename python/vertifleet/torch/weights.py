@@ -27,6 +27,8 @@ FORMAT = "vertifleet-weights/1"
 """Of policies that fit one number of vertiports."""
 FORMAT_ANY = "vertifleet-weights-any/1"
 """Of gcaps-x, which fits any."""
+NEVER = 1_000_000_000
+"""For "eval_every" where nobody looks at validation days, and the weights kept are the last."""
 
 
 def load(source: str | os.PathLike[str] | bytes) -> Twin:

@@ -26,15 +26,17 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
         seed: arguments.seed,
         network: network.name(),
     };
-    let comparison = Comparison::new(&network, &asked, arguments.seed, arguments.days, step)?;
+    // Ctrl-C ends the program itself.
+    let never = AtomicBool::new(false);
+    let days = (arguments.seed, arguments.days);
+    let comparison = Comparison::new(&network, &asked, days, step, &never)?;
     if let Some(folder) = &arguments.report {
         report::check_folder(folder)?;
     }
     for warning in comparison.warnings() {
         warn(Code(310), &warning);
     }
-    // Ctrl-C ends the program itself.
-    let study = comparison.run(command(), &AtomicBool::new(false), &Bars)?;
+    let study = comparison.run(command(), &never, &Bars)?;
     let summary = Summary::of(&study)?;
     if arguments.json {
         print(&summary.to_json())?;

@@ -1,0 +1,86 @@
+//! What a policy's name may stand for: a weight file, a model, or a function of the caller's own.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use vertifleet_core::VertiportIx;
+use vertifleet_learn::Scales;
+use vertifleet_policy::{Policy, PolicyError};
+use vertifleet_sim::{Decision, View};
+use vertifleet_study::policies::{Given, Maker};
+
+use crate::model::Model;
+use crate::shown::{Arrays, To};
+
+/// Weights: a path, or a model.
+#[derive(FromPyObject)]
+pub(crate) enum Weighed<'py> {
+    Model(PyRef<'py, Model>),
+    Path(PathBuf),
+}
+
+impl Weighed<'_> {
+    pub(crate) fn given(self) -> Given {
+        match self {
+            Self::Model(model) => Given::Weights(model.weights.clone()),
+            Self::Path(path) => Given::File(path),
+        }
+    }
+}
+
+/// What a function of the caller's raised, to be raised again once all threads have stopped.
+#[derive(Clone, Default)]
+pub(crate) struct Raised(Arc<Mutex<Option<PyErr>>>);
+
+impl Raised {
+    pub(crate) fn take(&self) -> Option<PyErr> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+}
+
+/// Weights, or a function from an observation, as the environment shows it, to an action.
+pub(crate) fn given(value: &Bound<'_, PyAny>, scales: Scales, raised: &Raised) -> PyResult<Given> {
+    if let Ok(weighed) = value.extract::<Weighed<'_>>() {
+        return Ok(weighed.given());
+    }
+    if !value.is_callable() {
+        let message =
+            "a model is a path, a vertifleet.Model, or a function from an observation to an action";
+        return Err(PyTypeError::new_err(message));
+    }
+    let (function, raised) = (Arc::new(value.clone().unbind()), raised.clone());
+    Ok(Given::Policy(Maker(Arc::new(move || {
+        let (function, raised) = (Arc::clone(&function), raised.clone());
+        Box::new(Function { call: function, scales, raised })
+    }))))
+}
+
+/// A policy that is a function in Python.
+struct Function {
+    call: Arc<Py<PyAny>>,
+    scales: Scales,
+    raised: Raised,
+}
+
+impl Policy for Function {
+    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        Python::attach(|py| self.ask(py, decision, *view)).map_err(|error| {
+            self.raised.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+            PolicyError::Stopped
+        })
+    }
+}
+
+impl Function {
+    /// An action that no vertiport has is an error here; one that is not feasible is refused by the day.
+    fn ask(&self, py: Python<'_>, decision: &Decision, view: View<'_>) -> PyResult<VertiportIx> {
+        let arrays = Arrays::of(py, decision, view, &self.scales, To::Decide)?;
+        let (observation, _) = arrays.into_observation(py)?;
+        let answer = self.call.bind(py).call1((observation,))?;
+        // NumPy's whole numbers know `__index__`; an array of one does not.
+        let action: u16 = answer.extract()?;
+        Ok(VertiportIx(action))
+    }
+}

@@ -1,0 +1,122 @@
+//! What a decision shows (§IV.A), written into arrays: the features of learned policies, the pairs that can be flown, the mask.
+
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use vertifleet_core::{TypeIx, VertiportIx};
+use vertifleet_learn::{Scales, shape};
+use vertifleet_sim::{Decision, View};
+
+/// Whom it is shown to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum To {
+    /// The aircraft that decides.
+    Decide,
+    /// Another one: only hold is feasible.
+    Watch,
+    /// The one that decided last on a day that is over: no time is left, and only hold is feasible.
+    Remember,
+}
+
+/// Room for what is shown.
+pub(crate) struct Shown<'a> {
+    /// [N x F].
+    pub(crate) nodes: &'a mut [f32],
+    /// [G].
+    pub(crate) aircraft: &'a mut [f32],
+    pub(crate) clock: &'a mut f32,
+    /// [N x N].
+    pub(crate) adjacency: &'a mut [f32],
+    /// [N].
+    pub(crate) mask: &'a mut [f32],
+    /// [N], the same as whole numbers.
+    pub(crate) mask_i8: &'a mut [i8],
+}
+
+impl Shown<'_> {
+    /// Shows a decision to somebody.
+    pub(crate) fn fill(self, decision: &Decision, view: View<'_>, scales: &Scales, to: To) {
+        let left = scales.write((self.nodes, self.aircraft), decision, view);
+        *self.clock = if to == To::Remember { 0.0 } else { left };
+        fill_adjacency(view, view.kind(decision.aircraft), self.adjacency);
+        self.mask.fill(0.0);
+        self.mask_i8.fill(0);
+        let mut open = |vertiport: VertiportIx| {
+            self.mask[vertiport.at()] = 1.0;
+            self.mask_i8[vertiport.at()] = 1;
+        };
+        if to == To::Decide {
+            view.feasible(decision).iter().for_each(open);
+        } else {
+            open(decision.at);
+        }
+    }
+}
+
+/// 1 where aircraft of a type may fly between two vertiports now: a corridor leads there, a full battery reaches it, and the route
+/// is not closed.
+fn fill_adjacency(view: View<'_>, kind: TypeIx, adjacency: &mut [f32]) {
+    adjacency.fill(0.0);
+    for (from, row) in adjacency.chunks_exact_mut(view.vertiports()).enumerate() {
+        let from = VertiportIx::new(from);
+        for to in view.within_range(kind, from).without(&view.closed(from)).iter() {
+            row[to.at()] = 1.0;
+        }
+    }
+}
+
+/// A dict of arrays by their names, and the mask as int8.
+pub(crate) type Observation<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<i8>>);
+
+/// Arrays of their own for what one decision shows.
+pub(crate) struct Arrays<'py> {
+    nodes: Bound<'py, PyArray1<f32>>,
+    aircraft: Bound<'py, PyArray1<f32>>,
+    clock: Bound<'py, PyArray1<f32>>,
+    adjacency: Bound<'py, PyArray1<f32>>,
+    mask: Bound<'py, PyArray1<f32>>,
+    mask_i8: Bound<'py, PyArray1<i8>>,
+}
+
+impl<'py> Arrays<'py> {
+    pub(crate) fn of(
+        py: Python<'py>,
+        decision: &Decision,
+        view: View<'_>,
+        scales: &Scales,
+        to: To,
+    ) -> PyResult<Self> {
+        let shape = shape(view.vertiports());
+        let size = shape.vertiports;
+        let numbers = |len| PyArray1::zeros(py, len, false);
+        let arrays = Self {
+            nodes: numbers(size * shape.node_features),
+            aircraft: numbers(shape.aircraft_features),
+            clock: numbers(1),
+            adjacency: numbers(size * size),
+            mask: numbers(size),
+            mask_i8: PyArray1::zeros(py, size, false),
+        };
+        Shown {
+            nodes: arrays.nodes.readwrite().as_slice_mut()?,
+            aircraft: arrays.aircraft.readwrite().as_slice_mut()?,
+            clock: &mut arrays.clock.readwrite().as_slice_mut()?[0],
+            adjacency: arrays.adjacency.readwrite().as_slice_mut()?,
+            mask: arrays.mask.readwrite().as_slice_mut()?,
+            mask_i8: arrays.mask_i8.readwrite().as_slice_mut()?,
+        }
+        .fill(decision, view, scales, to);
+        Ok(arrays)
+    }
+
+    /// The observation of the environment, and the mask as int8.
+    pub(crate) fn into_observation(self, py: Python<'py>) -> PyResult<Observation<'py>> {
+        let observation = PyDict::new(py);
+        observation.set_item("nodes", self.nodes)?;
+        observation.set_item("aircraft", self.aircraft)?;
+        observation.set_item("clock", self.clock)?;
+        observation.set_item("adjacency", self.adjacency)?;
+        observation.set_item("action_mask", self.mask)?;
+        Ok((observation, self.mask_i8))
+    }
+}

@@ -1,0 +1,76 @@
+//! The threads of a batch of days, which live as long as it does.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use rayon::ThreadPool;
+
+use crate::failure::Failure;
+use crate::interruptible;
+
+/// So many threads, made when they are first needed.
+pub(crate) struct Threads {
+    number: usize,
+    pool: Option<Pool>,
+}
+
+/// Threads, and the process whose they are: one that was forked from it does not have them.
+struct Pool {
+    threads: Option<ThreadPool>,
+    process: u32,
+    /// How often work was begun.
+    calls: Arc<AtomicU64>,
+}
+
+/// How long threads wait awake: longer than a policy of a few array operations takes, no longer than costs nobody anything.
+const AWAKE: Duration = Duration::from_micros(100);
+
+impl Threads {
+    pub(crate) fn new(asked: Option<usize>) -> Result<Self, Failure> {
+        Ok(Self { number: interruptible::threads(asked)?, pool: None })
+    }
+
+    /// How many there are.
+    pub(crate) fn number(&self) -> usize {
+        self.number
+    }
+
+    /// Does `work` on all of them, the one that calls among them; each calls it with its position, which is always the same.
+    pub(crate) fn all(&mut self, work: impl Fn(usize) + Sync) {
+        if self.number == 1 {
+            return work(0);
+        }
+        let ours = |pool: &Pool| pool.process == std::process::id();
+        if !self.pool.as_ref().is_some_and(ours) {
+            let threads = Some(interruptible::pool(self.number - 1));
+            self.pool = Some(Pool { threads, process: std::process::id(), calls: Arc::default() });
+        }
+        let pool = self.pool.as_ref().expect("it has just been made");
+        let threads = pool.threads.as_ref().expect("they are there until the pool is dropped");
+        let call = pool.calls.fetch_add(1, Ordering::Release) + 1;
+        threads.in_place_scope(|scope| {
+            scope.spawn_broadcast(|_, context| work(1 + context.index()));
+            work(0);
+        });
+        let calls = Arc::clone(&pool.calls);
+        threads.spawn_broadcast(move |_| stay_awake(&calls, call));
+    }
+}
+
+/// To wake a thread up takes as long as a step of a hundred days, so it waits for the next call awake for a while.
+fn stay_awake(calls: &AtomicU64, call: u64) {
+    let since = Instant::now();
+    while calls.load(Ordering::Acquire) == call && since.elapsed() < AWAKE {
+        std::hint::spin_loop();
+    }
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        if self.process != std::process::id() {
+            // To end threads that this process does not have might wait for them for ever.
+            std::mem::forget(self.threads.take());
+        }
+    }
+}

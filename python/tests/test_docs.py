@@ -1,0 +1,62 @@
+"""Every example of the package's pages runs."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import re
+import secrets
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = ["README.md", "docs/src/guide/python.md", "docs/src/guide/cluster.md", "python/README.md"]
+EXAMPLES = [
+    (page, number, code)
+    for page in PAGES
+    for number, code in enumerate(
+        re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(encoding="utf-8"), re.M | re.S)
+    )
+]
+
+
+def test_the_pages_have_examples() -> None:
+    assert {page for page, _, _ in EXAMPLES} == set(PAGES)
+
+
+@pytest.mark.parametrize(
+    ("module", "needs"),
+    [
+        ("vertifleet", "gymnasium"),
+        ("vertifleet.envs", "gymnasium"),
+        ("vertifleet.pettingzoo", "pettingzoo"),
+        ("vertifleet.torch", "torch"),
+        ("vertifleet.sb3", "sb3_contrib"),
+        ("vertifleet.ray", "ray"),
+        ("vertifleet.ray.rllib", "ray.rllib"),
+    ],
+)
+def test_the_page_names_all_that_a_module_has(module: str, needs: str) -> None:
+    pytest.importorskip(needs)
+    page = (ROOT / "docs/src/guide/python.md").read_text(encoding="utf-8")
+    row = next(line for line in page.splitlines() if line.startswith(f"| `{module}` |"))
+    assert set(re.findall(r"`(\w+)`", row.split("|")[2])) == set(importlib.import_module(module).__all__)
+
+
+@pytest.mark.parametrize(("page", "number", "code"), EXAMPLES, ids=[f"{p}-{n}" for p, n, _ in EXAMPLES])
+def test_an_example_runs(page: str, number: int, code: str, tmp_path: Path) -> None:
+    for needed in ("torch", "pandas", "ray"):
+        if needed in code:
+            pytest.importorskip(needed)
+    file = tmp_path / f"{Path(page).stem}_{number}.py"
+    file.write_text(code, encoding="utf-8")
+    # Not the user's own token, which Ray would write into the home directory.
+    ray = {"RAY_AUTH_MODE": "token", "RAY_AUTH_TOKEN": secrets.token_hex(32), "RAY_USAGE_STATS_ENABLED": "0"}
+    command = [sys.executable, file.name]
+    done = subprocess.run(
+        command, cwd=tmp_path, env=os.environ | ray, capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, done.stderr

@@ -1,0 +1,122 @@
+"""Sweeps: every combination is a comparison of its own, and columns and table say what those do."""
+
+import numpy as np
+import pytest
+
+import vertifleet
+
+POLICIES = ["prices", "greedy"]
+DAYS = {"days": 3, "seed": 4}
+CHANGES = {"fleet.0.count": [36, 40], "vertiports.V2.stands": [5, 6, 8]}
+
+
+@pytest.fixture(scope="module")
+def swept(paper):
+    return vertifleet.sweep(paper, CHANGES, POLICIES, **DAYS)
+
+
+def test_every_combination_is_a_point_and_the_last_path_changes_fastest(swept):
+    found = [tuple(changes.values()) for changes, _ in swept.points]
+    assert found == [(36, 5), (36, 6), (36, 8), (40, 5), (40, 6), (40, 8)]
+    assert all(list(changes) == list(CHANGES) for changes, _ in swept.points)
+
+
+def test_a_point_is_the_comparison_on_the_changed_network(paper, swept):
+    for changes, comparison in swept.points:
+        expected = vertifleet.compare(paper.changed(changes), POLICIES, **DAYS)
+        for name, column in expected.columns.items():
+            np.testing.assert_array_equal(comparison.columns[name], column, name)
+
+
+def test_all_points_meet_days_of_the_same_seeds(swept):
+    for _, comparison in swept.points:
+        assert set(comparison.columns["seed"]) == {4, 5, 6}
+
+
+def test_columns_are_means_over_the_days(swept):
+    columns = swept.columns
+    assert columns["policy"].tolist() == POLICIES * 6
+    assert columns["fleet.0.count"].tolist() == [36] * 6 + [40] * 6
+    assert columns["vertiports.V2.stands"].tolist() == [5, 5, 6, 6, 8, 8] * 2
+    assert "bound_share" not in columns
+    for row in range(12):
+        days = swept.points[row // 2][1].columns
+        own = days["policy"] == columns["policy"][row]
+        for name in ("profit", "reward", "flights", "load_factor"):
+            assert columns[name][row] == pytest.approx(days[name][own].mean()), name
+        # Half of the interval is t(0.975, 2) = 4.3027 standard errors.
+        half = 4.302653 * days["profit"][own].std(ddof=1) / np.sqrt(3)
+        assert columns["profit_low"][row] == pytest.approx(columns["profit"][row] - half)
+        assert columns["profit_high"][row] == pytest.approx(columns["profit"][row] + half)
+
+
+def test_a_single_day_has_no_interval_and_bounds_have_shares(paper):
+    single = vertifleet.sweep(paper, {"fleet.0.count": [36, 40]}, ["greedy"], days=1, bound=True, step=15)
+    assert np.isnan(single.columns["profit_low"]).all()
+    days = [comparison.columns["bound_share"][0] for _, comparison in single.points]
+    assert single.columns["bound_share"].tolist() == days
+    assert "share of bound" in str(single)
+    assert "nan" not in str(single)
+
+
+def test_frames_have_the_columns(swept):
+    for library, frame in (("pandas", swept.to_pandas), ("polars", swept.to_polars)):
+        pytest.importorskip(library)
+        assert list(frame().columns) == list(swept.columns)
+        assert frame()["profit"].to_list() == swept.columns["profit"].tolist()
+
+
+def test_the_table_is_for_people(paper):
+    table = str(vertifleet.sweep(paper, {"fleet.0.count": [36]}, ["greedy", "random"], days=2, seed=3))
+    lines = table.splitlines()
+    assert lines[0] == "network paper, 1 point, each on 2 days, seed 3"
+    assert lines[2].split("  ")[0] == "fleet.0.count"
+    assert [line.split()[:2] for line in lines[4:6]] == [["36", "greedy"], ["36", "random"]]
+    assert len({len(line) for line in lines[2:6]}) == 1
+    assert lines[6].startswith("means a day")
+
+
+def test_no_change_is_the_network_itself(paper):
+    (changes, comparison), *others = vertifleet.sweep(paper, {}, ["greedy"], days=2).points
+    assert (changes, others) == ({}, [])
+    expected = vertifleet.compare(paper, ["greedy"], days=2)
+    np.testing.assert_array_equal(comparison.columns["profit"], expected.columns["profit"])
+
+
+def test_numbers_of_numpy_are_values_like_others(paper):
+    by_numpy = vertifleet.sweep(paper, {"fleet.0.count": np.arange(36, 41, 4)}, ["greedy"], days=1)
+    assert [changes for changes, _ in by_numpy.points] == [{"fleet.0.count": 36}, {"fleet.0.count": 40}]
+
+
+def test_texts_and_mixed_values_have_columns_too(paper):
+    texts = vertifleet.sweep(paper, {"operations.end": ["17:00:00", "18:00:00"]}, ["greedy"], days=1)
+    assert texts.columns["operations.end"].tolist() == ["17:00:00", "18:00:00"]
+    truths = vertifleet.sweep(paper, {"vertiports.V2.busy": [True, False]}, ["greedy"], days=1)
+    assert truths.columns["vertiports.V2.busy"].dtype == bool
+    positions = [[6, 6], "random"]
+    mixed = vertifleet._sweep._column(positions)
+    assert mixed.dtype == object
+    assert mixed.tolist() == positions
+
+
+def test_a_warning_is_said_once(paper):
+    with pytest.warns(UserWarning, match="changed copy") as records:
+        vertifleet.sweep(paper, {"fleet.0.count": [36, 38, 42]}, ["mlp"], days=1)
+    assert len(records) == 1
+    assert records[0].filename == __file__
+
+
+@pytest.mark.parametrize(
+    ("changes", "code"),
+    [
+        ({"fleet.0.count": 36}, "V451"),
+        ({"fleet.0.count": []}, "V451"),
+        ({"operations.end": "17:00:00"}, "V451"),
+        ({"fleet.9.count": [36]}, "V123"),
+        ({"fleet.0.count": [36, -1]}, "V104"),
+    ],
+)
+def test_what_cannot_be_swept_is_refused(paper, changes, code):
+    with pytest.raises(vertifleet.Error) as refused:
+        vertifleet.sweep(paper, changes, ["greedy"], days=1)
+    assert refused.value.code == code

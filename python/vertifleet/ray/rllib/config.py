@@ -1,0 +1,96 @@
+"""The program's settings of a training run (Table 2) as RLlib's configuration of PPO."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gymnasium import VectorizeMode
+from ray.rllib.algorithms.ppo import PPOConfig
+from ray.rllib.core.rl_module.rl_module import RLModuleSpec
+
+import vertifleet
+from vertifleet import Error, Network
+from vertifleet.ray.rllib.days import FleetDays
+from vertifleet.ray.rllib.module import FleetModule, kind_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+def ppo_config(
+    network: str | Network = "paper",
+    policy: str = "gcaps",
+    settings: Mapping[str, Any] | None = None,
+    *,
+    env_runners: int = 0,
+    **sizes: int,
+) -> PPOConfig:
+    """PPO on training days of a network.
+
+    The configuration is RLlib's own, to be changed further: ``.learners(num_gpus_per_learner=1)`` learns on a
+    GPU, ``.debugging(seed=1)`` seeds. The network is part of it, so that nodes need the package and no file.
+
+    Where RLlib has another meaning than stable-baselines3, and than the program:
+
+    - advantages are normalised over the roll-out, not over each minibatch;
+    - Adam has an epsilon of 1e-8, not 1e-5;
+    - a roll-out may be a few decisions longer than ``n_envs * n_steps``, the last minibatch of a pass is
+      filled up with decisions of the next, and among those of a minibatch are a few that count for nothing;
+    - there is no ``total_steps``: whoever trains says when to stop, and a falling learning rate reaches 0 at
+      that many decisions;
+    - nobody looks at validation days (``eval_every``, ``eval_days``): the weights are always the last;
+    - what is logged as the return of an episode is the day's reward times ``reward_scale``.
+
+    Args:
+        network: the network, its name or its path.
+        policy: "gcaps" or "mlp".
+        settings: as ``vertifleet.settings("paper")`` gives them, which are taken where none are given.
+        env_runners: processes that play days, on any node; ``n_envs`` is shared out among them. With 0, the
+            process that learns plays too.
+        sizes: of the network's layers; those of the weight files that come with the program where not given.
+
+    Raises:
+        Error: V451 if there is no such policy, or `env_runners` do not share ``n_envs`` out evenly.
+    """
+    network = network if isinstance(network, Network) else Network(network)
+    settings = dict(settings or vertifleet.settings("paper"))
+    days, playing = settings["n_envs"], max(env_runners, 1)
+    if days % playing:
+        raise Error("V451", f"n_envs ({days}) must be a multiple of env_runners ({env_runners})")
+    kind_of(policy)
+    config: PPOConfig = PPOConfig()  # type: ignore[no-untyped-call]
+    return (
+        config.environment(FleetDays, env_config=_days(network, settings))
+        .env_runners(
+            num_env_runners=env_runners,
+            num_envs_per_env_runner=days // playing,
+            gym_env_vectorize_mode=VectorizeMode.VECTOR_ENTRY_POINT,
+        )
+        .rl_module(rl_module_spec=RLModuleSpec(FleetModule, model_config={"policy": policy, "sizes": sizes}))
+        .training(**_training(settings))
+    )
+
+
+def _days(network: Network, settings: Mapping[str, Any]) -> dict[str, Any]:
+    return {"network": network, "reward": settings["reward"], "reward_scale": settings["reward_scale"]}
+
+
+def _training(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """RLlib's names for the settings; what RLlib has beyond them is turned off."""
+    rate = settings["learning_rate"]
+    falling = [[0, rate], [settings["total_steps"], 0.0]]
+    return {
+        "train_batch_size_per_learner": settings["n_envs"] * settings["n_steps"],
+        "minibatch_size": settings["batch_size"],
+        "num_epochs": settings["n_epochs"],
+        "lr": falling if settings["lr_schedule"] == "linear" else rate,
+        "gamma": settings["gamma"],
+        "lambda_": settings["gae_lambda"],
+        "clip_param": settings["clip_range"],
+        "entropy_coeff": settings["ent_coef"],
+        "vf_loss_coeff": settings["vf_coef"],
+        "vf_clip_param": float("inf"),
+        "grad_clip": settings["max_grad_norm"],
+        "grad_clip_by": "global_norm",
+        "use_kl_loss": False,
+    }

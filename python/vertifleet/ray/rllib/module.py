@@ -1,0 +1,63 @@
+"""The networks as modules of RLlib's new API stack."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, cast
+
+import torch
+from ray.rllib.core.columns import Columns
+from ray.rllib.core.rl_module.apis import ValueFunctionAPI
+from ray.rllib.core.rl_module.torch import TorchRLModule
+
+from vertifleet import Error
+from vertifleet.torch import Gcaps, Mlp
+
+if TYPE_CHECKING:
+    from gymnasium import spaces
+    from torch import Tensor
+
+KINDS: dict[str, type[Gcaps] | type[Mlp]] = {"gcaps": Gcaps, "mlp": Mlp}
+
+
+class FleetModule(TorchRLModule, ValueFunctionAPI):
+    """A network of the program, deciding among the feasible vertiports.
+
+    Its ``model_config`` has the ``policy``, "gcaps" or "mlp", and the ``sizes`` of its layers: those of the
+    weight files that come with the program where none are given.
+    """
+
+    def setup(self) -> None:
+        """Makes the network, with first weights."""
+        (vertiports,) = cast("tuple[int]", cast("spaces.Dict", self.observation_space)["action_mask"].shape)
+        config = cast("dict[str, Any]", self.model_config)
+        self.twin = kind_of(config["policy"])(vertiports, **config["sizes"])
+
+    def _forward(self, batch: dict[str, Any], **_: Any) -> dict[str, Any]:
+        logits, _values = self._pass(batch)
+        return {Columns.ACTION_DIST_INPUTS: logits}
+
+    def _forward_train(self, batch: dict[str, Any], **_: Any) -> dict[str, Any]:
+        # Values come with the logits: RLlib hands back to `compute_values` what is said to be embeddings.
+        logits, values = self._pass(batch)
+        return {Columns.ACTION_DIST_INPUTS: logits, Columns.EMBEDDINGS: values}
+
+    def compute_values(self, batch: dict[str, Any], embeddings: Tensor | None = None) -> Tensor:
+        """Values [B] of a batch; `embeddings` are these, where it has been through the network already."""
+        return self._pass(batch)[1] if embeddings is None else embeddings
+
+    def _pass(self, batch: dict[str, Any]) -> tuple[Tensor, Tensor]:
+        """Logits [B, N], as low as can be where the mask is 0, and values [B].
+
+        The probability is 0 there. Minus infinity would make it so too, but times 0 it is not a number.
+        """
+        shown = batch[Columns.OBS]
+        logits, values = self.twin(shown["nodes"], shown["aircraft"], shown["clock"])
+        lowest = torch.finfo(logits.dtype).min
+        return logits.masked_fill(shown["action_mask"] == 0, lowest), values
+
+
+def kind_of(policy: str) -> type[Gcaps] | type[Mlp]:
+    """The network of that name."""
+    if policy not in KINDS:
+        raise Error("V451", f"policy must be one of {', '.join(KINDS)}, found {policy!r}")
+    return KINDS[policy]

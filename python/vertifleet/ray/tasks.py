@@ -1,0 +1,114 @@
+"""Days as Ray tasks: each plays some consecutive days of a network, and what they find is joined in order.
+
+A task is played again, as often as need be, when its worker or node dies, which is no fault of the task; it
+is a function of its arguments, so that it finds the same again. An error of its own ends everything.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+import ray
+from ray.exceptions import RayTaskError
+
+from vertifleet import Comparison, Error, Model
+from vertifleet._compare import say
+from vertifleet.ray.progress import Progress
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from typing import TypeAlias
+
+    from ray import ObjectRef
+
+    from vertifleet import Network
+    from vertifleet._compare import Asked, Given
+
+    Task: TypeAlias = ObjectRef[Comparison]
+    Part: TypeAlias = tuple[ObjectRef[Network], int, int]
+    """A network, a number of days, and the seed of the first."""
+
+TASKS_PER_CPU = 16
+"""So that nobody waits long for the last one, and little is lost with a node."""
+GLANCE_S = 0.5
+"""How often is looked at what is done."""
+
+
+def without_files(asked: Asked) -> Asked:
+    """Reads the weight files, which the nodes need not have."""
+    models = {name: _read(given) for name, given in asked.models.items()}
+    return replace(asked, models=models)
+
+
+def _read(given: Given) -> Given:
+    return given if isinstance(given, Model) or callable(given) else Model.read(given)
+
+
+@ray.remote(num_cpus=1, max_retries=-1)
+def play(asked: Asked, here: str, network: Network, days: int, seed: int) -> Comparison:
+    """Some days, the first of seed `seed`; `here` is the version of the package of who asked."""
+    found = version("vertifleet")
+    if found != here:
+        rule = f"the parts do not go together: vertifleet {found} on a node, {here} here"
+        raise Error("V409", rule, "install the same version on all nodes")
+    return asked.compare(network, days, seed, threads=1)
+
+
+def comparisons(
+    networks: Sequence[Network], asked: Asked, days: int, seed: int, days_per_task: int | None
+) -> list[Comparison]:
+    """A comparison on each of the networks, all on days of the same seeds."""
+    if days_per_task is not None and days_per_task < 1:
+        raise Error("V451", f"days_per_task must be at least 1, found {days_per_task}")
+    if not ray.is_initialized():
+        ray.init()
+    most = days_per_task or _days_per_task(days * len(networks))
+    parts = [
+        (here, number, seed + first)
+        for here in map(ray.put, networks)
+        for first, number in _parts(days, most)
+    ]
+    found = _play(ray.put(without_files(asked)), parts)
+    each = len(found) // len(networks)
+    whole = [Comparison.join(found[at : at + each]) for at in range(0, len(found), each)]
+    say(whole, stacklevel=4)
+    return whole
+
+
+def _days_per_task(days: int) -> int:
+    resources: dict[str, float] = ray.cluster_resources()  # type: ignore[no-untyped-call]
+    cpus = max(int(resources.get("CPU", 1)), 1)
+    return max(math.ceil(days / (TASKS_PER_CPU * cpus)), 1)
+
+
+def _parts(days: int, most: int) -> Iterator[tuple[int, int]]:
+    """First day and number of days of each part; one of no day where there are none, for who refuses that."""
+    return ((first, min(most, days - first)) for first in range(0, max(days, 1), most))
+
+
+def _play(asked: ObjectRef[Asked], parts: Sequence[Part]) -> list[Comparison]:
+    """A comparison of each part, in their order. One that fails ends the rest, and so does Ctrl-C."""
+    tasks: list[Task] = []
+    found: dict[Task, Comparison] = {}
+    try:
+        for network, days, seed in parts:
+            tasks.append(play.remote(asked, version("vertifleet"), network, days, seed))
+        lengths = {task: days for task, (_, days, _) in zip(tasks, parts, strict=True)}
+        with Progress(sum(lengths.values())) as progress:
+            while len(found) < len(tasks):
+                waiting = [task for task in tasks if task not in found]
+                done, _ = ray.wait(waiting, num_returns=len(waiting), timeout=GLANCE_S)
+                found |= zip(done, ray.get(done), strict=True)
+                progress.show(sum(lengths[task] for task in found))
+    except RayTaskError as failed:
+        if isinstance(failed.cause, Error):
+            raise failed.cause from None
+        raise
+    finally:
+        for task in tasks:
+            if task not in found:
+                ray.cancel(task)
+    return [found[task] for task in tasks]
