@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
-use pyo3::types::PyList;
+use pyo3::types::PyTuple;
 use vertifleet_core::DaySeed;
 use vertifleet_sim::Summary;
 
@@ -47,9 +47,10 @@ pub(crate) struct Batch {
     world: World,
     autoreset: Autoreset,
     seats: Vec<Seat>,
-    sets: [(Observations, Outcomes); 2],
+    sets: [Observations; 2],
     /// How days ended that were followed by others in the same step.
     finals: Observations,
+    outcomes: Outcomes,
     /// The set that the latest observations are in.
     latest: usize,
     threads: Threads,
@@ -82,10 +83,11 @@ impl Batch {
             )));
         }
         let vertiports = world.vertiports();
-        let set = || (Observations::new(py, seats, vertiports), Outcomes::new(py, seats));
+        let set = || Observations::new(py, seats, vertiports);
         Ok(Self {
             sets: [set(), set()],
-            finals: Observations::new(py, seats, vertiports),
+            finals: set(),
+            outcomes: Outcomes::new(py, seats),
             latest: 0,
             seats: std::iter::repeat_with(Seat::default).take(seats).collect(),
             threads: Threads::new(threads)?,
@@ -94,15 +96,15 @@ impl Batch {
         })
     }
 
-    /// The arrays of both sets: observations and outcomes of set 0, then of set 1, then the final observations.
-    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let arrays = PyList::empty(py);
-        for (observations, outcomes) in &self.sets {
-            arrays.append(observations.arrays(py)?)?;
-            arrays.append(outcomes.arrays(py)?)?;
-        }
-        arrays.append(self.finals.arrays(py)?)?;
-        Ok(arrays)
+    /// The arrays of both sets of observations, of the final observations, and of the latest outcomes.
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyTuple>; 4]> {
+        let [first, second] = &self.sets;
+        Ok([
+            first.arrays(py)?,
+            second.arrays(py)?,
+            self.finals.arrays(py)?,
+            self.outcomes.arrays(py)?,
+        ])
     }
 
     /// Begins days at the seats that `which` has, the training days of these numbers or a given one; every seat shows where it is.
@@ -173,9 +175,7 @@ impl Batch {
     /// The numbers of the day that the latest step ended at a seat, as `vertifleet simulate --json` prints them.
     fn summary<'py>(&self, py: Python<'py>, seat: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
         let summary = self.seats.get(seat).and_then(|seat| seat.summary);
-        summary
-            .map(|summary| plain(py, &serde_json::to_string(&summary).expect("plain data")))
-            .transpose()
+        summary.map(|summary| plain(py, &summary)).transpose()
     }
 }
 
@@ -208,10 +208,9 @@ impl Batch {
         each: impl Fn(&World, &mut Seat, Row<'_, '_>, usize) + Sync,
     ) -> PyResult<(usize, bool)> {
         self.latest = 1 - self.latest;
-        let Self { world, seats, sets, finals, latest, threads, .. } = self;
-        let (observations, outcomes) = &sets[*latest];
+        let Self { world, seats, sets, finals, outcomes, latest, threads, .. } = self;
         let (mut showing, mut ending, mut outcomes) =
-            (observations.lend(py)?, finals.lend(py)?, outcomes.lend(py)?);
+            (sets[*latest].lend(py)?, finals.lend(py)?, outcomes.lend(py)?);
         let (showing, ending, paying) = (showing.rows()?, ending.rows()?, outcomes.rows()?);
         let part = Part { seats, showing, ending, paying, first: 0 };
         let world = &*world;

@@ -13,7 +13,7 @@ use vertifleet_study::entrants::Asked;
 use vertifleet_study::{DayRecord, Error, Study, Summary, report, table};
 
 use crate::failure::Failure;
-use crate::frames::{Columns, frame, plain};
+use crate::frames::{Columns, frame, loads};
 use crate::given::{Raised, given};
 use crate::interruptible::{self, interruptible};
 use crate::network::Network;
@@ -82,7 +82,7 @@ impl Comparison {
     /// The statistics, as `vertifleet compare --json` prints them: means with confidence intervals, paired tests, times per decision.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        plain(py, &Summary::of(&self.study).map_err(Failure::from)?.to_json())
+        loads(py, &Summary::of(&self.study).map_err(Failure::from)?.to_json())
     }
 
     /// Writes table, figures and a report page into a folder; returns the path of the page.

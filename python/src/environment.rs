@@ -245,11 +245,9 @@ impl Environment {
     fn mask<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         let mut mask = vec![false; self.world.vertiports()];
         if let Some(day) = &self.day {
-            mask[day.decision.at.at()] = true;
-            if !day.over {
-                for feasible in day.simulation.view().feasible(&day.decision).iter() {
-                    mask[feasible.at()] = true;
-                }
+            let to = day.to(&day.decision);
+            for feasible in to.feasible(&day.decision, day.simulation.view()).iter() {
+                mask[feasible.at()] = true;
             }
         }
         PyArray1::from_vec(py, mask)
@@ -277,9 +275,7 @@ impl Environment {
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let summary = self.day.as_ref().map(|day| day.simulation.summary());
-        summary
-            .map(|summary| plain(py, &serde_json::to_string(&summary).expect("plain data")))
-            .transpose()
+        summary.map(|summary| plain(py, &summary)).transpose()
     }
 }
 

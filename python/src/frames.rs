@@ -4,6 +4,7 @@ use numpy::ndarray::IntoDimension;
 use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use serde::Serialize;
 
 /// Columns by name, in their order.
 pub(crate) struct Columns<'py>(Bound<'py, PyDict>);
@@ -58,7 +59,12 @@ pub(crate) fn table<T: Element>(
     Ok(PyArray1::from_iter(py, entries).reshape(shape)?.into_any())
 }
 
-/// What `serde_json` makes of something, as Python's own dicts, lists and numbers.
-pub(crate) fn plain<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
+/// Plain data as Python's own dicts, lists and numbers.
+pub(crate) fn plain<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    loads(py, &serde_json::to_string(value).expect("it is plain data"))
+}
+
+/// JSON as Python's own dicts, lists and numbers.
+pub(crate) fn loads<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (json,))
 }

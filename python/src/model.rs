@@ -69,11 +69,10 @@ impl Model {
     /// What the weights are of and where they came from: the header of the file, as a dict.
     #[getter]
     fn header<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let header = match &self.weights {
-            Weights::OfOneSize(model) => serde_json::to_string(model.header()),
-            Weights::OfAnySize(model) => serde_json::to_string(model.header()),
-        };
-        plain(py, &header.expect("a header is plain data"))
+        match &self.weights {
+            Weights::OfOneSize(model) => plain(py, model.header()),
+            Weights::OfAnySize(model) => plain(py, model.header()),
+        }
     }
 
     /// Copies of the tensors by name.
@@ -172,5 +171,5 @@ fn pass(net: &nn::Network, params: &[f32], inputs: Inputs<'_>) -> nn::Workspace 
 #[pyo3(signature = (preset = "default"))]
 pub(crate) fn settings<'py>(py: Python<'py>, preset: &str) -> PyResult<Bound<'py, PyAny>> {
     let settings = Settings::preset(preset).map_err(Failure::from)?;
-    plain(py, &serde_json::to_string(&settings).expect("settings are plain data"))
+    plain(py, &settings)
 }

@@ -86,8 +86,7 @@ impl Network {
     /// What the features of learned policies are divided by, as weight files state it.
     #[getter]
     fn feature_scales<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let scales = serde_json::to_string(&self.network.feature_scales());
-        plain(py, &scales.expect("scales are plain data"))
+        plain(py, &self.network.feature_scales())
     }
 
     /// Means of demand, passengers [periods, vertiports, vertiports]: what the days' draws scatter around.

@@ -34,7 +34,7 @@ impl Played {
     /// The day's numbers, as `vertifleet simulate --json` prints them: dollars, kWh, counts.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        plain(py, &serde_json::to_string(&self.summary).expect("a summary is plain data"))
+        plain(py, &self.summary)
     }
 
     /// Every decision.

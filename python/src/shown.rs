@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_learn::{Scales, shape};
-use vertifleet_sim::{Decision, View};
+use vertifleet_sim::{Decision, VertiportSet, View};
 
 /// Whom it is shown to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +16,18 @@ pub(crate) enum To {
     Watch,
     /// The one that decided last on a day that is over: no time is left, and only hold is feasible.
     Remember,
+}
+
+impl To {
+    /// What they may choose.
+    pub(crate) fn feasible(self, decision: &Decision, view: View<'_>) -> VertiportSet {
+        if self == Self::Decide {
+            return view.feasible(decision);
+        }
+        let mut hold = VertiportSet::default();
+        hold.insert(decision.at);
+        hold
+    }
 }
 
 /// Room for what is shown.
@@ -41,14 +53,9 @@ impl Shown<'_> {
         fill_adjacency(view, view.kind(decision.aircraft), self.adjacency);
         self.mask.fill(0.0);
         self.mask_i8.fill(0);
-        let mut open = |vertiport: VertiportIx| {
+        for vertiport in to.feasible(decision, view).iter() {
             self.mask[vertiport.at()] = 1.0;
             self.mask_i8[vertiport.at()] = 1;
-        };
-        if to == To::Decide {
-            view.feasible(decision).iter().for_each(open);
-        } else {
-            open(decision.at);
         }
     }
 }

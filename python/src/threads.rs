@@ -23,7 +23,7 @@ struct Pool {
     calls: Arc<AtomicU64>,
 }
 
-/// How long threads wait awake: longer than a policy of a few array operations takes, no longer than costs nobody anything.
+/// How long threads wait awake, which keeps their cores busy: longer than a policy of a few array operations takes, no longer.
 const AWAKE: Duration = Duration::from_micros(100);
 
 impl Threads {

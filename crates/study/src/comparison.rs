@@ -11,7 +11,7 @@ use crate::entrants::{Asked, Entrant, contenders};
 use crate::error::Error;
 use crate::kept_bounds::KeptBounds;
 use crate::origin::NetworkOrigin;
-use crate::record::Study;
+use crate::record::{PolicyRecord, Study};
 use crate::run::{Day, run};
 
 /// Some days of a network and who will play them; everything that can be found wrong beforehand has been looked for.
@@ -97,11 +97,7 @@ impl<'a> Comparison<'a> {
             }
             None => scenarios.into_iter().map(Day::unbounded).collect(),
         };
-        let mut begun = 0;
-        let policies = run(&days, &contenders(&entrants)?, stopped, |name| {
-            begun += 1;
-            watch.policy(name, begun, entrants.len(), number)
-        })?;
+        let policies = play(&days, &entrants, stopped, watch)?;
         Ok(Study {
             network: network.name().to_owned(),
             network_origin: origin,
@@ -114,6 +110,23 @@ impl<'a> Comparison<'a> {
             trainings: entrants.iter().filter_map(Entrant::training).collect(),
         })
     }
+}
+
+/// Plays all days with everybody, one after the other, and tells who watches.
+///
+/// # Errors
+/// As [`run`].
+pub fn play(
+    days: &[Day],
+    entrants: &[Entrant],
+    stopped: &AtomicBool,
+    watch: &impl Watch,
+) -> Result<Vec<PolicyRecord>, Error> {
+    let mut begun = 0;
+    run(days, &contenders(entrants)?, stopped, |name| {
+        begun += 1;
+        watch.policy(name, begun, entrants.len(), days.len())
+    })
 }
 
 fn draw(

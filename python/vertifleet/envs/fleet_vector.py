@@ -48,10 +48,9 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._batch = Batch(self.network, reward, num_envs, self.autoreset_mode.value, threads)
-        first, first_outcomes, second, second_outcomes, final = self._batch.arrays()
+        first, second, final, self._outcomes = self._batch.arrays()
         self._observations = tuple(dict(zip(KEYS, arrays, strict=False)) for arrays in (first, second))
         self._masks = (first[-1], second[-1])
-        self._outcomes = (first_outcomes, second_outcomes)
         self._final = dict(zip(KEYS, final, strict=False))
         self._final_mask = final[-1]
         self._latest = 0
@@ -90,7 +89,7 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         if actions.dtype.kind not in "iu":
             raise Error("V451", f"actions must be whole numbers, found {actions.dtype}")
         self._latest, eventful = self._batch.step(np.ascontiguousarray(actions, np.int64), self._numbers)
-        rewards, over, invalid, begun = (array.copy() for array in self._outcomes[self._latest])
+        rewards, over, invalid, begun = (array.copy() for array in self._outcomes)
         info = self._info(invalid)
         if eventful:
             self._add_ends(info, over, begun)

@@ -7,10 +7,9 @@ use std::sync::atomic::AtomicBool;
 use anstream::eprintln;
 use vertifleet_core::{DaySeed, Network, Purpose, Scenario, random_network};
 use vertifleet_optimize::Step;
-use vertifleet_study::comparison::Watch as _;
+use vertifleet_study::comparison::{Watch as _, play};
 use vertifleet_study::entrants::{Asked, contenders};
 use vertifleet_study::generalisation::{self, NetworkRecord, Study, Summary};
-use vertifleet_study::run::run as play_all;
 use vertifleet_study::{KeptBounds, report};
 
 use crate::args::GeneraliseArguments;
@@ -32,7 +31,8 @@ pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> 
         network: "random",
     };
     let entrants = asked.entrants()?;
-    let contenders = contenders(&entrants)?;
+    // A name that comes twice is refused before anything is drawn.
+    contenders(&entrants)?;
     if let Some(folder) = &arguments.report {
         report::check_folder(folder)?;
     }
@@ -47,13 +47,11 @@ pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> 
         aircraft: scenario.aircraft.len(),
     };
     let networks = numbers().zip(&scenarios).map(record).collect();
-    let (number, never) = (scenarios.len(), AtomicBool::new(false));
-    let days = KeptBounds::of_this_user().days(scenarios, step, &never, &Bars.bounds(number))?;
-    let mut begun = 0;
-    let policies = play_all(&days, &contenders, &never, |name| {
-        begun += 1;
-        Bars.policy(name, begun, entrants.len(), number)
-    })?;
+    // Ctrl-C ends the program itself.
+    let never = AtomicBool::new(false);
+    let bar = Bars.bounds(scenarios.len());
+    let days = KeptBounds::of_this_user().days(scenarios, step, &never, &bar)?;
+    let policies = play(&days, &entrants, &never, &Bars)?;
     let study = Study { bound_step_s: step.seconds(), command: command(), networks, policies };
     let summary = Summary::of(&study)?;
     if arguments.json {
