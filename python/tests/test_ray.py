@@ -26,7 +26,6 @@ ray = pytest.importorskip("ray")
 from ray.cluster_utils import Cluster  # noqa: E402
 
 import vertifleet.ray  # noqa: E402
-from vertifleet import _native  # noqa: E402
 from vertifleet._compare import Asked  # noqa: E402
 from vertifleet.ray import progress, tasks  # noqa: E402
 
@@ -42,12 +41,11 @@ class Stage:
     def __init__(self, folder):
         self.folder = folder
 
-    def clear(self):
-        for file in self.folder.iterdir():
-            file.unlink()
-
     def tell(self, what):
         (self.folder / what).touch()
+
+    def forget(self, what):
+        (self.folder / what).unlink()
 
     def begun(self):
         """Node and seed of every part that was begun."""
@@ -66,59 +64,51 @@ def wait_until(true):
 
 
 def on_stage(folder):
-    """What every worker does first, in front of any task."""
+    """`tasks.play`, that does as the stage tells it before it plays."""
+    play = tasks.play._function
 
-    def hook():
-        compare = _native.compare
-
+    def acted(asked, here, network, days, seed):
         def told(what):
             return (folder / what).exists()
 
-        def acted(network, policies, *, seed, **others):
-            node = ray.get_runtime_context().get_node_id()
-            parts = len(list(folder.glob(f"begun-{node}-*")))
-            (folder / f"begun-{node}-{seed}").touch()
-            if told(f"fail-{seed}"):
-                raise vertifleet.Error("V999", "as it was told")
-            if told(f"crash-{seed}"):
-                (folder / f"crash-{seed}").unlink()
-                os.kill(os.getpid(), signal.SIGKILL)
-            # The doomed node plays a part to its end and hangs in the next. The others wait for that.
-            if told(f"doomed-{node}") and parts > 0:
-                (folder / "hanging").touch()
-                time.sleep(LONG_S)
-            doomed = any(folder.glob("doomed-*")) and not told(f"doomed-{node}")
-            while (doomed and not told("hanging")) or told(f"hold-{seed}"):
-                (folder / f"held-{seed}").touch()
-                time.sleep(0.05)
-            return compare(network, policies, seed=seed, **others)
+        node = ray.get_runtime_context().get_node_id()
+        parts = len(list(folder.glob(f"begun-{node}-*")))
+        (folder / f"begun-{node}-{seed}").touch()
+        if told(f"fail-{seed}"):
+            raise vertifleet.Error("V999", "as it was told")
+        if told(f"crash-{seed}"):
+            (folder / f"crash-{seed}").unlink()
+            os.kill(os.getpid(), signal.SIGKILL)
+        # The doomed node plays a part to its end and hangs in the next. The others wait for that.
+        if told(f"doomed-{node}") and parts > 0:
+            (folder / "hanging").touch()
+            time.sleep(LONG_S)
+        doomed = any(folder.glob("doomed-*")) and not told(f"doomed-{node}")
+        while (doomed and not told("hanging")) or told(f"hold-{seed}"):
+            (folder / f"held-{seed}").touch()
+            time.sleep(0.05)
+        return play(asked, here, network, days, seed)
 
-        _native.compare = acted
-
-    return hook
+    return ray.remote(**tasks.play._default_options)(acted)
 
 
 @pytest.fixture(scope="module")
-def whole_stage(tmp_path_factory):
-    return Stage(tmp_path_factory.mktemp("stage"))
-
-
-@pytest.fixture(scope="module")
-def cluster(whole_stage):
+def cluster():
     cluster = Cluster(initialize_head=True, head_node_args=NODE | {"include_dashboard": False})
     for _ in range(NODES - 1):
         cluster.add_node(**NODE)
-    environment = {"worker_process_setup_hook": on_stage(whole_stage.folder)}
-    ray.init(address=cluster.address, runtime_env=environment, log_to_driver=False)
+    ray.init(address=cluster.address, log_to_driver=False)
     yield cluster
     ray.shutdown()
     cluster.shutdown()
 
 
 @pytest.fixture
-def stage(cluster, whole_stage):  # noqa: ARG001
-    whole_stage.clear()
-    return whole_stage
+def stage(cluster, tmp_path, monkeypatch):  # noqa: ARG001
+    folder = tmp_path / "stage"
+    folder.mkdir()
+    monkeypatch.setattr(tasks, "play", on_stage(folder))
+    return Stage(folder)
 
 
 def assert_same(found, expected):
@@ -219,18 +209,26 @@ def test_a_node_with_another_version_is_refused(paper):
     assert "0.0.0" in refused.value.message
 
 
-def test_a_task_that_fails_ends_all_others(paper, stage):
-    for seed in (1, 2, 4):
+@pytest.fixture
+def held(stage):
+    """The first parts of many, those in flight: they wait. Afterwards they go on, and no other is begun."""
+    in_flight = set(range(1, tasks.AHEAD * NODES + 1))
+    for seed in in_flight:
         stage.tell(f"hold-{seed}")
+    yield {"days": 4 * len(in_flight), "seed": 1, "days_per_task": 1}
+    for seed in in_flight:
+        stage.forget(f"hold-{seed}")
+    wait_until(lambda: {seed for _, seed in stage.begun()} >= in_flight and all_cpus_free())
+    assert {seed for _, seed in stage.begun()} == in_flight
+
+
+def test_after_a_task_that_fails_no_other_is_begun(paper, stage, held):
     stage.tell("fail-3")
     with pytest.raises(vertifleet.Error, match="as it was told"):
-        vertifleet.ray.compare(paper, ["greedy"], days=4, seed=1, days_per_task=1)
-    wait_until(all_cpus_free)
+        vertifleet.ray.compare(paper, ["greedy"], **held)
 
 
-def test_ctrl_c_ends_all_tasks(paper, stage):
-    stage.tell("hold-1")
-
+def test_after_ctrl_c_no_other_is_begun(paper, stage, held):
     def interrupt():
         stage.wait_for("held-1")
         os.kill(os.getpid(), signal.SIGINT)
@@ -238,9 +236,8 @@ def test_ctrl_c_ends_all_tasks(paper, stage):
     hand = threading.Thread(target=interrupt)
     hand.start()
     with pytest.raises(KeyboardInterrupt):
-        vertifleet.ray.compare(paper, ["greedy"], days=4, seed=1, days_per_task=1)
+        vertifleet.ray.compare(paper, ["greedy"], **held)
     hand.join()
-    wait_until(all_cpus_free)
 
 
 def test_what_a_worker_that_dies_was_playing_is_played_again(paper, stage):

@@ -33,8 +33,10 @@ if TYPE_CHECKING:
 
 TASKS_PER_CPU = 16
 """So that nobody waits long for the last one, and little is lost with a node."""
+AHEAD = 2
+"""Tasks under way for each CPU: none waits for its next, and an error or Ctrl-C leaves few behind."""
 GLANCE_S = 0.5
-"""How often is looked at what is done."""
+"""How often is looked at what is done, and at how many CPUs there are."""
 
 
 def without_files(asked: Asked) -> Asked:
@@ -79,9 +81,7 @@ def comparisons(
 
 
 def _days_per_task(days: int) -> int:
-    resources: dict[str, float] = ray.cluster_resources()  # type: ignore[no-untyped-call]
-    cpus = max(int(resources.get("CPU", 1)), 1)
-    return max(math.ceil(days / (TASKS_PER_CPU * cpus)), 1)
+    return max(math.ceil(days / (TASKS_PER_CPU * _cpus())), 1)
 
 
 def _parts(days: int, most: int) -> Iterator[tuple[int, int]]:
@@ -90,25 +90,42 @@ def _parts(days: int, most: int) -> Iterator[tuple[int, int]]:
 
 
 def _play(asked: ObjectRef[Asked], parts: Sequence[Part]) -> list[Comparison]:
-    """A comparison of each part, in their order. One that fails ends the rest, and so does Ctrl-C."""
-    tasks: list[Task] = []
-    found: dict[Task, Comparison] = {}
+    """A comparison of each part, in their order. After one that fails, or Ctrl-C, no other is begun.
+
+    What is being played then goes on to its end behind the call: `ray.cancel` of a task that ends at the same
+    time can take this whole process down (seen with Ray 2.60, "Tried to complete task that was not pending").
+    """
+    found: dict[int, Comparison] = {}
+    playing: dict[Task, int] = {}
+    days_played = 0
+    with Progress(sum(days for _, days, _ in parts)) as progress:
+        while len(found) < len(parts):
+            begun = len(found) + len(playing)
+            for part in range(begun, min(begun + _room(len(playing)), len(parts))):
+                playing[play.remote(asked, version("vertifleet"), *parts[part])] = part
+            done, _ = ray.wait(list(playing), timeout=GLANCE_S)
+            for task in done:
+                part = playing.pop(task)
+                found[part] = _result(task)
+                days_played += parts[part][1]
+            progress.show(days_played)
+    return [found[part] for part in range(len(parts))]
+
+
+def _room(playing: int) -> int:
+    """How many tasks can be begun now."""
+    return max(AHEAD * _cpus() - playing, 0)
+
+
+def _cpus() -> int:
+    resources: dict[str, float] = ray.cluster_resources()  # type: ignore[no-untyped-call]
+    return max(int(resources.get("CPU", 1)), 1)
+
+
+def _result(task: Task) -> Comparison:
     try:
-        for network, days, seed in parts:
-            tasks.append(play.remote(asked, version("vertifleet"), network, days, seed))
-        lengths = {task: days for task, (_, days, _) in zip(tasks, parts, strict=True)}
-        with Progress(sum(lengths.values())) as progress:
-            while len(found) < len(tasks):
-                waiting = [task for task in tasks if task not in found]
-                done, _ = ray.wait(waiting, num_returns=len(waiting), timeout=GLANCE_S)
-                found |= zip(done, ray.get(done), strict=True)
-                progress.show(sum(lengths[task] for task in found))
+        return ray.get(task)
     except RayTaskError as failed:
         if isinstance(failed.cause, Error):
             raise failed.cause from None
         raise
-    finally:
-        for task in tasks:
-            if task not in found:
-                ray.cancel(task)
-    return [found[task] for task in tasks]
