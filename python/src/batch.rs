@@ -14,7 +14,7 @@ use crate::buffers::{Observations, Outcomes, Paying, Showing};
 use crate::environment::{Day, Outcome, World};
 use crate::failure::Failure;
 use crate::frames::plain;
-use crate::network::Network;
+use crate::network::{Network, check_fits};
 use crate::scenario::Scenario;
 use crate::shown::Shown;
 use crate::threads::Threads;
@@ -117,7 +117,7 @@ impl Batch {
         scenario: Option<&Scenario>,
     ) -> PyResult<usize> {
         if let Some(scenario) = scenario {
-            self.world.check_fits(scenario)?;
+            check_fits(&self.world.network, &scenario.scenario)?;
         }
         let which = self.one_each("which", which.as_slice()?)?;
         let numbers = self.one_each("numbers", numbers.as_slice()?)?;

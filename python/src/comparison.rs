@@ -8,7 +8,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vertifleet_learn::Scales;
 use vertifleet_optimize::Step;
-use vertifleet_study::comparison::{self, Unwatched};
+use vertifleet_progress::Bars;
+use vertifleet_study::comparison;
 use vertifleet_study::entrants::Asked;
 use vertifleet_study::{DayRecord, Error, Study, Summary, report, table};
 
@@ -171,7 +172,7 @@ pub(crate) fn compare(
         };
         let comparison = comparison::Comparison::new(&network, &asked, (seed, days), step, stop)?;
         let warnings = comparison.warnings().collect();
-        let study = comparison.run(command, stop, &Unwatched)?;
+        let study = comparison.run(command, stop, &Bars)?;
         Ok::<_, Error>(Comparison { study, warnings })
     })?;
     match raised.take() {

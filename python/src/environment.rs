@@ -10,7 +10,7 @@ use vertifleet_sim::{Decision, Simulation, Summary};
 
 use crate::failure::Failure;
 use crate::frames::plain;
-use crate::network::Network;
+use crate::network::{Network, check_fits};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::shown::{Arrays, Observation, Shown, To};
@@ -56,19 +56,6 @@ impl World {
         let network = Arc::clone(&network.network);
         let scales = Scales::from(network.feature_scales());
         Ok(Self { network, scales, reward })
-    }
-
-    /// Whether a day has as many vertiports as the observations have room for.
-    pub(crate) fn check_fits(&self, day: &Scenario) -> Result<(), Failure> {
-        let (expected, found) = (self.vertiports(), day.scenario.vertiports.len());
-        if expected == found {
-            return Ok(());
-        }
-        Err(Failure::argument(format!(
-            "scenario {:?} has {found} vertiports, but this environment's network {:?} has {expected}",
-            day.scenario.name,
-            self.network.name()
-        )))
     }
 
     pub(crate) fn vertiports(&self) -> usize {
@@ -167,7 +154,7 @@ impl Environment {
 
     /// Begins a given day.
     fn begin<'py>(&mut self, py: Python<'py>, day: &Scenario) -> PyResult<Observation<'py>> {
-        self.world.check_fits(day)?;
+        check_fits(&self.world.network, &day.scenario)?;
         self.day = Some(Day::new(Arc::clone(&day.scenario)));
         self.choices.clear();
         self.present(py)
@@ -209,7 +196,7 @@ impl Environment {
     ) -> Result<Self, Failure> {
         let mut environment = Self::new(network, reward)?;
         if let Some(scenario) = scenario {
-            environment.world.check_fits(scenario)?;
+            check_fits(&environment.world.network, &scenario.scenario)?;
             let mut day = Day::new(Arc::clone(&scenario.scenario));
             for &choice in &choices {
                 if day.over {

@@ -3,8 +3,10 @@
 use numpy::ndarray::IntoDimension;
 use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict, PyList, PyMapping};
 use serde::Serialize;
+
+use crate::failure::Failure;
 
 /// Columns by name, in their order.
 pub(crate) struct Columns<'py>(Bound<'py, PyDict>);
@@ -67,4 +69,19 @@ pub(crate) fn plain<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bo
 /// JSON as Python's own dicts, lists and numbers.
 pub(crate) fn loads<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (json,))
+}
+
+/// A mapping as the members of a JSON object; `name` is what messages call it.
+pub(crate) fn members(
+    name: &str,
+    mapping: &Bound<'_, PyMapping>,
+) -> PyResult<serde_json::Map<String, serde_json::Value>> {
+    let py = mapping.py();
+    // NumPy's numbers are none of JSON's; their item is.
+    let item = py.import("operator")?.call_method1("methodcaller", ("item",))?;
+    let named = [("default", item)].into_py_dict(py)?;
+    let mapping = py.get_type::<PyDict>().call1((mapping,))?;
+    let json = py.import("json")?.call_method("dumps", (mapping,), Some(&named))?;
+    let members = serde_json::from_str(&json.extract::<String>()?);
+    Ok(members.map_err(|error| Failure::argument(format!("{name}: {error}")))?)
 }

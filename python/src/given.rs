@@ -40,21 +40,24 @@ impl Raised {
     }
 }
 
-/// Weights, or a function from an observation, as the environment shows it, to an action.
+/// Weights, or a function ([`own`]).
 pub(crate) fn given(value: &Bound<'_, PyAny>, scales: Scales, raised: &Raised) -> PyResult<Given> {
-    if let Ok(weighed) = value.extract::<Weighed<'_>>() {
-        return Ok(weighed.given());
+    match value.extract::<Weighed<'_>>() {
+        Ok(weighed) => Ok(weighed.given()),
+        Err(_) if value.is_callable() => Ok(Given::Policy(own(value, scales, raised))),
+        Err(_) => Err(PyTypeError::new_err(
+            "a model is a path, a vertifleet.Model, or a function from an observation to an action",
+        )),
     }
-    if !value.is_callable() {
-        let message =
-            "a model is a path, a vertifleet.Model, or a function from an observation to an action";
-        return Err(PyTypeError::new_err(message));
-    }
-    let (function, raised) = (Arc::new(value.clone().unbind()), raised.clone());
-    Ok(Given::Policy(Maker(Arc::new(move || {
-        let (function, raised) = (Arc::clone(&function), raised.clone());
-        Box::new(Function { call: function, scales, raised })
-    }))))
+}
+
+/// A function from an observation, as the environment shows it, to an action.
+pub(crate) fn own(function: &Bound<'_, PyAny>, scales: Scales, raised: &Raised) -> Maker {
+    let (function, raised) = (Arc::new(function.clone().unbind()), raised.clone());
+    Maker(Arc::new(move || {
+        let (call, raised) = (Arc::clone(&function), raised.clone());
+        Box::new(Function { call, scales, raised })
+    }))
 }
 
 /// A policy that is a function in Python.

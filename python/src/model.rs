@@ -10,7 +10,7 @@ use vertifleet_learn::nn::{self, Inputs};
 use vertifleet_learn::{Settings, Weights, shipped, shipped_any};
 
 use crate::failure::Failure;
-use crate::frames::{plain, table};
+use crate::frames::{members, plain, table};
 use crate::pickle::{Reduced, reduced};
 
 /// The weights of a learned policy: `gcaps` or `mlp` of one network, or `gcaps-x` for any. Never changes.
@@ -165,11 +165,34 @@ fn pass(net: &nn::Network, params: &[f32], inputs: Inputs<'_>) -> nn::Workspace 
     space
 }
 
-/// The settings of a training preset, `default` or `paper` (Table 2), by name; a weight file's header has the ones it was trained
-/// with.
+/// The settings of a training preset, `default` or `paper` (Table 2), by name, with the changes that are given:
+/// `settings("paper", n_envs=16)`. Changed settings are checked as `vertifleet train --set` checks them.
 #[pyfunction]
-#[pyo3(signature = (preset = "default"))]
-pub(crate) fn settings<'py>(py: Python<'py>, preset: &str) -> PyResult<Bound<'py, PyAny>> {
-    let settings = Settings::preset(preset).map_err(Failure::from)?;
+#[pyo3(signature = (preset = "default", **changes))]
+pub(crate) fn settings<'py>(
+    py: Python<'py>,
+    preset: &str,
+    changes: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mut settings = Settings::preset(preset).map_err(Failure::from)?;
+    if let Some(changes) = changes {
+        let members = members("settings", changes.as_mapping())?;
+        let pairs: Vec<_> =
+            members.into_iter().map(|(name, value)| (name, whole(value).to_string())).collect();
+        let pairs = pairs.iter().map(|(name, value)| (name.as_str(), value.as_str()));
+        settings.set(pairs).map_err(Failure::from)?;
+    }
     plain(py, &settings)
+}
+
+/// A whole number as one: Python's users write `1e6` for a million.
+fn whole(value: serde_json::Value) -> serde_json::Value {
+    match value.as_f64() {
+        Some(number) if number.fract() == 0.0 && number.abs() < 1e15 =>
+        {
+            #[expect(clippy::cast_possible_truncation, reason = "whole, and far from i64's ends")]
+            (number as i64).into()
+        }
+        _ => value,
+    }
 }

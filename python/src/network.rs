@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyMapping};
+use pyo3::types::PyMapping;
 use vertifleet_core::{self as core, DaySeed};
 
 use crate::failure::Failure;
-use crate::frames::{plain, table};
+use crate::frames::{members, plain, table};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 
@@ -47,15 +47,7 @@ impl Network {
     /// A path names members from the outside in, a list's entries by their `id`, by their position from 0, or `*` for all of them.
     /// The result is checked like any network file.
     fn changed(&self, changes: &Bound<'_, PyMapping>) -> PyResult<Self> {
-        let py = changes.py();
-        // NumPy's numbers are none of JSON's; their item is.
-        let item = py.import("operator")?.call_method1("methodcaller", ("item",))?;
-        let named = [("default", item)].into_py_dict(py)?;
-        let changes = py.get_type::<PyDict>().call1((changes,))?;
-        let json = py.import("json")?.call_method("dumps", (changes,), Some(&named))?;
-        let changes: serde_json::Map<String, serde_json::Value> =
-            serde_json::from_str(&json.extract::<String>()?)
-                .map_err(|error| Failure::argument(format!("changes: {error}")))?;
+        let changes = members("changes", changes)?;
         Ok(Self::of(self.network.changed(&changes).map_err(Failure::from)?))
     }
 
@@ -134,4 +126,17 @@ impl Network {
     pub(crate) fn of(network: core::Network) -> Self {
         Self { network: Arc::new(network) }
     }
+}
+
+/// Whether a day has as many vertiports as what a network's days show has room for.
+pub(crate) fn check_fits(network: &core::Network, day: &core::Scenario) -> Result<(), Failure> {
+    let (expected, found) = (network.vertiports().len(), day.vertiports.len());
+    if expected == found {
+        return Ok(());
+    }
+    Err(Failure::argument(format!(
+        "scenario {:?} has {found} vertiports, but network {:?} has {expected}",
+        day.name,
+        network.name()
+    )))
 }

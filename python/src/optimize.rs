@@ -8,6 +8,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use vertifleet_core::{self as core, VertiportIx};
 use vertifleet_optimize::{self as exact, Budget, Proof, Settings, Step};
+use vertifleet_progress::SearchBar;
 
 use crate::failure::Failure;
 use crate::frames::table;
@@ -224,9 +225,11 @@ pub(crate) fn plan(
     seed: u64,
     threads: Option<usize>,
 ) -> PyResult<Plan> {
-    let budget = match steps {
-        Some(steps) => Budget::Steps(steps),
-        None => Budget::Time(Duration::from_secs_f64(within("time_limit", time_limit, 1e6)?)),
+    let (budget, units) = if let Some(steps) = steps {
+        (Budget::Steps(steps), "% of the steps")
+    } else {
+        let limit_s = within("time_limit", time_limit, 1e6)?;
+        (Budget::Time(Duration::from_secs_f64(limit_s)), "% of the time")
     };
     let asked = gap.map(|gap| within("gap", gap, 1.0)).transpose()?;
     let threads = interruptible::threads(threads)?;
@@ -234,8 +237,10 @@ pub(crate) fn plan(
     let outcome = interruptible(py, threads, move |stop| {
         let mut proof = Proof::begin(&day);
         let settings = Settings { budget, searches: threads, seed };
+        let mut bar = SearchBar::new(units);
         let plan = exact::plan(&day, &settings, &mut |now| {
             proof.wait(Duration::ZERO);
+            bar.show(now, proof.bound());
             let found = proof.bound().map(|bound| bound.gap(now.profit_usd));
             let good_enough = asked.zip(found).is_some_and(|(asked, found)| found <= asked);
             !good_enough && !stop.load(Ordering::Relaxed)

@@ -2,16 +2,20 @@
 
 use std::sync::Arc;
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use vertifleet_core as core;
+use vertifleet_learn::Scales;
 use vertifleet_policy::{Replay, Stoppable, play};
 use vertifleet_sim::{self as sim, Simulation, Summary};
 use vertifleet_study::Error;
-use vertifleet_study::policies::{Choice, for_scenario};
+use vertifleet_study::policies::{Choice, Recipe, for_scenario};
 
 use crate::failure::Failure;
 use crate::frames::plain;
-use crate::given::Weighed;
+use crate::given::{Raised, Weighed, own};
 use crate::interruptible::interruptible;
+use crate::network::{Network, check_fits};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
@@ -63,35 +67,73 @@ impl Played {
     }
 }
 
-/// Plays a day to its end with a policy, named as `vertifleet simulate` names it; `seed` is that of the random policy, `model` a
-/// weight file or a `Model` in place of the shipped weights.
+/// Who is to play.
+#[derive(FromPyObject)]
+pub(crate) enum Player<'py> {
+    Named(String),
+    Function(Bound<'py, PyAny>),
+}
+
+/// Plays a day to its end with a policy: one named as `vertifleet simulate` names it, where `seed` is that of the random policy and
+/// `model` a weight file or a `Model` in place of the shipped weights; or a function of the caller's own, as `compare` takes it, which
+/// sees the day as the environment of `network` shows it.
 #[pyfunction]
-#[pyo3(signature = (scenario, policy = "greedy", *, seed = 0, model = None))]
+#[pyo3(
+    signature = (scenario, policy = Player::Named("greedy".to_owned()), *, seed = 0, model = None, network = None),
+    text_signature = "(scenario, policy='greedy', *, seed=0, model=None, network=None)"
+)]
 pub(crate) fn simulate(
     py: Python<'_>,
     scenario: &Scenario,
-    policy: &str,
+    policy: Player<'_>,
     seed: u64,
     model: Option<Weighed<'_>>,
+    network: Option<PyRef<'_, Network>>,
 ) -> PyResult<Played> {
     let day = &scenario.scenario;
-    let given = model.map(Weighed::given);
-    let choice = Choice { name: policy, seed, model: given.as_ref() };
-    let (recipe, warning) = for_scenario(&choice, day).map_err(Failure::from)?;
-    if let Some(warning) = warning {
-        crate::failure::warn(py, &warning)?;
+    match (policy, model, network) {
+        (Player::Named(name), model, None) => {
+            let given = model.map(Weighed::given);
+            let choice = Choice { name: &name, seed, model: given.as_ref() };
+            let (recipe, warning) = for_scenario(&choice, day).map_err(Failure::from)?;
+            if let Some(warning) = warning {
+                crate::failure::warn(py, &warning)?;
+            }
+            played(py, day, name, recipe)
+        }
+        (Player::Function(function), ..) if !function.is_callable() => Err(PyTypeError::new_err(
+            "a policy is a name, or a function from an observation to an action",
+        )),
+        (Player::Function(function), None, Some(network)) => {
+            check_fits(&network.network, day)?;
+            let raised = Raised::default();
+            let maker = own(&function, Scales::from(network.network.feature_scales()), &raised);
+            let played = played(py, day, "function".to_owned(), Recipe::Own(maker));
+            raised.take().map_or(played, Err)
+        }
+        _ => {
+            let message = "a function takes a network, as which it sees the day, and no model; a name takes no network";
+            Err(Failure::argument(message.to_owned()).into())
+        }
     }
-    let played = Arc::clone(day);
+}
+
+fn played(
+    py: Python<'_>,
+    day: &Arc<core::Scenario>,
+    policy: String,
+    recipe: Recipe,
+) -> PyResult<Played> {
+    let scenario = Arc::clone(day);
     let outcome = interruptible(py, 1, move |stop| {
-        let mut simulation = Simulation::new(played);
+        let mut simulation = Simulation::new(Arc::clone(&scenario));
         let mut trace = sim::Trace::default();
-        let mut policy = recipe.make();
-        let mut stoppable = Stoppable { policy: policy.as_mut(), stop };
+        let mut policy_made = recipe.make();
+        let mut stoppable = Stoppable { policy: policy_made.as_mut(), stop };
         play(&mut simulation, &mut stoppable, |row| trace.rows.push(*row))
-            .map(|()| (simulation.summary(), trace))
+            .map_err(|cause| Error::of_play(&policy, &scenario.name, cause))?;
+        let trace = Trace { scenario, trace: Arc::new(trace) };
+        Ok::<_, Error>(Played { summary: simulation.summary(), trace })
     })?;
-    let (summary, trace) =
-        outcome.map_err(|cause| Failure::from(Error::of_play(policy, &day.name, cause)))?;
-    let trace = Trace { scenario: Arc::clone(day), trace: Arc::new(trace) };
-    Ok(Played { summary, trace })
+    Ok(outcome.map_err(Failure::from)?)
 }

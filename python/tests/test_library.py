@@ -5,6 +5,7 @@ from __future__ import annotations
 import pickle
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -204,6 +205,31 @@ def test_a_function_may_take_part_in_a_comparison(paper: Network) -> None:
     assert all(keys == set(env.observation_space) for keys in seen)
 
 
+def test_a_function_plays_a_day(paper: Network, day: Scenario) -> None:
+    def last_feasible(observation: dict[str, np.ndarray]) -> int:
+        return int(np.flatnonzero(observation["action_mask"])[-1])
+
+    played = vertifleet.simulate(day, last_feasible, network=paper)
+    comparison = vertifleet.compare(paper, ["last"], days=1, seed=1, models={"last": last_feasible})
+    assert played.profit_usd == comparison.columns["profit"][0]
+    assert vertifleet.check(day, played.trace)["valid"]
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"policy": lambda observation: 0},
+        {"policy": lambda observation: 0, "network": Network("new-york")},
+        {"policy": lambda observation: 0, "network": Network("paper"), "model": "x.safetensors"},
+        {"policy": "greedy", "network": Network("paper")},
+    ],
+)
+def test_a_function_needs_the_network_of_its_day(day: Scenario, asked: dict[str, Any]) -> None:
+    with pytest.raises(vertifleet.Error, match="network") as error:
+        vertifleet.simulate(day, **asked)
+    assert error.value.code == "V451"
+
+
 def test_what_a_function_raises_is_raised(paper: Network) -> None:
     def broken(observation: dict[str, np.ndarray]) -> int:
         raise ZeroDivisionError(f"by whoever wrote it, on {len(observation)} arrays")
@@ -217,6 +243,10 @@ def test_what_a_function_raises_is_raised(paper: Network) -> None:
         vertifleet.compare(paper, ["mine"], days=1, models={"mine": lambda observation: "V1"})
     with pytest.raises(TypeError, match="a model is"):
         vertifleet.compare(paper, ["mine"], days=1, models={"mine": 3})
+    with pytest.raises(ZeroDivisionError, match="whoever"):
+        vertifleet.simulate(paper.draw(1), broken, network=paper)
+    with pytest.raises(TypeError, match="a policy is"):
+        vertifleet.simulate(paper.draw(1), 3, network=paper)
 
 
 def test_the_shipped_models_say_what_they_are() -> None:

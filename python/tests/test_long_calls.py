@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import pty
 import signal
 import subprocess
 import sys
@@ -43,6 +45,27 @@ def test_ctrl_c_ends_a_long_call(call: str, tmp_path: Path) -> None:
     out, errors = process.communicate(timeout=15)
     assert out == ""
     assert "KeyboardInterrupt" in errors
+
+
+@pytest.mark.parametrize(
+    ("call", "units"),
+    [
+        ("vertifleet.plan(vertifleet.Network('paper').draw(1), time_limit=600)", b"% of the time"),
+        ("vertifleet.compare('paper', ['greedy', 'plan'], days=20)", b"days of plan (2 of 2 policies)"),
+    ],
+)
+def test_a_terminal_shows_how_far_a_long_call_is(call: str, units: bytes, tmp_path: Path) -> None:
+    terminal, end = pty.openpty()
+    command = [sys.executable, "-c", f"import vertifleet\n{call}"]
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=end)
+    os.close(end)
+    shown = b""
+    # Ends the read with an error if the call ends without a bar.
+    while units not in shown:
+        shown += os.read(terminal, 4096)
+    process.kill()
+    process.wait()
+    os.close(terminal)
 
 
 def test_other_threads_go_on_meanwhile(day: vertifleet.Scenario) -> None:

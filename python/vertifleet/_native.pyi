@@ -234,7 +234,12 @@ class Batch:
     def summary(self, seat: int) -> dict[str, Any] | None: ...
 
 def simulate(
-    scenario: Scenario, policy: str = "greedy", *, seed: int = 0, model: _Path | Model | None = None
+    scenario: Scenario,
+    policy: str | Callable[[dict[str, _Float32]], int] = "greedy",
+    *,
+    seed: int = 0,
+    model: _Path | Model | None = None,
+    network: Network | None = None,
 ) -> Played: ...
 def bound(scenario: Scenario, *, step: int = 5) -> Bound: ...
 def plan(
@@ -260,4 +265,4 @@ def compare(
     threads: int | None = None,
     command: str = "",
 ) -> Comparison: ...
-def settings(preset: str = "default") -> dict[str, Any]: ...
+def settings(preset: str = "default", **changes: Any) -> dict[str, Any]: ...

@@ -3,7 +3,6 @@
 pub(crate) mod bound;
 pub(crate) mod check;
 pub(crate) mod compare;
-mod days;
 pub(crate) mod generalise;
 pub(crate) mod plan;
 pub(crate) mod scenario;
@@ -25,4 +24,12 @@ fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
         warn(warning.code(), &format!("{}: {warning}", path.display()));
     }
     Ok(scenario)
+}
+
+/// The command as anyone can type it, wherever the program lies.
+fn command() -> String {
+    std::iter::once("vertifleet".to_owned())
+        .chain(std::env::args().skip(1))
+        .collect::<Vec<_>>()
+        .join(" ")
 }

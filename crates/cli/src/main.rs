@@ -8,7 +8,6 @@ mod commands;
 mod failure;
 mod interrupt;
 mod output;
-mod progress;
 mod worth;
 
 use std::process::ExitCode;

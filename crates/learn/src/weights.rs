@@ -34,10 +34,10 @@ pub struct Header {
     pub shape: Shape,
     /// What features are divided by.
     pub feature_scales: FeatureScales,
-    /// Training settings.
-    pub settings: Settings,
-    /// Seed of the training run.
-    pub seed: u32,
+    /// Training settings; none where the weights were trained by another program in a way that these have no words for.
+    pub settings: Option<Settings>,
+    /// Seed of the training run, where it is known.
+    pub seed: Option<u32>,
     /// Commit of the program that trained them.
     pub commit: String,
     /// Decisions learned from when these weights were kept.
@@ -81,8 +81,8 @@ impl Model {
             policy: net.architecture().clone(),
             shape: net.shape(),
             feature_scales,
-            settings,
-            seed,
+            settings: Some(settings),
+            seed: Some(seed),
             commit,
             steps,
         };
@@ -149,7 +149,7 @@ impl Model {
         let broken = |rule: String| Error::BadWeights { origin: origin.to_owned(), rule };
         let header: Header =
             tensor_file::header(bytes, FORMAT, |header: &Header| &header.format).map_err(broken)?;
-        header.settings.check()?;
+        header.settings.as_ref().map_or(Ok(()), Settings::check)?;
         let net = nn::Network::new(header.policy.clone(), header.shape).map_err(broken)?;
         if header.shape != features::shape(header.shape.vertiports) {
             return Err(broken(format!("{:?} is not the shape of our features", header.shape)));

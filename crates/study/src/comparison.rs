@@ -34,21 +34,6 @@ pub trait Watch {
     fn policy(&self, name: &str, position: usize, policies: usize, days: usize) -> Self::Bar;
 }
 
-/// Nobody looks.
-pub struct Unwatched;
-
-impl Watch for Unwatched {
-    type Bar = fn();
-
-    fn bounds(&self, _days: usize) -> fn() {
-        || ()
-    }
-
-    fn policy(&self, _name: &str, _position: usize, _policies: usize, _days: usize) -> fn() {
-        || ()
-    }
-}
-
 impl<'a> Comparison<'a> {
     /// The days of a network from `first_seed` on, each with its upper bound where a step is given.
     ///

@@ -67,9 +67,23 @@ mod tests {
 
     use vertifleet_core::Network;
 
-    use crate::comparison::{Comparison, Unwatched};
+    use crate::comparison::{Comparison, Watch};
     use crate::entrants::Asked;
     use crate::record::{DayRecord, Study};
+
+    struct Nobody;
+
+    impl Watch for Nobody {
+        type Bar = fn();
+
+        fn bounds(&self, _days: usize) -> fn() {
+            || ()
+        }
+
+        fn policy(&self, _name: &str, _position: usize, _policies: usize, _days: usize) -> fn() {
+            || ()
+        }
+    }
 
     fn study(policies: &[&str], seed: u64, days: u32) -> Study {
         let network = Network::shipped("paper").expect("a shipped network");
@@ -78,7 +92,7 @@ mod tests {
         let never = AtomicBool::new(false);
         let comparison =
             Comparison::new(&network, &asked, (seed, days), None, &never).expect("days");
-        comparison.run(String::new(), &never, &Unwatched).expect("played days")
+        comparison.run(String::new(), &never, &Nobody).expect("played days")
     }
 
     #[test]

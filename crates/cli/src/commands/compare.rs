@@ -6,12 +6,13 @@ use std::sync::atomic::AtomicBool;
 use anstream::eprintln;
 use vertifleet_core::{Code, Network};
 use vertifleet_optimize::Step;
+use vertifleet_progress::Bars;
 use vertifleet_study::comparison::Comparison;
 use vertifleet_study::entrants::Asked;
 use vertifleet_study::{Summary, report, table};
 
 use crate::args::CompareArguments;
-use crate::commands::days::{Bars, command};
+use crate::commands::command;
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::{print, warn};

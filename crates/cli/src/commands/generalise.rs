@@ -7,13 +7,14 @@ use std::sync::atomic::AtomicBool;
 use anstream::eprintln;
 use vertifleet_core::{DaySeed, Network, Purpose, Scenario, random_network};
 use vertifleet_optimize::Step;
+use vertifleet_progress::Bars;
 use vertifleet_study::comparison::{Watch as _, play};
 use vertifleet_study::entrants::{Asked, contenders};
 use vertifleet_study::generalisation::{self, NetworkRecord, Study, Summary};
 use vertifleet_study::{KeptBounds, report};
 
 use crate::args::GeneraliseArguments;
-use crate::commands::days::{Bars, command};
+use crate::commands::command;
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::print;

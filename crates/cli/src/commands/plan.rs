@@ -8,19 +8,17 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use vertifleet_core::Scenario;
 use vertifleet_optimize::{Bound, Budget, Error, Plan, Proof, Settings, plan};
+use vertifleet_progress::SearchBar;
 
 use crate::args::PlanArguments;
 use crate::commands::read_scenario;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::progress::Progress;
 use crate::worth;
 
 /// How often somebody who waits for the bound looks up.
 const GLANCE: Duration = Duration::from_millis(50);
-/// Units of the progress bar.
-const BAR: u64 = 100;
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = Arc::new(read_scenario(&arguments.scenario)?);
@@ -54,24 +52,13 @@ fn search(
         searches: rayon::current_num_threads(),
         seed: arguments.seed,
     };
-    let progress = Progress::new(BAR, "% of the time");
-    let mut shown = 0;
+    let mut bar = SearchBar::new("% of the time");
     plan(scenario, &settings, &mut |now| {
         proof.wait(Duration::ZERO);
-        let known = proof.bound().map(|bound| (bound.upper_bound_usd(), bound.gap(now.profit_usd)));
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
-        let done = (now.share * BAR as f64) as u64;
-        progress.advance(done.saturating_sub(shown));
-        shown = done;
-        progress.say(match known {
-            Some((bound_usd, gap)) => format!(
-                "profit ${:.0}, bound ${bound_usd:.0}, gap {:.2} %",
-                now.profit_usd,
-                100.0 * gap
-            ),
-            None => format!("profit ${:.0}, bound not known yet", now.profit_usd),
-        });
-        let good_enough = arguments.gap.zip(known).is_some_and(|(asked, (_, gap))| gap <= asked);
+        let bound = proof.bound();
+        bar.show(now, bound);
+        let gap = bound.map(|bound| bound.gap(now.profit_usd));
+        let good_enough = arguments.gap.zip(gap).is_some_and(|(asked, gap)| gap <= asked);
         !good_enough && !stop.load(Ordering::Relaxed)
     })
 }

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use vertifleet_core::{DaySeed, Network};
+use vertifleet_progress::Bar;
 
 use crate::args::ScenarioArguments;
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::print;
-use crate::progress::Progress;
 
 pub(crate) fn run(arguments: &ScenarioArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
@@ -33,7 +33,7 @@ fn draw_days(network: &Network, seed: u64, days: u32, folder: &Path) -> Result<(
     // The last seed first, so that nothing is written where not everything can be.
     DaySeed::comparison(seed.saturating_add(u64::from(days) - 1))?;
     vertifleet_core::create_folder(folder)?;
-    let progress = Progress::new(u64::from(days), "days");
+    let progress = Bar::new(u64::from(days), "days");
     for day in 0..u64::from(days) {
         let scenario = network.draw(DaySeed::comparison(seed + day)?);
         scenario.write(folder.join(format!("{}.json", scenario.name)))?;

@@ -13,13 +13,13 @@ use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{
     Checkpoint, CurveRow, EventFile, Model, Plan, Settings, Training, curve_beside, to_csv,
 };
+use vertifleet_progress::Bar;
 
 use crate::args::{TrainArguments, Trainable};
 use crate::commands::train_any;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::progress::Progress;
 
 /// How often a run is set aside while it goes on.
 const SECONDS_BETWEEN_SAVES: u64 = 30;
@@ -109,7 +109,7 @@ fn learn(training: &mut Training, files: &Files, stop: &AtomicBool) -> Result<Se
     let settings = training.settings().clone();
     let per_update = settings.buffer_size() as u64;
     let mut events = Events::create(&files.events, training.curve());
-    let progress = Progress::new(settings.updates() * per_update, "steps");
+    let progress = Bar::new(settings.updates() * per_update, "steps");
     let mut saved = Instant::now();
     let mut last = SetAside::of(training);
     if let Some(row) = last.curve.last() {

@@ -10,13 +10,13 @@ use vertifleet_core::Network;
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::relative::{Course, Plan, Study};
 use vertifleet_learn::{curve_beside, to_csv};
+use vertifleet_progress::Bar;
 
 use crate::args::TrainArguments;
 use crate::commands::train::earlier_run;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::progress::Progress;
 
 /// Files of a run, in the folder the user names.
 struct Files {
@@ -64,7 +64,7 @@ fn learn(study: &mut Study, files: &Files, stop: &AtomicBool) -> Result<(), Fail
     // Days played and passes made are the units; they take about as long.
     let Course { rounds, days, passes, .. } = *study.course();
     let a_round = u64::from(days) + u64::from(passes);
-    let progress = Progress::new(u64::from(rounds) * a_round, "days");
+    let progress = Bar::new(u64::from(rounds) * a_round, "days");
     progress.already_done(study.rounds().len() as u64 * a_round);
     let go_on = || {
         progress.advance(1);

@@ -1,7 +1,10 @@
-//! Progress bars with time left, on stderr, for people who watch. Nothing is drawn where stderr is no terminal, and
+//! A progress bar with time left, on stderr, for people who watch. Nothing is drawn where stderr is no terminal, and
 //! nothing for work that is over in a moment.
 
+use std::convert::Infallible;
 use std::fmt::Write;
+use std::io::{IsTerminal as _, stderr};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -16,14 +19,15 @@ const TEMPLATE: &str =
     "{bar:30} {human_pos}/{human_len} {prefix}  {elapsed} gone, {left} left  {msg}";
 
 /// A bar that appears once the work has lasted a while, and goes away with this value.
-pub(crate) struct Progress {
-    bar: ProgressBar,
+pub struct Bar {
+    drawn: ProgressBar,
     pace: Arc<Mutex<Pace>>,
+    _alive: Option<Sender<Infallible>>,
 }
 
-impl Progress {
+impl Bar {
     /// A bar over `total` units of work that take about the same time each; `units` names them.
-    pub(crate) fn new(total: u64, units: impl Into<String>) -> Self {
+    pub fn new(total: u64, units: impl Into<String>) -> Self {
         let pace = Arc::new(Mutex::new(Pace::begin(total)));
         let shown = Arc::clone(&pace);
         let time_left = move |_: &ProgressState, text: &mut dyn Write| {
@@ -37,39 +41,45 @@ impl Progress {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden())
             .with_prefix(units.into())
             .with_style(style.with_key("left", time_left));
-        let late = bar.clone();
-        thread::spawn(move || {
-            thread::sleep(PATIENCE);
-            if !late.is_finished() {
-                late.set_draw_target(ProgressDrawTarget::stderr());
-                late.enable_steady_tick(TICK);
-            }
-        });
-        Self { bar, pace }
+        let alive = stderr().is_terminal().then(|| appear_late(bar.clone()));
+        Self { drawn: bar, pace, _alive: alive }
     }
 
     /// `units` more are done.
-    pub(crate) fn advance(&self, units: u64) {
+    pub fn advance(&self, units: u64) {
         locked(&self.pace).advance(units, Instant::now());
-        self.bar.inc(units);
+        self.drawn.inc(units);
     }
 
     /// Work already done in an earlier run, not counted into the time left.
-    pub(crate) fn already_done(&self, units: u64) {
+    pub fn already_done(&self, units: u64) {
         locked(&self.pace).skip(units);
-        self.bar.set_position(units);
+        self.drawn.set_position(units);
     }
 
     /// Says something beside the bar.
-    pub(crate) fn say(&self, message: String) {
-        self.bar.set_message(message);
+    pub fn say(&self, message: String) {
+        self.drawn.set_message(message);
     }
 }
 
-impl Drop for Progress {
+impl Drop for Bar {
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        self.drawn.finish_and_clear();
     }
+}
+
+/// Draws a bar once it has lasted a while. Nothing is left behind where what is returned goes away sooner.
+fn appear_late(bar: ProgressBar) -> Sender<Infallible> {
+    let (alive, gone) = channel();
+    thread::spawn(move || {
+        let waited = gone.recv_timeout(PATIENCE);
+        if waited == Err(RecvTimeoutError::Timeout) && !bar.is_finished() {
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+            bar.enable_steady_tick(TICK);
+        }
+    });
+    alive
 }
 
 fn locked(pace: &Mutex<Pace>) -> MutexGuard<'_, Pace> {

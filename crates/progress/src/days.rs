@@ -1,0 +1,26 @@
+//! Bars of work that plays many days with many policies.
+
+use vertifleet_study::comparison::Watch;
+
+use crate::Bar;
+
+/// A bar for each policy, since a day of one may take a million times as long as that of another: how long those take that come
+/// later is not known.
+pub struct Bars;
+
+impl Watch for Bars {
+    type Bar = Box<dyn Fn() + Sync>;
+
+    fn bounds(&self, days: usize) -> Self::Bar {
+        bar(days, "bounds")
+    }
+
+    fn policy(&self, name: &str, position: usize, policies: usize, days: usize) -> Self::Bar {
+        bar(days, format!("days of {name} ({position} of {policies} policies)"))
+    }
+}
+
+fn bar(days: usize, units: impl Into<String>) -> Box<dyn Fn() + Sync> {
+    let bar = Bar::new(days as u64, units);
+    Box::new(move || bar.advance(1))
+}

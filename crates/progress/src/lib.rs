@@ -1,0 +1,9 @@
+//! How far long work is, on the terminal of whoever waits for it.
+
+mod bar;
+mod days;
+mod search;
+
+pub use bar::Bar;
+pub use days::Bars;
+pub use search::SearchBar;
