@@ -1,6 +1,7 @@
 //! `Batch`: many days side by side, advanced by as many threads as there are; what the vector environment is made of.
 //!
-//! Observations alternate between two sets of arrays, so that those of a step stay as they are while the next one is taken.
+//! Observations of steps alternate between two sets of arrays, so that those of a step stay as they are while the next one is taken.
+//! A third set is for resets of some seats, which come between two steps.
 
 use std::sync::{Arc, Mutex};
 
@@ -14,10 +15,11 @@ use crate::buffers::{Observations, Outcomes, Paying, Showing};
 use crate::environment::{Day, Outcome, World};
 use crate::failure::Failure;
 use crate::frames::plain;
-use crate::network::{Network, check_fits};
+use crate::network::Network;
 use crate::scenario::Scenario;
 use crate::shown::Shown;
 use crate::threads::Threads;
+use crate::whole::Whole;
 
 /// Days that one thread advances at a time: some ten microseconds of work, far more than it costs to share it out.
 const GRAIN: usize = 16;
@@ -47,11 +49,12 @@ pub(crate) struct Batch {
     world: World,
     autoreset: Autoreset,
     seats: Vec<Seat>,
-    sets: [Observations; 2],
+    /// Two for steps, one for resets of some seats.
+    sets: [Observations; 3],
     /// How days ended that were followed by others in the same step.
     finals: Observations,
     outcomes: Outcomes,
-    /// The set that the latest observations are in.
+    /// The set that the latest step wrote to.
     latest: usize,
     threads: Threads,
 }
@@ -64,10 +67,11 @@ impl Batch {
         py: Python<'_>,
         network: &Network,
         reward: &str,
-        seats: usize,
+        seats: Whole,
         autoreset: &str,
-        threads: Option<usize>,
+        threads: Option<Whole>,
     ) -> Result<Self, Failure> {
+        let seats = seats.of("num_envs")?;
         let world = World::new(network, reward)?;
         let autoreset = match autoreset {
             "NextStep" => Autoreset::NextStep,
@@ -85,7 +89,7 @@ impl Batch {
         let vertiports = world.vertiports();
         let set = || Observations::new(py, seats, vertiports);
         Ok(Self {
-            sets: [set(), set()],
+            sets: [set(), set(), set()],
             finals: set(),
             outcomes: Outcomes::new(py, seats),
             latest: 0,
@@ -96,12 +100,13 @@ impl Batch {
         })
     }
 
-    /// The arrays of both sets of observations, of the final observations, and of the latest outcomes.
-    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyTuple>; 4]> {
-        let [first, second] = &self.sets;
+    /// The arrays of the three sets of observations, of the final observations, and of the latest outcomes.
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyTuple>; 5]> {
+        let [first, second, third] = &self.sets;
         Ok([
             first.arrays(py)?,
             second.arrays(py)?,
+            third.arrays(py)?,
             self.finals.arrays(py)?,
             self.outcomes.arrays(py)?,
         ])
@@ -117,7 +122,7 @@ impl Batch {
         scenario: Option<&Scenario>,
     ) -> PyResult<usize> {
         if let Some(scenario) = scenario {
-            check_fits(&self.world.network, &scenario.scenario)?;
+            self.world.network.check_fits(&scenario.scenario)?;
         }
         let which = self.one_each("which", which.as_slice()?)?;
         let numbers = self.one_each("numbers", numbers.as_slice()?)?;
@@ -129,7 +134,8 @@ impl Batch {
                 format!("environment {seat} has no day yet: the first reset must be of all");
             return Err(Failure::argument(message).into());
         }
-        let (set, _) = self.on_all(py, |world, seat, mut row, at| {
+        let set = if which.contains(&false) { 2 } else { self.next() };
+        self.on_all(py, set, |world, seat, mut row, at| {
             row.pay(0.0, false, false, which[at]);
             match scenario {
                 _ if !which[at] => {}
@@ -153,8 +159,8 @@ impl Batch {
         let numbers = self.one_each("numbers", numbers.as_slice()?)?;
         check_numbers(numbers)?;
         self.check_can_step()?;
-        let autoreset = self.autoreset;
-        self.on_all(py, |world, seat, mut row, at| {
+        let (autoreset, set) = (self.autoreset, self.next());
+        let eventful = self.on_all(py, set, |world, seat, mut row, at| {
             if seat.is_over() && autoreset == Autoreset::NextStep {
                 seat.summary = None;
                 seat.begin(world, numbers[at]);
@@ -169,7 +175,13 @@ impl Batch {
                 seat.begin(world, numbers[at]);
             }
             row.show(world, seat);
-        })
+        })?;
+        Ok((set, eventful))
+    }
+
+    /// The day that is being played at a seat.
+    fn scenario(&self, seat: usize) -> Option<Scenario> {
+        self.seats.get(seat)?.day.as_ref().map(Day::scenario)
     }
 
     /// The numbers of the day that the latest step ended at a seat, as `vertifleet simulate --json` prints them.
@@ -200,17 +212,23 @@ impl Batch {
         }
     }
 
-    /// Does something at every seat, on all threads if there are enough seats. Returns the set that was written to, and whether any
-    /// day is over or has begun.
+    /// The set that is written to next.
+    fn next(&mut self) -> usize {
+        self.latest = 1 - self.latest;
+        self.latest
+    }
+
+    /// Does something at every seat, on all threads if there are enough seats, and writes to a set. Returns whether any day is over or
+    /// has begun.
     fn on_all(
         &mut self,
         py: Python<'_>,
+        set: usize,
         each: impl Fn(&World, &mut Seat, Row<'_, '_>, usize) + Sync,
-    ) -> PyResult<(usize, bool)> {
-        self.latest = 1 - self.latest;
-        let Self { world, seats, sets, finals, outcomes, latest, threads, .. } = self;
+    ) -> PyResult<bool> {
+        let Self { world, seats, sets, finals, outcomes, threads, .. } = self;
         let (mut showing, mut ending, mut outcomes) =
-            (sets[*latest].lend(py)?, finals.lend(py)?, outcomes.lend(py)?);
+            (sets[set].lend(py)?, finals.lend(py)?, outcomes.lend(py)?);
         let (showing, ending, paying) = (showing.rows()?, ending.rows()?, outcomes.rows()?);
         let part = Part { seats, showing, ending, paying, first: 0 };
         let world = &*world;
@@ -223,7 +241,7 @@ impl Batch {
             threads.all(|thread| shares.each(thread, &each));
         });
         let Paying { over, begun, .. } = outcomes.rows()?;
-        Ok((*latest, over.iter().chain(&*begun).any(|&flag| flag)))
+        Ok(over.iter().chain(&*begun).any(|&flag| flag))
     }
 }
 

@@ -3,14 +3,17 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use vertifleet_core::{self as core, DaySeed};
 use vertifleet_learn::Scales;
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::comparison;
 use vertifleet_study::entrants::Asked;
+use vertifleet_study::policies::Given;
 use vertifleet_study::{DayRecord, Error, Study, Summary, report, table};
 
 use crate::failure::Failure;
@@ -19,6 +22,7 @@ use crate::given::{Raised, given};
 use crate::interruptible::{self, interruptible};
 use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
+use crate::whole::Whole;
 
 /// Many policies on the same days: every policy's every day, and the statistics of them.
 #[pyclass(frozen, module = "vertifleet")]
@@ -42,7 +46,7 @@ impl Comparison {
             names.flat_map(|policy| policy.days.iter().map(|_| policy.name.as_str())),
         )?;
         columns.texts("day", days().map(|day| day.day.as_str()))?;
-        columns.numbers("seed", days().map(|day| day.seed))?;
+        columns.counts("seed", days().map(|day| day.seed))?;
         columns.numbers("profit", days().map(|day| day.profit_usd))?;
         columns.numbers("revenue", days().map(|day| day.revenue_usd))?;
         columns.numbers("passenger_cost", days().map(|day| day.passenger_cost_usd))?;
@@ -50,12 +54,12 @@ impl Comparison {
         columns.numbers("energy_kwh", days().map(|day| day.energy_kwh))?;
         columns.numbers("potential", days().map(|day| day.potential_usd))?;
         columns.numbers("reward", days().map(|day| day.reward))?;
-        columns.numbers("flights", days().map(|day| day.flights))?;
-        columns.numbers("repositioning_flights", days().map(|day| day.repositioning_flights))?;
-        columns.numbers("holds", days().map(|day| day.holds))?;
-        columns.numbers("decisions", days().map(|day| day.decisions))?;
-        columns.numbers("passengers", days().map(|day| day.passengers))?;
-        columns.numbers("spilled_passengers", days().map(|day| day.spilled_passengers))?;
+        columns.counts("flights", days().map(|day| day.flights))?;
+        columns.counts("repositioning_flights", days().map(|day| day.repositioning_flights))?;
+        columns.counts("holds", days().map(|day| day.holds))?;
+        columns.counts("decisions", days().map(|day| day.decisions))?;
+        columns.counts("passengers", days().map(|day| day.passengers))?;
+        columns.counts("spilled_passengers", days().map(|day| day.spilled_passengers))?;
         columns.numbers("load_factor", days().map(|day| day.load_factor))?;
         if self.study.bound_step_s.is_some() {
             columns.numbers("upper_bound", days().filter_map(|day| day.upper_bound_usd))?;
@@ -131,46 +135,97 @@ impl Comparison {
     }
 }
 
-/// Plays days of a network, the first of seed `seed`, with every policy; all meet the same days.
-///
-/// `policies` are named as `vertifleet compare` names them; `models` gives what a name stands
-/// for: a weight file, a `Model`, or a function of the caller's own, which is given what the environment shows (a dict of arrays) and
-/// returns the position of a feasible vertiport. `bound` proves an upper bound of every
-/// day, with prices that stay the same for `step` minutes. `policy_seed` is that of the random policy and of the planner's search;
-/// `command` is what the report says it was made with. What is allowed but hardly meant is told by the result's `warnings`.
-#[pyfunction]
-#[pyo3(signature = (network, policies, *, days = 100, seed = 1, models = None, bound = false, step = 5, policy_seed = None, threads = None, command = ""))]
-#[expect(clippy::too_many_arguments, reason = "Python names them")]
-pub(crate) fn compare(
-    py: Python<'_>,
-    network: &Network,
+/// Days that a comparison may have, as in the program.
+const DAYS: u32 = 1_000_000;
+
+/// What is asked for, by its names in Python: `policies` as `vertifleet compare` names them; what names stand for in `models`, weight
+/// files, `Model`s or functions; `bound` for upper bounds with prices that stay the same for `step` minutes; `policy_seed` of the random
+/// policy and of the planner's search.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Wanted<'py> {
+    policies: Vec<String>,
+    days: Whole,
+    seed: Whole,
+    models: BTreeMap<String, Bound<'py, PyAny>>,
+    bound: bool,
+    step: Whole,
+    policy_seed: Whole,
+}
+
+/// The same in Rust's words, checked one by one.
+struct Wish {
+    network: Arc<core::Network>,
     policies: Vec<String>,
     days: u32,
     seed: u64,
-    models: Option<BTreeMap<String, Bound<'_, PyAny>>>,
-    bound: bool,
-    step: u32,
-    policy_seed: Option<u64>,
-    threads: Option<usize>,
+    models: Vec<(String, Given)>,
+    step: Option<Step>,
+    policy_seed: u64,
+}
+
+impl Wish {
+    fn of(network: &Network, wanted: Wanted<'_>, raised: &Raised) -> PyResult<Self> {
+        let Wanted { policies, days, seed, models, bound, step, policy_seed } = wanted;
+        let days = days.of("days")?;
+        if days > DAYS {
+            let message = format!("days must be at most {DAYS}, found {days}");
+            return Err(Failure::argument(message).into());
+        }
+        let step = Step::from_minutes(step.of("step")?);
+        let scales = Scales::from(network.network.feature_scales());
+        let given = |(name, value)| Ok((name, given(&value, scales, raised)?));
+        Ok(Self {
+            network: Arc::clone(&network.network),
+            policies,
+            days,
+            seed: seed.of("seed")?,
+            models: models.into_iter().map(given).collect::<PyResult<_>>()?,
+            step: bound.then_some(step).transpose().map_err(Failure::from)?,
+            policy_seed: policy_seed.of("policy_seed")?,
+        })
+    }
+
+    /// The comparison on so many of the days.
+    fn on(&self, days: u32, stopped: &AtomicBool) -> Result<comparison::Comparison, Error> {
+        let Self { network, policies, seed, models, step, policy_seed, .. } = self;
+        let asked = Asked { policies, models, seed: *policy_seed, network: network.name() };
+        comparison::Comparison::new(network, &asked, (*seed, days), *step, stopped)
+    }
+}
+
+/// Looks for all that can be found wrong with a comparison before its days are played; returns what is to be said of it.
+#[pyfunction]
+#[pyo3(signature = (network, asked))]
+pub(crate) fn check_comparison(
+    py: Python<'_>,
+    network: &Network,
+    asked: Wanted<'_>,
+) -> PyResult<Vec<String>> {
+    let wish = Wish::of(network, asked, &Raised::default())?;
+    let warnings = interruptible(py, 1, move |stop| {
+        DaySeed::comparison(wish.seed.saturating_add(wish.days.saturating_sub(1).into()))?;
+        Ok::<_, Error>(wish.on(wish.days.min(1), stop)?.warnings().collect())
+    })?;
+    Ok(warnings.map_err(Failure::from)?)
+}
+
+/// Plays days of a network, the first of seed `seed`, with every policy; all meet the same days. `command` is what the report says it
+/// was made with. What is allowed but hardly meant is told by the result's `warnings`.
+#[pyfunction]
+#[pyo3(signature = (network, asked, *, threads = None, command = ""))]
+pub(crate) fn compare(
+    py: Python<'_>,
+    network: &Network,
+    asked: Wanted<'_>,
+    threads: Option<Whole>,
     command: &str,
 ) -> PyResult<Comparison> {
-    let step = bound.then(|| Step::from_minutes(step)).transpose().map_err(Failure::from)?;
-    let (scales, raised) = (Scales::from(network.network.feature_scales()), Raised::default());
-    let models = models.unwrap_or_default().into_iter();
-    let models = models
-        .map(|(name, value)| Ok((name, given(&value, scales, &raised)?)))
-        .collect::<PyResult<Vec<_>>>()?;
-    let command = command.to_owned();
-    let (network, threads) = (Arc::clone(&network.network), interruptible::threads(threads)?);
-    let policy_seed = policy_seed.unwrap_or(seed);
+    let raised = Raised::default();
+    let wish = Wish::of(network, asked, &raised)?;
+    let (threads, command) = (interruptible::threads(threads)?, command.to_owned());
     let outcome = interruptible(py, threads, move |stop| {
-        let asked = Asked {
-            policies: &policies,
-            models: &models,
-            seed: policy_seed,
-            network: network.name(),
-        };
-        let comparison = comparison::Comparison::new(&network, &asked, (seed, days), step, stop)?;
+        let comparison = wish.on(wish.days, stop)?;
         let warnings = comparison.warnings().collect();
         let study = comparison.run(command, stop, &Bars)?;
         Ok::<_, Error>(Comparison { study, warnings })

@@ -10,7 +10,7 @@ use vertifleet_sim::{Decision, Simulation, Summary};
 
 use crate::failure::Failure;
 use crate::frames::plain;
-use crate::network::{Network, check_fits};
+use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::shown::{Arrays, Observation, Shown, To};
@@ -18,7 +18,7 @@ use crate::shown::{Arrays, Observation, Shown, To};
 /// What all days of an environment have in common.
 #[derive(Clone)]
 pub(crate) struct World {
-    pub(crate) network: Arc<core::Network>,
+    pub(crate) network: Network,
     pub(crate) scales: Scales,
     pub(crate) reward: Reward,
 }
@@ -53,18 +53,17 @@ impl World {
                 )));
             }
         };
-        let network = Arc::clone(&network.network);
-        let scales = Scales::from(network.feature_scales());
-        Ok(Self { network, scales, reward })
+        let scales = Scales::from(network.network.feature_scales());
+        Ok(Self { network: network.clone(), scales, reward })
     }
 
     pub(crate) fn vertiports(&self) -> usize {
-        self.network.vertiports().len()
+        self.network.network.vertiports().len()
     }
 
     /// The training day of this number.
     pub(crate) fn day(&self, number: u64) -> Result<Day, core::Error> {
-        Ok(Day::new(Arc::new(self.network.draw(DaySeed::training_number(number)?))))
+        Ok(Day::new(Arc::new(self.network.network.draw(DaySeed::training_number(number)?))))
     }
 }
 
@@ -82,6 +81,10 @@ impl Day {
 
     pub(crate) fn summary(&self) -> Summary {
         self.simulation.summary()
+    }
+
+    pub(crate) fn scenario(&self) -> Scenario {
+        Scenario { scenario: Arc::clone(self.simulation.scenario()) }
     }
 
     /// Takes the decision; an action that is not feasible holds. Nothing happens on a day that is over.
@@ -154,7 +157,7 @@ impl Environment {
 
     /// Begins a given day.
     fn begin<'py>(&mut self, py: Python<'py>, day: &Scenario) -> PyResult<Observation<'py>> {
-        check_fits(&self.world.network, &day.scenario)?;
+        self.world.network.check_fits(&day.scenario)?;
         self.day = Some(Day::new(Arc::clone(&day.scenario)));
         self.choices.clear();
         self.present(py)
@@ -196,7 +199,7 @@ impl Environment {
     ) -> Result<Self, Failure> {
         let mut environment = Self::new(network, reward)?;
         if let Some(scenario) = scenario {
-            check_fits(&environment.world.network, &scenario.scenario)?;
+            environment.world.network.check_fits(&scenario.scenario)?;
             let mut day = Day::new(Arc::clone(&scenario.scenario));
             for &choice in &choices {
                 if day.over {
@@ -218,13 +221,12 @@ impl Environment {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, Resumed> {
-        let network = Network { network: Arc::clone(&self.world.network) };
+        let network = self.world.network.clone();
         let reward = match self.world.reward {
             Reward::Terminal => "terminal",
             Reward::Dense => "dense",
         };
-        let scenario = self.day.as_ref().map(|day| day.simulation.scenario());
-        let scenario = scenario.map(|day| Scenario { scenario: Arc::clone(day) });
+        let scenario = self.scenario();
         reduced::<Self, _>(py, "resumed", (network, reward, scenario, self.choices.clone()))
     }
 
@@ -252,10 +254,10 @@ impl Environment {
         Some(self.day.as_ref()?.decision.time.seconds())
     }
 
-    /// The day's name.
+    /// The day that is being played.
     #[getter]
-    fn day(&self) -> Option<&str> {
-        Some(&self.day.as_ref()?.simulation.scenario().name)
+    fn scenario(&self) -> Option<Scenario> {
+        self.day.as_ref().map(Day::scenario)
     }
 
     /// The day's numbers so far, as `vertifleet simulate --json` prints them.

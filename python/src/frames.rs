@@ -16,6 +16,15 @@ impl<'py> Columns<'py> {
         Self(PyDict::new(py))
     }
 
+    /// A column of whole numbers. They are signed, so that differences of columns are what they look like.
+    pub(crate) fn counts<T: TryInto<i64>>(
+        &self,
+        name: &str,
+        values: impl IntoIterator<Item = T>,
+    ) -> PyResult<()> {
+        self.numbers(name, values.into_iter().map(count))
+    }
+
     /// A column of numbers.
     pub(crate) fn numbers<T: Element>(
         &self,
@@ -42,6 +51,18 @@ impl<'py> Columns<'py> {
     pub(crate) fn into_dict(self) -> Bound<'py, PyDict> {
         self.0
     }
+}
+
+/// A whole number as the arrays of the library have it.
+pub(crate) fn count(value: impl TryInto<i64>) -> i64 {
+    value.try_into().unwrap_or(i64::MAX)
+}
+
+/// An array that says no to whoever writes to it: it is a copy, and the original would not change.
+pub(crate) fn read_only<T>(array: Bound<'_, T>) -> PyResult<Bound<'_, PyAny>> {
+    let array = array.into_any();
+    array.call_method("setflags", (), Some(&[("write", false)].into_py_dict(array.py())?))?;
+    Ok(array)
 }
 
 /// The columns as `library.DataFrame`; without the library, Python's own `ModuleNotFoundError` says what to install.
@@ -71,17 +92,19 @@ pub(crate) fn loads<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyA
     py.import("json")?.call_method1("loads", (json,))
 }
 
-/// A mapping as the members of a JSON object; `name` is what messages call it.
+/// A mapping as JSON, in its order; `name` is what messages call it.
 pub(crate) fn members(
     name: &str,
     mapping: &Bound<'_, PyMapping>,
-) -> PyResult<serde_json::Map<String, serde_json::Value>> {
+) -> PyResult<Vec<(String, serde_json::Value)>> {
     let py = mapping.py();
     // NumPy's numbers are none of JSON's; their item is.
     let item = py.import("operator")?.call_method1("methodcaller", ("item",))?;
     let named = [("default", item)].into_py_dict(py)?;
-    let mapping = py.get_type::<PyDict>().call1((mapping,))?;
-    let json = py.import("json")?.call_method("dumps", (mapping,), Some(&named))?;
+    let refused = |rule: String| Failure::argument(format!("{name}: {rule}"));
+    let json = py.import("json")?.call_method("dumps", (mapping.items()?,), Some(&named));
+    let json = json.map_err(|error| refused(error.value(py).to_string()))?;
+    // What Python writes but is no JSON is NaN and infinity.
     let members = serde_json::from_str(&json.extract::<String>()?);
-    Ok(members.map_err(|error| Failure::argument(format!("{name}: {error}")))?)
+    Ok(members.map_err(|_| refused("names must be texts, and numbers finite".to_owned()))?)
 }

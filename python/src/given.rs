@@ -13,6 +13,7 @@ use vertifleet_study::policies::{Given, Maker};
 
 use crate::model::Model;
 use crate::shown::{Arrays, To};
+use crate::whole::Whole;
 
 /// Weights: a path, or a model.
 #[derive(FromPyObject)]
@@ -82,8 +83,7 @@ impl Function {
         let arrays = Arrays::of(py, decision, view, &self.scales, To::Decide)?;
         let (observation, _) = arrays.into_observation(py)?;
         let answer = self.call.bind(py).call1((observation,))?;
-        // NumPy's whole numbers know `__index__`; an array of one does not.
-        let action: u16 = answer.extract()?;
-        Ok(VertiportIx(action))
+        let action: Whole = answer.extract()?;
+        Ok(VertiportIx(action.of("what the function returns")?))
     }
 }

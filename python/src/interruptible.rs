@@ -10,6 +10,7 @@ use pyo3::prelude::{PyResult, Python};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::failure::Failure;
+use crate::whole::Whole;
 
 /// How often Ctrl-C is looked for.
 const GLANCE: Duration = Duration::from_millis(50);
@@ -17,8 +18,8 @@ const GLANCE: Duration = Duration::from_millis(50);
 const THREADS: RangeInclusive<usize> = 1..=1024;
 
 /// So many threads, or as many as there are cores.
-pub(crate) fn threads(asked: Option<usize>) -> Result<usize, Failure> {
-    match asked {
+pub(crate) fn threads(asked: Option<Whole>) -> Result<usize, Failure> {
+    match asked.map(|asked| asked.of("threads")).transpose()? {
         None => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
         Some(asked) if THREADS.contains(&asked) => Ok(asked),
         Some(asked) => {
@@ -36,7 +37,8 @@ pub(crate) fn pool(threads: usize) -> ThreadPool {
 }
 
 /// Does `work` on so many threads of its own while the thread that called waits and listens to Ctrl-C, which raises the flag that
-/// `work` is given and ends the call. Work that does not look at the flag goes on behind it, and nobody hears of its outcome.
+/// `work` is given. The call ends with the work, since a function of the caller's that it asks must not be asked once Python ends; a
+/// second Ctrl-C does not wait.
 ///
 /// Threads are made for each call and end with it: a process that forks later, as Python's `multiprocessing` may, would find
 /// threads kept for longer gone, and wait for them for ever.
@@ -50,7 +52,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     let raised = Arc::clone(&stop);
     std::thread::spawn(move || {
         let outcome = pool(threads).install(|| work(&raised));
-        // Nobody listens any more after Ctrl-C.
+        // Nobody listens any more after a second Ctrl-C.
         let _ = to.send(outcome);
     });
     loop {
@@ -63,6 +65,12 @@ pub(crate) fn interruptible<T: Send + 'static>(
         }
         if let Err(interrupt) = py.check_signals() {
             stop.store(true, Ordering::Relaxed);
+            while let (Err(RecvTimeoutError::Timeout), receiver) =
+                py.detach(move || (from.recv_timeout(GLANCE), from))
+            {
+                from = receiver;
+                py.check_signals()?;
+            }
             return Err(interrupt);
         }
     }

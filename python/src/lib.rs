@@ -25,6 +25,7 @@ mod scenario;
 mod shown;
 mod threads;
 mod trace;
+mod whole;
 
 use pyo3::prelude::pymodule;
 
@@ -33,7 +34,7 @@ mod _native {
     #[pymodule_export]
     use crate::batch::Batch;
     #[pymodule_export]
-    use crate::comparison::{Comparison, compare};
+    use crate::comparison::{Comparison, check_comparison, compare};
     #[pymodule_export]
     use crate::environment::Environment;
     #[pymodule_export]

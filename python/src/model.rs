@@ -1,9 +1,9 @@
 //! `Model`: the weights of a learned policy.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
-use numpy::ndarray::{ArrayView, Dimension};
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use vertifleet_learn::nn::{self, Inputs};
@@ -92,50 +92,48 @@ impl Model {
     }
 
     /// Logits [B, N], minus infinity where the mask is 0, and values [B] of a batch of decisions, as the policy in Rust works them
-    /// out. `nodes` [B, N, F] and `aircraft` [B, G] are float32, `mask` [B, N] is uint8, `clock` [B] (float32) is the share of the
-    /// day left. Of gcaps-x these are the layers alone, without the day's prices.
+    /// out. `nodes` [B, N * F] or [B, N, F], `aircraft` [B, G], `mask` [B, N] and `clock` [B] or [B, 1], the share of the day left, are
+    /// as a batch of environments shows them. Of gcaps-x these are the layers alone, without the day's prices.
     fn forward<'py>(
         &self,
-        py: Python<'py>,
-        nodes: PyReadonlyArray3<'py, f32>,
-        aircraft: PyReadonlyArray2<'py, f32>,
-        mask: PyReadonlyArray2<'py, u8>,
-        clock: PyReadonlyArray1<'py, f32>,
+        nodes: &Bound<'py, PyAny>,
+        aircraft: &Bound<'py, PyAny>,
+        mask: &Bound<'py, PyAny>,
+        clock: &Bound<'py, PyAny>,
     ) -> Reduced<'py, Bound<'py, PyAny>> {
-        let [batch, vertiports, node_features] = *nodes.as_array().shape() else {
-            unreachable!("an array of three dimensions")
-        };
+        let py = nodes.py();
+        let [batch, vertiports] = sizes(mask)?;
         let (net, params) = match &self.weights {
             Weights::OfOneSize(model) => (model.net().clone(), model.params()),
             // No network has more vertiports.
             Weights::OfAnySize(model) => (model.net(vertiports.clamp(1, 256)), model.params()),
         };
         let shape = net.shape();
-        let asked = (vertiports, node_features, aircraft.as_array().shape().to_vec());
-        let expected =
-            (shape.vertiports, shape.node_features, vec![batch, shape.aircraft_features]);
-        let agree =
-            mask.as_array().shape() == [batch, vertiports] && clock.as_array().len() == batch;
-        if asked != expected || !agree {
-            let message = format!(
-                "a batch of {batch} must have nodes [{batch}, {n}, {f}], aircraft [{batch}, {g}], mask [{batch}, {n}] and clock [{batch}]",
-                n = shape.vertiports,
-                f = shape.node_features,
-                g = shape.aircraft_features,
-            );
-            return Err(Failure::argument(message).into());
-        }
-        let (nodes, aircraft) = (in_rows(nodes.as_array()), in_rows(aircraft.as_array()));
-        let (mask, clock) = (in_rows(mask.as_array()), in_rows(clock.as_array()));
+        let (size, features) = (shape.vertiports, shape.node_features);
+        let nodes = entries("nodes", nodes, [batch, size * features])?;
+        let aircraft = entries("aircraft", aircraft, [batch, shape.aircraft_features])?;
+        let clock = entries("clock", clock, [batch, 1])?;
+        let mask = entries("mask", mask, [batch, size])?;
+        let mask: Vec<u8> = mask.iter().map(|&feasible| u8::from(feasible != 0.0)).collect();
         let inputs =
             Inputs { batch, nodes: &nodes, aircraft: &aircraft, mask: &mask, clock: &clock };
         let space = py.detach(|| pass(&net, params, inputs));
-        let logits = table(py, space.logits().iter().copied(), [batch, vertiports])?;
+        let logits = table(py, space.logits().iter().copied(), [batch, size])?;
         Ok((logits, PyArray1::from_slice(py, space.values()).into_any()))
     }
 
     fn __repr__(&self) -> String {
         format!("<Model {}>", self.weights.kind())
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.bytes() == other.bytes()
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.bytes().hash(&mut hasher);
+        hasher.finish()
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (Bound<'py, PyBytes>,)> {
@@ -152,9 +150,30 @@ impl Model {
     }
 }
 
-/// The entries row by row, however the array lies in memory.
-fn in_rows<T: Copy, D: Dimension>(array: ArrayView<'_, T, D>) -> Vec<T> {
-    array.iter().copied().collect()
+/// Rows and columns of a table.
+fn sizes(table: &Bound<'_, PyAny>) -> PyResult<[usize; 2]> {
+    let shape: Vec<usize> =
+        table.py().import("numpy")?.call_method1("shape", (table,))?.extract()?;
+    shape.try_into().map_err(|shape| {
+        Failure::argument(format!("mask must have two dimensions, [B, N], found {shape:?}")).into()
+    })
+}
+
+/// The entries of an array row by row, of whatever kind of number; one of more or fewer dimensions may have the same rows.
+fn entries(
+    name: &str,
+    array: &Bound<'_, PyAny>,
+    [rows, columns]: [usize; 2],
+) -> PyResult<Vec<f32>> {
+    let numpy = array.py().import("numpy")?;
+    let array = numpy.call_method1("asarray", (array, "float32"))?;
+    let shape: Vec<usize> = array.getattr("shape")?.extract()?;
+    if shape.first() != Some(&rows) || shape.iter().product::<usize>() != rows * columns {
+        let message = format!("{name} must have {rows} rows of {columns} entries, found {shape:?}");
+        return Err(Failure::argument(message).into());
+    }
+    let flat = numpy.call_method1("ravel", (array,))?;
+    Ok(flat.extract::<PyReadonlyArray1<'_, f32>>()?.as_slice()?.to_vec())
 }
 
 fn pass(net: &nn::Network, params: &[f32], inputs: Inputs<'_>) -> nn::Workspace {

@@ -1,5 +1,6 @@
 //! `Network`: what days are drawn from.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -11,6 +12,7 @@ use crate::failure::Failure;
 use crate::frames::{members, plain, table};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
+use crate::whole::Whole;
 
 /// A network: vertiports, fleet, tariffs, and how demand is distributed. Days are drawn from it.
 ///
@@ -20,20 +22,25 @@ use crate::scenario::Scenario;
 #[derive(Clone)]
 pub(crate) struct Network {
     pub(crate) network: Arc<core::Network>,
+    /// How it was made, in Python.
+    source: String,
 }
 
 #[pymethods]
 impl Network {
     #[new]
     fn new(name_or_path: PathBuf) -> Result<Self, Failure> {
-        Ok(Self::of(core::Network::find(&name_or_path.to_string_lossy())?))
+        let name_or_path = name_or_path.to_string_lossy();
+        let source = format!("vertifleet.Network({name_or_path:?})");
+        Ok(Self::of(core::Network::find(&name_or_path)?, source))
     }
 
     /// The network that the text of a network file describes; `origin` stands for the file in messages.
     #[staticmethod]
     #[pyo3(signature = (text, origin = "<text>"))]
     fn from_toml(text: &str, origin: &str) -> Result<Self, Failure> {
-        Ok(Self::of(core::Network::from_toml(text, origin)?))
+        let source = format!("vertifleet.Network.from_toml(..., {origin:?})");
+        Ok(Self::of(core::Network::from_toml(text, origin)?, source))
     }
 
     /// The names of the shipped networks.
@@ -47,8 +54,16 @@ impl Network {
     /// A path names members from the outside in, a list's entries by their `id`, by their position from 0, or `*` for all of them.
     /// The result is checked like any network file.
     fn changed(&self, changes: &Bound<'_, PyMapping>) -> PyResult<Self> {
-        let changes = members("changes", changes)?;
-        Ok(Self::of(self.network.changed(&changes).map_err(Failure::from)?))
+        let asked = members("changes", changes)?;
+        let network = self.network.changed(asked.iter().map(|(path, value)| (path, value)));
+        let source = format!("{}.changed({})", self.source, changes.repr()?);
+        Ok(Self::of(network.map_err(Failure::from)?, source))
+    }
+
+    /// How it was made, as Python to be read; the command of a report has it.
+    #[getter]
+    fn source(&self) -> &str {
+        &self.source
     }
 
     /// Its name; the days drawn from it are called `{name}-{seed}`.
@@ -98,7 +113,8 @@ impl Network {
     /// Days of different purposes ("comparison", "validation", "training") are never the same, so that no policy is judged on
     /// a day that it learned from.
     #[pyo3(signature = (seed, purpose = "comparison"))]
-    fn draw(&self, seed: u64, purpose: &str) -> Result<Scenario, Failure> {
+    fn draw(&self, seed: Whole, purpose: &str) -> Result<Scenario, Failure> {
+        let seed = seed.of("seed")?;
         let seed = match purpose {
             "comparison" => DaySeed::comparison(seed)?,
             "validation" => DaySeed::validation(seed)?,
@@ -117,26 +133,50 @@ impl Network {
         format!("<Network {}: {vertiports} vertiports, {fleet} aircraft>", self.network.name())
     }
 
+    fn __eq__(&self, other: &Self) -> bool {
+        self.network.toml() == other.network.toml()
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.network.toml().hash(&mut hasher);
+        hasher.finish()
+    }
+
+    fn __copy__(&self) -> Self {
+        self.clone()
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        self.clone()
+    }
+
+    /// What pickle makes.
+    #[staticmethod]
+    fn restored(text: &str, source: String) -> Result<Self, Failure> {
+        Ok(Self::of(core::Network::from_toml(text, &source)?, source))
+    }
+
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (&str, &str)> {
-        reduced::<Self, _>(py, "from_toml", (self.network.toml(), self.network.name()))
+        reduced::<Self, _>(py, "restored", (self.network.toml(), &self.source))
     }
 }
 
 impl Network {
-    pub(crate) fn of(network: core::Network) -> Self {
-        Self { network: Arc::new(network) }
+    fn of(network: core::Network, source: String) -> Self {
+        Self { network: Arc::new(network), source }
     }
-}
 
-/// Whether a day has as many vertiports as what a network's days show has room for.
-pub(crate) fn check_fits(network: &core::Network, day: &core::Scenario) -> Result<(), Failure> {
-    let (expected, found) = (network.vertiports().len(), day.vertiports.len());
-    if expected == found {
-        return Ok(());
+    /// Whether a day has as many vertiports as what this network's days show has room for.
+    pub(crate) fn check_fits(&self, day: &core::Scenario) -> Result<(), Failure> {
+        let (expected, found) = (self.network.vertiports().len(), day.vertiports.len());
+        if expected == found {
+            return Ok(());
+        }
+        Err(Failure::argument(format!(
+            "scenario {:?} has {found} vertiports, but network {:?} has {expected}",
+            day.name,
+            self.network.name()
+        )))
     }
-    Err(Failure::argument(format!(
-        "scenario {:?} has {found} vertiports, but network {:?} has {expected}",
-        day.name,
-        network.name()
-    )))
 }

@@ -16,6 +16,7 @@ use crate::interruptible::{self, interruptible};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
+use crate::whole::Whole;
 
 /// How often somebody who waits for a proof looks for Ctrl-C.
 const GLANCE: Duration = Duration::from_millis(50);
@@ -35,6 +36,12 @@ pub(crate) struct Bound {
 
 #[pymethods]
 impl Bound {
+    /// The day.
+    #[getter]
+    fn scenario(&self) -> Scenario {
+        Scenario { scenario: Arc::clone(&self.scenario) }
+    }
+
     /// No schedule of the day earns more, dollars.
     #[getter]
     fn upper_bound_usd(&self) -> f64 {
@@ -120,12 +127,13 @@ impl Bound {
 /// Proves how much a day can earn at most. `step`: minutes for which the proof's prices stay the same, 1 to 60; fewer give a
 /// tighter bound, later.
 #[pyfunction]
-#[pyo3(signature = (scenario, *, step = 5))]
-pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: u32) -> PyResult<Bound> {
-    let step = Step::from_minutes(step).map_err(Failure::from)?;
+#[pyo3(signature = (scenario, *, step = Whole::from(5)), text_signature = "(scenario, *, step=5)")]
+pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: Whole) -> PyResult<Bound> {
+    let step = Step::from_minutes(step.of("step")?).map_err(Failure::from)?;
     let day = Arc::clone(&scenario.scenario);
-    let bound = interruptible(py, 1, move |_| {
-        exact::upper_bound(&day, step).map(|bound| Bound::of(&day, &bound))
+    let bound = interruptible(py, 1, move |stop| {
+        let bound = exact::upper_bound_unless(stop, &day, step)?;
+        Ok::<_, exact::Error>(Bound::of(&day, &bound.expect("what is stopped has no outcome")))
     })?;
     Ok(bound.map_err(Failure::from)?)
 }
@@ -211,25 +219,35 @@ impl Plan {
 
 /// Finds the best schedule it can for a day that is known, while a proof of what is possible runs beside it.
 ///
-/// Searches for `time_limit` seconds, or for `steps` steps of each search if those are given (the plan then depends on nothing
+/// Searches for `time_limit` seconds, 60 if nothing is said, or for `steps` steps of each search if those are given (the plan then depends on nothing
 /// but the day, `seed`, `steps` and `threads`), or until the gap to the bound is no more than `gap`, as 0.03. A proof that takes
 /// longer than the search is waited for.
 #[pyfunction]
-#[pyo3(signature = (scenario, *, time_limit = 60.0, steps = None, gap = None, seed = 0, threads = None))]
+#[pyo3(
+    signature = (scenario, *, time_limit = None, steps = None, gap = None, seed = Whole::from(0), threads = None),
+    text_signature = "(scenario, *, time_limit=None, steps=None, gap=None, seed=0, threads=None)"
+)]
 pub(crate) fn plan(
     py: Python<'_>,
     scenario: &Scenario,
-    time_limit: f64,
-    steps: Option<u64>,
+    time_limit: Option<f64>,
+    steps: Option<Whole>,
     gap: Option<f64>,
-    seed: u64,
-    threads: Option<usize>,
+    seed: Whole,
+    threads: Option<Whole>,
 ) -> PyResult<Plan> {
-    let (budget, units) = if let Some(steps) = steps {
-        (Budget::Steps(steps), "% of the steps")
-    } else {
-        let limit_s = within("time_limit", time_limit, 1e6)?;
-        (Budget::Time(Duration::from_secs_f64(limit_s)), "% of the time")
+    let seed = seed.of("seed")?;
+    let (budget, units) = match (time_limit, steps) {
+        (None, Some(steps)) => (Budget::Steps(steps.of("steps")?), "% of the steps"),
+        (limit_s, None) => {
+            let limit_s = within("time_limit", limit_s.unwrap_or(60.0), 1e6)?;
+            (Budget::Time(Duration::from_secs_f64(limit_s)), "% of the time")
+        }
+        (Some(_), Some(_)) => {
+            let message =
+                "a search ends after time_limit seconds or after so many steps: give one of them";
+            return Err(Failure::argument(message.to_owned()).into());
+        }
     };
     let asked = gap.map(|gap| within("gap", gap, 1.0)).transpose()?;
     let threads = interruptible::threads(threads)?;

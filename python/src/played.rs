@@ -9,16 +9,18 @@ use vertifleet_learn::Scales;
 use vertifleet_policy::{Replay, Stoppable, play};
 use vertifleet_sim::{self as sim, Simulation, Summary};
 use vertifleet_study::Error;
-use vertifleet_study::policies::{Choice, Recipe, for_scenario};
+use vertifleet_study::policies::{Choice, Given, Recipe, for_scenario};
 
 use crate::failure::Failure;
 use crate::frames::plain;
 use crate::given::{Raised, Weighed, own};
 use crate::interruptible::interruptible;
-use crate::network::{Network, check_fits};
+use crate::model::Model;
+use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
+use crate::whole::Whole;
 
 /// A day that was played to its end.
 #[pyclass(frozen, module = "vertifleet")]
@@ -71,51 +73,65 @@ impl Played {
 #[derive(FromPyObject)]
 pub(crate) enum Player<'py> {
     Named(String),
+    Model(PyRef<'py, Model>),
+    Trace(PyRef<'py, Trace>),
     Function(Bound<'py, PyAny>),
 }
 
 /// Plays a day to its end with a policy: one named as `vertifleet simulate` names it, where `seed` is that of the random policy and
-/// `model` a weight file or a `Model` in place of the shipped weights; or a function of the caller's own, as `compare` takes it, which
-/// sees the day as the environment of `network` shows it.
+/// `model` a weight file or a `Model` in place of the shipped weights; a `Model`; a `Trace` of this day, played again; or a function of
+/// the caller's own, as `compare` takes it, which sees the day as the environment of `network` shows it.
 #[pyfunction]
 #[pyo3(
-    signature = (scenario, policy = Player::Named("greedy".to_owned()), *, seed = 0, model = None, network = None),
+    signature = (scenario, policy = Player::Named("greedy".to_owned()), *, seed = Whole::from(0), model = None, network = None),
     text_signature = "(scenario, policy='greedy', *, seed=0, model=None, network=None)"
 )]
 pub(crate) fn simulate(
     py: Python<'_>,
     scenario: &Scenario,
     policy: Player<'_>,
-    seed: u64,
+    seed: Whole,
     model: Option<Weighed<'_>>,
     network: Option<PyRef<'_, Network>>,
 ) -> PyResult<Played> {
     let day = &scenario.scenario;
+    let seed = seed.of("seed")?;
     match (policy, model, network) {
+        (Player::Trace(trace), None, None) => {
+            let recipe = Recipe::Replay(Arc::clone(&trace.trace));
+            played(py, day, "replay".to_owned(), recipe)
+        }
+        (Player::Model(model), None, None) => {
+            let given = Given::Weights(model.weights.clone());
+            by_name(py, day, &Choice { name: model.weights.kind(), seed, model: Some(&given) })
+        }
         (Player::Named(name), model, None) => {
             let given = model.map(Weighed::given);
-            let choice = Choice { name: &name, seed, model: given.as_ref() };
-            let (recipe, warning) = for_scenario(&choice, day).map_err(Failure::from)?;
-            if let Some(warning) = warning {
-                crate::failure::warn(py, &warning)?;
-            }
-            played(py, day, name, recipe)
+            by_name(py, day, &Choice { name: &name, seed, model: given.as_ref() })
         }
         (Player::Function(function), ..) if !function.is_callable() => Err(PyTypeError::new_err(
-            "a policy is a name, or a function from an observation to an action",
+            "a policy is a name, a vertifleet.Model, a vertifleet.Trace, or a function from an observation to an action",
         )),
         (Player::Function(function), None, Some(network)) => {
-            check_fits(&network.network, day)?;
+            network.check_fits(day)?;
             let raised = Raised::default();
             let maker = own(&function, Scales::from(network.network.feature_scales()), &raised);
             let played = played(py, day, "function".to_owned(), Recipe::Own(maker));
             raised.take().map_or(played, Err)
         }
         _ => {
-            let message = "a function takes a network, as which it sees the day, and no model; a name takes no network";
+            let message = "a function takes network=, as which it sees the day, and nothing else does; a name alone takes model=";
             Err(Failure::argument(message.to_owned()).into())
         }
     }
+}
+
+fn by_name(py: Python<'_>, day: &Arc<core::Scenario>, choice: &Choice<'_>) -> PyResult<Played> {
+    let (recipe, warning) = for_scenario(choice, day).map_err(Failure::from)?;
+    if let Some(warning) = warning {
+        crate::failure::warn(py, &warning)?;
+    }
+    played(py, day, choice.name.to_owned(), recipe)
 }
 
 fn played(

@@ -8,10 +8,11 @@ use pyo3::prelude::*;
 use vertifleet_core as core;
 
 use crate::failure::Failure;
-use crate::frames::table;
+use crate::frames::{count, read_only, table};
 use crate::pickle::{Reduced, reduced};
 
-/// One operating day with everything exogenous in it: network, fleet, demand, tariffs, disturbances. Never changes.
+/// One operating day with everything exogenous in it: network, fleet, demand, tariffs, disturbances. Never changes, and neither do its
+/// arrays; another day is drawn from a changed network, or read from a changed text of this one (`to_json`, `from_json`).
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Scenario {
@@ -69,14 +70,16 @@ impl Scenario {
 
     /// Where each aircraft stands when operations start, as positions of vertiports [aircraft].
     #[getter]
-    fn start_positions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u16>> {
-        PyArray1::from_iter(py, self.scenario.aircraft.iter().map(|aircraft| aircraft.at.0))
+    fn start_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let places = self.scenario.aircraft.iter().map(|aircraft| count(aircraft.at.0));
+        read_only(PyArray1::from_iter(py, places))
     }
 
     /// Stands of each vertiport [vertiports].
     #[getter]
-    fn stands<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u16>> {
-        PyArray1::from_iter(py, self.scenario.vertiports.iter().map(|vertiport| vertiport.stands))
+    fn stands<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let stands = self.scenario.vertiports.iter().map(|vertiport| count(vertiport.stands));
+        read_only(PyArray1::from_iter(py, stands))
     }
 
     /// Positions of the vertiports, miles east and north [vertiports, 2].
@@ -84,28 +87,29 @@ impl Scenario {
     fn positions_mi<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let vertiports = &self.scenario.vertiports;
         let places = vertiports.iter().flat_map(|vertiport| [vertiport.x_mi, vertiport.y_mi]);
-        table(py, places, [vertiports.len(), 2])
+        read_only(table(py, places, [vertiports.len(), 2])?)
     }
 
     /// Distances, miles [vertiports, vertiports].
     #[getter]
     fn distance_mi<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let size = self.scenario.vertiports.len();
-        table(py, self.scenario.distance_mi.cells().iter().copied(), [size, size])
+        read_only(table(py, self.scenario.distance_mi.cells().iter().copied(), [size, size])?)
     }
 
     /// When each demand period begins, seconds since midnight [periods].
     #[getter]
-    fn periods_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u32>> {
-        PyArray1::from_iter(py, self.scenario.periods.iter().map(|start| start.seconds()))
+    fn periods_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let starts = self.scenario.periods.iter().map(|start| count(start.seconds()));
+        read_only(PyArray1::from_iter(py, starts))
     }
 
     /// Passengers who will want to fly [periods, vertiports, vertiports]; no policy sees this where it differs from the forecast.
     #[getter]
     fn demand<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (periods, size) = self.shape();
-        let cells = self.scenario.demand.iter().flat_map(|table| table.cells().iter().copied());
-        table(py, cells, [periods, size, size])
+        let cells = self.scenario.demand.iter().flat_map(core::Matrix::cells);
+        read_only(table(py, cells.map(|&passengers| count(passengers)), [periods, size, size])?)
     }
 
     /// Fares, dollars a passenger [periods, vertiports, vertiports].
@@ -114,20 +118,24 @@ impl Scenario {
         let (periods, size) = self.shape();
         let fares =
             (0..periods).flat_map(|period| self.scenario.fare_usd.in_period(period).cells());
-        table(py, fares.copied(), [periods, size, size])
+        read_only(table(py, fares.copied(), [periods, size, size])?)
     }
 
     /// Operating cost, dollars a passenger [vertiports, vertiports].
     #[getter]
     fn passenger_cost_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let size = self.scenario.vertiports.len();
-        table(py, self.scenario.passenger_cost_usd.cells().iter().copied(), [size, size])
+        read_only(table(
+            py,
+            self.scenario.passenger_cost_usd.cells().iter().copied(),
+            [size, size],
+        )?)
     }
 
     /// Price of electricity, dollars per kWh [periods].
     #[getter]
-    fn energy_price_usd<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.scenario.energy_price_usd)
+    fn energy_price_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        read_only(PyArray1::from_slice(py, &self.scenario.energy_price_usd))
     }
 
     /// Revenue if everybody flew, dollars: the denominator of the reward.

@@ -8,6 +8,7 @@ use rayon::ThreadPool;
 
 use crate::failure::Failure;
 use crate::interruptible;
+use crate::whole::Whole;
 
 /// So many threads, made when they are first needed.
 pub(crate) struct Threads {
@@ -27,7 +28,7 @@ struct Pool {
 const AWAKE: Duration = Duration::from_micros(100);
 
 impl Threads {
-    pub(crate) fn new(asked: Option<usize>) -> Result<Self, Failure> {
+    pub(crate) fn new(asked: Option<Whole>) -> Result<Self, Failure> {
         Ok(Self { number: interruptible::threads(asked)?, pool: None })
     }
 

@@ -23,6 +23,12 @@ pub(crate) struct Trace {
 
 #[pymethods]
 impl Trace {
+    /// The day.
+    #[getter]
+    fn scenario(&self) -> Scenario {
+        Scenario { scenario: Arc::clone(&self.scenario) }
+    }
+
     /// Reads a trace of a day, a CSV file.
     #[staticmethod]
     fn read(path: PathBuf, scenario: &Scenario) -> Result<Self, Failure> {
@@ -54,17 +60,17 @@ impl Trace {
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = &self.trace.rows;
         let columns = Columns::new(py);
-        columns.numbers("time", rows.iter().map(|row| row.time.seconds()))?;
-        columns.numbers("aircraft", rows.iter().map(|row| row.aircraft.0))?;
-        columns.numbers("from", rows.iter().map(|row| row.from.0))?;
-        columns.numbers("to", rows.iter().map(|row| row.to.0))?;
-        columns.numbers("passengers", rows.iter().map(|row| row.passengers))?;
+        columns.counts("time", rows.iter().map(|row| row.time.seconds()))?;
+        columns.counts("aircraft", rows.iter().map(|row| row.aircraft.0))?;
+        columns.counts("from", rows.iter().map(|row| row.from.0))?;
+        columns.counts("to", rows.iter().map(|row| row.to.0))?;
+        columns.counts("passengers", rows.iter().map(|row| row.passengers))?;
         columns.numbers("revenue", rows.iter().map(|row| row.revenue_usd))?;
         columns.numbers("passenger_cost", rows.iter().map(|row| row.passenger_cost_usd))?;
         columns.numbers("energy_kwh", rows.iter().map(|row| row.energy_kwh))?;
         columns.numbers("energy_cost", rows.iter().map(|row| row.energy_cost_usd))?;
-        columns.numbers("arrival", rows.iter().map(|row| row.arrival.seconds()))?;
-        columns.numbers("ready", rows.iter().map(|row| row.ready.seconds()))?;
+        columns.counts("arrival", rows.iter().map(|row| row.arrival.seconds()))?;
+        columns.counts("ready", rows.iter().map(|row| row.ready.seconds()))?;
         Ok(columns.into_dict())
     }
 
@@ -90,6 +96,10 @@ impl Trace {
         self.trace == other.trace && self.scenario == other.scenario
     }
 
+    fn __hash__(&self) -> u64 {
+        self.scenario.seed
+    }
+
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (String, Scenario)> {
         let scenario = Scenario { scenario: Arc::clone(&self.scenario) };
         reduced::<Self, _>(py, "from_csv", (self.to_csv(), scenario))
@@ -97,7 +107,8 @@ impl Trace {
 }
 
 /// Judges a schedule by the rules, independently of the simulator. Returns the verdict as a dict: `valid`, `totals` (the day's
-/// account, worked out anew), `broken` (how often each rule is) and `findings` (where).
+/// account, worked out anew), `broken` (how often each rule is) and `findings` (where). A schedule of another day is read by the ids
+/// of its vertiports and aircraft, as a file would be.
 #[pyfunction]
 #[pyo3(signature = (scenario, trace))]
 pub(crate) fn check<'py>(
@@ -105,6 +116,22 @@ pub(crate) fn check<'py>(
     scenario: &Scenario,
     trace: &Trace,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let report = py.detach(|| sim::check::check(&scenario.scenario, &trace.trace));
+    let day = &scenario.scenario;
+    let report = py.detach(|| {
+        let same = same_ids(&trace.scenario, day);
+        let read = if same { None } else { Some(trace.trace.to_csv(&trace.scenario)) };
+        let read = read.map(|text| sim::Trace::from_csv(text.as_bytes(), day, "the schedule"));
+        Ok::<_, Failure>(sim::check::check(day, read.transpose()?.as_ref().unwrap_or(&trace.trace)))
+    })?;
     plain(py, &report)
+}
+
+/// Whether positions of vertiports and aircraft mean the same on two days.
+fn same_ids(one: &core::Scenario, other: &core::Scenario) -> bool {
+    one.vertiports.len() == other.vertiports.len() && ids(one).eq(ids(other))
+}
+
+fn ids(day: &core::Scenario) -> impl Iterator<Item = &str> {
+    let vertiports = day.vertiports.iter().map(|vertiport| vertiport.id.as_str());
+    vertiports.chain(day.aircraft.iter().map(|aircraft| aircraft.id.as_str()))
 }

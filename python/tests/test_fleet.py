@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import copy
 import pickle
+import subprocess
+import sys
 import warnings
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -70,7 +73,25 @@ def test_all_randomness_is_from_np_random() -> None:
     expected = int(np.random.default_rng(5).integers(TRAINING_DAYS))
     env.reset()
     seed = vertifleet.Network("paper").draw(expected, "training").seed
-    assert env._environment.day == f"paper-{seed}"
+    assert env.scenario.name == f"paper-{seed}"
+
+
+def test_the_day_is_named_and_can_be_looked_at(day: vertifleet.Scenario) -> None:
+    env = FleetEnv()
+    assert (env.scenario, env.aircraft, env.time_s) == (None, None, None)
+    _, info = env.reset(seed=1)
+    assert info["day"] == env.scenario.name
+    assert info["day"] == f"paper-{env.scenario.seed}"
+    assert (env.aircraft, env.time_s) == (0, int(env.scenario.periods_s[0]))
+    assert "day" not in env.step(0)[4], "it is told once"
+    _, info = env.reset(options={"scenario": day})
+    assert info["day"] == day.name
+    assert env.scenario.to_json() == day.to_json()
+
+
+def test_a_process_that_has_not_imported_the_package_can_name_its_module() -> None:
+    code = "import gymnasium; gymnasium.make('vertifleet:vertifleet/Fleet-v0', network='paper').reset(seed=1)"
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
 
 def test_the_mask_is_the_same_in_every_form() -> None:
@@ -96,7 +117,7 @@ def test_an_infeasible_action_holds_and_says_so(day: vertifleet.Scenario) -> Non
         closed = np.flatnonzero(info["action_mask"] == 0)
         at = int(np.flatnonzero(infeasible.action_masks())[step % infeasible.action_masks().sum()])
         action = int(closed[0]) if closed.size else at
-        own = int(np.argmax(holding._environment.observe(holding._environment.aircraft)[0]["aircraft"][1:9]))
+        own = int(np.argmax(holding._environment.observe(holding.aircraft)[0]["aircraft"][1:9]))
         one = infeasible.step(action)
         other = holding.step(own if closed.size else at)
         info = one[4]
@@ -108,7 +129,7 @@ def test_an_infeasible_action_holds_and_says_so(day: vertifleet.Scenario) -> Non
         if one[2]:
             break
     assert held > 20
-    for action in (-1, 8, 10**6):
+    for action in (-1, 8, 10**6, -(2**63), np.array(8)):
         infeasible.reset(options={"scenario": day})
         assert infeasible.step(action)[4]["invalid_action"]
 
@@ -133,8 +154,8 @@ def test_the_decisions_of_a_policy_come_to_what_the_library_says(network: str) -
     over = False
     for step in range(len(played.trace)):
         assert not over
-        assert env._environment.aircraft == trace["aircraft"][step]
-        assert env._environment.time_s == trace["time"][step]
+        assert env.aircraft == trace["aircraft"][step]
+        assert env.time_s == trace["time"][step]
         _, _, over, _, info = env.step(trace["to"][step])
         assert not info["invalid_action"]
     assert over
@@ -169,9 +190,10 @@ def test_adjacency_has_the_pairs_that_can_be_flown(day: vertifleet.Scenario) -> 
 
 
 def test_what_is_wrong_is_named() -> None:
-    with pytest.raises(vertifleet.Error, match="reward must be") as error:
-        FleetEnv(reward="weekly")  # type: ignore[arg-type]
-    assert error.value.code == "V451"
+    for reward in ("weekly", "Dense", None):
+        with pytest.raises(vertifleet.Error, match="reward must be") as error:
+            FleetEnv(reward=reward)
+        assert error.value.code == "V451"
     with pytest.raises(vertifleet.Error, match="call reset"):
         FleetEnv().step(0)
     with pytest.raises(vertifleet.Error) as error:
@@ -180,6 +202,37 @@ def test_what_is_wrong_is_named() -> None:
     other = vertifleet.Network("new-york").draw(1)
     with pytest.raises(vertifleet.Error, match="vertiports"):
         FleetEnv("paper").reset(options={"scenario": other})
+
+
+@pytest.mark.parametrize(
+    "action", [0.7, np.float64(2), "3", True, np.True_, None, np.array([3]), 2**63, -(2**63) - 1, 10**30]
+)
+def test_an_action_is_a_whole_number(action: Any) -> None:
+    env = FleetEnv()
+    _, info = env.reset(seed=1)
+    with pytest.raises(vertifleet.Error, match="action must be a whole number") as error:
+        env.step(action)
+    assert error.value.code == "V451"
+    assert np.array_equal(env.action_masks(), info["action_mask"])
+    assert env.aircraft == 0, "nothing has happened"
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"scenerio": None}, "no option 'scenerio'"),
+        ({"reset_mask": np.ones(1, bool)}, "no option 'reset_mask'"),
+        (["scenario"], "must be a dict"),
+        ({"scenario": "paper"}, "must be a vertifleet.Scenario"),
+    ],
+)
+def test_options_that_a_reset_does_not_have_are_refused(options: Any, said: str) -> None:
+    env = FleetEnv()
+    _, info = env.reset(seed=1)
+    with pytest.raises(vertifleet.Error, match=said) as error:
+        env.reset(seed=2, options=options)
+    assert error.value.code == "V451"
+    assert (env.scenario.name, env.np_random_seed) == (info["day"], 1), "nothing has happened"
 
 
 def test_a_day_that_is_over_must_be_followed_by_a_reset() -> None:
@@ -195,14 +248,46 @@ def test_a_network_object_may_be_passed_and_travels() -> None:
     assert env.unwrapped.network.fleet_size == 12
 
 
-@pytest.mark.parametrize("how", ["deepcopy", "pickle"])
+def test_copies_share_what_never_changes_and_nothing_else() -> None:
+    class Noted(FleetEnv):
+        notes: list[str]
+
+    env = Noted()
+    env.notes = []
+    env.reset(seed=4)
+    for other in (copy.copy(env), copy.deepcopy(env)):
+        assert isinstance(other, Noted)
+        assert other.network is env.network
+        assert other.observation_space is env.observation_space
+        assert other.action_space is env.action_space
+        assert other.notes is not env.notes
+        while not other.step(0)[2]:
+            pass
+        other.reset()
+        assert env.time_s == env.scenario.periods_s[0], "the day of the copy is its own"
+    assert copy.copy(env).reset()[1]["day"] == env.reset()[1]["day"], "and so are its random numbers"
+
+
+def test_a_wrapped_environment_is_copied_deep() -> None:
+    env = gymnasium.make("vertifleet/Fleet-v0", network=vertifleet.Network("paper"))
+    env.reset(seed=1)
+    other = copy.deepcopy(env)
+    assert other.unwrapped.network is env.unwrapped.network
+    other.step(0)
+    assert (env.unwrapped.aircraft, other.unwrapped.aircraft) == (0, 1)
+
+
+COPIES = {"copy": copy.copy, "deepcopy": copy.deepcopy, "pickle": lambda env: pickle.loads(pickle.dumps(env))}
+
+
+@pytest.mark.parametrize("how", COPIES)
 def test_a_copy_in_the_middle_of_a_day_goes_on_as_the_day_would(how: str) -> None:
     env = FleetEnv("disrupted", "dense")
     choices = np.random.default_rng(8)
     _, info = env.reset(seed=4)
     for _ in range(150):
         _, _, _, _, info = env.step(choices.choice(np.flatnonzero(info["action_mask"])))
-    other = copy.deepcopy(env) if how == "deepcopy" else pickle.loads(pickle.dumps(env))
+    other = COPIES[how](env)
     over = False
     while not over:
         action = choices.choice(np.flatnonzero(info["action_mask"]))

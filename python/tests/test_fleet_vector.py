@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 import select
 import signal
@@ -23,9 +24,15 @@ def same(one: Any, other: Any) -> bool:
     """Whether two infos or observations, arrays of arrays and all, are equal."""
     if isinstance(one, dict):
         return set(one) == set(other) and all(same(one[key], other[key]) for key in one)
-    if isinstance(one, list) or (isinstance(one, np.ndarray) and one.dtype == object):
+    if isinstance(one, (list, tuple)) or (isinstance(one, np.ndarray) and one.dtype == object):
         return len(one) == len(other) and all(same(a, b) for a, b in zip(one, other, strict=True))
     return bool(np.array_equal(one, other))
+
+
+def told(info: dict[str, Any]) -> dict[str, Any]:
+    """What an info says of the environments that it is about, and which those are."""
+    said = {key: value[info[f"_{key}"]] for key, value in info.items() if key[0] != "_"}
+    return said | {key: value for key, value in info.items() if key[0] == "_"}
 
 
 def actions(masks: np.ndarray, choices: np.random.Generator) -> np.ndarray:
@@ -52,6 +59,7 @@ def lockstep(mode: AutoresetMode, reward: str, steps: int) -> Iterator[tuple[Any
             one = native.reset(options={"reset_mask": over.copy()})
             other = loop.reset(options={"reset_mask": over.copy()})
             assert same(one[0], other[0])
+            assert same(told(one[1]), told(other[1]))
             masks = np.where(over[:, None], other[1]["action_mask"], masks)
 
 
@@ -103,6 +111,40 @@ def test_observations_are_not_copied_and_last_for_a_step() -> None:
     assert third["nodes"] is first["nodes"], "two sets of arrays take turns"
 
 
+def test_observations_of_steps_outlast_a_reset_of_some() -> None:
+    env = FleetVectorEnv(4, autoreset_mode=AutoresetMode.DISABLED)
+    some = np.array([True, False, True, False])
+    handed_out = [env.reset(seed=1), (env.step([1, 2, 3, 4])[0],), env.reset(options={"reset_mask": some})]
+    kept = copy.deepcopy(handed_out)
+    assert same([shown for shown, *_ in handed_out], [shown for shown, *_ in kept])
+    for key, array in handed_out[2][0].items():
+        assert np.array_equal(array[~some], handed_out[1][0][key][~some]), "the others are where they were"
+    assert np.array_equal(env.action_masks(), handed_out[2][1]["action_mask"])
+    env.step(env.action_masks().argmax(axis=1))
+    assert same(handed_out[1][0], kept[1][0]), "those before the step are there after it"
+    assert same(handed_out[2], kept[2])
+    env.step(env.action_masks().argmax(axis=1))
+    assert same(handed_out[2], kept[2]), "those of a reset of some last until the next"
+
+
+def test_days_are_named_when_they_begin_and_can_be_looked_at() -> None:
+    env = FleetVectorEnv(3, autoreset_mode=AutoresetMode.SAME_STEP)
+    assert env.scenarios() == [None] * 3
+    _, info = env.reset(seed=1)
+    assert [day.name for day in env.scenarios()] == info["day"].tolist()
+    choices = np.random.default_rng(1)
+    begun = 0
+    for _ in range(1300):
+        _, _, over, _, info = env.step(actions(info["action_mask"], choices))
+        assert ("day" in info) == over.any(), "it is told once"
+        if over.any():
+            names = [day.name if ended else None for day, ended in zip(env.scenarios(), over, strict=True)]
+            assert info["day"].tolist() == names
+            assert same(info["_day"], over)
+            begun += over.sum()
+    assert begun >= 3
+
+
 def test_what_is_handed_out_may_be_changed() -> None:
     env, other = FleetVectorEnv(3), FleetVectorEnv(3)
     for one in (env, other):
@@ -117,6 +159,7 @@ def test_what_is_handed_out_may_be_changed() -> None:
         observation.clear()
         rewards[:], over[:], truncated[:] = 7, True, True
         info["_action_mask"][:] = False
+        info["_invalid_action"][:] = False
         info["invalid_action"][:] = True
 
 
@@ -172,6 +215,57 @@ def test_seeds_may_be_given_one_by_one() -> None:
     observation, _ = env.reset(seed=[8, 3, 8])
     assert np.array_equal(observation["nodes"][0], observation["nodes"][2])
     assert np.array_equal(observation["nodes"][1], single.reset(seed=3)[0]["nodes"])
+    for seeds in ((8, 3, 8), np.array([8, 3, 8]), np.array([8, 3, 8], np.uint8), [8, np.int64(3), None]):
+        assert np.array_equal(env.reset(seed=seeds)[0]["nodes"][:2], observation["nodes"][:2])
+    assert same(env.reset(seed=np.int64(3))[0], FleetVectorEnv(3).reset(seed=3)[0])
+
+
+@pytest.mark.parametrize(
+    "seed", [1.5, True, "3", [1.5, 2, 3], [True, 2, 3], "123", np.array([1.0, 2, 3]), np.ones((3, 1), int)]
+)
+def test_a_seed_is_a_whole_number(seed: Any) -> None:
+    env = FleetVectorEnv(3)
+    with pytest.raises(vertifleet.Error, match="seed must be") as error:
+        env.reset(seed=seed)
+    assert error.value.code == "V451"
+
+
+@pytest.mark.parametrize(
+    ("mask", "said"),
+    [
+        (None, "found None"),
+        ([True, False, True], "found \\[True"),
+        (np.array([1, 0, 1]), "found int64"),
+        (np.array([True]), "found bool \\(1,\\)"),
+        (np.ones((3, 1), bool), "found bool \\(3, 1\\)"),
+        (np.zeros(3, bool), "names no environment"),
+    ],
+)
+def test_a_mask_of_resets_has_a_truth_value_for_each(mask: Any, said: str) -> None:
+    env = FleetVectorEnv(3)
+    _, info = env.reset(seed=1)
+    with pytest.raises(vertifleet.Error, match=f"reset_mask.*{said}") as error:
+        env.reset(seed=2, options={"reset_mask": mask})
+    assert error.value.code == "V451"
+    assert [day.name for day in env.scenarios()] == info["day"].tolist(), "nothing has happened"
+
+
+@pytest.mark.parametrize("options", [{"scenerio": None}, ["scenario"], {"scenario": "paper"}])
+def test_options_that_a_reset_does_not_have_are_refused(options: Any) -> None:
+    with pytest.raises(vertifleet.Error, match="option") as error:
+        FleetVectorEnv(3).reset(options=options)
+    assert error.value.code == "V451"
+
+
+def test_a_reset_of_some_takes_any_array_of_truth_values_and_keeps_none() -> None:
+    env = FleetVectorEnv(3)
+    env.reset(seed=1)
+    mask = np.array([True, False, False])[::-1]
+    _, info = env.reset(options={"reset_mask": mask})
+    for key in ("_action_mask", "_invalid_action", "_day"):
+        assert np.array_equal(info[key], [False, False, True])
+        info[key][:] = True
+    assert np.array_equal(mask, [False, False, True])
 
 
 def test_what_is_wrong_is_named() -> None:
@@ -181,13 +275,18 @@ def test_what_is_wrong_is_named() -> None:
     with pytest.raises(vertifleet.Error, match="first reset must be of all"):
         env.reset(options={"reset_mask": np.array([True, False])})
     env.reset(seed=1)
-    with pytest.raises(vertifleet.Error, match="actions must have 2 entries"):
-        env.step([0, 0, 0])
+    for shape in ((3,), (2, 1), (1, 2), ()):
+        with pytest.raises(vertifleet.Error, match="actions must have shape") as error:
+            env.step(np.zeros(shape, np.int64))
+        assert f"(2,), found {shape}" in error.value.message
     with pytest.raises(vertifleet.Error, match="whole numbers"):
         env.step([0.5, 0.5])
     for seeds in ([1], [1, 2, 3]):
         with pytest.raises(vertifleet.Error, match="seed must be"):
             env.reset(seed=seeds)
+    for reward in ("weekly", None):
+        with pytest.raises(vertifleet.Error, match="reward must be"):
+            FleetVectorEnv(2, reward=reward)
     with pytest.raises(vertifleet.Error, match="threads"):
         FleetVectorEnv(2, threads=0)
     over = np.zeros(2, bool)

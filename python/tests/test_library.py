@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import pickle
+import warnings
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -75,8 +77,11 @@ def test_everything_that_travels_arrives_as_it_was(paper: Network, day: Scenario
     trace = vertifleet.simulate(day, "greedy").trace
     model = Model.shipped("mlp")
     comparison = vertifleet.compare(paper, ["greedy"], days=2)
-    for one in (day, trace):
-        assert pickle.loads(pickle.dumps(one)) == one
+    for one in (paper, paper.changed({"fleet.0.count": 41}), day, trace, model):
+        again = pickle.loads(pickle.dumps(one))
+        assert again == one
+        assert hash(again) == hash(one)
+    assert paper != paper.changed({"fleet.0.count": 41})
     played = vertifleet.simulate(day, "gcaps-x")
     assert pickle.loads(pickle.dumps(played)).summary == played.summary
     plan = vertifleet.plan(day, steps=100, threads=1)
@@ -84,8 +89,6 @@ def test_everything_that_travels_arrives_as_it_was(paper: Network, day: Scenario
     assert (other.trace, other.profit_usd, other.gap) == (plan.trace, plan.profit_usd, plan.gap)
     assert np.array_equal(other.bound.passenger_worth_usd, plan.bound.passenger_worth_usd)
     assert np.array_equal(other.bound.stand_worth_usd, plan.bound.stand_worth_usd)
-    assert pickle.loads(pickle.dumps(paper)).draw(1) == day
-    assert pickle.loads(pickle.dumps(model)).to_bytes() == model.to_bytes()
     again = pickle.loads(pickle.dumps(comparison))
     assert again.summary == comparison.summary
 
@@ -96,6 +99,8 @@ def test_a_trace_is_a_schedule_that_can_be_kept_replayed_and_judged(day: Scenari
     played.trace.write(path)
     assert Trace.read(path, day) == played.trace
     assert vertifleet.simulate(day, f"replay:{path}").summary == played.summary
+    assert vertifleet.simulate(day, played.trace).summary == played.summary
+    assert played.trace.scenario == day
     verdict = vertifleet.check(day, played.trace)
     assert verdict["valid"]
     assert verdict["totals"]["profit"] == pytest.approx(played.profit_usd)
@@ -268,6 +273,23 @@ def test_the_shipped_models_say_what_they_are() -> None:
         (lambda day, paper: vertifleet.bound(day, step=0), "V501"),
         (lambda day, paper: vertifleet.plan(day, time_limit=-1.0), "V451"),
         (lambda day, paper: vertifleet.plan(day, gap=float("nan")), "V451"),
+        (lambda day, paper: vertifleet.plan(day, steps=5, time_limit=5.0), "V451"),
+        (lambda day, paper: vertifleet.plan(day, seed=-1), "V451"),
+        (lambda day, paper: vertifleet.bound(day, step=-1), "V451"),
+        (lambda day, paper: vertifleet.simulate(day, "random", seed=2**200), "V451"),
+        (lambda day, paper: paper.draw(-1), "V451"),
+        (lambda day, paper: paper.draw(2**40), "V118"),
+        (lambda day, paper: paper.changed({"fleet.0.count": object()}), "V451"),
+        (lambda day, paper: paper.changed({"tariffs.fare_base": float("nan")}), "V451"),
+        (lambda day, paper: vertifleet.compare(paper, [], days=1), "V402"),
+        (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=-1), "V451"),
+        (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=10**7), "V451"),
+        (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=2, seed=2**40 - 1), "V118"),
+        (lambda day, paper: vertifleet.sweep(paper, {"demand.peak": {"mean": 1}}, ["greedy"]), "V451"),
+        (lambda day, paper: vertifleet.settings("paper", gama=1), "V302"),
+        (lambda day, paper: vertifleet.settings("paper", n_envs=2.5), "V303"),
+        (lambda day, paper: vertifleet.simulate(day, lambda shown: -1, network=paper), "V451"),
+        (lambda day, paper: vertifleet.simulate(day, lambda shown: 99, network=paper), "V406"),
         (lambda day, paper: vertifleet.compare(paper, "greedy", days=1), "V451"),
         (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=1, threads=0), "V451"),
         (lambda day, paper: vertifleet.compare(paper, ["greedy", "greedy"], days=1), "V404"),
@@ -299,6 +321,76 @@ def test_weights_shipped_for_a_network_warn_on_a_copy_of_it(paper: Network) -> N
     assert pickle.loads(pickle.dumps(comparison)).warnings == comparison.warnings
 
 
+def test_a_warning_that_is_an_error_comes_before_the_days(paper: Network) -> None:
+    other = paper.changed({"fleet.0.count": 30})
+    asked: list[int] = []
+
+    def hold(observation: dict[str, np.ndarray]) -> np.intp:
+        asked.append(1)
+        return observation["action_mask"].argmax()
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(UserWarning, match="changed copy"):
+            vertifleet.compare(other, ["own", "gcaps"], days=1, models={"own": hold})
+    assert not asked
+
+
+def test_counts_can_be_subtracted_and_days_not_be_written_to(paper: Network, day: Scenario) -> None:
+    comparison = vertifleet.compare(paper, ["greedy", "gcaps-x"], days=2)
+    for arrays in (comparison.columns, vertifleet.simulate(day).trace.columns):
+        assert not any(np.issubdtype(array.dtype, np.unsignedinteger) for array in arrays.values())
+    for name in ("demand", "stands", "start_positions", "periods_s"):
+        assert getattr(day, name).dtype == np.int64
+    for name in ("demand", "fare_usd", "distance_mi", "positions_mi", "energy_price_usd", "stands"):
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(day, name)[...] = 0
+
+
+def test_a_schedule_of_another_day_is_judged_by_its_ids(day: Scenario) -> None:
+    reversed_day = json.loads(day.to_json())
+    reversed_day["aircraft"].reverse()
+    other = Scenario.from_json(json.dumps(reversed_day))
+    trace = vertifleet.simulate(day).trace
+    by_ids = vertifleet.check(other, Trace.from_csv(trace.to_csv(), other))
+    assert vertifleet.check(other, trace) == by_ids
+    with pytest.raises(vertifleet.Error) as error:
+        vertifleet.check(day, vertifleet.simulate(Network("new-york").draw(1)).trace)
+    assert error.value.code == "V207"
+
+
+def test_where_nothing_can_be_earned_nothing_is_missed(paper: Network) -> None:
+    poor = paper.changed({"tariffs.fare_base": 0.5, "tariffs.fare_demand_weight": 0})
+    plan = vertifleet.plan(poor.draw(1), steps=10, threads=1)
+    assert (plan.profit_usd, plan.bound.upper_bound_usd, plan.gap) == (0.0, 0.0, 0.0)
+
+
+def test_a_report_names_the_call_that_made_it(paper: Network) -> None:
+    def hold(observation: dict[str, np.ndarray]) -> np.intp:
+        return observation["action_mask"].argmax()
+
+    changed = paper.changed({"fleet.0.count": 3})
+    comparison = vertifleet.compare(changed, ["own"], days=np.int64(1), models={"own": hold})
+    name = f"{hold.__qualname__}"
+    assert comparison.summary["command"] == (
+        "vertifleet.compare(vertifleet.Network(\"paper\").changed({'fleet.0.count': 3}), ['own'], "
+        f"days=1, seed=1, models={{'own': {name}}})"
+    )
+
+
+def test_a_model_plays_and_says_what_environments_ask_it(day: Scenario) -> None:
+    model = Model.shipped("gcaps")
+    assert vertifleet.simulate(day, model).summary == vertifleet.simulate(day, "gcaps").summary
+    shown, _ = vertifleet.envs.FleetVectorEnv(3).reset(seed=1)
+    asked = [shown["nodes"], shown["aircraft"], shown["action_mask"], shown["clock"]]
+    logits, values = model.forward(*asked)
+    assert logits.shape == (3, 8)
+    assert values.shape == (3,)
+    assert (np.isneginf(logits) == (shown["action_mask"] == 0)).all()
+    booleans, _ = model.forward(*asked[:2], shown["action_mask"] > 0, shown["clock"][:, 0])
+    assert np.array_equal(booleans, logits)
+
+
 def test_a_comparison_says_how_it_was_made() -> None:
     comparison = vertifleet.compare("paper", ["greedy", "random"], days=2, seed=5, policy_seed=3)
     again = eval(comparison.summary["command"], {"vertifleet": vertifleet})
@@ -318,5 +410,5 @@ def test_arrays_are_read_however_they_lie_in_memory() -> None:
     halves = model.forward(nodes[::2], aircraft[::2], mask[::2], clock[::2])
     assert np.array_equal(halves[0], logits[::2])
     assert np.array_equal(halves[1], values[::2])
-    with pytest.raises(vertifleet.Error, match="a batch of 6"):
+    with pytest.raises(vertifleet.Error, match="must have 6 rows of 18 entries"):
         model.forward(nodes, aircraft[:5], mask, clock)

@@ -17,10 +17,14 @@ import vertifleet
 
 LONG = {
     "compare": "vertifleet.compare(vertifleet.Network('paper'), ['rolling'], days=2000)",
+    "function": (
+        "vertifleet.compare('paper', ['f'], days=9000, models={'f': lambda o: o['action_mask'].argmax()})"
+    ),
     "bounds": "vertifleet.compare(vertifleet.Network('paper'), ['random'], days=500, seed=70000, bound=True)",
     "plans": "vertifleet.compare(vertifleet.Network('paper'), ['plan'], days=20)",
     "days": "vertifleet.compare('paper', ['random'], days=1_000_000)",
-    "bound": "vertifleet.bound(vertifleet.Network('new-york').draw(1), step=1)",
+    "bound": "vertifleet.bound(vertifleet.Network('random:20').draw(1), step=1)",
+    "proof": "vertifleet.plan(vertifleet.Network('random:20').draw(1), steps=1)",
     "simulate": "vertifleet.simulate(vertifleet.Network('new-york').draw(1), 'gcaps-x:rollouts=5')",
     "plan": "vertifleet.plan(vertifleet.Network('paper').draw(1), time_limit=600)",
 }
@@ -45,6 +49,7 @@ def test_ctrl_c_ends_a_long_call(call: str, tmp_path: Path) -> None:
     out, errors = process.communicate(timeout=15)
     assert out == ""
     assert "KeyboardInterrupt" in errors
+    assert process.returncode in (1, 130, -signal.SIGINT), "ended by the exception, not by a crash"
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import warnings
+from typing import Any
 
 import numpy as np
 import pytest
@@ -55,6 +57,81 @@ def test_agents_are_paid_what_the_day_pays(reward: str) -> None:
         agents.step(int(action))
     assert sum(paid.values()) == pytest.approx(total, abs=1e-12)
     assert sum(value != 0 for value in paid.values()) > 35, "each is paid for its own flights"
+
+
+def test_the_end_tells_the_days_numbers_to_all() -> None:
+    agents, single = pettingzoo.env(SMALL), FleetEnv(SMALL)
+    agents.reset(seed=3)
+    single.reset(seed=3)
+    assert agents.scenario.name == single.scenario.name
+    over = False
+    while not over:
+        assert [agent for agent in agents.agents if "action_mask" in agents.infos[agent]] == [
+            agents.agent_selection
+        ], "nobody is told a mask that has been used"
+        action = int(agents.infos[agents.agent_selection]["action_mask"].argmax())
+        agents.step(action)
+        _, _, over, _, info = single.step(action)
+    for agent in agents.possible_agents:
+        assert agents.infos[agent]["summary"] == info["summary"]
+        mask = agents.infos[agent]["action_mask"]
+        assert np.array_equal(mask, agents.observe(agent)["action_mask"])
+        assert mask.sum() == 1, "only hold is left"
+
+
+@pytest.mark.parametrize("how", [copy.copy, copy.deepcopy])
+def test_copies_play_on_by_themselves_and_share_what_never_changes(how: Any) -> None:
+    env = pettingzoo.FleetAEC(SMALL, "dense")
+    env.reset(seed=3)
+    for _ in range(20):
+        env.step(int(env.infos[env.agent_selection]["action_mask"].argmax()))
+    other = how(env)
+    assert other.network is env.network
+    assert other.action_spaces is env.action_spaces
+    before = copy.deepcopy((env.agent_selection, env.rewards, env.terminations, env._cumulative_rewards))
+    actions = []
+    while not other.terminations[other.agent_selection]:
+        actions.append(int(other.infos[other.agent_selection]["action_mask"].argmax()))
+        other.step(actions[-1])
+    after = (env.agent_selection, env.rewards, env.terminations, env._cumulative_rewards)
+    assert after == before, "the day of the copy is its own"
+    for action in actions:
+        env.step(action)
+    assert env._cumulative_rewards == other._cumulative_rewards
+    assert env.infos[env.agent_selection]["summary"] == other.infos[env.agent_selection]["summary"]
+
+
+def test_a_wrapped_environment_is_copied_deep() -> None:
+    env = pettingzoo.env(SMALL)
+    env.reset(seed=3)
+    other = copy.deepcopy(env)
+    other.step(0)
+    assert (env.agent_selection, other.agent_selection) == ("aircraft_0", "aircraft_1")
+    assert other.unwrapped.network is env.unwrapped.network
+
+
+@pytest.mark.parametrize("reward", ["weekly", "Dense", None])
+def test_rewards_are_those_of_the_single_environment(reward: Any) -> None:
+    with pytest.raises(vertifleet.Error, match="reward must be") as error:
+        pettingzoo.env(reward=reward)
+    assert error.value.code == "V451"
+
+
+@pytest.mark.parametrize("options", [{"scenerio": None}, ["scenario"], {"scenario": "paper"}])
+def test_options_that_a_reset_does_not_have_are_refused(options: Any) -> None:
+    with pytest.raises(vertifleet.Error, match="option") as error:
+        pettingzoo.env(SMALL).reset(options=options)
+    assert error.value.code == "V451"
+
+
+@pytest.mark.parametrize("action", [0.7, "3", True, None, np.array([3]), 10**30])
+def test_an_action_is_a_whole_number(action: Any) -> None:
+    env = pettingzoo.env(SMALL)
+    env.reset(seed=3)
+    with pytest.raises(vertifleet.Error, match="action must be a whole number") as error:
+        env.step(action)
+    assert error.value.code == "V451"
+    assert env.agent_selection == "aircraft_0", "nothing has happened"
 
 
 def test_an_aircraft_that_does_not_decide_can_only_hold() -> None:

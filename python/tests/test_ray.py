@@ -202,7 +202,7 @@ def test_what_cannot_be_split_is_refused(paper):
 
 
 def test_a_node_with_another_version_is_refused(paper):
-    asked = Asked.of("compare", paper, ["greedy"], 1, 1, None, False, 5, None)
+    asked = Asked.of("compare", ["greedy"], 1, 1, None, False, 5, None)
     with pytest.raises(vertifleet.Error) as refused:
         tasks.play._function(asked, "0.0.0", paper, 1, 1)
     assert refused.value.code == "V409"

@@ -9,6 +9,8 @@ modules; `vertifleet.sb3` and `vertifleet.ray` train them.
 
 from __future__ import annotations
 
+from importlib.metadata import version
+
 from vertifleet._compare import compare
 from vertifleet._errors import Error
 from vertifleet._native import (
@@ -40,6 +42,7 @@ __all__ = [
     "Scenario",
     "Sweep",
     "Trace",
+    "__version__",
     "bound",
     "check",
     "compare",
@@ -48,5 +51,7 @@ __all__ = [
     "simulate",
     "sweep",
 ]
+
+__version__ = version("vertifleet")
 
 _register()

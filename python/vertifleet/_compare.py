@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from operator import index
+from typing import Any, SupportsIndex, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ from vertifleet import _native
 from vertifleet._errors import Error
 from vertifleet._native import Comparison, Model, Network
 
-Own: TypeAlias = Callable[[dict[str, NDArray[np.float32]]], int]
+Own: TypeAlias = Callable[[dict[str, NDArray[np.float32]]], SupportsIndex]
 """A policy of the caller's own: from what ``vertifleet/Fleet-v0`` shows to the position of a vertiport."""
 
 Given: TypeAlias = str | os.PathLike[str] | Model | Own
@@ -24,14 +25,14 @@ Given: TypeAlias = str | os.PathLike[str] | Model | Own
 
 def compare(
     network: str | os.PathLike[str] | Network,
-    policies: Sequence[str],
+    policies: Iterable[str],
     *,
-    days: int = 100,
-    seed: int = 1,
+    days: SupportsIndex = 100,
+    seed: SupportsIndex = 1,
     models: Mapping[str, Given] | None = None,
     bound: bool = False,
-    step: int = 5,
-    policy_seed: int | None = None,
+    step: SupportsIndex = 5,
+    policy_seed: SupportsIndex | None = None,
     threads: int | None = None,
 ) -> Comparison:
     """Plays days of a network with every policy; all meet the same days.
@@ -41,7 +42,9 @@ def compare(
         policies: as ``vertifleet compare`` names them; "plan" is the planner, which knows the days.
         days: how many.
         seed: of the first day; the others follow.
-        models: what names stand for, weights or functions, where not for the rules and the shipped weights.
+        models: what names stand for, weights or functions, where not for the rules and the shipped weights. A
+            function is asked about one decision at a time, but about several days in turn: one that remembers
+            anything between calls needs ``threads=1``, which plays day after day.
         bound: whether every day gets a certified upper bound. Bounds are kept in the user's cache folder.
         step: minutes for which the bounds' prices stay the same, 1 to 60; fewer give tighter bounds, later.
         policy_seed: of the random policy and of the planner's search; `seed` by default.
@@ -51,70 +54,87 @@ def compare(
         Error: with the code that the program has for it; what a function of `models` raises is raised as is.
     """
     network = network_of(network)
-    asked = Asked.of("vertifleet.compare", network, policies, days, seed, models, bound, step, policy_seed)
-    comparison = asked.compare(network, days, seed, threads)
-    say([comparison])
-    return comparison
+    asked = Asked.of("vertifleet.compare", policies, days, seed, models, bound, step, policy_seed)
+    asked.check([network])
+    return asked.compare(network, asked.days, asked.seed, threads)
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What every day of a comparison is played with; parts of its days can be played apart."""
+    """What a comparison is asked for; parts of its days can be played apart."""
 
+    function: str
+    """The function of the package that was called."""
     policies: tuple[str, ...]
+    days: int
+    seed: int
     models: dict[str, Given]
     bound: bool
     step: int
-    policy_seed: int
-    command: str
-    """The call as it would be typed, for the report."""
+    policy_seed: int | None
 
     @classmethod
     def of(
         cls,
         function: str,
-        network: Network,
-        policies: Sequence[str],
-        days: int,
-        seed: int,
+        policies: Iterable[str],
+        days: SupportsIndex,
+        seed: SupportsIndex,
         models: Mapping[str, Given] | None,
         bound: bool,
-        step: int,
-        policy_seed: int | None,
+        step: SupportsIndex,
+        policy_seed: SupportsIndex | None,
     ) -> Asked:
         """What a function of the package was asked for; a single name is a list of letters nobody means."""
         if isinstance(policies, str):
             raise Error("V451", f"policies must be a list of names, found {policies!r}", f"[{policies!r}]")
-        said: dict[str, object] = {"days": days, "seed": seed}
-        said |= {"models": dict(models)} if models else {}
-        said |= {"bound": bound, "step": step} if bound else {}
-        said |= {"policy_seed": policy_seed} if policy_seed is not None else {}
-        named = ", ".join(f"{name}={value!r}" for name, value in said.items())
-        command = f"{function}({network.name!r}, {list(policies)!r}, {named})"
-        policy_seed = seed if policy_seed is None else policy_seed
-        return cls(tuple(policies), dict(models or {}), bound, step, policy_seed, command)
+        seed_of_policies = None if policy_seed is None else index(policy_seed)
+        names, given = tuple(policies), dict(models or {})
+        return cls(function, names, index(days), index(seed), given, bound, index(step), seed_of_policies)
+
+    def check(self, networks: Iterable[Network], stacklevel: int = 3) -> None:
+        """Refuses what cannot be played, and says what is hardly meant, each thing once, before any day is.
+
+        Args:
+            networks: those that are compared on.
+            stacklevel: how many levels up the user's call is.
+        """
+        asked = self._on(self.days, self.seed)
+        texts = [text for network in networks for text in _native.check_comparison(network, asked)]
+        for text in dict.fromkeys(texts):
+            warnings.warn(text, stacklevel=stacklevel)
 
     def compare(self, network: Network, days: int, seed: int, threads: int | None) -> Comparison:
-        """Plays some days; what is to be said of them is left in the comparison's warnings."""
-        return _native.compare(
-            network,
-            list(self.policies),
-            days=days,
-            seed=seed,
-            models=self.models,
-            bound=self.bound,
-            step=self.step,
-            policy_seed=self.policy_seed,
-            threads=threads,
-            command=self.command,
-        )
+        """Plays some of the days."""
+        return _native.compare(network, self._on(days, seed), threads=threads, command=self._typed(network))
+
+    def _on(self, days: int, seed: int) -> dict[str, Any]:
+        return {
+            "policies": list(self.policies),
+            "days": days,
+            "seed": seed,
+            "models": self.models,
+            "bound": self.bound,
+            "step": self.step,
+            "policy_seed": self.seed if self.policy_seed is None else self.policy_seed,
+        }
+
+    def _typed(self, network: Network) -> str:
+        """The call as it would be typed, for the report."""
+        said = [f"days={self.days}", f"seed={self.seed}"]
+        if self.models:
+            models = ", ".join(f"{name!r}: {_name(given)}" for name, given in self.models.items())
+            said.append(f"models={{{models}}}")
+        if self.bound:
+            said += ["bound=True", f"step={self.step}"]
+        if self.policy_seed is not None:
+            said.append(f"policy_seed={self.policy_seed}")
+        return f"{self.function}({network.source}, {list(self.policies)!r}, {', '.join(said)})"
 
 
-def say(comparisons: Sequence[Comparison], stacklevel: int = 3) -> None:
-    """Says the warnings of comparisons, each once, as of the call that the user made, so many levels up."""
-    texts = dict.fromkeys(text for comparison in comparisons for text in comparison.warnings)
-    for text in texts:
-        warnings.warn(text, stacklevel=stacklevel)
+def _name(given: Given) -> str:
+    """A function's name is the same every day; what Python prints of it is not."""
+    return getattr(given, "__qualname__", None) or repr(given)
 
 
 def network_of(network: str | os.PathLike[str] | Network) -> Network:

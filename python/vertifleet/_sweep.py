@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
-from vertifleet._compare import Asked, network_of, say
+from vertifleet._compare import Asked, network_of
 from vertifleet._errors import Error
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     import pandas
     import polars
@@ -83,15 +84,15 @@ class Sweep:
 
 def sweep(
     network: str | os.PathLike[str] | Network,
-    changes: Mapping[str, Sequence[Any]],
-    policies: Sequence[str],
+    changes: Mapping[str, Iterable[Any]],
+    policies: Iterable[str],
     *,
-    days: int = 100,
-    seed: int = 1,
+    days: SupportsIndex = 100,
+    seed: SupportsIndex = 1,
     models: Mapping[str, Given] | None = None,
     bound: bool = False,
-    step: int = 5,
-    policy_seed: int | None = None,
+    step: SupportsIndex = 5,
+    policy_seed: SupportsIndex | None = None,
     threads: int | None = None,
 ) -> Sweep:
     """Compares policies on variations of a network, all on days of the same seeds.
@@ -103,7 +104,8 @@ def sweep(
     Args:
         network: what is varied: the network, its name, or the path of its file.
         changes: values by paths of the network file, as :meth:`Network.changed` takes them. Every combination
-            is a point; the values of the last path change fastest.
+            is a point; the values of the last path change fastest. Where two paths lead to one member, the
+            later one wins.
         policies: as for :func:`compare`, and so is all that follows.
         days: number of days.
         seed: seed of the first day.
@@ -119,14 +121,14 @@ def sweep(
     """
     network = network_of(network)
     points = variations(network, changes)
-    asked = Asked.of("vertifleet.compare", network, policies, days, seed, models, bound, step, policy_seed)
-    comparisons = [asked.compare(variation, days, seed, threads) for _, variation in points]
-    say(comparisons)
+    asked = Asked.of("vertifleet.compare", policies, days, seed, models, bound, step, policy_seed)
+    asked.check(variation for _, variation in points)
+    comparisons = [asked.compare(variation, asked.days, asked.seed, threads) for _, variation in points]
     return Sweep(network.name, asked.policies, together(points, comparisons))
 
 
 def variations(
-    network: Network, changes: Mapping[str, Sequence[Any]]
+    network: Network, changes: Mapping[str, Iterable[Any]]
 ) -> list[tuple[dict[str, Any], Network]]:
     """Every combination of the values: what is changed, and the network with the change."""
     values = [_values(path, values) for path, values in changes.items()]
@@ -141,9 +143,9 @@ def together(
     return tuple((changes, found) for (changes, _), found in zip(points, comparisons, strict=True))
 
 
-def _values(path: str, values: Sequence[Any]) -> list[Any]:
+def _values(path: str, values: Iterable[Any]) -> list[Any]:
     """The values as network files take them; numpy's numbers are made Python's."""
-    if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
+    if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__iter__"):
         raise Error("V451", f"changes: {path} must have a list of values, found {values!r}")
     listed = [value.item() if isinstance(value, np.generic) else value for value in values]
     if not listed:

@@ -17,6 +17,8 @@ from pettingzoo.utils import wrappers
 from vertifleet._compare import network_of
 from vertifleet._errors import Error
 from vertifleet._native import TRAINING_DAYS, Environment, Network, Scenario
+from vertifleet.envs.arguments import action_of, check_reward, options_of
+from vertifleet.envs.copies import Copied
 from vertifleet.envs.spaces import observation_space
 
 __all__ = ["FleetAEC", "env"]
@@ -31,17 +33,20 @@ def env(
     return wrappers.OrderEnforcingWrapper(FleetAEC(network, reward, render_mode))
 
 
-class FleetAEC(AECEnv[str, dict[str, Any], int]):
+class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
     """Agent ``aircraft_k`` decides for aircraft k whenever that one is ready for take-off.
 
     Actions, features and masks are those of ``vertifleet/Fleet-v0``; an observation is ``{"observation":
     {"nodes", "aircraft", "clock", "adjacency"}, "action_mask"}``, as the agent would see the network now. An
     agent is paid what its own flights earn, over the potential revenue of the day: by the flight
     (``reward="dense"``) or all at the end (``"terminal"``). The rewards of all agents add up to that of
-    ``vertifleet/Fleet-v0``. All agents terminate with the day.
+    ``vertifleet/Fleet-v0``. All agents terminate with the day, and their infos have its numbers as
+    ``summary``. The mask is in the info of the agent that decides, and in all infos at the end. An
+    environment can be copied and pickled in the middle of a day; copies share its network and spaces.
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": [], "name": "fleet_v0", "is_parallelizable": False}
+    _never_changes = ("network", "possible_agents", "_positions", "observation_spaces", "action_spaces")
 
     def __init__(
         self,
@@ -50,6 +55,7 @@ class FleetAEC(AECEnv[str, dict[str, Any], int]):
         render_mode: None = None,
     ) -> None:
         super().__init__()
+        check_reward(reward)
         self.network = network_of(network)
         self.reward = reward
         self.render_mode = render_mode
@@ -77,10 +83,15 @@ class FleetAEC(AECEnv[str, dict[str, Any], int]):
         return self.action_spaces[agent]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
-        """Begins the day that ``vertifleet/Fleet-v0`` has for this seed, or ``options["scenario"]``."""
+        """Begins the day that ``vertifleet/Fleet-v0`` has for this seed, or ``options["scenario"]``.
+
+        Raises:
+            Error: V451 for other options, or a day of another number of vertiports or aircraft.
+        """
+        # PettingZoo's own test passes an option of this name, to see whether options are taken at all.
+        scenario: Scenario | None = options_of(options, "options").get("scenario")
         if seed is not None or self._np_random is None:
             self._np_random = seeding.np_random(seed)[0]
-        scenario: Scenario | None = (options or {}).get("scenario")
         if scenario is None:
             self._environment.reset(int(self._np_random.integers(TRAINING_DAYS)))
         elif len(scenario.aircraft) == len(self.possible_agents):
@@ -99,6 +110,11 @@ class FleetAEC(AECEnv[str, dict[str, Any], int]):
         self.infos: dict[str, dict[str, Any]] = {agent: {"invalid_action": False} for agent in self.agents}
         self._select()
 
+    @property
+    def scenario(self) -> Scenario | None:
+        """The day in progress, or that ended last; none before the first."""
+        return self._environment.scenario
+
     def observe(self, agent: str) -> dict[str, Any]:
         """What the network shows to an agent now; to one that does not decide, only hold is feasible."""
         observation, mask = self._environment.observe(self._positions[agent])
@@ -106,24 +122,29 @@ class FleetAEC(AECEnv[str, dict[str, Any], int]):
         return {"observation": observation, "action_mask": mask}
 
     def step(self, action: int | None) -> None:
-        """Carries the decision of the selected agent out and goes on to the next."""
+        """Carries the decision of the selected agent out and goes on to the next.
+
+        Args:
+            action: the position of a vertiport; None, as PettingZoo has it, of an agent that has terminated.
+
+        Raises:
+            Error: V451 for an action that is no whole number.
+        """
         agent = self.agent_selection
         if self.terminations[agent]:
             self._was_dead_step(action)
             return
-        if action is None:
-            raise TypeError("an agent that has not terminated acts; None is for those that have")
-        _, earned, over, invalid = self._environment.step(int(action))
+        _, earned, over, invalid = self._environment.step(action_of(action))
         self._cumulative_rewards[agent] = 0.0
         self._clear_rewards()
         self._earned[agent] += earned
-        self.infos[agent]["invalid_action"] = invalid
+        self.infos[agent] = {"invalid_action": invalid}
         if self.reward == "dense":
             self.rewards[agent] = earned
         elif over:
             self.rewards = dict(self._earned)
         if over:
-            self.terminations = dict.fromkeys(self.agents, True)
+            self._end()
         else:
             self._select()
         self._accumulate_rewards()
@@ -134,3 +155,11 @@ class FleetAEC(AECEnv[str, dict[str, Any], int]):
         assert position is not None, "a day has begun"
         self.agent_selection = self.possible_agents[position]
         self.infos[self.agent_selection]["action_mask"] = self._environment.mask().astype(np.int8)
+
+    def _end(self) -> None:
+        """Ends the day for all agents: they are told its numbers, and none can do anything but hold."""
+        self.terminations = dict.fromkeys(self.agents, True)
+        summary = self._environment.summary
+        for agent in self.agents:
+            _, hold = self._environment.observe(self._positions[agent])
+            self.infos[agent] |= {"action_mask": hold, "summary": summary}

@@ -1,6 +1,6 @@
 //! Networks like another but for some members of its file: what a planner asks with "and with 12 more aircraft?".
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use crate::parse::shortened;
 use crate::{Error, Network};
@@ -8,12 +8,16 @@ use crate::{Error, Network};
 impl Network {
     /// The network whose file differs from this one's in some members. A path names members from the outside in, with dots
     /// between; the entries of a list by their `id`, by their position from 0, or by `*` for all of them: `fleet.0.count`,
-    /// `vertiports.V3.stands`, `vertiports.*.stands`. The file's format then has to allow what it says.
+    /// `vertiports.V3.stands`, `vertiports.*.stands`. Changes are made in their order, so that later ones win. The file's format then
+    /// has to allow what it says.
     ///
     /// # Errors
     /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form in TOML; then as
     /// [`from_toml`](Self::from_toml).
-    pub fn changed(&self, changes: &Map<String, Value>) -> Result<Self, Error> {
+    pub fn changed<'a>(
+        &self,
+        changes: impl IntoIterator<Item = (&'a String, &'a Value)>,
+    ) -> Result<Self, Error> {
         let origin = format!("{}, changed", self.name());
         let mut file: toml::Value =
             toml::from_str(self.toml()).expect("the text has been read before");
@@ -78,6 +82,18 @@ mod tests {
     fn changed(changes: &Value) -> Result<Network, Error> {
         let paper = Network::shipped("paper").expect("a shipped network");
         paper.changed(changes.as_object().expect("changes by their paths"))
+    }
+
+    #[test]
+    fn later_changes_win() {
+        let paper = Network::shipped("paper").expect("a shipped network");
+        let (all, one) = ("vertiports.*.stands".to_owned(), "vertiports.V1.stands".to_owned());
+        let stands = |changes: [(&String, &Value); 2]| {
+            let network = paper.changed(changes).expect("a network");
+            network.vertiports()[0].stands
+        };
+        assert_eq!(stands([(&all, &json!(8)), (&one, &json!(9))]), 9);
+        assert_eq!(stands([(&one, &json!(9)), (&all, &json!(8))]), 8);
     }
 
     #[test]

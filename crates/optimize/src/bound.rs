@@ -14,6 +14,8 @@ mod prices;
 mod proof_tests;
 mod slices;
 
+use std::sync::atomic::AtomicBool;
+
 use vertifleet_core::{Scenario, Time, TypeIx, VertiportIx};
 
 use crate::Error;
@@ -76,10 +78,24 @@ pub struct Bound {
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step.
 pub fn upper_bound(scenario: &Scenario, step: Step) -> Result<Bound, Error> {
+    let never = AtomicBool::new(false);
+    Ok(upper_bound_unless(&never, scenario, step)?.expect("nobody stops it"))
+}
+
+/// As [`upper_bound`]; nothing, soon after `stopped` is raised.
+///
+/// # Errors
+/// Those of [`upper_bound`].
+pub fn upper_bound_unless(
+    stopped: &AtomicBool,
+    scenario: &Scenario,
+    step: Step,
+) -> Result<Option<Bound>, Error> {
     let network = Network::of(scenario, step.seconds())?;
     let mut certificate = Certificate::new(&network);
-    let prices = descend(&network, &mut certificate, Prices::zero(&network), step.effort());
-    Ok(Bound::proven(step, network, certificate, prices))
+    let zero = Prices::zero(&network);
+    let prices = descend(&network, &mut certificate, zero, step.effort(), stopped);
+    Ok(prices.map(|prices| Bound::proven(step, network, certificate, prices)))
 }
 
 impl Bound {

@@ -9,7 +9,7 @@ mod plan;
 mod proof;
 mod rolling;
 
-pub use bound::{Bound, Step, cached_upper_bound, upper_bound};
+pub use bound::{Bound, Step, cached_upper_bound, upper_bound, upper_bound_unless};
 pub use error::Error;
 pub use plan::{Budget, Plan, Progress, Settings, can_plan, plan};
 pub use proof::{Proof, gap};

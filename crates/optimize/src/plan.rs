@@ -35,6 +35,9 @@ const ROUNDS_A_MEETING: u64 = 100;
 const HOT_USD: f64 = 4.0;
 const COLD_USD: f64 = 1.0;
 
+/// Share of the time that the rolling horizon may take for a day to start from.
+const ROLLING: f64 = 0.5;
+
 /// How long to search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Budget {
@@ -102,7 +105,11 @@ pub fn plan(
 ) -> Result<Plan, Error> {
     can_plan(scenario)?;
     let begun = Instant::now();
-    let (trace, profit_usd) = start::best_policy(scenario);
+    let (trace, profit_usd) = best_policy(scenario, |profit_usd| {
+        let share = share(settings.budget, begun, 0);
+        let late = matches!(settings.budget, Budget::Time(_)) && share > ROLLING;
+        !late && watch(&Progress { share, steps: 0, profit_usd })
+    });
     let mut plan = Plan { trace, profit_usd, best_policy_usd: profit_usd, steps: 0 };
     let problem = Problem::of(scenario);
     let first = start::schedule_of(&problem, &plan.trace);
@@ -111,12 +118,7 @@ pub fn plan(
         .map(|number| Search::new(first.clone(), draw(settings.seed, scenario.seed, number)))
         .collect();
     for round in 1.. {
-        let share = match settings.budget {
-            Budget::Time(limit) => begun.elapsed().as_secs_f64() / limit.as_secs_f64().max(1e-9),
-            Budget::Steps(0) => 1.0,
-            Budget::Steps(limit) => plan.steps as f64 / limit as f64,
-        };
-        let share = share.min(1.0);
+        let share = share(settings.budget, begun, plan.steps);
         let progress = Progress { share, steps: plan.steps, profit_usd: plan.profit_usd };
         if !watch(&progress) || share >= 1.0 {
             break;
@@ -138,6 +140,26 @@ pub fn plan(
         keep_best(scenario, &searches, &mut plan);
     }
     Ok(plan)
+}
+
+/// Share of a budget that is gone, at most 1.
+fn share(budget: Budget, begun: Instant, steps: u64) -> f64 {
+    let share = match budget {
+        Budget::Time(limit) => begun.elapsed().as_secs_f64() / limit.as_secs_f64().max(1e-9),
+        Budget::Steps(0) => 1.0,
+        Budget::Steps(limit) => steps as f64 / limit as f64,
+    };
+    share.min(1.0)
+}
+
+/// The best day of the policies that need no learning; without that of the rolling horizon if `go_on`, told the profit of the
+/// others in dollars, says no while it is being played.
+fn best_policy(scenario: &Arc<Scenario>, mut go_on: impl FnMut(f64) -> bool) -> (Trace, f64) {
+    let best = start::best_rule(scenario);
+    match start::rolling(scenario, &mut || go_on(best.1)) {
+        Some(rolling) if rolling.1 > best.1 => rolling,
+        _ => best,
+    }
 }
 
 /// The search that stands worst goes on from where the best one stands.

@@ -1,19 +1,21 @@
 //! A bound that is being proven while something else goes on, such as the search for a plan.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 use vertifleet_core::Scenario;
 
-use crate::{Bound, Error, Step, upper_bound};
+use crate::{Bound, Error, Step, upper_bound_unless};
 
 /// Minutes of the bound's slices, finest first; those after the first are for days that are too large for it.
 const STEPS_MIN: [u32; 4] = [3, 5, 15, 60];
 
 /// The finest bound that a day is not too large for, being proven on a thread of its own.
 pub struct Proof {
-    from: Receiver<Result<Bound, Error>>,
+    stopped: Arc<AtomicBool>,
+    from: Receiver<Result<Option<Bound>, Error>>,
     outcome: Option<Result<Bound, Error>>,
 }
 
@@ -21,13 +23,14 @@ impl Proof {
     /// Begins to prove.
     pub fn begin(scenario: &Arc<Scenario>) -> Self {
         let (to, from) = channel();
-        let scenario = Arc::clone(scenario);
+        let stopped = Arc::new(AtomicBool::new(false));
+        let (scenario, flag) = (Arc::clone(scenario), Arc::clone(&stopped));
         // Not joined: whoever is in a hurry need not wait for it.
         std::thread::spawn(move || {
             // Nobody listens any more if the plan was stopped.
-            let _ = to.send(finest_bound(&scenario));
+            let _ = to.send(finest_bound(&flag, &scenario));
         });
-        Self { from, outcome: None }
+        Self { stopped, from, outcome: None }
     }
 
     /// Waits until it is proven, but no longer than `patience`; whether it has come to an end.
@@ -37,7 +40,9 @@ impl Proof {
     pub fn wait(&mut self, patience: Duration) -> bool {
         if self.outcome.is_none() {
             self.outcome = match self.from.recv_timeout(patience) {
-                Ok(outcome) => Some(outcome),
+                Ok(outcome) => {
+                    Some(outcome.map(|bound| bound.expect("stopped on its way out only")))
+                }
                 Err(RecvTimeoutError::Timeout) => None,
                 Err(RecvTimeoutError::Disconnected) => {
                     panic!("a proof ends with a bound or with an error")
@@ -56,8 +61,14 @@ impl Proof {
     ///
     /// # Errors
     /// [`Error::TooManyFlights`] if the day is too large for any bound.
-    pub fn outcome(self) -> Result<Option<Bound>, Error> {
-        self.outcome.transpose()
+    pub fn outcome(mut self) -> Result<Option<Bound>, Error> {
+        self.outcome.take().transpose()
+    }
+}
+
+impl Drop for Proof {
+    fn drop(&mut self) {
+        self.stopped.store(true, Ordering::Relaxed);
     }
 }
 
@@ -74,10 +85,11 @@ pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
 }
 
 /// The bound with the finest slices that the day is not too large for.
-fn finest_bound(scenario: &Scenario) -> Result<Bound, Error> {
-    let bound = |minutes| upper_bound(scenario, Step::from_minutes(minutes)?);
-    let too_large =
-        |outcome: &Result<Bound, Error>| matches!(outcome, Err(Error::TooManyFlights { .. }));
+fn finest_bound(stopped: &AtomicBool, scenario: &Scenario) -> Result<Option<Bound>, Error> {
+    let bound = |minutes| upper_bound_unless(stopped, scenario, Step::from_minutes(minutes)?);
+    let too_large = |outcome: &Result<Option<Bound>, Error>| {
+        matches!(outcome, Err(Error::TooManyFlights { .. }))
+    };
     let [finest, coarser @ ..] = STEPS_MIN;
     coarser.into_iter().fold(bound(finest), |outcome, minutes| {
         if too_large(&outcome) { bound(minutes) } else { outcome }

@@ -5,6 +5,7 @@ mod exhaustive;
 
 use std::fs;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use common::{Size, any_day, any_extended_day};
 use exhaustive::best_of_all;
@@ -239,8 +240,8 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
         entries.map(|entry| entry.expect("an entry").path()).collect()
     };
     let cached = |day: &Scenario, step| {
-        let bound = cached_upper_bound(day, minutes(step), &folder).expect("a folder of ours");
-        bound.upper_bound_usd()
+        let bound = cached_upper_bound(&AtomicBool::new(false), day, minutes(step), &folder);
+        bound.expect("a folder of ours").expect("nobody stops it").upper_bound_usd()
     };
     let found = bound_usd(&day, 30);
     assert_eq!(cached(&day, 30), found);
@@ -263,6 +264,17 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
     cached(&any_day(8, Size { vertiports: 5, fleet: 9, hours: 4 }), 30);
     cached(&day, 60);
     assert_eq!(files().len(), 3, "another day and another step have files of their own");
+}
+
+#[test]
+fn a_proof_that_is_stopped_leaves_nothing() {
+    let day = any_day(7, Size { vertiports: 5, fleet: 9, hours: 4 });
+    let folder = tempfile::tempdir().expect("a folder");
+    let stopped = AtomicBool::new(true);
+    let bound =
+        cached_upper_bound(&stopped, &day, minutes(30), folder.path()).expect("a small day");
+    assert!(bound.is_none());
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
 }
 
 #[test]

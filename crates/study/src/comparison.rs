@@ -15,8 +15,8 @@ use crate::record::{PolicyRecord, Study};
 use crate::run::{Day, run};
 
 /// Some days of a network and who will play them; everything that can be found wrong beforehand has been looked for.
-pub struct Comparison<'a> {
-    network: &'a Network,
+pub struct Comparison {
+    network: String,
     origin: NetworkOrigin,
     entrants: Vec<Entrant>,
     scenarios: Vec<Arc<Scenario>>,
@@ -34,14 +34,14 @@ pub trait Watch {
     fn policy(&self, name: &str, position: usize, policies: usize, days: usize) -> Self::Bar;
 }
 
-impl<'a> Comparison<'a> {
+impl Comparison {
     /// The days of a network from `first_seed` on, each with its upper bound where a step is given.
     ///
     /// # Errors
     /// If there is no such policy or day, two policies have one name, or a policy cannot play these days; [`Error::Stopped`]
     /// soon after `stopped` is raised.
     pub fn new(
-        network: &'a Network,
+        network: &Network,
         asked: &Asked<'_>,
         (first_seed, days): (u64, u32),
         step: Option<Step>,
@@ -49,17 +49,27 @@ impl<'a> Comparison<'a> {
     ) -> Result<Self, Error> {
         let entrants = asked.entrants()?;
         contenders(&entrants)?;
+        if entrants.is_empty() {
+            return Err(Error::Empty { policies: 0, days: days as usize });
+        }
         let scenarios = draw(network, first_seed, days, stopped)?;
         let first = scenarios.first().ok_or(Error::Empty { policies: entrants.len(), days: 0 })?;
         entrants.iter().try_for_each(|entrant| entrant.check_fits(first))?;
         let origin = NetworkOrigin::of_all(network.name(), &scenarios);
-        Ok(Self { network, origin, entrants, scenarios, first_seed, step })
+        Ok(Self {
+            network: network.name().to_owned(),
+            origin,
+            entrants,
+            scenarios,
+            first_seed,
+            step,
+        })
     }
 
     /// What is allowed but hardly meant ([`Recipe::warning`](crate::policies::Recipe::warning)).
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         self.entrants.iter().filter_map(|entrant| {
-            entrant.recipe()?.warning(&entrant.name, self.network.name(), self.origin)
+            entrant.recipe()?.warning(&entrant.name, &self.network, self.origin)
         })
     }
 
@@ -84,7 +94,7 @@ impl<'a> Comparison<'a> {
         };
         let policies = play(&days, &entrants, stopped, watch)?;
         Ok(Study {
-            network: network.name().to_owned(),
+            network,
             network_origin: origin,
             seed: first_seed,
             days: number,

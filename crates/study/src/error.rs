@@ -80,7 +80,8 @@ pub enum Error {
     },
 
     /// V406. A policy could not play a day to its end. Cause: a replay of another day's trace, or a policy that chose
-    /// what is not feasible. Fix: replay a trace only on its own day; report any other policy as a defect.
+    /// what is not feasible. Fix: replay a trace only on its own day; let a function of your own choose where the mask is 1; report
+    /// any other policy as a defect.
     #[error("policy {policy:?} cannot play {day}: {cause}")]
     Stuck {
         /// The policy.
@@ -156,7 +157,9 @@ impl Error {
                 "give a second model of the same kind a name of its own, with --model NAME=PATH",
             ),
             Self::Unpaired { .. } => Some("run all policies in one comparison"),
-            Self::Stuck { .. } => Some("a replay needs the trace of the very day that is played"),
+            Self::Stuck { .. } => Some(
+                "a replay needs the trace of the very day that is played; any other policy must choose what is feasible",
+            ),
             Self::Asked { hint, .. } => Some(hint),
             Self::PartsDiffer { .. } => {
                 Some("join all parts of one comparison, in the order of their days")

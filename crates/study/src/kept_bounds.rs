@@ -4,11 +4,11 @@
 use std::env;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use vertifleet_core::Scenario;
-use vertifleet_optimize::{Step, cached_upper_bound, upper_bound};
+use vertifleet_optimize::{Step, cached_upper_bound, upper_bound_unless};
 
 use crate::error::Error;
 use crate::run::Day;
@@ -41,23 +41,28 @@ impl KeptBounds {
         bounded: &(impl Fn() + Sync),
     ) -> Result<Vec<Day>, Error> {
         let bound = |scenario: Arc<Scenario>| {
-            if stopped.load(Ordering::Relaxed) {
-                return Err(Error::Stopped);
-            }
-            let upper_bound_usd = self.upper_bound_usd(&scenario, step)?;
+            let upper_bound_usd =
+                self.upper_bound_usd(&scenario, step, stopped)?.ok_or(Error::Stopped)?;
             bounded();
             Ok(Day { scenario, upper_bound_usd: Some(upper_bound_usd) })
         };
         scenarios.into_par_iter().map(bound).collect()
     }
 
-    /// The bound of a day, dollars. A folder that cannot be written to is no reason to go without.
-    fn upper_bound_usd(&self, scenario: &Scenario, step: Step) -> Result<f64, Error> {
-        let kept = self.folder.as_deref().map(|folder| cached_upper_bound(scenario, step, folder));
-        let bound = match kept {
-            Some(Err(vertifleet_optimize::Error::Core(_))) | None => upper_bound(scenario, step),
+    /// The bound of a day, dollars, unless `stopped` is raised. A folder that cannot be written to is no reason to go without.
+    fn upper_bound_usd(
+        &self,
+        scenario: &Scenario,
+        step: Step,
+        stopped: &AtomicBool,
+    ) -> Result<Option<f64>, Error> {
+        let kept = |folder| cached_upper_bound(stopped, scenario, step, folder);
+        let bound = match self.folder.as_deref().map(kept) {
+            Some(Err(vertifleet_optimize::Error::Core(_))) | None => {
+                upper_bound_unless(stopped, scenario, step)
+            }
             Some(outcome) => outcome,
         };
-        Ok(bound?.upper_bound_usd())
+        Ok(bound?.map(|bound| bound.upper_bound_usd()))
     }
 }

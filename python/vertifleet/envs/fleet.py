@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 
 from vertifleet._compare import network_of
 from vertifleet._native import TRAINING_DAYS, Environment, Network, Scenario
+from vertifleet.envs.arguments import action_of, check_reward, options_of
+from vertifleet.envs.copies import Copied
 from vertifleet.envs.spaces import Info, Observation, observation_space
 
 
-class FleetEnv(gymnasium.Env[Observation, np.int64]):
+class FleetEnv(Copied, gymnasium.Env[Observation, np.int64]):
     """Decides, for one aircraft after the other, to which vertiport it flies next.
 
     The action is the position of a vertiport; the aircraft's own means hold. An action that is not feasible
@@ -24,12 +26,13 @@ class FleetEnv(gymnasium.Env[Observation, np.int64]):
     episode is the day's profit over its potential revenue: paid at the end (``reward="terminal"``), or
     each flight's share when it is decided (``"dense"``).
 
-    `reset` draws a training day from ``np_random``, or plays ``options={"scenario": scenario}``. The last
-    step's info has the day's numbers as ``summary``. An environment can be copied and pickled in the middle
-    of a day.
+    `reset` draws a training day from ``np_random``, or plays ``options={"scenario": scenario}``; its name is
+    ``info["day"]``. The last step's info has the day's numbers as ``summary``. An environment can be copied
+    and pickled in the middle of a day; copies share its network and spaces.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - declared so by Gymnasium
+    _never_changes = ("network", "observation_space", "action_space", "spec")
 
     def __init__(
         self,
@@ -37,6 +40,7 @@ class FleetEnv(gymnasium.Env[Observation, np.int64]):
         reward: Literal["terminal", "dense"] = "terminal",
         render_mode: None = None,
     ) -> None:
+        check_reward(reward)
         self.network = network_of(network)
         vertiports = len(self.network.vertiports)
         self.observation_space = observation_space(vertiports)
@@ -47,18 +51,32 @@ class FleetEnv(gymnasium.Env[Observation, np.int64]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, Info]:
-        """Begins a day."""
+        """Begins a day.
+
+        Args:
+            seed: of ``np_random``, from which training days are drawn.
+            options: "scenario" is a day that is played in place of a training day.
+
+        Raises:
+            Error: V451 for other options, or a day that has not as many vertiports as the network.
+        """
+        scenario: Scenario | None = options_of(options).get("scenario")
         super().reset(seed=seed)
-        scenario: Scenario | None = (options or {}).get("scenario")
         if scenario is None:
             observation, mask = self._environment.reset(int(self.np_random.integers(TRAINING_DAYS)))
         else:
             observation, mask = self._environment.begin(scenario)
-        return observation, {"action_mask": mask, "invalid_action": False}
+        day = self._environment.scenario
+        assert day is not None, "a day has begun"
+        return observation, {"action_mask": mask, "invalid_action": False, "day": day.name}
 
     def step(self, action: np.int64 | int) -> tuple[Observation, float, bool, bool, Info]:
-        """Carries the decision out and goes on to the next."""
-        (observation, mask), reward, over, invalid = self._environment.step(int(action))
+        """Carries the decision out and goes on to the next.
+
+        Raises:
+            Error: V451 for an action that is no whole number, and where no day is in progress.
+        """
+        (observation, mask), reward, over, invalid = self._environment.step(action_of(action))
         info: Info = {"action_mask": mask, "invalid_action": invalid}
         if over:
             info["summary"] = self._environment.summary
@@ -67,3 +85,18 @@ class FleetEnv(gymnasium.Env[Observation, np.int64]):
     def action_masks(self) -> NDArray[np.bool_]:
         """Which actions are feasible [N]."""
         return self._environment.mask()
+
+    @property
+    def scenario(self) -> Scenario | None:
+        """The day in progress, or that ended last; none before the first."""
+        return self._environment.scenario
+
+    @property
+    def aircraft(self) -> int | None:
+        """Position of the aircraft that decides; of the one that decided last once the day is over."""
+        return self._environment.aircraft
+
+    @property
+    def time_s(self) -> int | None:
+        """Time of the decision, seconds since midnight."""
+        return self._environment.time_s

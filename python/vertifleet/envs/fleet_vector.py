@@ -14,16 +14,17 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
 from vertifleet._compare import network_of
-from vertifleet._errors import Error
 from vertifleet._native import TRAINING_DAYS, Batch, Network, Scenario
+from vertifleet.envs.arguments import actions_of, check_reward, mask_of, options_of, seeds_of
 from vertifleet.envs.spaces import KEYS, Info, Observation, observation_space
 
 
 class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
     """As `FleetEnv`, `num_envs` days side by side on `threads` threads (all cores without).
 
-    Observations and masks are not copied: they stay as they are until the step after next, so that those
-    before and after a step can be used together; who keeps them for longer copies them. Environment i behaves
+    Observations and masks are not copied. Those of steps and of resets of all environments stay as they are
+    until the step after next, so that those before and after a step can be used together; those of a reset of
+    some environments until the next such reset. Who keeps them for longer copies them. Environment i behaves
     as a `FleetEnv` whose first reset had seed s + i.
     """
 
@@ -37,6 +38,7 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         render_mode: None = None,
     ) -> None:
         super().__init__()
+        check_reward(reward)
         self.network = network_of(network)
         self.num_envs = num_envs
         self.autoreset_mode = AutoresetMode(autoreset_mode)
@@ -48,9 +50,9 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._batch = Batch(self.network, reward, num_envs, self.autoreset_mode.value, threads)
-        first, second, final, self._outcomes = self._batch.arrays()
-        self._observations = tuple(dict(zip(KEYS, arrays, strict=False)) for arrays in (first, second))
-        self._masks = (first[-1], second[-1])
+        *sets, final, self._outcomes = self._batch.arrays()
+        self._observations = [dict(zip(KEYS, arrays, strict=False)) for arrays in sets]
+        self._masks = [arrays[-1] for arrays in sets]
         self._final = dict(zip(KEYS, final, strict=False))
         self._final_mask = final[-1]
         self._latest = 0
@@ -67,32 +69,40 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         """Begins a day in every environment.
 
         Args:
-            seed: environment i gets seed + i, or the i-th of a list.
-            options: "reset_mask" (bool [num_envs]) names the environments that are reset; "scenario" is a day
-                that they all play in place of a training day.
+            seed: environment i gets seed + i, or the i-th of a list or array.
+            options: "reset_mask" (array of bool [num_envs]) names the environments that are reset; "scenario"
+                is a day that they all play in place of a training day.
+
+        Raises:
+            Error: V451 for a seed that is no whole number, other options, a mask that is none or names no
+                environment, or a day that has not as many vertiports as the network.
         """
-        options = options or {}
-        scenario: Scenario | None = options.get("scenario")
-        which = np.ones(self.num_envs, np.bool_)
-        which[:] = options.get("reset_mask", which)
-        self._seed(seed, which)
+        asked = options_of(options, "reset_mask")
+        scenario: Scenario | None = asked.get("scenario")
+        which = mask_of(asked, self.num_envs)
+        self._seed(seeds_of(seed, self.num_envs), which)
         self._latest = self._batch.reset(which, self._numbers, scenario)
         if scenario is None:
             self._draw(which)
-        return self._observation(), self._info(np.zeros(self.num_envs, np.bool_))
+        info = self._info(np.zeros(self.num_envs, np.bool_), which)
+        self._add_days(info, which)
+        return self._observation(), info
 
     def step(
         self, actions: ArrayLike
     ) -> tuple[Observation, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], Info]:
-        """Carries a decision out in every environment; `actions` are whole numbers [num_envs]."""
-        actions = np.asarray(actions)
-        if actions.dtype.kind not in "iu":
-            raise Error("V451", f"actions must be whole numbers, found {actions.dtype}")
-        self._latest, eventful = self._batch.step(np.ascontiguousarray(actions, np.int64), self._numbers)
+        """Carries a decision out in every environment; `actions` are whole numbers [num_envs].
+
+        Raises:
+            Error: V451 for actions of another kind or shape, and where a day is not in progress.
+        """
+        actions = actions_of(actions, self.num_envs)
+        self._latest, eventful = self._batch.step(actions, self._numbers)
         rewards, over, invalid, begun = (array.copy() for array in self._outcomes)
-        info = self._info(invalid)
+        info = self._info(invalid, np.ones(self.num_envs, np.bool_))
         if eventful:
             self._add_ends(info, over, begun)
+            self._add_days(info, begun)
             self._draw(begun)
         return self._observation(), rewards, over, np.zeros(self.num_envs, np.bool_), info
 
@@ -100,20 +110,38 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         """Which actions are feasible [num_envs, N]."""
         return self._masks[self._latest].astype(np.bool_)
 
+    def scenarios(self) -> list[Scenario | None]:
+        """The day of every environment, in progress or ended last; none before the first."""
+        return [self._batch.scenario(at) for at in range(self.num_envs)]
+
     def _observation(self) -> Observation:
         return dict(self._observations[self._latest])
 
-    def _info(self, invalid: NDArray[np.bool_]) -> Info:
+    def _info(self, invalid: NDArray[np.bool_], which: NDArray[np.bool_]) -> Info:
+        """What is said of the environments that `which` has; their masks are beside those of all others."""
         return {
             "action_mask": self._masks[self._latest],
-            "_action_mask": np.ones(self.num_envs, np.bool_),
+            "_action_mask": which,
             "invalid_action": invalid,
-            "_invalid_action": np.ones(self.num_envs, np.bool_),
+            "_invalid_action": which.copy(),
         }
+
+    def _add_days(self, info: Info, begun: NDArray[np.bool_]) -> None:
+        """Adds the names of the days that have begun, where any has."""
+        places = _where(begun)
+        if not places:
+            return
+        # An empty array of objects is full of None.
+        names = np.empty(self.num_envs, np.object_)
+        for at in places:
+            day = self._batch.scenario(at)
+            assert day is not None, "a day has begun"
+            names[at] = day.name
+        info |= {"day": names, "_day": begun.copy()}
 
     def _add_ends(self, info: Info, over: NDArray[np.bool_], begun: NDArray[np.bool_]) -> None:
         """Adds the numbers of the days that this step ended, and how they ended where others have begun."""
-        for at in np.flatnonzero(over).tolist():
+        for at in _where(over):
             ended: Info = {"summary": self._batch.summary(at)}
             if begun[at]:
                 invalid = bool(info["invalid_action"][at])
@@ -124,23 +152,23 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
                 ended = {"final_obs": observation, "final_info": final_info}
             self._add_info(info, ended, at)
 
-    def _seed(self, seed: int | Sequence[int | None] | None, which: NDArray[np.bool_]) -> None:
+    def _seed(self, seeds: list[int | None], which: NDArray[np.bool_]) -> None:
         """Gives environments that are reset with a seed generators of their own, at first all of them."""
         if not self._generators:
             self._generators = [seeding.np_random(None)[0] for _ in range(self.num_envs)]
             self._draw(np.ones(self.num_envs, np.bool_))
-        if seed is None:
-            return
-        counted = range(self.num_envs)
-        seeds = list(seed) if isinstance(seed, Sequence) else [int(seed) + at for at in counted]
-        if len(seeds) != self.num_envs:
-            raise Error("V451", f"seed must be one or {self.num_envs} numbers, found {len(seeds)}")
-        for at in np.flatnonzero(which).tolist():
+        for at in _where(which):
             if seeds[at] is not None:
                 self._generators[at] = seeding.np_random(seeds[at])[0]
                 self._numbers[at] = self._generators[at].integers(TRAINING_DAYS)
 
     def _draw(self, which: NDArray[np.bool_]) -> None:
         """Draws the numbers of the days that come next."""
-        for at in np.flatnonzero(which).tolist():
+        for at in _where(which):
             self._numbers[at] = self._generators[at].integers(TRAINING_DAYS)
+
+
+def _where(which: NDArray[np.bool_]) -> list[int]:
+    """Positions of the environments that are meant, as steps need them: faster than `np.flatnonzero`."""
+    places: list[int] = which.nonzero()[0].tolist()
+    return places

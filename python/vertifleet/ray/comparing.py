@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vertifleet._compare import Asked, network_of
 from vertifleet._sweep import Sweep, together, variations
@@ -10,7 +10,7 @@ from vertifleet.ray.tasks import comparisons
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping
 
     from vertifleet._compare import Given
     from vertifleet._native import Comparison, Network
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 def compare(
     network: str | os.PathLike[str] | Network,
-    policies: Sequence[str],
+    policies: Iterable[str],
     *,
-    days: int = 100,
-    seed: int = 1,
+    days: SupportsIndex = 100,
+    seed: SupportsIndex = 1,
     models: Mapping[str, Given] | None = None,
     bound: bool = False,
-    step: int = 5,
-    policy_seed: int | None = None,
+    step: SupportsIndex = 5,
+    policy_seed: SupportsIndex | None = None,
     days_per_task: int | None = None,
 ) -> Comparison:
     """:func:`vertifleet.compare`, its days on all CPUs of a Ray cluster.
@@ -51,25 +51,24 @@ def compare(
             about sixteen tasks.
 
     Raises:
-        Error: as :func:`vertifleet.compare`, as soon as a task meets it; V409 if a node has another version.
+        Error: as :func:`vertifleet.compare`; V409 if a node has another version of the package.
     """
     network = network_of(network)
-    function = "vertifleet.ray.compare"
-    asked = Asked.of(function, network, policies, days, seed, models, bound, step, policy_seed)
-    return comparisons([network], asked, days, seed, days_per_task)[0]
+    asked = Asked.of("vertifleet.ray.compare", policies, days, seed, models, bound, step, policy_seed)
+    return comparisons([network], asked, days_per_task)[0]
 
 
 def sweep(
     network: str | os.PathLike[str] | Network,
-    changes: Mapping[str, Sequence[Any]],
-    policies: Sequence[str],
+    changes: Mapping[str, Iterable[Any]],
+    policies: Iterable[str],
     *,
-    days: int = 100,
-    seed: int = 1,
+    days: SupportsIndex = 100,
+    seed: SupportsIndex = 1,
     models: Mapping[str, Given] | None = None,
     bound: bool = False,
-    step: int = 5,
-    policy_seed: int | None = None,
+    step: SupportsIndex = 5,
+    policy_seed: SupportsIndex | None = None,
     days_per_task: int | None = None,
 ) -> Sweep:
     """:func:`vertifleet.sweep`, the days of all its points on all CPUs of a Ray cluster.
@@ -93,7 +92,6 @@ def sweep(
     """
     network = network_of(network)
     points = variations(network, changes)
-    function = "vertifleet.ray.compare"
-    asked = Asked.of(function, network, policies, days, seed, models, bound, step, policy_seed)
-    found = comparisons([variation for _, variation in points], asked, days, seed, days_per_task)
+    asked = Asked.of("vertifleet.ray.compare", policies, days, seed, models, bound, step, policy_seed)
+    found = comparisons([variation for _, variation in points], asked, days_per_task)
     return Sweep(network.name, asked.policies, together(points, found))

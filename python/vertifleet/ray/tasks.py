@@ -15,7 +15,6 @@ import ray
 from ray.exceptions import RayTaskError
 
 from vertifleet import Comparison, Error, Model
-from vertifleet._compare import say
 from vertifleet.ray.progress import Progress
 
 if TYPE_CHECKING:
@@ -59,25 +58,23 @@ def play(asked: Asked, here: str, network: Network, days: int, seed: int) -> Com
     return asked.compare(network, days, seed, threads=1)
 
 
-def comparisons(
-    networks: Sequence[Network], asked: Asked, days: int, seed: int, days_per_task: int | None
-) -> list[Comparison]:
+def comparisons(networks: Sequence[Network], asked: Asked, days_per_task: int | None) -> list[Comparison]:
     """A comparison on each of the networks, all on days of the same seeds."""
     if days_per_task is not None and days_per_task < 1:
         raise Error("V451", f"days_per_task must be at least 1, found {days_per_task}")
+    asked = without_files(asked)
+    asked.check(networks, stacklevel=4)
     if not ray.is_initialized():
         ray.init()
-    most = days_per_task or _days_per_task(days * len(networks))
+    most = days_per_task or _days_per_task(asked.days * len(networks))
     parts = [
-        (here, number, seed + first)
+        (here, number, asked.seed + first)
         for here in map(ray.put, networks)
-        for first, number in _parts(days, most)
+        for first, number in _parts(asked.days, most)
     ]
-    found = _play(ray.put(without_files(asked)), parts)
+    found = _play(ray.put(asked), parts)
     each = len(found) // len(networks)
-    whole = [Comparison.join(found[at : at + each]) for at in range(0, len(found), each)]
-    say(whole, stacklevel=4)
-    return whole
+    return [Comparison.join(found[at : at + each]) for at in range(0, len(found), each)]
 
 
 def _days_per_task(days: int) -> int:
@@ -85,8 +82,8 @@ def _days_per_task(days: int) -> int:
 
 
 def _parts(days: int, most: int) -> Iterator[tuple[int, int]]:
-    """First day and number of days of each part; one of no day where there are none, for who refuses that."""
-    return ((first, min(most, days - first)) for first in range(0, max(days, 1), most))
+    """First day and number of days of each part."""
+    return ((first, min(most, days - first)) for first in range(0, days, most))
 
 
 def _play(asked: ObjectRef[Asked], parts: Sequence[Part]) -> list[Comparison]:

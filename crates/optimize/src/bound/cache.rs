@@ -7,6 +7,7 @@
 use std::fmt::Write;
 use std::hash::Hasher;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 use siphasher::sip128::{Hasher128, SipHasher24};
@@ -15,7 +16,7 @@ use vertifleet_core::{Scenario, create_folder, read_at_most, write_atomically};
 use super::certificate::Certificate;
 use super::network::Network;
 use super::prices::Prices;
-use super::{Bound, Step, upper_bound};
+use super::{Bound, Step, upper_bound_unless};
 use crate::Error;
 
 /// Changes whenever the search would find other prices.
@@ -30,20 +31,25 @@ struct Kept {
     demand: Vec<i64>,
 }
 
-/// As [`upper_bound`], with the prices taken from a file in `folder` where they are there, and put there where they are not.
+/// As [`upper_bound_unless`], with the prices taken from a file in `folder` where they are there, and put there where they are not.
 ///
 /// # Errors
-/// Those of [`upper_bound`], and [`Error::Core`] if the folder or the file cannot be written.
-pub fn cached_upper_bound(scenario: &Scenario, step: Step, folder: &Path) -> Result<Bound, Error> {
+/// Those of [`upper_bound_unless`], and [`Error::Core`] if the folder or the file cannot be written.
+pub fn cached_upper_bound(
+    stopped: &AtomicBool,
+    scenario: &Scenario,
+    step: Step,
+    folder: &Path,
+) -> Result<Option<Bound>, Error> {
     let path = path(scenario, step, folder);
     if let Some(bound) = kept(scenario, step, &path)? {
-        return Ok(bound);
+        return Ok(Some(bound));
     }
-    let bound = upper_bound(scenario, step)?;
+    let Some(bound) = upper_bound_unless(stopped, scenario, step)? else { return Ok(None) };
     let kept = Kept { stand: bound.prices.stand, demand: bound.prices.demand };
     create_folder(folder)?;
     write_atomically(&path, &serde_json::to_vec(&kept).expect("whole numbers are plain data"))?;
-    Ok(Bound { prices: Prices { stand: kept.stand, demand: kept.demand }, ..bound })
+    Ok(Some(Bound { prices: Prices { stand: kept.stand, demand: kept.demand }, ..bound }))
 }
 
 /// The bound of the prices in a file; `None` if there is no such file, or no prices for this day in it.

@@ -6,6 +6,8 @@
 //! is not taken at face value but as a running mean over the steps. Prices that prove a lower bound are the next to start
 //! from; where that does not come for a while, steps get shorter.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::certificate::Certificate;
 use super::network::Network;
 use super::prices::{Excess, Prices};
@@ -29,13 +31,15 @@ fn patience(steps: u32) -> u32 {
     (steps / 65).max(3)
 }
 
-/// The best prices found from `prices` on in so many steps; `certificate` stands at others afterwards.
+/// The best prices found from `prices` on in so many steps; `certificate` stands at others afterwards. None if `stopped` is raised
+/// meanwhile.
 pub(super) fn descend(
     network: &Network,
     certificate: &mut Certificate,
     mut prices: Prices,
     steps: u32,
-) -> Prices {
+    stopped: &AtomicBool,
+) -> Option<Prices> {
     let mut bound = certificate.evaluate(network, &prices);
     let mut excess = Excess::of_nobody(network);
     certificate.excess(network, &prices, &mut excess);
@@ -43,6 +47,9 @@ pub(super) fn descend(
     let mut trial = prices.clone();
     let (mut factor, mut failures) = (1.0, 0);
     for _ in 0..steps {
+        if stopped.load(Ordering::Relaxed) {
+            return None;
+        }
         let square = mean.movable_square(network, &prices);
         if square == 0.0 || factor < SHORTEST {
             break;
@@ -65,5 +72,5 @@ pub(super) fn descend(
             }
         }
     }
-    prices
+    Some(prices)
 }

@@ -32,6 +32,9 @@ pub(super) fn usd(micro: i64) -> f64 {
 
 /// The dollars of an exact sum, or a number just above them.
 pub(super) fn usd_up(micro: i128) -> f64 {
+    if micro == 0 {
+        return 0.0;
+    }
     // Conversion and division are each off by half a unit in the last place at most.
     (micro as f64 / MICRO).next_up().next_up()
 }

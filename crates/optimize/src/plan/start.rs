@@ -3,33 +3,47 @@
 use std::sync::Arc;
 
 use vertifleet_core::Scenario;
-use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, play};
+use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random};
 use vertifleet_sim::{Simulation, Trace};
 
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 use crate::Rolling;
 
-/// A day played by one policy.
-pub(super) fn played(scenario: &Arc<Scenario>, policy: &mut dyn Policy) -> (Trace, f64) {
+/// A day played by one policy; nothing if `go_on`, asked before each decision, says no.
+pub(super) fn played(
+    scenario: &Arc<Scenario>,
+    policy: &mut dyn Policy,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Option<(Trace, f64)> {
     let mut simulation = Simulation::new(Arc::clone(scenario));
     let mut trace = Trace::default();
-    play(&mut simulation, policy, |row| trace.rows.push(*row))
-        .expect("these policies always answer, and from the mask");
-    (trace, simulation.ledger().profit_usd())
+    while let Some(decision) = simulation.next_decision() {
+        if !go_on() {
+            return None;
+        }
+        let choice = policy.choose(&decision, &simulation.view());
+        let choice = choice.expect("these policies always answer");
+        trace.rows.push(simulation.apply(choice).expect("and from the mask"));
+    }
+    Some((trace, simulation.ledger().profit_usd()))
 }
 
-/// The best day of the policies that need no learning.
-pub(super) fn best_policy(scenario: &Arc<Scenario>) -> (Trace, f64) {
-    let policies: [&mut dyn Policy; 5] = [
-        &mut Rolling::default(),
-        &mut Priced::default(),
-        &mut Lookahead,
-        &mut Greedy,
-        &mut Random::new(0),
-    ];
-    let days = policies.map(|policy| played(scenario, policy));
-    days.into_iter().max_by(|one, other| one.1.total_cmp(&other.1)).expect("there are policies")
+/// The best day of the rules that decide at once.
+pub(super) fn best_rule(scenario: &Arc<Scenario>) -> (Trace, f64) {
+    let policies: [&mut dyn Policy; 4] =
+        [&mut Priced::default(), &mut Lookahead, &mut Greedy, &mut Random::new(0)];
+    let days = policies.map(|policy| played(scenario, policy, &mut || true));
+    let days = days.into_iter().flatten();
+    days.max_by(|one, other| one.1.total_cmp(&other.1)).expect("there are policies")
+}
+
+/// The rolling horizon's day, which mostly is the better one, and takes a while on large networks.
+pub(super) fn rolling(
+    scenario: &Arc<Scenario>,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Option<(Trace, f64)> {
+    played(scenario, &mut Rolling::default(), go_on)
 }
 
 /// The flights of a whole day's trace.

@@ -1,0 +1,92 @@
+"""What environments are asked for, checked before anything changes: V451 names what is not taken."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vertifleet._errors import Error
+from vertifleet._native import Scenario
+
+
+def check_reward(reward: object) -> None:
+    """Refuses what is no way of paying a day."""
+    if not isinstance(reward, str) or reward not in ("terminal", "dense"):
+        raise Error("V451", f'reward must be "terminal" or "dense", found {reward!r}')
+
+
+def whole(name: str, number: Any) -> int:
+    """A whole number as Python or NumPy has it; neither a fraction nor a truth value nor a text is one."""
+    try:
+        # True is a whole number for Python, but hardly for whoever passes it here.
+        if not isinstance(number, (bool, np.bool_)):
+            return operator.index(number)
+    except TypeError:
+        pass
+    raise Error("V451", f"{name} must be a whole number, found {number!r}")
+
+
+def action_of(action: Any) -> int:
+    """An action of a single environment; one that is no vertiport's position is infeasible, but an action."""
+    number = whole("action", action)
+    if not -(2**63) <= number < 2**63:
+        raise Error("V451", f"action must be a whole number of 64 bits, found {number}")
+    return number
+
+
+def actions_of(actions: ArrayLike, days: int) -> NDArray[np.int64]:
+    """An action for each of many days."""
+    actions = np.asarray(actions)
+    if actions.dtype.kind not in "iu":
+        raise Error("V451", f"actions must be whole numbers, found {actions.dtype}")
+    if actions.shape != (days,):
+        raise Error("V451", f"actions must have shape ({days},), found {actions.shape}")
+    return np.ascontiguousarray(actions, np.int64)
+
+
+def seeds_of(seed: Any, days: int) -> list[int | None]:
+    """A seed for each of many days: those that are given, or numbers in a row from a single one on."""
+    if isinstance(seed, np.ndarray):
+        seed = seed.tolist()
+    if seed is None:
+        return [None] * days
+    if not isinstance(seed, Sequence):
+        first = whole("seed", seed)
+        return [first + day for day in range(days)]
+    if len(seed) != days:
+        raise Error("V451", f"seed must be one or {days} numbers, found {len(seed)}")
+    return [None if each is None else whole("seed", each) for each in seed]
+
+
+def options_of(options: Any, *taken: str) -> Mapping[str, Any]:
+    """The options of a reset, which takes "scenario" and those of these names."""
+    taken = ("scenario", *taken)
+    if options is None:
+        return {}
+    if not isinstance(options, Mapping):
+        raise Error("V451", f"options of a reset must be a dict, found {options!r}")
+    for name in options:
+        if name not in taken:
+            raise Error("V451", f"a reset has no option {name!r}", f"it takes {', '.join(taken)}")
+    scenario = options.get("scenario")
+    if not isinstance(scenario, Scenario | None):
+        hint = "Scenario.read reads one, Network.draw draws one"
+        raise Error("V451", f"option scenario must be a vertifleet.Scenario, found {scenario!r}", hint)
+    return options
+
+
+def mask_of(options: Mapping[str, Any], days: int) -> NDArray[np.bool_]:
+    """Which of many days a reset begins anew: those of the option "reset_mask", all without it."""
+    if "reset_mask" not in options:
+        return np.ones(days, np.bool_)
+    mask = options["reset_mask"]
+    if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_ or mask.shape != (days,):
+        found = f"{mask.dtype} {mask.shape}" if isinstance(mask, np.ndarray) else repr(mask)
+        raise Error("V451", f"option reset_mask must be a NumPy array of bool ({days},), found {found}")
+    if not mask.any():
+        raise Error("V451", "option reset_mask names no environment: one at least must be True")
+    return np.array(mask, np.bool_, order="C")
