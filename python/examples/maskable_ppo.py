@@ -1,19 +1,36 @@
 """Trains the paper's network with MaskablePPO and the paper's settings (Table 2), and saves a weight file.
 
 The program then compares it with the other policies on days that it has not seen; the last line says how.
+Ctrl-C ends the training, and what was learned until then is saved. The learner itself, 12 MB, is saved after
+every roll-out, in a folder beside the weight file: `MaskablePPO.load(path, env=days)` goes on with it.
 
     python examples/maskable_ppo.py --steps 20000 --seed 1 --out mine.safetensors
 """
 
 import argparse
+import os
 import time
+from pathlib import Path
 
 from sb3_contrib import MaskablePPO
+from stable_baselines3.common.callbacks import CheckpointCallback
 
 import vertifleet
 from vertifleet.sb3 import FleetVecEnv, GcapsPolicy, export, ppo_settings
 
 NETWORK = "paper"
+
+
+def file_to_write(given: str) -> Path:
+    """The path of a file that is written hours later: whether it can be is asked now."""
+    path = Path(given)
+    if path.is_dir():
+        raise argparse.ArgumentTypeError(f"{path}: cannot be written: it is a folder; name a file in it")
+    if not path.absolute().parent.is_dir():
+        raise argparse.ArgumentTypeError(f"{path}: cannot be written: make the folder {path.parent} first")
+    if not os.access(path if path.exists() else path.absolute().parent, os.W_OK):
+        raise argparse.ArgumentTypeError(f"{path}: cannot be written: it, or its folder, is not yours")
+    return path
 
 
 def main() -> None:
@@ -22,17 +39,23 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Trains the paper's network with MaskablePPO.")
     parser.add_argument("--steps", type=int, default=settings["total_steps"], help="decisions to learn from")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--out", default="maskable-ppo.safetensors", help="the weight file")
+    out = "maskable-ppo.safetensors"
+    parser.add_argument("--out", type=file_to_write, default=out, help="the weight file")
     wanted = parser.parse_args()
 
     days = FleetVecEnv(NETWORK, settings["n_envs"], settings["reward"], settings["reward_scale"])
     model = MaskablePPO(GcapsPolicy, days, **ppo_settings(settings), seed=wanted.seed, verbose=1)
+    often = CheckpointCallback(settings["n_steps"], str(wanted.out.with_suffix(".checkpoints")))
     start = time.perf_counter()
-    model.learn(wanted.steps)
+    try:
+        model.learn(wanted.steps, callback=often)
+    except KeyboardInterrupt:
+        print("stopped")
+    finally:
+        export(model, wanted.out)
     seconds = time.perf_counter() - start
     print(f"{model.num_timesteps} steps in {seconds:.0f} s, {model.num_timesteps / seconds:.0f} steps/s")
 
-    export(model, wanted.out, network=vertifleet.Network(NETWORK))
     model_option = f"--model mine={wanted.out}"
     print(f"vertifleet compare --network {NETWORK} --policies greedy,mine {model_option} --days 100 --seed 1")
 

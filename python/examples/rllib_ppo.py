@@ -7,6 +7,7 @@ line says how to compare the result with other policies.
 """
 
 import argparse
+import os
 import time
 from pathlib import Path
 
@@ -18,6 +19,18 @@ from vertifleet.ray.rllib import export, ppo_config
 NETWORK = "paper"
 
 
+def file_to_write(given: str) -> Path:
+    """The path of a file that is written hours later: whether it can be is asked now."""
+    path = Path(given)
+    if path.is_dir():
+        raise argparse.ArgumentTypeError(f"{path}: cannot be written: it is a folder; name a file in it")
+    if not path.absolute().parent.is_dir():
+        raise argparse.ArgumentTypeError(f"{path}: cannot be written: make the folder {path.parent} first")
+    if not os.access(path if path.exists() else path.absolute().parent, os.W_OK):
+        raise argparse.ArgumentTypeError(f"{path}: cannot be written: it, or its folder, is not yours")
+    return path
+
+
 def main() -> None:
     """Trains, saves, and says what to do next."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -27,7 +40,8 @@ def main() -> None:
         "--workers", type=int, default=0, help="processes that play days; 0 plays in this one"
     )
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--out", type=Path, default=Path("rllib-ppo.safetensors"), help="the weight file")
+    out = "rllib-ppo.safetensors"
+    parser.add_argument("--out", type=file_to_write, default=out, help="the weight file")
     wanted = parser.parse_args()
 
     settings = vertifleet.settings(wanted.preset)

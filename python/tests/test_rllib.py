@@ -2,6 +2,9 @@
 
 import os
 import secrets
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,12 +20,14 @@ torch = pytest.importorskip("torch")
 ray = pytest.importorskip("ray")
 pytest.importorskip("ray.rllib")
 
+from ray.rllib.algorithms.impala import IMPALAConfig  # noqa: E402
 from ray.rllib.algorithms.ppo import PPOConfig  # noqa: E402
 from ray.rllib.core.columns import Columns  # noqa: E402
 
 from vertifleet.envs import FleetEnv, FleetVectorEnv  # noqa: E402
 from vertifleet.envs.spaces import observation_space  # noqa: E402
 from vertifleet.ray.rllib import FleetDays, FleetModule, export, ppo_config  # noqa: E402
+from vertifleet.ray.rllib import weights as rllib_weights  # noqa: E402
 from vertifleet.torch import act, load  # noqa: E402
 
 VERTIPORTS = 8
@@ -173,11 +178,33 @@ def test_settings_are_said_in_rllibs_words():
     assert falling.env_config["reward"] == "dense"
 
 
-def test_what_does_not_fit_is_refused():
-    for arguments in [{"policy": "gcaps-x"}, {"env_runners": 7}]:
-        with pytest.raises(vertifleet.Error) as refused:
-            ppo_config("paper", **arguments)
-        assert refused.value.code == "V451"
+@pytest.mark.parametrize(
+    ("arguments", "code", "named"),
+    [
+        ({"policy": "gcaps-x"}, "V451", "gcaps-x"),
+        ({"env_runners": 7}, "V451", "env_runners"),
+        ({"env_runners": -2}, "V451", "env_runners"),
+        ({"env_runners": 1.5}, "V451", "env_runners"),
+        ({"settings": {"gama": 1.0}}, "V302", "gama"),
+        ({"settings": {"gamma": 2.0}}, "V303", "gamma"),
+        ({"settings": "default"}, "V451", "settings"),
+        ({"widht": 64}, "V451", "widht"),
+        ({"width": 10, "heads": 4}, "V451", "width"),
+        ({"policy": "mlp", "heads": 4}, "V451", "heads"),
+    ],
+)
+def test_what_does_not_fit_is_refused(arguments, code, named):
+    with pytest.raises(vertifleet.Error, match=named) as refused:
+        ppo_config("paper", **arguments)
+    assert refused.value.code == code
+
+
+def test_settings_that_are_not_given_are_those_of_the_paper():
+    paper = ppo_config("paper", "mlp")
+    for settings in ({}, {"gamma": np.float32(1.0), "total_steps": 2e6}):
+        assert ppo_config("paper", "mlp", settings).to_dict().keys() == paper.to_dict().keys()
+        assert ppo_config("paper", "mlp", settings).train_batch_size_per_learner == 20_000
+    assert ppo_config("paper", "mlp", {"gamma": 0.5, "n_envs": 10}).gamma == 0.5
 
 
 def test_training_chooses_what_is_feasible_and_changes_every_weight(trained):
@@ -256,3 +283,90 @@ def test_weights_of_another_module_are_refused(tmp_path):
         export(algorithm, tmp_path / "other.safetensors")
     algorithm.stop()
     assert refused.value.code == "V451"
+
+
+def header_of(config, path, **arguments):
+    """The header of the file of what this configuration trained, without the time that it takes to train."""
+    trained = rllib_weights.Trained(module(**SMALL), config, 960)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rllib_weights, "_of_checkpoint", lambda _: trained)
+        export("checkpoint", path, **arguments)
+    return vertifleet.Model.read(path).header
+
+
+def test_a_run_is_said_in_the_words_of_the_program(tmp_path):
+    config = ppo_config("paper", "gcaps", TINY | {"learning_rate": np.float32(0.01)}).debugging(
+        seed=np.int64(5)
+    )
+    config.training(minibatch_size=None)
+    header = header_of(config, tmp_path / "mine.safetensors")
+    expected = TINY | {"total_steps": 960, "batch_size": 480, "eval_every": 10**9, "eval_days": 1}
+    assert header["settings"] == expected
+    assert (header["seed"], header["steps"]) == (5, 960)
+
+
+UNSAYABLE = {
+    "no bound on gradients": {"grad_clip": None},
+    "gradients cut in another way": {"grad_clip_by": "value"},
+    "a falling entropy bonus": {"entropy_coeff": [[0, 0.01], [960, 0.0]]},
+    "a rate that falls to half": {"lr": [[0, 0.01], [960, 0.005]]},
+    "a rate that falls in a curve": {"lr": [[0, 0.01], [100, 0.002], [960, 0.0]]},
+    "a rate that rises first": {"lr": [[100, 0.01], [960, 0.0]]},
+    "values clipped": {"vf_clip_param": 10.0},
+    "another loss": {"use_kl_loss": True},
+    "a roll-out that is not whole": {"train_batch_size_per_learner": 482},
+}
+
+
+@pytest.mark.parametrize("how", UNSAYABLE)
+def test_what_no_setting_says_is_left_open(how, tmp_path):
+    config = ppo_config("paper", "gcaps", TINY).training(**UNSAYABLE[how])
+    header = header_of(config, tmp_path / "mine.safetensors")
+    assert (header["network"], header["settings"], header["seed"], header["steps"]) == (
+        "paper",
+        None,
+        None,
+        960,
+    )
+
+
+def test_other_algorithms_and_environments_have_weight_files_without_settings(paper, tmp_path):
+    path = tmp_path / "mine.safetensors"
+    days = {"network": "paper", "reward": "dense", "reward_scale": 1.0}
+    impala = IMPALAConfig().environment(FleetDays, env_config=days)
+    for arguments in ({}, {"network": "paper"}):
+        header = header_of(impala, path, **arguments)
+        assert (header["network"], header["settings"]) == ("paper", None)
+    elsewhere = PPOConfig().environment("CartPole-v1")
+    assert header_of(elsewhere, path, network=paper)["settings"] is None
+
+
+def test_a_network_that_is_not_known_or_not_the_one_trained_on_is_refused(paper, tmp_path):
+    path = tmp_path / "mine.safetensors"
+    changed = paper.changed({"fleet.0.count": 30})
+    for config, network, rule in [
+        (PPOConfig().environment("CartPole-v1"), None, "network="),
+        (ppo_config("paper"), "random:7", "not on the 'random-comparison-7' given"),
+        (ppo_config("paper"), changed, "texts of their files differ"),
+    ]:
+        with pytest.raises(vertifleet.Error, match=rule) as refused:
+            header_of(config, path, network=network)
+        assert refused.value.code == "V451"
+    assert not path.exists()
+
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "rllib_ppo.py"
+
+
+def test_the_example_asks_first_whether_the_file_can_be_written(tmp_path):
+    command = [
+        sys.executable,
+        str(EXAMPLE),
+        "--steps",
+        "1",
+        "--out",
+        str(tmp_path / "nowhere" / "x.safetensors"),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100)
+    assert done.returncode == 2
+    assert "make the folder" in done.stderr

@@ -238,28 +238,25 @@ def test_what_is_masked_has_no_probability():
 
 
 class Fixed(Mlp):
-    """Gives its aircraft features as logits."""
+    """Gives its first aircraft features as logits."""
 
     def forward(self, nodes, aircraft, clock):  # noqa: ARG002
-        return aircraft, clock
+        return aircraft[:, : self.vertiports], clock
 
 
 def observation(logits, mask):
-    nodes, clock = np.zeros(len(logits), np.float32), np.zeros((*np.shape(logits)[:-1], 1), np.float32)
-    return {
-        "nodes": nodes,
-        "aircraft": np.array(logits, np.float32),
-        "clock": clock,
-        "action_mask": np.array(mask, np.float32),
-    }
+    *batch, vertiports = np.shape(logits)
+    shown = {"nodes": vertiports * (2 * vertiports + 4), "aircraft": 2 * vertiports + 2, "clock": 1}
+    arrays = {name: np.zeros((*batch, size), np.float32) for name, size in shown.items()}
+    arrays["aircraft"][..., :vertiports] = logits
+    return arrays | {"action_mask": np.array(mask, np.float32)}
 
 
 def test_the_feasible_vertiport_with_the_highest_logit_is_chosen_the_first_among_equals():
-    twin = Fixed(2, width=1)
-    assert act(twin, observation([1.0, 9.0, 3.0, 3.0], [1, 0, 1, 1])) == 2
-    assert act(twin, observation([-9.0, -1.0], [1, 0])) == 0
+    assert act(Fixed(4, width=1), observation([1.0, 9.0, 3.0, 3.0], [1, 0, 1, 1])) == 2
+    assert act(Fixed(2, width=1), observation([-9.0, -1.0], [1, 0])) == 0
     batch = observation([[0.0, 0.0, 0.0], [0.0, 1.0, 2.0]], [[0, 1, 1], [1, 1, 1]])
-    assert act(twin, batch).tolist() == [1, 2]
+    assert act(Fixed(3, width=1), batch).tolist() == [1, 2]
 
 
 @pytest.mark.skipif(not torch.cuda.is_available(), reason="needs a GPU")
@@ -270,3 +267,65 @@ def test_a_gpu_computes_the_same(kind):
     expected = [answer.detach() for answer in twin(*data)]
     found = twin.cuda()(*(part.cuda() for part in data))
     torch.testing.assert_close([answer.detach().cpu() for answer in found], expected)
+
+
+@pytest.mark.parametrize("kind", SMALL)
+def test_sizes_may_be_numbers_of_numpy(kind):
+    make = {"gcaps": lambda size: Gcaps(size(5), width=size(8), heads=size(2))}
+    make["mlp"] = lambda size: Mlp(size(5), width=size(8), layers=size(1), value_width=size(4))
+    make["gcaps-x"] = lambda size: GcapsX(width=size(8), heads=size(2))
+    twin = make[kind](np.int64)
+    assert twin.policy == make[kind](int).policy
+    assert all(type(size) is int for size in [*twin.sizes.values(), *twin.shape.values()])
+
+
+@pytest.mark.parametrize("size", [True, np.True_, 2.0, "2", None])
+def test_what_is_no_whole_number_is_no_size(size):
+    with pytest.raises(vertifleet.Error) as refused:
+        Gcaps(size, width=8, heads=2)
+    assert refused.value.code == "V451"
+
+
+def shown(twin, *batch, vertiports=VERTIPORTS):
+    """An observation out of nothing, or a batch, all of it feasible."""
+    sizes = {"nodes": vertiports * twin.node_features, "aircraft": twin.aircraft_features, "clock": 1}
+    return {name: np.ones((*batch, size), np.float32) for name, size in sizes.items()} | {
+        "action_mask": np.ones((*batch, vertiports), np.float32)
+    }
+
+
+@pytest.mark.parametrize("kind", SMALL)
+def test_a_twin_of_half_precision_decides_and_an_empty_batch_is_decided(kind):
+    twin = SMALL[kind]()
+    assert act(twin, shown(twin, 0)).shape == (0,)
+    assert act(twin.bfloat16(), shown(twin)) in range(VERTIPORTS)
+    assert act(twin, shown(twin, 2)).dtype == np.int64
+
+
+@pytest.mark.parametrize("kind", ["gcaps", "mlp"])
+def test_nodes_of_another_number_of_vertiports_are_refused(kind):
+    twin = small(kind)
+    nodes, aircraft, clock = inputs(twin, vertiports=2 * VERTIPORTS)
+    for wrong in (nodes, nodes.flatten(1)):
+        with pytest.raises(vertifleet.Error, match=r"nodes must be \[B, 5, 14\]") as refused:
+            twin(wrong, aircraft, clock)
+        assert refused.value.code == "V451"
+
+
+@pytest.mark.parametrize("kind", SMALL)
+@pytest.mark.parametrize("batch", [(), (3,)])
+def test_an_observation_that_does_not_fit_is_refused(kind, batch):
+    twin = SMALL[kind]()
+    other = Gcaps(VERTIPORTS + 1) if kind == "gcaps-x" else GcapsX()
+    fits = shown(twin, *batch)
+    wrong = {
+        "of another policy": (shown(other, *batch), "must be"),
+        "without nodes": ({name: fits[name] for name in fits if name != "nodes"}, "lacks nodes"),
+        "with a mask of others": (fits | {"action_mask": np.ones((*batch, 2))}, "action_mask must be"),
+        "with other aircraft": (fits | {"aircraft": np.ones((*batch, 3))}, "aircraft must be"),
+        "with more clocks": (fits | {"clock": np.ones((*batch, 2))}, "clock must be"),
+    }
+    for what, (observation, rule) in wrong.items():
+        with pytest.raises(vertifleet.Error, match=rule) as refused:
+            act(twin, observation)
+        assert refused.value.code == "V451", what

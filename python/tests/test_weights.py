@@ -241,10 +241,11 @@ def test_what_is_refused_is_not_written(tmp_path):
     path.write_bytes(b"what was there before")
     origin = {"network": NETWORK, "settings": vertifleet.settings("paper"), "seed": 1, "steps": 1}
     assert refused_code(fresh("gcaps"), path) == "V451"
-    assert refused_code(fresh("gcaps"), path, **{**origin, "seed": None}) == "V451"
+    for needed in ("network", "steps"):
+        assert refused_code(fresh("gcaps"), path, **{**origin, needed: None}) == "V451"
     assert refused_code(Gcaps(9, width=8, heads=2), path, **origin) == "V451"
-    assert refused_code(fresh("gcaps"), path, **{**origin, "seed": -1}) == "V304"
-    assert refused_code(fresh("gcaps"), path, **{**origin, "settings": {"gamma": 1.0}}) == "V304"
+    assert refused_code(fresh("gcaps"), path, **{**origin, "seed": -1}) == "V451"
+    assert refused_code(fresh("gcaps"), path, **{**origin, "settings": {"gamma": 1.0}}) == "V451"
     assert (
         refused_code(fresh("mlp"), path, **{**origin, "settings": origin["settings"] | {"gamma": 2.0}})
         == "V303"
@@ -255,3 +256,51 @@ def test_what_is_refused_is_not_written(tmp_path):
     assert refused_code(diverged, path, **origin) == "V304"
     assert path.read_bytes() == b"what was there before"
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("kind", ["gcaps", "mlp"])
+def test_what_is_not_known_of_weights_is_left_open(kind, tmp_path):
+    path = tmp_path / "weights.safetensors"
+    save(fresh(kind), path, network=NETWORK, steps=5)
+    header = load(path).header
+    assert (header["settings"], header["seed"], header["steps"]) == (None, None, 5)
+    twin = load(path)
+    save(twin, path, seed=4)
+    assert (load(path).header["settings"], load(path).header["seed"]) == (None, 4)
+    assert vertifleet.simulate(NETWORK.draw(1), kind, model=path).summary["flights"] >= 0
+
+
+def test_numbers_and_networks_of_any_kind_are_taken(tmp_path):
+    file, path = tmp_path / "paper.toml", tmp_path / "weights.safetensors"
+    file.write_text(NETWORK.toml)
+    settings = vertifleet.settings("paper") | {"gamma": np.float32(0.9), "total_steps": 1e6}
+    for network in ("paper", file, NETWORK):
+        save(fresh("mlp"), path, network=network, settings=settings, seed=np.int64(3), steps=1e3)
+        header = load(path).header
+        assert (header["network"], header["seed"], header["steps"]) == ("paper", 3, 1000)
+        assert header["settings"] == settings | {"gamma": pytest.approx(0.9), "total_steps": 1_000_000}
+
+
+@pytest.mark.parametrize(
+    ("wrong", "code", "named"),
+    [
+        ({"seed": -1}, "V451", "seed"),
+        ({"seed": 2**32}, "V451", "seed"),
+        ({"seed": True}, "V451", "seed"),
+        ({"steps": 1.5}, "V451", "steps"),
+        ({"settings": "paper"}, "V451", "settings"),
+        ({"settings": {"gamma": 1.0}}, "V451", "total_steps"),
+        ({"settings": {"gama": 1.0}}, "V302", "gama"),
+        ({"settings": vertifleet.settings("paper") | {"gamma": "1"}}, "V303", "gamma"),
+    ],
+)
+def test_an_origin_that_is_refused_is_named(wrong, code, named, tmp_path):
+    with pytest.raises(vertifleet.Error, match=named) as refused:
+        save(fresh("mlp"), tmp_path / "weights.safetensors", **{"network": NETWORK, "steps": 1} | wrong)
+    assert refused.value.code == code
+
+
+def test_gcaps_x_from_no_file_needs_all(tmp_path):
+    origin = {"network": NETWORK, "settings": COURSE, "seed": 1, "steps": 1}
+    for needed in origin:
+        assert refused_code(fresh("gcaps-x"), tmp_path / "x.safetensors", **origin | {needed: None}) == "V451"

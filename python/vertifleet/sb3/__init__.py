@@ -10,7 +10,7 @@ What is trained here is saved as a weight file of the program::
     days = FleetVecEnv("paper", settings["n_envs"], settings["reward"], settings["reward_scale"])
     model = MaskablePPO(GcapsPolicy, days, **ppo_settings(settings), seed=1)
     model.learn(settings["total_steps"])
-    export(model, "mine.safetensors", network=vertifleet.Network("paper"))
+    export(model, "mine.safetensors")
 """
 
 from vertifleet.sb3.policies import GcapsPolicy, MlpPolicy

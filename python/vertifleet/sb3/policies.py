@@ -6,18 +6,34 @@ stable-baselines3 puts behind an extractor only picks logits and value out of it
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 import torch
+from gymnasium import spaces
 from sb3_contrib.common.maskable.policies import MaskableActorCriticPolicy
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from torch import Tensor, nn
 
+from vertifleet import Error
+from vertifleet.envs.spaces import observation_space as fleet_space
 from vertifleet.torch import Gcaps, Mlp, Twin
+from vertifleet.torch.acting import READ
+from vertifleet.torch.twin import of_sizes
 
 if TYPE_CHECKING:
-    from gymnasium import spaces
     from stable_baselines3.common.type_aliases import Schedule
+
+INFEASIBLE = -1e8
+"""Logit of a vertiport that is not feasible: the number that MaskablePPO has for it."""
+NOT_TAKEN = (
+    "net_arch",
+    "activation_fn",
+    "ortho_init",
+    "share_features_extractor",
+    "features_extractor_class",
+)
+"""Arguments of the parent's that would change layers, of which a network has its own."""
 
 
 class TwinExtractor(BaseFeaturesExtractor):
@@ -32,11 +48,16 @@ class TwinExtractor(BaseFeaturesExtractor):
     def __init__(self, observation_space: spaces.Dict, kind: type[Gcaps] | type[Mlp], **sizes: int) -> None:
         (vertiports,) = cast("tuple[int]", observation_space["action_mask"].shape)
         super().__init__(observation_space, features_dim=vertiports + 1)
-        self.twin = kind(vertiports, **sizes)
+        self.twin = of_sizes(kind, vertiports, sizes)
 
     def forward(self, observations: dict[str, Tensor]) -> Tensor:
-        """Logits and value; MaskablePPO asks the environment for the mask, and applies it later."""
+        """Logits and value.
+
+        The mask that is shown is applied here, so that whoever asks with no other decides as the program:
+        plain `predict` and `evaluate_policy` do. MaskablePPO asks the environment, whose mask is the same.
+        """
         logits, values = self.twin(observations["nodes"], observations["aircraft"], observations["clock"])
+        logits = logits.masked_fill(observations["action_mask"] == 0, INFEASIBLE)
         return torch.cat([logits, values.unsqueeze(-1)], dim=-1)
 
 
@@ -60,6 +81,10 @@ class TwinPolicy(MaskableActorCriticPolicy):
     """A network as the policy, first weights and all.
 
     Sizes of its layers are given as ``policy_kwargs={"features_extractor_kwargs": {"width": 64}}``.
+
+    Raises:
+        Error: V451 if there is no such size, if other layers are asked for, or if the environment does not
+            show what ``vertifleet/Fleet-v0`` does.
     """
 
     kind: ClassVar[type[Gcaps] | type[Mlp]]
@@ -71,15 +96,26 @@ class TwinPolicy(MaskableActorCriticPolicy):
         lr_schedule: Schedule,
         **settings: Any,
     ) -> None:
+        for name in NOT_TAKEN:
+            if name in settings:
+                rule = f"{type(self).__name__} takes no {name}: its layers are those of {self.kind.kind}"
+                hint = 'their sizes are policy_kwargs={"features_extractor_kwargs": {"width": 64}}'
+                raise Error("V451", rule, hint)
+        _check_shown(observation_space)
         sizes = settings.get("features_extractor_kwargs") or {}
         fixed: dict[str, Any] = {
             "net_arch": [],
             "ortho_init": False,
-            "share_features_extractor": True,
             "features_extractor_class": TwinExtractor,
             "features_extractor_kwargs": sizes | {"kind": self.kind},
         }
         super().__init__(observation_space, action_space, lr_schedule, **settings | fixed)
+
+    def _get_constructor_parameters(self) -> dict[str, Any]:
+        """What a saved policy is made from again: what its constructor takes."""
+        parameters = super()._get_constructor_parameters()
+        taken = {name: value for name, value in parameters.items() if name not in NOT_TAKEN}
+        return taken | {"features_extractor_kwargs": self.twin.sizes}
 
     def _build(self, lr_schedule: Schedule) -> None:
         """As the parent's, without its layers behind the extractor and their first weights."""
@@ -93,6 +129,20 @@ class TwinPolicy(MaskableActorCriticPolicy):
     def twin(self) -> Twin:
         """The network that is trained."""
         return cast("TwinExtractor", self.features_extractor).twin
+
+
+def _check_shown(space: spaces.Space[Any]) -> None:
+    """Refuses an environment that does not show what a network reads."""
+    hint = "train on vertifleet.sb3.FleetVecEnv, and wrap it in nothing that changes observations"
+    shown = space.spaces if isinstance(space, spaces.Dict) else {}
+    if any(name not in shown for name in READ):
+        raise Error("V451", f"observations must be a dict with {', '.join(READ)}, found {space}", hint)
+    vertiports = math.prod(shown["action_mask"].shape or ())
+    expected = fleet_space(vertiports)
+    for name in READ:
+        if shown[name].shape != expected[name].shape:
+            rule = f"{name} must be {expected[name].shape} with {vertiports} vertiports"
+            raise Error("V451", f"{rule}, found {shown[name].shape}", hint)
 
 
 class GcapsPolicy(TwinPolicy):

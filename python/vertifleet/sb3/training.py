@@ -4,22 +4,30 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from stable_baselines3.common.utils import FloatSchedule, LinearSchedule
 from stable_baselines3.common.vec_env import unwrap_vec_normalize
 
-from vertifleet import Error, Network
+from vertifleet import Error
 from vertifleet.sb3.policies import TwinPolicy
-from vertifleet.torch import save
-from vertifleet.torch.weights import NEVER
+from vertifleet.torch.origin import checked_settings, network_trained_on, seed_in_words, settings_in_words
+from vertifleet.torch.weights import save_trained
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Mapping
 
+    from numpy.typing import NDArray
     from sb3_contrib import MaskablePPO
+    from stable_baselines3.common.type_aliases import Schedule
+    from stable_baselines3.common.vec_env import VecEnv
+
+    from vertifleet import Network
 
 SHARED = ("n_steps", "batch_size", "n_epochs", "gamma", "gae_lambda", "ent_coef", "vf_coef", "max_grad_norm")
 """Settings that MaskablePPO has under the same names and keeps as they are given."""
+LEFT = np.linspace(1.0, 0.0, 101)
+"""Shares of the run that are left, at which schedules are looked at."""
 
 
 def ppo_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
@@ -29,8 +37,12 @@ def ppo_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
     :class:`~vertifleet.sb3.FleetVecEnv`'s, ``total_steps`` is what ``learn`` takes.
 
     Args:
-        settings: as ``vertifleet.settings("paper")`` gives them.
+        settings: as ``vertifleet.settings("paper")`` gives them; members that are not given are those.
+
+    Raises:
+        Error: V451 if they are no dict, V302 and V303 if a member is unknown or out of its bounds.
     """
+    settings = checked_settings(settings)
     rate = settings["learning_rate"]
     if settings["lr_schedule"] == "linear":
         rate = LinearSchedule(rate, end=0.0, end_fraction=1.0)
@@ -38,15 +50,22 @@ def ppo_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
     return same | {"clip_range": settings["clip_range"], "learning_rate": rate}
 
 
-def export(model: MaskablePPO, path: str | os.PathLike[str], *, network: Network) -> None:
+def export(
+    model: MaskablePPO,
+    path: str | os.PathLike[str],
+    *,
+    network: str | os.PathLike[str] | Network | None = None,
+) -> None:
     """Writes the weights as a weight file, with which the program decides.
 
-    ``vertifleet compare --policies greedy,mine --model mine=PATH`` compares it with others.
+    ``vertifleet compare --policies greedy,mine --model mine=PATH`` compares it with others. The file says how
+    the weights were trained where the program's settings can: not if rewards were normalised, say, if a rate
+    fell in another way than linearly to 0, or if the model was loaded and has not learned since.
 
     Args:
         model: the learner, with a policy of this package.
         path: the file.
-        network: what it was trained on.
+        network: what it was trained on, its name or its path, to be compared with what its environment says.
 
     Raises:
         Error: V304 if a weight is not finite, V102 if the file cannot be written, V451 if the model has a
@@ -56,35 +75,74 @@ def export(model: MaskablePPO, path: str | os.PathLike[str], *, network: Network
     policy = model.policy
     if not isinstance(policy, TwinPolicy):
         raise Error("V451", f"weight files are of GcapsPolicy and MlpPolicy, not of {type(policy).__name__}")
-    settings, seed = _settings_of(model, network), model.seed or 0
-    save(policy.twin, path, network=network, settings=settings, seed=seed, steps=model.num_timesteps)
+    days = _days_of(model)
+    network = network_trained_on(network, days.get_attr("days")[0].network)
+    settings, seed = _settings_of(model, days), seed_in_words(model.seed)
+    save_trained(policy.twin, path, network, settings, seed, model.num_timesteps)
 
 
-def _settings_of(model: MaskablePPO, network: Network) -> dict[str, Any]:
-    """What the model was trained with, under the program's names."""
+def _days_of(model: MaskablePPO) -> VecEnv:
+    """The days that the model learns from, if they are those that the program has."""
     days = model.get_env()
-    if days is None or not days.has_attr("reward_scale"):
+    if days is None:
+        hint = "load it with MaskablePPO.load(path, env=FleetVecEnv(...))"
+        raise Error("V451", "the model has no environment, as after a load without one", hint)
+    if not days.has_attr("reward_scale"):
         hint = "train on a FleetVecEnv, or use vertifleet.torch.save(model.policy.twin, ...)"
-        raise Error("V451", "the model's environment does not say how it pays", hint)
-    trained_on = days.get_attr("days")[0].network
-    if trained_on.toml != network.toml:
-        rule = (
-            f"the model was trained on network {trained_on.name!r}, which is not the {network.name!r} given"
-        )
-        raise Error("V451", rule)
+        raise Error("V451", "the model's environment is no FleetVecEnv", hint)
     normalised = unwrap_vec_normalize(days)
     if normalised is not None and normalised.norm_obs:
         hint = "features are scaled by the network's own scales; train with norm_obs=False"
         raise Error("V451", "the model was shown observations that VecNormalize changed", hint)
-    first, last = model.lr_schedule(1.0), model.lr_schedule(0.0)
-    return {name: getattr(model, name) for name in SHARED} | {
-        "total_steps": max(model._total_timesteps, 1),
-        "n_envs": model.n_envs,
-        "learning_rate": first,
-        "lr_schedule": "constant" if first == last else "linear",
-        "clip_range": FloatSchedule(model.clip_range)(1.0),
-        "reward": days.get_attr("reward")[0],
-        "reward_scale": days.get_attr("reward_scale")[0],
-        "eval_every": NEVER,
-        "eval_days": 1,
-    }
+    return days
+
+
+def _settings_of(model: MaskablePPO, days: VecEnv) -> dict[str, Any] | None:
+    """What the model was trained with, under the program's names; None where these cannot say it."""
+    if _learned_otherwise(model, days):
+        return None
+    rate, lr_schedule = _falling(model)
+    return settings_in_words(
+        {name: getattr(model, name) for name in SHARED}
+        | {
+            "batch_size": model.batch_size or model.n_steps * model.n_envs,
+            "total_steps": model._total_timesteps,
+            "n_envs": model.n_envs,
+            "learning_rate": rate,
+            "lr_schedule": lr_schedule,
+            "clip_range": _constant(FloatSchedule(model.clip_range)),
+            "reward": days.get_attr("reward")[0],
+            "reward_scale": days.get_attr("reward_scale")[0],
+        }
+    )
+
+
+def _learned_otherwise(model: MaskablePPO, days: VecEnv) -> bool:
+    """Whether the model learned from other days than these, or in a way that no setting says."""
+    # stable-baselines3 forgets the last observation when it gives a model, loaded or not, other days.
+    other_days = model._last_obs is None
+    normalised = unwrap_vec_normalize(days)
+    other_rewards = normalised is not None and normalised.norm_reward
+    other_loss = model.clip_range_vf is not None or not model.normalize_advantage
+    return other_days or other_rewards or other_loss or model.target_kl is not None
+
+
+def _falling(model: MaskablePPO) -> tuple[float, str | None]:
+    """The first learning rate, and how the program calls its way down; None for another way."""
+    rates = _sampled(model.lr_schedule)
+    if np.allclose(rates, rates[0], rtol=1e-6, atol=0.0):
+        return rates[0], "constant"
+    # A run that went on fell twice.
+    once = model._num_timesteps_at_start == 0
+    linear = once and np.allclose(rates, rates[0] * LEFT, rtol=1e-6, atol=1e-6 * abs(rates[0]))
+    return rates[0], "linear" if linear else None
+
+
+def _constant(schedule: Schedule) -> float | None:
+    """What a schedule always gives, None if it does not give the same."""
+    values = _sampled(schedule)
+    return values[0] if np.allclose(values, values[0], rtol=1e-6, atol=0.0) else None
+
+
+def _sampled(schedule: Schedule) -> NDArray[np.float64]:
+    return np.array([schedule(left) for left in LEFT.tolist()], np.float64)

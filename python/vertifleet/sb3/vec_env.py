@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from gymnasium.vector import AutoresetMode
+from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import VecEnv
 
 from vertifleet import Error
@@ -112,6 +113,9 @@ class FleetVecEnv(VecEnv):
             raise AttributeError(f"single days have a method action_masks(), no {method_name}")
         return [self._masks[day] for day in self._get_indices(indices)]
 
-    def env_is_wrapped(self, wrapper_class: Any, indices: VecEnvIndices = None) -> list[bool]:  # noqa: ARG002
-        """Whether single days are wrapped: none is."""
-        return [False for _ in self._get_indices(indices)]
+    def env_is_wrapped(self, wrapper_class: Any, indices: VecEnvIndices = None) -> list[bool]:
+        """Whether single days are wrapped: as if in a Monitor, for infos tell of a day's end as its do.
+
+        So evaluations take the day's reward from there, not the scaled rewards that are learned from.
+        """
+        return [wrapper_class is Monitor for _ in self._get_indices(indices)]

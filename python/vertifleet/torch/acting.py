@@ -8,12 +8,17 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from vertifleet import Error
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from vertifleet.torch.twin import Twin
+
+READ = ("nodes", "aircraft", "clock", "action_mask")
+"""What is read of an observation."""
 
 
 def masked(logits: Tensor, mask: Tensor) -> Tensor:
@@ -30,7 +35,13 @@ def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np
 
     Returns:
         A vertiport for one observation, vertiports [B] for a batch of them.
+
+    Raises:
+        Error: V451 if the observation lacks one of these, or its shapes are not those that the network reads.
     """
+    missing = [name for name in READ if name not in observation]
+    if missing:
+        raise Error("V451", f"the observation lacks {', '.join(missing)}: {', '.join(READ)} are read")
     weight = next(twin.parameters())
     one = np.ndim(observation["aircraft"]) == 1
 
@@ -38,7 +49,18 @@ def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np
         entries = torch.as_tensor(observation[name], dtype=weight.dtype, device=weight.device)
         return entries.unsqueeze(0) if one else entries
 
+    nodes, aircraft, clock, mask = (tensor(name) for name in READ)
+    batch = len(nodes)
+    _check("aircraft", aircraft, [batch, twin.aircraft_features])
+    _check("clock", clock.reshape(-1), [batch])
     with torch.inference_mode():
-        logits, _ = twin(tensor("nodes"), tensor("aircraft"), tensor("clock"))
-        choices = masked(logits, tensor("action_mask")).cpu().numpy().argmax(axis=-1)
+        logits, _ = twin(nodes, aircraft, clock)
+        _check("action_mask", mask, logits.shape)
+        choices: NDArray[np.int64] = masked(logits, mask).argmax(dim=-1).cpu().numpy()
     return int(choices[0]) if one else choices
+
+
+def _check(name: str, found: Tensor, expected: Sequence[int]) -> None:
+    """Refuses what was shown by another network, or to another policy."""
+    if list(found.shape) != list(expected):
+        raise Error("V451", f"{name} must be {list(expected)}, found {list(found.shape)}")

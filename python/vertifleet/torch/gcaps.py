@@ -28,13 +28,13 @@ class Gcaps(Twin):
     kind = "gcaps"
 
     def __init__(self, vertiports: int, width: int = 256, heads: int = 8) -> None:
+        vertiports = check_size("vertiports", vertiports)
         node_features, aircraft_features = paper_features(vertiports)
         super().__init__(vertiports, node_features, aircraft_features)
         self._add_layers(width, heads)
 
     def _add_layers(self, width: int, heads: int) -> None:
-        check_size("width", width)
-        check_size("heads", heads)
+        width, heads = check_size("width", width), check_size("heads", heads)
         if width % heads:
             raise Error("V451", f"width must be a multiple of heads ({heads}), found {width}")
         self.width, self.heads = width, heads

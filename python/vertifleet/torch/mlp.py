@@ -25,12 +25,12 @@ class Mlp(Twin):
     kind = "mlp"
 
     def __init__(self, vertiports: int, width: int = 800, layers: int = 2, value_width: int = 256) -> None:
+        vertiports = check_size("vertiports", vertiports)
         node_features, aircraft_features = paper_features(vertiports)
         super().__init__(vertiports, node_features, aircraft_features)
-        check_size("width", width)
-        check_size("layers", layers, MOST_LAYERS)
-        check_size("value_width", value_width)
-        self.width, self.layers, self.value_width = width, layers, value_width
+        self.width = width = check_size("width", width)
+        self.layers = layers = check_size("layers", layers, MOST_LAYERS)
+        self.value_width = value_width = check_size("value_width", value_width)
         inputs = [vertiports * node_features + aircraft_features] + (layers - 1) * [width]
         self.trunk = nn.ModuleDict(
             {str(layer): Linear(count, width, BEFORE_RELU) for layer, count in enumerate(inputs, start=1)}
@@ -45,7 +45,7 @@ class Mlp(Twin):
 
     def forward(self, nodes: Tensor, aircraft: Tensor, clock: Tensor) -> tuple[Tensor, Tensor]:
         """Logits [B, N], not masked, and values [B]."""
-        x = torch.cat([nodes.flatten(start_dim=1), aircraft], dim=-1)
+        x = torch.cat([self.by_node(nodes).flatten(start_dim=1), aircraft], dim=-1)
         for layer in self.trunk.values():
             x = relu(layer(x))
         return self.logits(x), self.value(x, clock)

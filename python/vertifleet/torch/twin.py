@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import math
+import operator
 from abc import ABC, abstractmethod
-from typing import Any, ClassVar
+from inspect import signature
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from torch import Tensor, nn
 
 from vertifleet import Error
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 MOST = 4096
 """Sizes beyond this are a damaged file's, and would ask for more memory than there is."""
@@ -62,17 +68,48 @@ class Twin(nn.Module, ABC):
         return shape if self.vertiports is None else {"vertiports": self.vertiports} | shape
 
     def by_node(self, nodes: Tensor) -> Tensor:
-        """Node features as [B, N, F], whether they come flat or not."""
-        return nodes.reshape(nodes.shape[0], -1, self.node_features)
+        """Node features as [B, N, F], whether they come flat or not.
+
+        Raises:
+            Error: V451 if they are those of another number of vertiports, or of another policy.
+        """
+        batch, *shown = nodes.shape
+        features = self.node_features
+        vertiports = self.vertiports or math.prod(shown) // features
+        if not vertiports or shown not in ([vertiports, features], [vertiports * features]):
+            number = self.vertiports or "N"
+            rule = f"nodes must be [B, {number}, {features}] or flat [B, {number} * {features}]"
+            raise Error("V451", f"{rule}, found {list(nodes.shape)}")
+        return nodes.reshape(batch, vertiports, features)
 
 
 def paper_features(vertiports: int) -> tuple[int, int]:
     """F and G of §IV.A on a network with so many vertiports."""
-    check_size("vertiports", vertiports)
     return 2 * vertiports + 4, 2 * vertiports + 2
 
 
-def check_size(name: str, size: int, most: int = MOST) -> None:
-    """Refuses a size that no network has."""
-    if type(size) is not int or not 1 <= size <= most:
+def check_size(name: str, size: int, most: int = MOST) -> int:
+    """The size in Python's own type, be it NumPy's; refuses one that no network has."""
+    try:
+        number = 0 if isinstance(size, bool) else operator.index(size)
+    except TypeError:
+        number = 0
+    if not 1 <= number <= most:
         raise Error("V451", f"{name} must be a whole number from 1 to {most}, found {size!r}")
+    return number
+
+
+Kind = TypeVar("Kind", bound=Twin)
+
+
+def of_sizes(kind: type[Kind], vertiports: int, sizes: Mapping[str, int]) -> Kind:
+    """The network for so many vertiports, with first weights; `sizes` are by the names of its arguments.
+
+    Raises:
+        Error: V451 if it has no such size, or none so large.
+    """
+    known = [name for name in signature(kind).parameters if name != "vertiports"]
+    for name in sizes:
+        if name not in known:
+            raise Error("V451", f"{kind.kind} has no size {name!r}: its sizes are {', '.join(known)}")
+    return kind(vertiports, **sizes)

@@ -15,8 +15,10 @@ import safetensors.torch
 import torch
 
 from vertifleet import Error, Model, Network
+from vertifleet._compare import network_of
 from vertifleet.torch.gcaps import Gcaps, GcapsX
 from vertifleet.torch.mlp import Mlp
+from vertifleet.torch.origin import MOST_SEED, MOST_STEPS, checked_settings, whole
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -27,8 +29,6 @@ FORMAT = "vertifleet-weights/1"
 """Of policies that fit one number of vertiports."""
 FORMAT_ANY = "vertifleet-weights-any/1"
 """Of gcaps-x, which fits any."""
-NEVER = 1_000_000_000
-"""For "eval_every" where nobody looks at validation days, and the weights kept are the last."""
 
 
 def load(source: str | os.PathLike[str] | bytes) -> Twin:
@@ -54,29 +54,50 @@ def save(
     twin: Twin,
     path: str | os.PathLike[str],
     *,
-    network: Network | None = None,
+    network: str | os.PathLike[str] | Network | None = None,
     settings: Mapping[str, Any] | None = None,
     seed: int | None = None,
     steps: int | None = None,
 ) -> None:
     """Writes a weight file, whole or not at all.
 
-    What is not given stays as in the file that the weights were loaded from; weights from no file need all.
+    What is not given stays as in the file that the weights were loaded from. Weights from no file need the
+    network and the steps; of settings and seed, the new file says that they are not known. A ``gcaps-x`` from
+    no file needs all.
 
     Args:
         twin: the network.
         path: the file.
-        network: what the weights were trained on.
+        network: what the weights were trained on: the network, its name or its path.
         settings: the settings of the training run, with the members of ``vertifleet.settings("paper")``; of a
             ``gcaps-x``, with those of ``course`` in its header.
         seed: seed of the training run.
         steps: decisions learned from.
 
     Raises:
-        Error: V304 if a weight is not finite or the origin has a member of the wrong type, V303 if a setting
-            is out of its bounds, V102 if the file cannot be written, V451 if the arguments do not fit.
+        Error: V304 if a weight is not finite, V302 and V303 if there is no such setting or it is out of its
+            bounds, V102 if the file cannot be written, V451 if the arguments do not fit.
     """
-    header = _header(twin, network, settings, seed, steps)
+    network = None if network is None else network_of(network)
+    said = _said(twin, network, settings, seed, steps)
+    anew = {member: value for member, value in said.items() if value is not None}
+    header = _new_header(twin, said) if twin.header is None else twin.header | anew
+    _write(twin, path, header)
+
+
+def save_trained(
+    twin: Twin,
+    path: str | os.PathLike[str],
+    network: Network,
+    settings: Mapping[str, Any] | None,
+    seed: int | None,
+    steps: int,
+) -> None:
+    """As :func:`save`, of weights that were trained anew: nothing stays of a file that they started from."""
+    _write(twin, path, _new_header(twin, _said(twin, network, settings, seed, steps)))
+
+
+def _write(twin: Twin, path: str | os.PathLike[str], header: Mapping[str, Any]) -> None:
     tensors = {name: tensor.detach().float().cpu().contiguous() for name, tensor in twin.state_dict().items()}
     file = safetensors.torch.save(tensors, metadata={"vertifleet": json.dumps(header)})
     Model.from_bytes(file, os.fspath(path)).write(path)
@@ -95,33 +116,54 @@ def _of(header: Mapping[str, Any]) -> Twin:
                 return Mlp(header["shape"]["vertiports"], **sizes)
 
 
-def _header(
+def _said(
     twin: Twin,
     network: Network | None,
     settings: Mapping[str, Any] | None,
     seed: int | None,
     steps: int | None,
 ) -> dict[str, Any]:
-    """The header of the network's file: that of the file it comes from, but for what is said anew."""
+    """The members of a header that the arguments of `save` say anew; None where they are silent."""
     fits_any = twin.vertiports is None
+    course = None if settings is None else dict(settings) if fits_any else _all_settings(settings)
     said: dict[str, Any] = {
         "network": None if network is None else network.name,
-        "course" if fits_any else "settings": None if settings is None else dict(settings),
-        "seed": seed,
-        "decisions" if fits_any else "steps": steps,
+        "course" if fits_any else "settings": course,
+        "seed": None if seed is None else whole("seed", seed, MOST_SEED),
+        "decisions" if fits_any else "steps": None if steps is None else whole("steps", steps, MOST_STEPS),
     }
-    new = {member: value for member, value in said.items() if value is not None}
-    if twin.header is None and len(new) < len(said):
-        raise Error("V451", "weights that come from no file are saved with network, settings, seed and steps")
+    if any(value is not None for value in said.values()):
+        said["commit"] = f"python {version('vertifleet')}"
     if network is not None and not fits_any:
-        if len(network.vertiports) != twin.vertiports:
-            found = len(network.vertiports)
-            rule = (
-                f"the weights are for {twin.vertiports} vertiports, but network {network.name!r} has {found}"
-            )
-            raise Error("V451", rule)
-        new["feature_scales"] = network.feature_scales
-    if new:
-        new["commit"] = f"python {version('vertifleet')}"
-    kind = {"format": FORMAT_ANY if fits_any else FORMAT, "policy": twin.policy, "shape": twin.shape}
-    return kind | (twin.header or {}) | new
+        said["feature_scales"] = _scales(twin, network)
+    return said
+
+
+def _all_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Checked settings, none of them made up."""
+    checked = checked_settings(settings)
+    missing = [name for name in checked if name not in settings]
+    if missing:
+        raise Error(
+            "V451", f"settings lack {', '.join(missing)}: a weight file says all of them, or settings=None"
+        )
+    return checked
+
+
+def _scales(twin: Twin, network: Network) -> dict[str, float]:
+    """The scales of the network's features, if the weights fit it."""
+    if len(network.vertiports) != twin.vertiports:
+        found = len(network.vertiports)
+        rule = f"the weights are for {twin.vertiports} vertiports, but network {network.name!r} has {found}"
+        raise Error("V451", rule)
+    return network.feature_scales
+
+
+def _new_header(twin: Twin, said: dict[str, Any]) -> dict[str, Any]:
+    """The header of weights that come from no file."""
+    fits_any = twin.vertiports is None
+    needed = ["network", "course", "seed", "decisions"] if fits_any else ["network", "steps"]
+    if any(said[member] is None for member in needed):
+        names = "network, settings, seed and steps" if fits_any else "network and steps"
+        raise Error("V451", f"weights of {twin.kind} that come from no file are saved with {names}")
+    return {"format": FORMAT_ANY if fits_any else FORMAT, "policy": twin.policy, "shape": twin.shape} | said

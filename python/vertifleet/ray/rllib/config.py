@@ -4,21 +4,34 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import torch
 from gymnasium import VectorizeMode
 from ray.rllib.algorithms.ppo import PPOConfig
 from ray.rllib.core.rl_module.rl_module import RLModuleSpec
 
-import vertifleet
 from vertifleet import Error, Network
+from vertifleet._compare import network_of
 from vertifleet.ray.rllib.days import FleetDays
 from vertifleet.ray.rllib.module import FleetModule, kind_of
+from vertifleet.torch.origin import checked_settings, whole
+from vertifleet.torch.twin import of_sizes
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Mapping
+
+TURNED_OFF: dict[str, Any] = {
+    "vf_clip_param": float("inf"),
+    "grad_clip_by": "global_norm",
+    "use_kl_loss": False,
+    "use_gae": True,
+    "use_critic": True,
+}
+"""What RLlib has beyond the program's settings, as they mean it."""
 
 
 def ppo_config(
-    network: str | Network = "paper",
+    network: str | os.PathLike[str] | Network = "paper",
     policy: str = "gcaps",
     settings: Mapping[str, Any] | None = None,
     *,
@@ -44,20 +57,24 @@ def ppo_config(
     Args:
         network: the network, its name or its path.
         policy: "gcaps" or "mlp".
-        settings: as ``vertifleet.settings("paper")`` gives them, which are taken where none are given.
+        settings: as ``vertifleet.settings("paper")`` gives them; members that are not given are those.
         env_runners: processes that play days, on any node; ``n_envs`` is shared out among them. With 0, the
             process that learns plays too.
         sizes: of the network's layers; those of the weight files that come with the program where not given.
 
     Raises:
-        Error: V451 if there is no such policy, or `env_runners` do not share ``n_envs`` out evenly.
+        Error: V302 and V303 if a setting is unknown or out of its bounds, V451 if there is no such policy, if
+            it has no such size, or if `env_runners` do not share ``n_envs`` out evenly; others if the network
+            cannot be read.
     """
-    network = network if isinstance(network, Network) else Network(network)
-    settings = dict(settings or vertifleet.settings("paper"))
+    network = network_of(network)
+    settings = checked_settings({} if settings is None else settings)
+    env_runners = whole("env_runners", env_runners, settings["n_envs"])
     days, playing = settings["n_envs"], max(env_runners, 1)
     if days % playing:
         raise Error("V451", f"n_envs ({days}) must be a multiple of env_runners ({env_runners})")
-    kind_of(policy)
+    with torch.device("meta"):  # sizes are checked as the network checks them, without memory
+        of_sizes(kind_of(policy), len(network.vertiports), sizes)
     config: PPOConfig = PPOConfig()  # type: ignore[no-untyped-call]
     return (
         config.environment(FleetDays, env_config=_days(network, settings))
@@ -76,10 +93,10 @@ def _days(network: Network, settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _training(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """RLlib's names for the settings; what RLlib has beyond them is turned off."""
+    """RLlib's names for the settings."""
     rate = settings["learning_rate"]
     falling = [[0, rate], [settings["total_steps"], 0.0]]
-    return {
+    return TURNED_OFF | {
         "train_batch_size_per_learner": settings["n_envs"] * settings["n_steps"],
         "minibatch_size": settings["batch_size"],
         "num_epochs": settings["n_epochs"],
@@ -89,8 +106,5 @@ def _training(settings: Mapping[str, Any]) -> dict[str, Any]:
         "clip_param": settings["clip_range"],
         "entropy_coeff": settings["ent_coef"],
         "vf_loss_coeff": settings["vf_coef"],
-        "vf_clip_param": float("inf"),
         "grad_clip": settings["max_grad_norm"],
-        "grad_clip_by": "global_norm",
-        "use_kl_loss": False,
     }

@@ -11,6 +11,7 @@ from ray.rllib.core.rl_module.torch import TorchRLModule
 
 from vertifleet import Error
 from vertifleet.torch import Gcaps, Mlp
+from vertifleet.torch.twin import of_sizes
 
 if TYPE_CHECKING:
     from gymnasium import spaces
@@ -30,7 +31,7 @@ class FleetModule(TorchRLModule, ValueFunctionAPI):
         """Makes the network, with first weights."""
         (vertiports,) = cast("tuple[int]", cast("spaces.Dict", self.observation_space)["action_mask"].shape)
         config = cast("dict[str, Any]", self.model_config)
-        self.twin = kind_of(config["policy"])(vertiports, **config["sizes"])
+        self.twin = of_sizes(kind_of(config["policy"]), vertiports, config["sizes"])
 
     def _forward(self, batch: dict[str, Any], **_: Any) -> dict[str, Any]:
         logits, _values = self._pass(batch)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ray.rllib.algorithms import Algorithm, AlgorithmConfig
+from ray.rllib.algorithms.ppo import PPOConfig
 from ray.rllib.core import (
     COMPONENT_LEARNER,
     COMPONENT_LEARNER_GROUP,
@@ -17,15 +18,16 @@ from ray.rllib.core.rl_module import RLModule
 from ray.rllib.utils.metrics import ENV_RUNNER_RESULTS, NUM_ENV_STEPS_SAMPLED_LIFETIME
 from ray.rllib.utils.metrics.metrics_logger import MetricsLogger
 
-from vertifleet import Error
+from vertifleet import Error, Network
+from vertifleet._compare import network_of
+from vertifleet.ray.rllib.config import TURNED_OFF
+from vertifleet.ray.rllib.days import FleetDays
 from vertifleet.ray.rllib.module import FleetModule
-from vertifleet.torch import save
-from vertifleet.torch.weights import NEVER
+from vertifleet.torch.origin import network_trained_on, seed_in_words, settings_in_words
+from vertifleet.torch.weights import save_trained
 
 if TYPE_CHECKING:
     import os
-
-    from vertifleet import Network
 
 MODULE = Path(COMPONENT_LEARNER_GROUP, COMPONENT_LEARNER, COMPONENT_RL_MODULE, DEFAULT_MODULE_ID)
 """Where a checkpoint has the module."""
@@ -33,24 +35,33 @@ DECISIONS = (ENV_RUNNER_RESULTS, NUM_ENV_STEPS_SAMPLED_LIFETIME)
 """What RLlib calls the number of decisions learned from."""
 
 
-def export(source: Algorithm | str | os.PathLike[str], path: str | os.PathLike[str]) -> None:
+def export(
+    source: Algorithm | str | os.PathLike[str],
+    path: str | os.PathLike[str],
+    *,
+    network: str | os.PathLike[str] | Network | None = None,
+) -> None:
     """Writes trained weights as a weight file, with which the program decides.
 
-    ``vertifleet compare --policies greedy,mine --model mine=PATH`` compares it with others.
+    ``vertifleet compare --policies greedy,mine --model mine=PATH`` compares it with others. The file says how
+    the weights were trained where the program's settings can: not if another algorithm than PPO trained them,
+    say, or if a rate fell in another way than linearly to 0.
 
     Args:
         source: the algorithm, built from :func:`~vertifleet.ray.rllib.ppo_config`, or the folder of a
             checkpoint of it, for which no cluster is needed.
         path: the file.
+        network: what it was trained on, its name or its path; needed only if its environment is not
+            :class:`~vertifleet.ray.rllib.FleetDays`.
 
     Raises:
         Error: V304 if a weight is not finite, V102 if the file cannot be written, V451 if what was trained is
-            no :class:`~vertifleet.ray.rllib.FleetModule`.
+            no :class:`~vertifleet.ray.rllib.FleetModule`, or on which network is not known, or not as given.
     """
     trained = _of_algorithm(source) if isinstance(source, Algorithm) else _of_checkpoint(Path(source))
-    settings, seed = _settings(trained.config, trained.decisions), trained.config.seed or 0
-    network: Network = trained.config.env_config["network"]
-    save(trained.module.twin, path, network=network, settings=settings, seed=seed, steps=trained.decisions)
+    config, decisions = trained.config, trained.decisions
+    settings, seed = _settings(config, decisions), seed_in_words(config.seed)
+    save_trained(trained.module.twin, path, _network(config, network), settings, seed, decisions)
 
 
 class Trained(NamedTuple):
@@ -89,26 +100,58 @@ def _checked(module: RLModule | None) -> FleetModule:
     return module
 
 
-def _settings(config: Any, steps: int) -> dict[str, Any]:
-    """What the module was trained with, under the program's names."""
+def _network(config: AlgorithmConfig, given: str | os.PathLike[str] | Network | None) -> Network:
+    """What the module was trained on, as its environment or else the caller says."""
+    if config.env is FleetDays:
+        return network_trained_on(given, config.env_config["network"])
+    if given is None:
+        hint = 'say it: export(..., network="paper")'
+        raise Error("V451", "the environment is not FleetDays: the network trained on is not known", hint)
+    return network_of(given)
+
+
+def _settings(config: Any, steps: int) -> dict[str, Any] | None:
+    """What the module was trained with, under the program's names; None where these cannot say it."""
+    if not isinstance(config, PPOConfig) or config.env is not FleetDays:
+        return None
+    if any(getattr(config, name) != value for name, value in TURNED_OFF.items()):
+        return None
     days = config.num_envs_per_env_runner * max(config.num_env_runners, 1)
-    falls = isinstance(config.lr, list)
-    return {
-        "total_steps": config.lr[-1][0] if falls else max(steps, 1),
-        "n_envs": days,
-        "n_steps": config.total_train_batch_size // days,
-        "batch_size": config.minibatch_size,
-        "n_epochs": config.num_epochs,
-        "learning_rate": config.lr[0][1] if falls else config.lr,
-        "lr_schedule": "linear" if falls else "constant",
-        "gamma": config.gamma,
-        "gae_lambda": config.lambda_,
-        "clip_range": config.clip_param,
-        "ent_coef": config.entropy_coeff,
-        "vf_coef": config.vf_loss_coeff,
-        "max_grad_norm": config.grad_clip,
-        "reward": config.env_config["reward"],
-        "reward_scale": config.env_config["reward_scale"],
-        "eval_every": NEVER,
-        "eval_days": 1,
-    }
+    rate, lr_schedule, falls_for = _falling(config.lr)
+    return settings_in_words(
+        {
+            "total_steps": falls_for or max(steps, 1),
+            "n_envs": days,
+            # Not whole, and so no setting, where days do not share a roll-out evenly.
+            "n_steps": config.total_train_batch_size / days,
+            "batch_size": _batch_size(config),
+            "n_epochs": config.num_epochs,
+            "learning_rate": rate,
+            "lr_schedule": lr_schedule,
+            "gamma": config.gamma,
+            "gae_lambda": config.lambda_,
+            "clip_range": config.clip_param,
+            "ent_coef": config.entropy_coeff,
+            "vf_coef": config.vf_loss_coeff,
+            "max_grad_norm": config.grad_clip,
+            "reward": config.env_config["reward"],
+            "reward_scale": config.env_config["reward_scale"],
+        }
+    )
+
+
+def _falling(rate: Any) -> tuple[Any, str | None, int | None]:
+    """The first learning rate, what the program calls its way down, and how many decisions that takes."""
+    if not isinstance(rate, list):
+        return rate, "constant", None
+    match rate:
+        case [[0, first], [end, 0]]:
+            return first, "linear", end
+        case _:
+            return None, None, None
+
+
+def _batch_size(config: PPOConfig) -> int:
+    """Decisions per step, of all learners together; without minibatches, all of them."""
+    size: int = config.minibatch_size or config.train_batch_size_per_learner
+    return size * max(config.num_learners, 1)
