@@ -133,9 +133,10 @@ pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: Whole) -> PyResul
     let day = Arc::clone(&scenario.scenario);
     let bound = interruptible(py, 1, move |stop| {
         let bound = exact::upper_bound_unless(stop, &day, step)?;
-        Ok::<_, exact::Error>(Bound::of(&day, &bound.expect("what is stopped has no outcome")))
+        Ok::<_, exact::Error>(bound.map(|bound| Bound::of(&day, &bound)))
     })?;
-    Ok(bound.map_err(Failure::from)?)
+    let bound = bound.map_err(Failure::from)?;
+    Ok(bound.expect("whoever stops it hears of nothing but that"))
 }
 
 /// A schedule for a day that is known.
