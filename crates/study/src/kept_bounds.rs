@@ -4,7 +4,7 @@
 use std::env;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use vertifleet_core::Scenario;
@@ -41,6 +41,10 @@ impl KeptBounds {
         bounded: &(impl Fn() + Sync),
     ) -> Result<Vec<Day>, Error> {
         let bound = |scenario: Arc<Scenario>| {
+            // A bound that is kept is not stopped, but there may be many of them.
+            if stopped.load(Ordering::Relaxed) {
+                return Err(Error::Stopped);
+            }
             let upper_bound_usd =
                 self.upper_bound_usd(&scenario, step, stopped)?.ok_or(Error::Stopped)?;
             bounded();
