@@ -55,23 +55,21 @@ pub(crate) fn interruptible<T: Send + 'static>(
         // Nobody listens any more after a second Ctrl-C.
         let _ = to.send(outcome);
     });
+    let mut interrupt = None;
     loop {
         let (glance, receiver) = py.detach(move || (from.recv_timeout(GLANCE), from));
         from = receiver;
         match glance {
-            Ok(outcome) => return Ok(outcome),
+            Ok(outcome) => return interrupt.map_or(Ok(outcome), Err),
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => panic!("the work ends with an outcome"),
         }
-        if let Err(interrupt) = py.check_signals() {
-            stop.store(true, Ordering::Relaxed);
-            while let (Err(RecvTimeoutError::Timeout), receiver) =
-                py.detach(move || (from.recv_timeout(GLANCE), from))
-            {
-                from = receiver;
-                py.check_signals()?;
+        if let Err(signal) = py.check_signals() {
+            if interrupt.is_some() {
+                return Err(signal);
             }
-            return Err(interrupt);
+            stop.store(true, Ordering::Relaxed);
+            interrupt = Some(signal);
         }
     }
 }

@@ -137,17 +137,17 @@ fn by_name(py: Python<'_>, day: &Arc<core::Scenario>, choice: &Choice<'_>) -> Py
 fn played(
     py: Python<'_>,
     day: &Arc<core::Scenario>,
-    policy: String,
+    name: String,
     recipe: Recipe,
 ) -> PyResult<Played> {
     let scenario = Arc::clone(day);
     let outcome = interruptible(py, 1, move |stop| {
         let mut simulation = Simulation::new(Arc::clone(&scenario));
         let mut trace = sim::Trace::default();
-        let mut policy_made = recipe.make();
-        let mut stoppable = Stoppable { policy: policy_made.as_mut(), stop };
+        let mut policy = recipe.make();
+        let mut stoppable = Stoppable { policy: policy.as_mut(), stop };
         play(&mut simulation, &mut stoppable, |row| trace.rows.push(*row))
-            .map_err(|cause| Error::of_play(&policy, &scenario.name, cause))?;
+            .map_err(|cause| Error::of_play(&name, &scenario.name, cause))?;
         let trace = Trace { scenario, trace: Arc::new(trace) };
         Ok::<_, Error>(Played { summary: simulation.summary(), trace })
     })?;

@@ -105,7 +105,7 @@ pub fn plan(
 ) -> Result<Plan, Error> {
     can_plan(scenario)?;
     let begun = Instant::now();
-    let (trace, profit_usd) = best_policy(scenario, |profit_usd| {
+    let (trace, profit_usd) = start::best_policy(scenario, |profit_usd| {
         let share = share(settings.budget, begun, 0);
         let late = matches!(settings.budget, Budget::Time(_)) && share > ROLLING;
         !late && watch(&Progress { share, steps: 0, profit_usd })
@@ -150,16 +150,6 @@ fn share(budget: Budget, begun: Instant, steps: u64) -> f64 {
         Budget::Steps(limit) => steps as f64 / limit as f64,
     };
     share.min(1.0)
-}
-
-/// The best day of the policies that need no learning; without that of the rolling horizon if `go_on`, told the profit of the
-/// others in dollars, says no while it is being played.
-fn best_policy(scenario: &Arc<Scenario>, mut go_on: impl FnMut(f64) -> bool) -> (Trace, f64) {
-    let best = start::best_rule(scenario);
-    match start::rolling(scenario, &mut || go_on(best.1)) {
-        Some(rolling) if rolling.1 > best.1 => rolling,
-        _ => best,
-    }
 }
 
 /// The search that stands worst goes on from where the best one stands.

@@ -15,7 +15,7 @@ const STEPS_MIN: [u32; 4] = [3, 5, 15, 60];
 /// The finest bound that a day is not too large for, being proven on a thread of its own.
 pub struct Proof {
     stopped: Arc<AtomicBool>,
-    from: Receiver<Result<Option<Bound>, Error>>,
+    from: Receiver<Result<Bound, Error>>,
     outcome: Option<Result<Bound, Error>>,
 }
 
@@ -27,8 +27,10 @@ impl Proof {
         let (scenario, flag) = (Arc::clone(scenario), Arc::clone(&stopped));
         // Not joined: whoever is in a hurry need not wait for it.
         std::thread::spawn(move || {
-            // Nobody listens any more if the plan was stopped.
-            let _ = to.send(finest_bound(&flag, &scenario));
+            if let Some(outcome) = finest_bound(&flag, &scenario).transpose() {
+                // Nobody listens any more if the plan was stopped.
+                let _ = to.send(outcome);
+            }
         });
         Self { stopped, from, outcome: None }
     }
@@ -40,9 +42,7 @@ impl Proof {
     pub fn wait(&mut self, patience: Duration) -> bool {
         if self.outcome.is_none() {
             self.outcome = match self.from.recv_timeout(patience) {
-                Ok(outcome) => {
-                    Some(outcome.map(|bound| bound.expect("stopped on its way out only")))
-                }
+                Ok(outcome) => Some(outcome),
                 Err(RecvTimeoutError::Timeout) => None,
                 Err(RecvTimeoutError::Disconnected) => {
                     panic!("a proof ends with a bound or with an error")

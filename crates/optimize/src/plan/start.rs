@@ -1,49 +1,53 @@
 //! Schedules to start from: days that policies have played, as traces.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use vertifleet_core::Scenario;
-use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random};
+use vertifleet_policy::{
+    Greedy, Lookahead, PlayError, Policy, PolicyError, Priced, Random, Stoppable, play,
+};
 use vertifleet_sim::{Simulation, Trace};
 
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 use crate::Rolling;
 
-/// A day played by one policy; nothing if `go_on`, asked before each decision, says no.
-pub(super) fn played(
+/// A day played by one policy; nothing if `go_on`, asked after each decision, says no.
+fn played(
     scenario: &Arc<Scenario>,
     policy: &mut dyn Policy,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Option<(Trace, f64)> {
     let mut simulation = Simulation::new(Arc::clone(scenario));
     let mut trace = Trace::default();
-    while let Some(decision) = simulation.next_decision() {
-        if !go_on() {
-            return None;
-        }
-        let choice = policy.choose(&decision, &simulation.view());
-        let choice = choice.expect("these policies always answer");
-        trace.rows.push(simulation.apply(choice).expect("and from the mask"));
+    let stop = AtomicBool::new(false);
+    let outcome = play(&mut simulation, &mut Stoppable { policy, stop: &stop }, |row| {
+        trace.rows.push(*row);
+        stop.store(!go_on(), Ordering::Relaxed);
+    });
+    match outcome {
+        Ok(()) => Some((trace, simulation.ledger().profit_usd())),
+        Err(PlayError::NoAnswer(PolicyError::Stopped)) => None,
+        Err(error) => panic!("these policies always answer, and from the mask: {error}"),
     }
-    Some((trace, simulation.ledger().profit_usd()))
 }
 
-/// The best day of the rules that decide at once.
-pub(super) fn best_rule(scenario: &Arc<Scenario>) -> (Trace, f64) {
-    let policies: [&mut dyn Policy; 4] =
-        [&mut Priced::default(), &mut Lookahead, &mut Greedy, &mut Random::new(0)];
-    let days = policies.map(|policy| played(scenario, policy, &mut || true));
-    let days = days.into_iter().flatten();
-    days.max_by(|one, other| one.1.total_cmp(&other.1)).expect("there are policies")
-}
-
-/// The rolling horizon's day, which mostly is the better one, and takes a while on large networks.
-pub(super) fn rolling(
+/// The best day of the policies that need no learning. That of the rolling horizon, which is mostly the best and takes a while on
+/// large networks, is left out if `go_on`, told the profit of the others in dollars, says no while it is being played.
+pub(super) fn best_policy(
     scenario: &Arc<Scenario>,
-    go_on: &mut dyn FnMut() -> bool,
-) -> Option<(Trace, f64)> {
-    played(scenario, &mut Rolling::default(), go_on)
+    mut go_on: impl FnMut(f64) -> bool,
+) -> (Trace, f64) {
+    let rules: [&mut dyn Policy; 4] =
+        [&mut Priced::default(), &mut Lookahead, &mut Greedy, &mut Random::new(0)];
+    let days = rules.map(|rule| played(scenario, rule, &mut || true));
+    let best = days.into_iter().flatten().max_by(|one, other| one.1.total_cmp(&other.1));
+    let best = best.expect("there are rules");
+    match played(scenario, &mut Rolling::default(), &mut || go_on(best.1)) {
+        Some(rolling) if rolling.1 > best.1 => rolling,
+        _ => best,
+    }
 }
 
 /// The flights of a whole day's trace.
