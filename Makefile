@@ -7,8 +7,10 @@ demo: prepare
 	cargo build --release --locked -p vertifleet-cli
 	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,prices,rolling,mlp,gcaps,gcaps-x --days 100 --seed 1 --report out/report
 
-test: prepare python-test
+# Rust's tests first: they take minutes, and need nothing to be downloaded but crates.
+test: prepare
 	cargo test --workspace --locked
+	$(MAKE) python-test
 
 # What CI adds to the tests.
 lint: prepare python

@@ -14,14 +14,15 @@ use vertifleet_progress::Bars;
 use vertifleet_study::comparison;
 use vertifleet_study::entrants::Asked;
 use vertifleet_study::policies::Given;
-use vertifleet_study::{DayRecord, Error, Study, Summary, report, table};
+use vertifleet_study::{DayRecord, Error, OwnDays, Study, Summary, report, table};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, warn};
 use crate::frames::{Columns, frame, loads};
 use crate::given::{Raised, given};
 use crate::interruptible::{self, interruptible};
 use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
+use crate::scenario::Scenario;
 use crate::whole::Whole;
 
 /// Many policies on the same days: every policy's every day, and the statistics of them.
@@ -51,6 +52,8 @@ impl Comparison {
         columns.numbers("revenue", days().map(|day| day.revenue_usd))?;
         columns.numbers("passenger_cost", days().map(|day| day.passenger_cost_usd))?;
         columns.numbers("energy_cost", days().map(|day| day.energy_cost_usd))?;
+        columns.numbers("flight_cost", days().map(|day| day.flight_cost_usd))?;
+        columns.numbers("aircraft_cost", days().map(|day| day.aircraft_cost_usd))?;
         columns.numbers("energy_kwh", days().map(|day| day.energy_kwh))?;
         columns.numbers("potential", days().map(|day| day.potential_usd))?;
         columns.numbers("reward", days().map(|day| day.reward))?;
@@ -90,9 +93,16 @@ impl Comparison {
         loads(py, &Summary::of(&self.study).map_err(Failure::from)?.to_json())
     }
 
-    /// Writes table, figures and a report page into a folder; returns the path of the page.
-    fn report(&self, py: Python<'_>, folder: PathBuf) -> Result<PathBuf, Failure> {
-        Ok(py.detach(|| report::write(&self.study, &folder))?.report)
+    /// Writes table, figures and a report page into a folder, in place of an earlier report; returns the path of the page. A folder that
+    /// holds anything else is kept under another name, which takes `force`, as does a report that is read-only.
+    #[pyo3(signature = (folder, *, force = false))]
+    fn report(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<PathBuf> {
+        let paths = py.detach(|| report::write(&self.study, &folder, force));
+        let paths = paths.map_err(Failure::from)?;
+        if let Some(kept) = &paths.kept {
+            warn(py, &format!("what was there before is now {}", kept.display()))?;
+        }
+        Ok(paths.report)
     }
 
     /// All days of some comparisons of the same policies, each of which goes on with the day after the last of the one before it.
@@ -153,44 +163,69 @@ pub(crate) struct Wanted<'py> {
     policy_seed: Whole,
 }
 
-/// The same in Rust's words, checked one by one.
+/// Who is asked for, and how, in Rust's words, checked one by one.
 struct Wish {
-    network: Arc<core::Network>,
     policies: Vec<String>,
-    days: u32,
-    seed: u64,
     models: Vec<(String, Given)>,
     step: Option<Step>,
     policy_seed: u64,
 }
 
+/// Days that are drawn.
+struct Drawn {
+    network: Arc<core::Network>,
+    days: u32,
+    seed: u64,
+}
+
 impl Wish {
-    fn of(network: &Network, wanted: Wanted<'_>, raised: &Raised) -> PyResult<Self> {
-        let Wanted { policies, days, seed, models, bound, step, policy_seed } = wanted;
-        let days = days.of("days")?;
-        if days > DAYS {
-            let message = format!("days must be at most {DAYS}, found {days}");
-            return Err(Failure::argument(message).into());
-        }
-        let step = Step::from_minutes(step.of("step")?);
-        let scales = Scales::from(network.network.feature_scales());
-        let given = |(name, value)| Ok((name, given(&value, scales, raised)?));
+    /// A function sees the days as those of `network`.
+    fn of(network: Option<&Network>, wanted: &Wanted<'_>, raised: &Raised) -> PyResult<Self> {
+        let step = Step::from_minutes(wanted.step.of("step")?);
+        let scales = network.map(|network| Scales::from(network.network.feature_scales()));
+        let given = |(name, value): (&String, &Bound<'_, PyAny>)| {
+            Ok((name.clone(), given(value, scales, raised)?))
+        };
         Ok(Self {
-            network: Arc::clone(&network.network),
-            policies,
-            days,
-            seed: seed.of("seed")?,
-            models: models.into_iter().map(given).collect::<PyResult<_>>()?,
-            step: bound.then_some(step).transpose().map_err(Failure::from)?,
-            policy_seed: policy_seed.of("policy_seed")?,
+            policies: wanted.policies.clone(),
+            models: wanted.models.iter().map(given).collect::<PyResult<_>>()?,
+            step: wanted.bound.then_some(step).transpose().map_err(Failure::from)?,
+            policy_seed: wanted.policy_seed.of("policy_seed")?,
         })
     }
 
+    fn asked<'a>(&'a self, network: &'a str) -> Asked<'a> {
+        let Self { policies, models, policy_seed, .. } = self;
+        Asked { policies, models, seed: *policy_seed, network }
+    }
+
     /// The comparison on so many of the days.
-    fn on(&self, days: u32, stopped: &AtomicBool) -> Result<comparison::Comparison, Error> {
-        let Self { network, policies, seed, models, step, policy_seed, .. } = self;
-        let asked = Asked { policies, models, seed: *policy_seed, network: network.name() };
-        comparison::Comparison::new(network, &asked, (*seed, days), *step, stopped)
+    fn on(
+        &self,
+        drawn: &Drawn,
+        days: u32,
+        stopped: &AtomicBool,
+    ) -> Result<comparison::Comparison, Error> {
+        let Drawn { network, seed, .. } = drawn;
+        let asked = self.asked(network.name());
+        comparison::Comparison::new(network, &asked, (*seed, days), self.step, stopped)
+    }
+
+    /// The comparison on days of the caller's own.
+    fn on_own(&self, days: OwnDays) -> Result<comparison::Comparison, Error> {
+        let network = days.network().to_owned();
+        comparison::Comparison::of_own(days, &self.asked(&network), self.step)
+    }
+}
+
+impl Drawn {
+    fn of(network: &Network, wanted: &Wanted<'_>) -> Result<Self, Failure> {
+        let days = wanted.days.of("days")?;
+        if days > DAYS {
+            return Err(Failure::argument(format!("days must be at most {DAYS}, found {days}")));
+        }
+        let network = Arc::clone(&network.network);
+        Ok(Self { network, days, seed: wanted.seed.of("seed")? })
     }
 }
 
@@ -202,10 +237,11 @@ pub(crate) fn check_comparison(
     network: &Network,
     asked: Wanted<'_>,
 ) -> PyResult<Vec<String>> {
-    let wish = Wish::of(network, asked, &Raised::default())?;
+    let wish = Wish::of(Some(network), &asked, &Raised::default())?;
+    let drawn = Drawn::of(network, &asked)?;
     let warnings = interruptible(py, 1, move |stop| {
-        DaySeed::comparison(wish.seed.saturating_add(wish.days.saturating_sub(1).into()))?;
-        Ok::<_, Error>(wish.on(wish.days.min(1), stop)?.warnings().collect())
+        DaySeed::comparison(drawn.seed.saturating_add(drawn.days.saturating_sub(1).into()))?;
+        Ok::<_, Error>(wish.on(&drawn, drawn.days.min(1), stop)?.warnings().collect())
     })?;
     Ok(warnings.map_err(Failure::from)?)
 }
@@ -222,10 +258,51 @@ pub(crate) fn compare(
     command: &str,
 ) -> PyResult<Comparison> {
     let raised = Raised::default();
-    let wish = Wish::of(network, asked, &raised)?;
+    let wish = Wish::of(Some(network), &asked, &raised)?;
+    let drawn = Drawn::of(network, &asked)?;
+    played(py, threads, command, &raised, move |stop| wish.on(&drawn, drawn.days, stop))
+}
+
+/// Scenario files to be compared on, and where they came from; a folder stands for all of its files whose names end in `.json`.
+#[pyfunction]
+pub(crate) fn read_days(paths: Vec<PathBuf>) -> Result<(Vec<Scenario>, String), Failure> {
+    let days = OwnDays::read(&paths)?;
+    let (scenarios, from) = days.into_parts();
+    Ok((scenarios.into_iter().map(|scenario| Scenario { scenario }).collect(), from))
+}
+
+/// Plays days of the caller's own with every policy; `origin` says where they came from. Of what is asked for, `days` and `seed` say
+/// nothing here. A function sees the days as those of `network`.
+#[pyfunction]
+#[pyo3(signature = (scenarios, origin, network, asked, *, threads = None, command = ""))]
+pub(crate) fn compare_own(
+    py: Python<'_>,
+    scenarios: Vec<Py<Scenario>>,
+    origin: String,
+    network: Option<&Network>,
+    asked: Wanted<'_>,
+    threads: Option<Whole>,
+    command: &str,
+) -> PyResult<Comparison> {
+    let raised = Raised::default();
+    let wish = Wish::of(network, &asked, &raised)?;
+    let scenario = |day: &Py<Scenario>| Arc::clone(&day.get().scenario);
+    let days = OwnDays::of(scenarios.iter().map(scenario).collect(), origin);
+    let days = days.map_err(Failure::from)?;
+    played(py, threads, command, &raised, move |_| wish.on_own(days))
+}
+
+/// Makes a comparison and plays it, on threads of its own.
+fn played(
+    py: Python<'_>,
+    threads: Option<Whole>,
+    command: &str,
+    raised: &Raised,
+    made: impl FnOnce(&AtomicBool) -> Result<comparison::Comparison, Error> + Send + 'static,
+) -> PyResult<Comparison> {
     let (threads, command) = (interruptible::threads(threads)?, command.to_owned());
     let outcome = interruptible(py, threads, move |stop| {
-        let comparison = wish.on(wish.days, stop)?;
+        let comparison = made(stop)?;
         let warnings = comparison.warnings().collect();
         let study = comparison.run(command, stop, &Bars)?;
         Ok::<_, Error>(Comparison { study, warnings })

@@ -11,6 +11,7 @@ use vertifleet_policy::{Policy, PolicyError};
 use vertifleet_sim::{Decision, View};
 use vertifleet_study::policies::{Given, Maker};
 
+use crate::failure::Failure;
 use crate::model::Model;
 use crate::shown::{Arrays, To};
 use crate::whole::Whole;
@@ -41,12 +42,22 @@ impl Raised {
     }
 }
 
-/// Weights, or a function ([`own`]).
-pub(crate) fn given(value: &Bound<'_, PyAny>, scales: Scales, raised: &Raised) -> PyResult<Given> {
-    match value.extract::<Weighed<'_>>() {
-        Ok(weighed) => Ok(weighed.given()),
-        Err(_) if value.is_callable() => Ok(Given::Policy(own(value, scales, raised))),
-        Err(_) => Err(PyTypeError::new_err(
+/// Weights, or a function ([`own`]), which takes the scales of a network.
+pub(crate) fn given(
+    value: &Bound<'_, PyAny>,
+    scales: Option<Scales>,
+    raised: &Raised,
+) -> PyResult<Given> {
+    match (value.extract::<Weighed<'_>>(), scales) {
+        (Ok(weighed), _) => Ok(weighed.given()),
+        (Err(_), Some(scales)) if value.is_callable() => {
+            Ok(Given::Policy(own(value, scales, raised)))
+        }
+        (Err(_), None) if value.is_callable() => {
+            let message = "a function takes a network, as which it sees the days";
+            Err(Failure::argument(message.to_owned()).into())
+        }
+        (Err(_), _) => Err(PyTypeError::new_err(
             "a model is a path, a vertifleet.Model, or a function from an observation to an action",
         )),
     }

@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
+use vertifleet_core::check_output;
 use vertifleet_learn::nn::{self, Inputs};
-use vertifleet_learn::{Settings, Weights, shipped, shipped_any};
+use vertifleet_learn::{Settings, Weights, kinds, shipped, shipped_any};
 
 use crate::failure::Failure;
 use crate::frames::{members, plain, table};
@@ -46,8 +47,15 @@ impl Model {
         Ok(Self { weights })
     }
 
-    /// Writes the weights as a weight file.
-    fn write(&self, path: PathBuf) -> Result<(), Failure> {
+    /// Writes the weights as a weight file. A file that is there and is none of the same kind, or is read-only, is replaced only with
+    /// `force`.
+    #[pyo3(signature = (path, *, force = false))]
+    fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
+        let kind = match &self.weights {
+            Weights::OfOneSize(_) => kinds::WEIGHTS,
+            Weights::OfAnySize(_) => kinds::WEIGHTS_ANY,
+        };
+        check_output(&path, &kind, force)?;
         match &self.weights {
             Weights::OfOneSize(model) => model.write(&path)?,
             Weights::OfAnySize(model) => model.write(&path)?,

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 use vertifleet_core::{self as core, DaySeed};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, warn};
 use crate::frames::{members, plain, table};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
@@ -29,18 +29,20 @@ pub(crate) struct Network {
 #[pymethods]
 impl Network {
     #[new]
-    fn new(name_or_path: PathBuf) -> Result<Self, Failure> {
+    fn new(py: Python<'_>, name_or_path: PathBuf) -> PyResult<Self> {
         let name_or_path = name_or_path.to_string_lossy();
         let source = format!("vertifleet.Network({name_or_path:?})");
-        Ok(Self::of(core::Network::find(&name_or_path)?, source))
+        let network = core::Network::find(&name_or_path).map_err(Failure::from)?;
+        Self::told(py, network, source)
     }
 
     /// The network that the text of a network file describes; `origin` stands for the file in messages.
     #[staticmethod]
     #[pyo3(signature = (text, origin = "<text>"))]
-    fn from_toml(text: &str, origin: &str) -> Result<Self, Failure> {
+    fn from_toml(py: Python<'_>, text: &str, origin: &str) -> PyResult<Self> {
         let source = format!("vertifleet.Network.from_toml(..., {origin:?})");
-        Ok(Self::of(core::Network::from_toml(text, origin)?, source))
+        let network = core::Network::from_toml(text, origin).map_err(Failure::from)?;
+        Self::told(py, network, source)
     }
 
     /// The names of the shipped networks.
@@ -163,6 +165,14 @@ impl Network {
 }
 
 impl Network {
+    /// A network that has just been read; what looks wrong with it is told as a warning.
+    fn told(py: Python<'_>, network: core::Network, source: String) -> PyResult<Self> {
+        for warning in network.warnings() {
+            warn(py, &format!("[{}] {source}: {warning}", warning.code()))?;
+        }
+        Ok(Self::of(network, source))
+    }
+
     fn of(network: core::Network, source: String) -> Self {
         Self { network: Arc::new(network), source }
     }

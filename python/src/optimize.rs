@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use vertifleet_core::{self as core, VertiportIx};
 use vertifleet_optimize::{self as exact, Budget, Proof, Settings, Step};
 use vertifleet_progress::SearchBar;
+use vertifleet_study::policies::shipped_for;
 
 use crate::failure::Failure;
 use crate::frames::table;
@@ -48,19 +49,19 @@ impl Bound {
         self.upper_bound_usd
     }
 
-    /// Minutes for which the proof's prices stay the same.
+    /// Minutes for which the proof's prices stay the same; more than asked for where longer slices proved more.
     #[getter]
     fn step(&self) -> u32 {
         self.step
     }
 
-    /// What one more stand is worth all day at most, dollars [vertiports].
+    /// With one more stand all day, no schedule earns more than the bound and this, dollars [vertiports].
     #[getter]
     fn stand_worth_usd<'py>(&self, py: Python<'py>) -> pyo3::Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.stand_worth_usd)
     }
 
-    /// What one more passenger is worth at most, dollars [periods, vertiports, vertiports].
+    /// With one more passenger, no schedule earns more than the bound and this, dollars [periods, vertiports, vertiports].
     #[getter]
     fn passenger_worth_usd<'py>(&self, py: Python<'py>) -> PyResult<pyo3::Bound<'py, PyAny>> {
         let (periods, size) = (self.scenario.periods.len(), self.scenario.vertiports.len());
@@ -124,8 +125,8 @@ impl Bound {
     }
 }
 
-/// Proves how much a day can earn at most. `step`: minutes for which the proof's prices stay the same, 1 to 60; fewer give a
-/// tighter bound, later.
+/// Proves how much a day can earn at most. `step`: minutes for which the proof's prices stay the same at most, 1 to 60; fewer never
+/// give a looser bound, and take longer.
 #[pyfunction]
 #[pyo3(signature = (scenario, *, step = Whole::from(5)), text_signature = "(scenario, *, step=5)")]
 pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: Whole) -> PyResult<Bound> {
@@ -221,8 +222,8 @@ impl Plan {
 /// Finds the best schedule it can for a day that is known, while a proof of what is possible runs beside it.
 ///
 /// Searches for `time_limit` seconds, 60 if nothing is said, or for `steps` steps of each search if those are given (the plan then depends on nothing
-/// but the day, `seed`, `steps` and `threads`), or until the gap to the bound is no more than `gap`, as 0.03. A proof that takes
-/// longer than the search is waited for.
+/// but the day, `seed`, `steps` and `threads`), or until the gap to the bound is no more than `gap`, as 0.03. The bound is
+/// the best one that is proven when the time is over; with `steps`, the whole proof is waited for.
 #[pyfunction]
 #[pyo3(
     signature = (scenario, *, time_limit = None, steps = None, gap = None, seed = Whole::from(0), threads = None),
@@ -254,19 +255,28 @@ pub(crate) fn plan(
     let threads = interruptible::threads(threads)?;
     let day = Arc::clone(&scenario.scenario);
     let outcome = interruptible(py, threads, move |stop| {
-        let mut proof = Proof::begin(&day);
+        let proof = Proof::begin(&day);
         let settings = Settings { budget, searches: threads, seed };
         let mut bar = SearchBar::new(units);
-        let plan = exact::plan(&day, &settings, &mut |now| {
-            proof.wait(Duration::ZERO);
-            bar.show(now, proof.bound());
-            let found = proof.bound().map(|bound| bound.gap(now.profit_usd));
+        let mut learned = shipped_for(&day);
+        let begun = Instant::now();
+        let plan = exact::plan(&day, &settings, &mut learned, &mut |now| {
+            proof.knows(now.profit_usd);
+            let bound = proof.best();
+            bar.show(now, bound.as_deref());
+            let found = bound.map(|bound| bound.gap(now.profit_usd));
             let good_enough = asked.zip(found).is_some_and(|(asked, found)| found <= asked);
             !good_enough && !stop.load(Ordering::Relaxed)
         })?;
-        while !proof.wait(GLANCE) && !stop.load(Ordering::Relaxed) {}
+        let bound = match budget {
+            Budget::Time(limit) => proof.best_in_time(begun, limit),
+            Budget::Steps(_) => {
+                while !proof.wait(GLANCE) && !stop.load(Ordering::Relaxed) {}
+                proof.outcome()
+            }
+        };
         // A day too large for any bound has a plan all the same.
-        let bound = proof.outcome().ok().flatten().map(|bound| Bound::of(&day, &bound));
+        let bound = bound.ok().flatten().map(|bound| Bound::of(&day, &bound));
         let exact::Plan { trace, profit_usd, best_policy_usd, steps } = plan;
         let trace = Trace { scenario: day, trace: Arc::new(trace) };
         Ok::<_, exact::Error>(Plan { trace, profit_usd, best_policy_usd, steps, bound })

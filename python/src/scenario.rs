@@ -34,8 +34,10 @@ impl Scenario {
         Ok(Self::of(core::Scenario::from_json(text.as_bytes(), origin)?))
     }
 
-    /// Writes the day as a scenario file.
-    fn write(&self, path: PathBuf) -> Result<(), Failure> {
+    /// Writes the day as a scenario file. A file that is there and is no scenario, or is read-only, is replaced only with `force`.
+    #[pyo3(signature = (path, *, force = false))]
+    fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
+        core::check_output(&path, &core::Scenario::FILE, force)?;
         Ok(self.scenario.write(path)?)
     }
 
@@ -130,6 +132,19 @@ impl Scenario {
             self.scenario.passenger_cost_usd.cells().iter().copied(),
             [size, size],
         )?)
+    }
+
+    /// What a flight costs whoever is on board, beside its energy, dollars [vertiports, vertiports].
+    #[getter]
+    fn flight_cost_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let size = self.scenario.vertiports.len();
+        read_only(table(py, self.scenario.flight_cost_usd.cells().iter().copied(), [size, size])?)
+    }
+
+    /// What each aircraft costs whatever it does, dollars a day.
+    #[getter]
+    fn aircraft_cost_usd(&self) -> f64 {
+        self.scenario.aircraft_cost_usd
     }
 
     /// Price of electricity, dollars per kWh [periods].

@@ -44,8 +44,10 @@ impl Trace {
         Ok(Self { scenario: Arc::clone(&scenario.scenario), trace: Arc::new(trace) })
     }
 
-    /// Writes it as a CSV file.
-    fn write(&self, path: PathBuf) -> Result<(), Failure> {
+    /// Writes it as a CSV file. A file that is there and is no trace, or is read-only, is replaced only with `force`.
+    #[pyo3(signature = (path, *, force = false))]
+    fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
+        core::check_output(&path, &sim::Trace::FILE, force)?;
         Ok(self.trace.write(&self.scenario, &path)?)
     }
 
@@ -71,6 +73,9 @@ impl Trace {
         columns.numbers("energy_cost", rows.iter().map(|row| row.energy_cost_usd))?;
         columns.counts("arrival", rows.iter().map(|row| row.arrival.seconds()))?;
         columns.counts("ready", rows.iter().map(|row| row.ready.seconds()))?;
+        if self.scenario.has_flight_costs() {
+            columns.numbers("flight_cost", rows.iter().map(|row| row.flight_cost_usd))?;
+        }
         Ok(columns.into_dict())
     }
 

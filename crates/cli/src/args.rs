@@ -7,12 +7,17 @@ use clap::builder::{PathBufValueParser, TypedValueParser as _};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use vertifleet_study::policies::Given;
 
+use crate::typed::{
+    parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_seconds, parse_seed,
+    parse_seed_of_a_run, parse_share, parse_steps, parse_threads,
+};
+
 /// Decides where every electric air taxi of an urban fleet flies next.
 #[derive(Debug, Parser)]
 #[command(name = "vertifleet", version, propagate_version = true)]
 pub(crate) struct Arguments {
     /// Threads to use at most [default: RAYON_NUM_THREADS or the number of cores]
-    #[arg(long, global = true, value_parser = parse_threads)]
+    #[arg(long, global = true, allow_hyphen_values = true, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -43,14 +48,17 @@ pub(crate) struct ScenarioArguments {
     /// Network file, the name of a shipped network (paper, disrupted, new-york, as-coded), or random:NUMBER
     pub(crate) network: String,
     /// Seed of the first day; the following days take the following seeds
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
     /// Number of days
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, allow_hyphen_values = true, value_parser = parse_count)]
     pub(crate) days: Option<u32>,
     /// File for one day, folder for several (with --days) [default: the day goes to stdout]
     #[arg(short, long, value_name = "FILE|DIR")]
     pub(crate) output: Option<PathBuf>,
+    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, Args)]
@@ -58,10 +66,10 @@ pub(crate) struct SimulateArguments {
     /// Scenario file
     pub(crate) scenario: PathBuf,
     /// random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K, or replay:TRACE
-    #[arg(long)]
+    #[arg(long, value_parser = parse_name)]
     pub(crate) policy: String,
     /// Seed of the random policy
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
     /// Weights of a learned policy [default: the shipped ones of the scenario's network]
     #[arg(long, value_name = "PATH", value_parser = PathBufValueParser::new().map(Given::File))]
@@ -69,6 +77,9 @@ pub(crate) struct SimulateArguments {
     /// Write every decision to this CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
+    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Print the day's numbers as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -87,12 +98,14 @@ pub(crate) struct CheckArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct BoundArguments {
-    /// Scenario file
-    pub(crate) scenario: PathBuf,
-    /// Minutes for which prices stay the same, 1 to 60; fewer give a tighter bound, later
-    #[arg(long, value_name = "MIN", default_value_t = 5)]
+    /// Scenario file; several of them, or a folder with them (all *.json), give means over days too
+    #[arg(required = true, value_name = "SCENARIO|DIR")]
+    pub(crate) scenarios: Vec<PathBuf>,
+    /// Minutes for which prices stay the same at most, 1 to 60: 60, 15, 5, 3 and 1 are told apart; fewer never give a looser bound, and take
+    /// longer
+    #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Print the bound as JSON
+    /// Print bounds and worths as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -105,14 +118,17 @@ pub(crate) struct PlanArguments {
     #[arg(short, long, value_name = "TRACE")]
     pub(crate) output: PathBuf,
     /// Seconds to search at most
-    #[arg(long, value_name = "S", default_value = "60", value_parser = parse_seconds)]
+    #[arg(long, value_name = "S", default_value = "60", allow_hyphen_values = true, value_parser = parse_seconds)]
     pub(crate) time_limit: Duration,
     /// Stop as soon as the gap to the certified bound is no more than this share of the bound, as 0.03
-    #[arg(long, value_name = "G", value_parser = parse_share)]
+    #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = parse_share)]
     pub(crate) gap: Option<f64>,
     /// Seed of the search
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
+    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Print the plan's numbers as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -152,10 +168,10 @@ pub(crate) struct TrainArguments {
     #[arg(long, default_value = "default")]
     pub(crate) preset: String,
     /// Decisions to learn from, in place of the preset's
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true, value_parser = parse_steps)]
     pub(crate) steps: Option<u64>,
     /// Seed of the run: first weights, training days and choices follow from it
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed_of_a_run)]
     pub(crate) seed: u32,
     /// Folder for weights, learning curve and checkpoint
     #[arg(long, value_name = "DIR")]
@@ -163,6 +179,9 @@ pub(crate) struct TrainArguments {
     /// Go on from the checkpoint in the folder
     #[arg(long)]
     pub(crate) resume: bool,
+    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Change one setting; may be given several times
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_pair)]
     pub(crate) set: Vec<(String, String)>,
@@ -171,87 +190,62 @@ pub(crate) struct TrainArguments {
 #[derive(Debug, Args)]
 pub(crate) struct CompareArguments {
     /// Network file, the name of a shipped network (paper, disrupted, new-york, as-coded), or random:NUMBER
-    #[arg(long)]
-    pub(crate) network: String,
+    #[arg(long, required_unless_present = "days_from")]
+    pub(crate) network: Option<String>,
+    /// Days of your own in place of drawn ones: scenario files, or a folder with them (all *.json, in the order of their names)
+    #[arg(long, value_name = "DIR|FILE", num_args = 1.., conflicts_with_all = ["network", "days", "seed"])]
+    pub(crate) days_from: Vec<PathBuf>,
     /// Policies, separated by commas: random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K (which
     /// tries its K best choices out), names given by --model, and plan, the planner, which knows the days beforehand
-    #[arg(long, value_delimiter = ',', required = true)]
+    #[arg(long, value_delimiter = ',', required = true, value_parser = parse_name)]
     pub(crate) policies: Vec<String>,
     /// Number of days
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    pub(crate) days: u32,
-    /// Seed of the first day; also the seed of the random policy
-    #[arg(long)]
-    pub(crate) seed: u64,
+    #[arg(long, required_unless_present = "days_from", allow_hyphen_values = true, value_parser = parse_count)]
+    pub(crate) days: Option<u32>,
+    /// Seed of the first day; also the seed of the random policy, which is 0 with --days-from
+    #[arg(long, required_unless_present = "days_from", allow_hyphen_values = true, value_parser = parse_seed)]
+    pub(crate) seed: Option<u64>,
     /// Weights for a policy name; may be given several times
     #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
     pub(crate) models: Vec<(String, Given)>,
     /// Prove an upper bound of every day and show each policy's share of it
     #[arg(long)]
     pub(crate) bound: bool,
-    /// Minutes for which the bound's prices stay the same, 1 to 60; fewer give a tighter bound, later
-    #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound")]
+    /// Minutes for which the bound's prices stay the same at most, 1 to 60; fewer never give a looser bound, and take longer
+    #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     /// Print the results as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Write table, figures and a report page into this folder
+    /// Write table, figures and a report page into this folder, in place of an earlier report
     #[arg(long, value_name = "DIR")]
     pub(crate) report: Option<PathBuf>,
+    /// Replace a read-only report, and move any other folder of that name to DIR.old; never what the command reads
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct GeneraliseArguments {
     /// Number of networks: random:0 and on
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000), default_value_t = 50)]
+    #[arg(long, default_value_t = 50, allow_hyphen_values = true, value_parser = parse_count)]
     pub(crate) networks: u32,
     /// Policies, separated by commas, as compare takes them; the others are measured against the first
-    #[arg(long, value_delimiter = ',', required = true)]
+    #[arg(long, value_delimiter = ',', required = true, value_parser = parse_name)]
     pub(crate) policies: Vec<String>,
     /// Weights for a policy name; may be given several times
     #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
     pub(crate) models: Vec<(String, Given)>,
-    /// Minutes for which the bounds' prices stay the same, 1 to 60; fewer give tighter bounds, later
-    #[arg(long, value_name = "MIN", default_value_t = 3)]
+    /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer never give looser bounds, and take longer
+    #[arg(long, value_name = "MIN", default_value_t = 3, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     /// Print the results as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Write table, figure and a report page into this folder
+    /// Write table, figure and a report page into this folder, in place of an earlier report
     #[arg(long, value_name = "DIR")]
     pub(crate) report: Option<PathBuf>,
-}
-
-fn parse_pair(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((name, value)) if !name.is_empty() && !value.is_empty() => {
-            Ok((name.to_owned(), value.to_owned()))
-        }
-        _ => Err("expected a name, an equals sign and a value".to_owned()),
-    }
-}
-
-fn parse_model(text: &str) -> Result<(String, Given), String> {
-    parse_pair(text).map(|(name, path)| (name, Given::File(path.into())))
-}
-
-fn parse_threads(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(threads @ 1..=1024) => Ok(threads),
-        _ => Err("expected a number from 1 to 1024".to_owned()),
-    }
-}
-
-fn parse_seconds(text: &str) -> Result<Duration, String> {
-    match text.parse() {
-        Ok(seconds @ 0.0..=1e6) => Ok(Duration::from_secs_f64(seconds)),
-        _ => Err("expected seconds from 0 to 1000000".to_owned()),
-    }
-}
-
-fn parse_share(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(share @ 0.0..=1.0) => Ok(share),
-        _ => Err("expected a share from 0 to 1, as 0.03".to_owned()),
-    }
+    /// Replace a read-only report, and move any other folder of that name to DIR.old; never what the command reads
+    #[arg(long)]
+    pub(crate) force: bool,
 }

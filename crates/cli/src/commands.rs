@@ -10,12 +10,65 @@ pub(crate) mod simulate;
 pub(crate) mod train;
 mod train_any;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use vertifleet_core::Scenario;
+use anstream::eprintln;
+use vertifleet_core::{Network, Outputs, Scenario};
+use vertifleet_study::policies::Given;
 
 use crate::failure::Failure;
 use crate::output::warn;
+
+/// Warnings of many days that are printed one by one.
+const MOST_WARNINGS: usize = 10;
+
+/// The network of this name or path; what it is read from is not to be written to.
+fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
+    let network = Network::find(name)?;
+    if let Some(file) = Network::file_of(name) {
+        outputs.reads(file);
+    }
+    Ok(network)
+}
+
+/// Weights that are read are not to be written to.
+fn reads_models<'a>(models: impl IntoIterator<Item = &'a Given>, outputs: &mut Outputs) {
+    for model in models {
+        if let Given::File(path) = model {
+            outputs.reads(path);
+        }
+    }
+}
+
+/// Says on stderr what looks wrong with some days, each thing once, with the first day that it was found on.
+fn warn_of_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
+    let mut said: Vec<String> = Vec::new();
+    let mut more = 0_u32;
+    for day in days {
+        for warning in day.warnings() {
+            let text = warning.to_string();
+            if said.contains(&text) {
+                continue;
+            }
+            if said.len() == MOST_WARNINGS {
+                more += 1;
+                continue;
+            }
+            warn(warning.code(), &format!("{}: {text}", day.name));
+            said.push(text);
+        }
+    }
+    if more > 0 {
+        eprintln!("and {more} more such warnings");
+    }
+}
+
+/// Says where a folder went that was in the way of a report.
+fn tell_kept(kept: Option<&PathBuf>) {
+    if let Some(kept) = kept {
+        eprintln!("what was there before is now {}", kept.display());
+    }
+}
 
 /// Reads a scenario file and says on stderr what looks wrong with it.
 fn read_scenario(path: &Path) -> Result<Scenario, Failure> {

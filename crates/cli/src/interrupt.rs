@@ -1,5 +1,9 @@
 //! Ctrl-C. Where what was done so far is worth having, the first one asks for a clean end and the second ends at once;
 //! elsewhere the first one does. It never cuts off a file that is being written.
+//!
+//! On Unix a request to terminate and a terminal that goes away are heard in the same way. A signal that was ignored when the
+//! program started stays ignored: that is how `nohup`, and a shell without job control that starts something in the background,
+//! say that the program is to go on.
 
 use std::process::exit;
 use std::sync::Arc;
@@ -33,6 +37,29 @@ pub(crate) fn end_on_interrupt() -> Result<(), Failure> {
     })
 }
 
+#[cfg(unix)]
+fn on_interrupt(mut handler: impl FnMut() + Send + 'static) -> Result<(), Failure> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+
+    let ignored = ignored();
+    let heard =
+        [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
+    let mut signals = Signals::new(heard).map_err(|error| Failure::internal(&error))?;
+    std::thread::spawn(move || signals.forever().for_each(|_| handler()));
+    Ok(())
+}
+
+/// A bit for each signal that is ignored, the first for signal 1, as Linux tells it. Elsewhere nothing is known of them and all are
+/// heard.
+#[cfg(unix)]
+fn ignored() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let bits = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    bits.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok()).unwrap_or(0)
+}
+
+#[cfg(not(unix))]
 fn on_interrupt(handler: impl FnMut() + Send + 'static) -> Result<(), Failure> {
     ctrlc::set_handler(handler).map_err(|error| Failure::internal(&error))
 }

@@ -7,7 +7,9 @@ mod args;
 mod commands;
 mod failure;
 mod interrupt;
+mod mean_worth;
 mod output;
+mod typed;
 mod worth;
 
 use std::process::ExitCode;

@@ -1,16 +1,43 @@
 //! What one more stand or passenger is worth at a bound's prices: as JSON and as lines for people.
+//!
+//! With one more of them, the same prices prove the bound and the worth: no schedule of that day earns more. A bound that is proven
+//! anew is another search, and may come out a little above that or below.
 
 use serde_json::{Map, Value, json};
 use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_optimize::Bound;
 
 /// Pairs and periods in the lines for people.
-const SHOWN_PASSENGERS: usize = 10;
+pub(crate) const SHOWN_PASSENGERS: usize = 10;
+/// What the lines of stands say.
+pub(crate) const ALL_STANDS: &str =
+    "with one more stand, all day, no schedule earns more than the bound and";
+/// What the lines of passengers say.
+pub(crate) const PASSENGERS: &str =
+    "with one more passenger, no schedule earns more than the bound and";
 
 /// What one more stand is worth all day, dollars by vertiport, in file order.
 pub(crate) fn of_stands(scenario: &Scenario, bound: &Bound) -> Map<String, Value> {
     let worth = |vertiport| (id(scenario, vertiport), json!(bound.stand_worth_usd(vertiport)));
     VertiportIx::all(scenario.vertiports.len()).map(worth).collect()
+}
+
+/// What one more charger is worth all day, dollars by vertiport, where chargers are a pool of their own. The bound counts them
+/// together with the stands, so it is what one more stand is worth there.
+pub(crate) fn of_chargers(scenario: &Scenario, bound: &Bound) -> Map<String, Value> {
+    let separate = VertiportIx::all(scenario.vertiports.len())
+        .filter(|vertiport| scenario.vertiports[vertiport.at()].chargers.is_some());
+    let worth = |vertiport| (id(scenario, vertiport), json!(bound.stand_worth_usd(vertiport)));
+    separate.map(worth).collect()
+}
+
+/// What one more passenger is worth, dollars by from, to and start of the period; only where it is worth something.
+pub(crate) fn passengers_by_name(scenario: &Scenario, bound: &Bound) -> Vec<([String; 3], f64)> {
+    let named = |Passenger { worth_usd, period, from, to }| {
+        let period = scenario.periods[period].to_string();
+        ([id(scenario, from), id(scenario, to), period], worth_usd)
+    };
+    passengers(scenario, bound).into_iter().map(named).collect()
 }
 
 /// What one more passenger is worth, by pair and period, most first; only where it is worth something.
@@ -28,7 +55,7 @@ pub(crate) fn of_passengers(scenario: &Scenario, bound: &Bound) -> Vec<Value> {
 
 /// Both, most first, as lines for people.
 pub(crate) fn lines(scenario: &Scenario, bound: &Bound) -> Vec<String> {
-    let mut lines = vec!["one more stand, all day, raises the upper bound by at most".to_owned()];
+    let mut lines = vec![ALL_STANDS.to_owned()];
     let mut stands: Vec<_> = VertiportIx::all(scenario.vertiports.len())
         .map(|vertiport| (bound.stand_worth_usd(vertiport), vertiport))
         .collect();
@@ -38,7 +65,7 @@ pub(crate) fn lines(scenario: &Scenario, bound: &Bound) -> Vec<String> {
     }
     let passengers = passengers(scenario, bound);
     if !passengers.is_empty() {
-        lines.push("one more passenger raises it by at most".to_owned());
+        lines.push(PASSENGERS.to_owned());
     }
     for &Passenger { worth_usd, period, from, to } in passengers.iter().take(SHOWN_PASSENGERS) {
         let pair = format!("{} -> {}", id(scenario, from), id(scenario, to));

@@ -73,6 +73,45 @@ fn a_day_is_bounded_above_what_a_rule_earns() {
 }
 
 #[test]
+fn several_days_are_bounded_with_means() {
+    let folder = folder();
+    let at = folder.path();
+    stdout(at, "scenario as-coded --seed 1 --days 3 -o days");
+    let json =
+        |arguments: &str| -> Value { serde_json::from_str(&stdout(at, arguments)).expect("JSON") };
+    let found = json("bound days --step 60 --json");
+    let days = found["days"].as_array().expect("days");
+    assert_eq!(days.len(), 3);
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let near = |mean: &Value, values: Vec<f64>| {
+        let expected = values.iter().sum::<f64>() / 3.0;
+        assert!((number(&mean["mean"]) - expected).abs() < 1e-6, "{mean} is not {expected}");
+        let squares: f64 = values.iter().map(|value| (value - expected).powi(2)).sum();
+        let error = (squares / 2.0 / 3.0).sqrt();
+        assert!((number(&mean["standard_error"]) - error).abs() < 1e-6, "{mean}: not {error}");
+    };
+    let of = |name: &str| days.iter().map(|day| number(&day[name])).collect();
+    near(&found["mean"]["upper_bound"], of("upper_bound"));
+    for (id, mean) in found["mean"]["stand_worth"].as_object().expect("vertiports") {
+        near(mean, days.iter().map(|day| number(&day["stand_worth"][id])).collect());
+        // Its chargers are a pool of their own, counted together with the stands.
+        assert_eq!(mean, &found["mean"]["charger_worth"][id]);
+    }
+    assert_eq!(days[0]["charger_worth"], days[0]["stand_worth"]);
+    let passengers = found["mean"]["passenger_worth"].as_array().expect("pairs and periods");
+    assert!(passengers.iter().all(|passenger| number(&passenger["mean"]) > 0.0));
+
+    let first = days[0]["name"].as_str().expect("a name");
+    let alone = json(&format!("bound days/{first}.json --step 60 --json"));
+    assert_eq!(alone["upper_bound"], days[0]["upper_bound"]);
+    let people = stdout(at, "bound days --step 60");
+    assert!(people.contains("standard error") && people.contains("in the mean"));
+    stdout(at, "scenario new-york --seed 1 -o other.json");
+    assert!(failure(at, "bound days other.json --step 60", 2).contains("error[V410]"));
+    assert!(failure(at, "bound nowhere.json", 2).contains("error[V101]"));
+}
+
+#[test]
 fn a_day_is_planned_between_the_best_policy_and_the_bound() {
     let folder = folder();
     let at = folder.path();
@@ -169,7 +208,8 @@ fn what_is_hardly_meant_is_warned_of_with_its_code() {
     fs::write(folder.path().join("weak.json"), weak).expect("a file");
     let assert = vertifleet(folder.path(), "simulate weak.json --policy greedy").assert().success();
     let said = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
-    assert!(said.starts_with("warning[V120]: weak.json: aircraft"), "{said}");
+    assert!(said.starts_with("warning[V135]: weak.json: no aircraft can fly"), "{said}");
+    assert!(said.contains("\nwarning[V120]: weak.json: aircraft"), "{said}");
 }
 
 #[test]

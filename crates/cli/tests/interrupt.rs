@@ -5,16 +5,26 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::flag;
 use vertifleet_learn::Checkpoint;
 
 /// A run of many short updates, so that a signal never finds it at its end.
 const TRAIN: &str = "train --network paper --policy mlp --seed 5 --steps 6000 --set n_envs=4 --set n_steps=25 \
                      --set batch_size=100 --set n_epochs=1 --set eval_days=1 --set eval_every=20 --threads 1";
 
+/// The program, which hears signals even if these tests were told to ignore them, as the background of a script is: a signal that this
+/// process hears itself is one that its children do not ignore.
 fn vertifleet(folder: &Path, arguments: &str) -> Command {
+    let end = Arc::new(AtomicBool::new(true));
+    for signal in [SIGINT, SIGTERM, SIGHUP] {
+        flag::register_conditional_shutdown(signal, 130, Arc::clone(&end)).expect("a signal");
+    }
     let mut command = Command::new(env!("CARGO_BIN_EXE_vertifleet"));
     command.current_dir(folder).args(arguments.split_whitespace());
     command.env("XDG_CACHE_HOME", folder.join("kept"));
@@ -28,7 +38,11 @@ fn train(folder: &Path, more: &str) -> Command {
 
 /// What a person at the keyboard does.
 fn press_ctrl_c(child: &Child) {
-    let signal = format!("kill -INT {}", child.id());
+    send("INT", child);
+}
+
+fn send(signal: &str, child: &Child) {
+    let signal = format!("kill -{signal} {}", child.id());
     assert!(Command::new("sh").args(["-c", &signal]).status().expect("a shell").success());
 }
 
@@ -180,4 +194,27 @@ fn a_proof_ended_by_ctrl_c_says_nothing() {
     let drawn = vertifleet(folder.path(), "scenario paper --seed 1").output();
     let day = drawn.expect("the program runs").stdout;
     ends_at_once(begin(folder.path(), "bound pipe --step 1", &day));
+}
+
+/// As `nohup`, and a shell without job control for what it begins in the background, begin a program.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_ignored_at_the_start_stays_ignored() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    let begin =
+        format!("trap '' INT HUP; exec {} {TRAIN} --out run", env!("CARGO_BIN_EXE_vertifleet"));
+    let mut child = Command::new("sh");
+    child.current_dir(at).args(["-c", &begin]).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = child.spawn().expect("a shell");
+    wait_for_first_update(&mut child, &at.join("run"));
+    send("INT", &child);
+    send("HUP", &child);
+    sleep(Duration::from_millis(300));
+    assert!(child.try_wait().expect("a child").is_none(), "it goes on");
+    send("TERM", &child);
+    let ended = child.wait_with_output().expect("the program ends");
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(0), "{said}");
+    assert_eq!(said.matches("stopping").count(), 1, "it heard the last signal alone: {said}");
 }

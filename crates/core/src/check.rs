@@ -67,6 +67,37 @@ pub(crate) fn ids<'a>(
     Ok(())
 }
 
+/// Refuses what ends before it starts, or later than any day.
+pub(crate) fn span(
+    start: Time,
+    end: Time,
+    origin: &str,
+    member: impl Fn() -> String,
+) -> Result<(), Error> {
+    if start > end {
+        return Err(Error::StartAfterEnd {
+            origin: origin.to_owned(),
+            member: member(),
+            start: start.to_string(),
+            end: end.to_string(),
+        });
+    }
+    not_too_late(end, origin, || format!("{}: end", member()))
+}
+
+fn not_too_late(time: Time, origin: &str, member: impl FnOnce() -> String) -> Result<(), Error> {
+    if time <= limits::LATEST {
+        return Ok(());
+    }
+    Err(Error::OutOfRange {
+        origin: origin.to_owned(),
+        member: member(),
+        rule: format!("at most {}", limits::LATEST),
+        found: time.to_string(),
+        hint: None,
+    })
+}
+
 /// A day under examination; each function is one family of rules.
 struct Check<'a> {
     origin: &'a str,
@@ -105,8 +136,7 @@ impl Check<'_> {
         let number = |value: u32, limits: &Limits, member: &str| {
             limits.check(f64::from(value), self.origin, || format!("operations: {member}"))
         };
-        self.in_order(operations.start, operations.end, || "operations".to_owned())?;
-        self.not_too_late(operations.end, || "operations: end".to_owned())?;
+        span(operations.start, operations.end, self.origin, || "operations".to_owned())?;
         number(operations.takeoff_s, &limits::PHASE_S, "takeoff_s")?;
         number(operations.landing_s, &limits::PHASE_S, "landing_s")?;
         number(
@@ -133,37 +163,8 @@ impl Check<'_> {
         if let Some(at) = periods.windows(2).position(|pair| pair[1] <= pair[0]) {
             return Err(order(at + 1, format!("after the period before it, {}", periods[at])));
         }
-        self.not_too_late(periods[periods.len() - 1], || format!("periods[{}]", periods.len() - 1))
-    }
-
-    fn in_order(
-        &self,
-        start: Time,
-        end: Time,
-        member: impl FnOnce() -> String,
-    ) -> Result<(), Error> {
-        if start <= end {
-            return Ok(());
-        }
-        Err(Error::StartAfterEnd {
-            origin: self.origin.to_owned(),
-            member: member(),
-            start: start.to_string(),
-            end: end.to_string(),
-        })
-    }
-
-    fn not_too_late(&self, time: Time, member: impl FnOnce() -> String) -> Result<(), Error> {
-        if time <= limits::LATEST {
-            return Ok(());
-        }
-        Err(Error::OutOfRange {
-            origin: self.origin.to_owned(),
-            member: member(),
-            rule: format!("at most {}", limits::LATEST),
-            found: time.to_string(),
-            hint: None,
-        })
+        let last = periods.len() - 1;
+        not_too_late(periods[last], self.origin, || format!("periods[{last}]"))
     }
 
     fn vertiports(&self) -> Result<(), Error> {
@@ -185,6 +186,10 @@ impl Check<'_> {
             number(vertiport.stands.into(), &limits::STANDS, "stands")?;
             if let Some(chargers) = vertiport.chargers {
                 number(chargers.into(), &limits::CHARGERS, "chargers")?;
+            }
+            if let Some(degrees) = vertiport.degrees {
+                number(degrees.latitude, &limits::LATITUDE, "latitude")?;
+                number(degrees.longitude, &limits::LONGITUDE, "longitude")?;
             }
         }
         Ok(())
@@ -278,6 +283,10 @@ impl Check<'_> {
         }
         self.square(&day.passenger_cost_usd, || "passenger_cost".to_owned())?;
         self.cells(&day.passenger_cost_usd, &limits::MONEY_USD, "passenger_cost")?;
+        self.square(&day.flight_cost_usd, || "flight_cost".to_owned())?;
+        self.cells(&day.flight_cost_usd, &limits::MONEY_USD, "flight_cost")?;
+        let member = || "aircraft_cost".to_owned();
+        limits::MONEY_USD.check(day.aircraft_cost_usd, self.origin, member)?;
         self.per_period("energy_price", day.energy_price_usd.len())?;
         for (at, &price) in day.energy_price_usd.iter().enumerate() {
             limits::ENERGY_PRICE_USD.check(price, self.origin, || format!("energy_price[{at}]"))?;

@@ -1,10 +1,14 @@
 //! How many passengers want to fly from i to j in a period: the models that a network file may choose from.
 //!
-//! Eq. 1 (`demand_model/equation_1.rs`), a day's total spread over the hours (`demand_model/daily.rs`), and draws that are
-//! uniform (`demand_model/uniform.rs`).
+//! Eq. 1 (`demand_model/equation_1.rs`), a day's total spread over the hours (`demand_model/daily.rs`), numbers of each pair
+//! and hour (`demand_model/hourly.rs`), and draws that are uniform (`demand_model/uniform.rs`). Eq. 1 rounds its draws, as the
+//! paper does, which moves the mean where demand is thin; the others draw the mean that is asked for.
 
 mod daily;
+mod distribution;
+mod draws;
 mod equation_1;
+mod hourly;
 mod uniform;
 
 use rand_chacha::ChaCha8Rng;
@@ -14,7 +18,9 @@ use crate::limits::entries;
 use crate::{Error, Matrix, Time, VertiportIx, check};
 
 pub(crate) use daily::RawDailyDemand;
+pub(crate) use draws::rounded_by_chance;
 pub(crate) use equation_1::RawEquation1;
+pub(crate) use hourly::RawHourlyDemand;
 pub(crate) use uniform::RawUniformDemand;
 
 /// N(mean, sd) passengers.
@@ -36,6 +42,7 @@ pub(crate) struct DemandModel {
 enum Kind {
     Equation1(equation_1::Equation1),
     Daily(daily::DailyDemand),
+    Hourly(hourly::HourlyDemand),
     Uniform(uniform::UniformDemand),
 }
 
@@ -47,7 +54,8 @@ impl DemandModel {
         }
         match &self.kind {
             Kind::Equation1(model) => model.level(period, from, to).mean,
-            Kind::Daily(model) => model.level(period, from, to).mean,
+            Kind::Daily(model) => model.mean(period, from, to),
+            Kind::Hourly(model) => model.mean(period, from, to),
             Kind::Uniform(model) => model.mean(),
         }
     }
@@ -75,7 +83,8 @@ impl DemandModel {
     ) -> u32 {
         match &self.kind {
             Kind::Equation1(model) => model.level(period, from, to).draw(random),
-            Kind::Daily(model) => model.level(period, from, to).draw(random),
+            Kind::Daily(model) => model.distribution().draw(model.mean(period, from, to), random),
+            Kind::Hourly(model) => model.distribution().draw(model.mean(period, from, to), random),
             Kind::Uniform(model) => model.draw(random),
         }
     }

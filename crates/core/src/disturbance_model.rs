@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use serde::Deserialize;
 
-use crate::demand_model::whole_passengers;
+use crate::demand_model::{rounded_by_chance, whole_passengers};
 use crate::limits::{self, Limits};
 use crate::raw::{Positions, each};
 use crate::raw_disturbances::RawRoute;
@@ -21,6 +21,13 @@ pub(crate) struct DisturbanceModel {
     pub(crate) takeoff_delays: Option<DelayModel>,
     pub(crate) closures: Vec<ClosureModel>,
     pub(crate) outages: Option<OutageModel>,
+}
+
+impl DisturbanceModel {
+    /// Closures of a day on which everything closes that may.
+    pub(crate) fn most_closures(&self) -> usize {
+        self.closures.iter().map(|closure| closure.routes.len()).sum()
+    }
 }
 
 /// How actual demand scatters around the forecast.
@@ -47,8 +54,13 @@ impl ForecastError {
                 let factor = if surges { self.surge_factor } else { 1.0 };
                 for to in VertiportIx::all(table.size()) {
                     let deviation: f64 = StandardNormal.sample(random);
-                    let expected = f64::from(table[(from, to)]);
-                    let drawn = expected * factor * (1.0 + self.noise * deviation);
+                    let mut expected = f64::from(table[(from, to)]) * factor;
+                    // Around a whole number, rounding to the nearest is as often up as down and leaves the mean alone; a
+                    // surge of few passengers need not be one.
+                    if expected.fract() != 0.0 {
+                        expected = f64::from(rounded_by_chance(expected, random));
+                    }
+                    let drawn = expected * (1.0 + self.noise * deviation);
                     table[(from, to)] = whole_passengers(drawn.min(limits::MOST_PASSENGERS));
                 }
             }
@@ -123,7 +135,8 @@ impl ClosureModel {
         );
         if happens < self.probability {
             let end = (start + lasts_s).min(limits::LATEST);
-            closures.extend(self.routes.iter().map(|&route| Closure { route, start, end }));
+            let closure = |&route| Closure { route, start, end, known: false };
+            closures.extend(self.routes.iter().map(closure));
         }
     }
 }
@@ -154,7 +167,7 @@ impl OutageModel {
 }
 
 /// Uniform over [0, 1), 53 bits.
-fn uniform(random: &mut ChaCha8Rng) -> f64 {
+pub(crate) fn uniform(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 

@@ -1,5 +1,5 @@
-//! What a day holds that nobody knows in advance: demand that is not as forecast, late take-offs, closed routes, aircraft
-//! out of service.
+//! What may disturb a day: demand that is not as forecast, late take-offs, closed routes, aircraft out of service. Nobody
+//! knows it in advance, but for closures that are announced.
 //!
 //! All of it stands in the scenario, so that every policy meets the same disturbances; what of it a policy may see, and
 //! when, is the simulator's affair. A quiet day, as those of `paper` are, has none.
@@ -21,7 +21,7 @@ pub struct Disturbances {
 }
 
 impl Disturbances {
-    /// Whether the day goes as everybody expects.
+    /// Whether the day has none.
     pub fn is_none(&self) -> bool {
         self.forecast.is_none()
             && self.takeoff_delays.is_none()
@@ -81,6 +81,9 @@ pub struct Closure {
     pub start: Time,
     /// First instant at which it is open again.
     pub end: Time,
+    /// Whether policies know of it from the start of the day on. If not, they see that the route is closed once it is, and not
+    /// until when.
+    pub known: bool,
 }
 
 /// An aircraft that stays on the ground: if it lands at `start` or later and before `end`, it is not ready before `end`.

@@ -3,10 +3,11 @@
 //! Messages are lower-case fragments that name file, member, value and rule; `docs/src/reference/errors.md` is written
 //! from the comments here, cause first, then fix.
 
-use std::io;
+use std::{fmt, io};
 
 use crate::Code;
 use crate::limits::SEED_LIMIT;
+use crate::output_error::OutputError;
 
 /// What is wrong with a file, a network, a scenario or a seed.
 #[derive(Debug, thiserror::Error)]
@@ -31,8 +32,8 @@ pub enum Error {
         cause: io::Error,
     },
 
-    /// V103. The file is longer than any file of its kind has reason to be (64 MiB for a scenario, 1 MiB for a
-    /// network). Fix: check that it is the right file; describe fewer or longer demand periods.
+    /// V103. The file is longer than any file of its kind has reason to be (64 MiB for a scenario, 32 MiB for a
+    /// network, 16 MiB for a table of demand). Fix: check that it is the right file; describe fewer or longer demand periods.
     #[error("{origin}: the file is longer than {limit} bytes")]
     FileTooLarge {
         /// The path.
@@ -277,6 +278,71 @@ pub enum Error {
         part: String,
     },
 
+    /// V130. A file of another kind is given: a network file where a scenario is expected, or the other way round. Fix: draw a
+    /// scenario from the network with `vertifleet scenario`, or give the network that the scenario was drawn from.
+    #[error("{origin}: this is {found}, and {expected} is expected")]
+    WrongKind {
+        /// The file.
+        origin: String,
+        /// What it is.
+        found: &'static str,
+        /// What is expected.
+        expected: FileKind,
+    },
+
+    /// V131. A row of a table of demand is not what the table's columns hold, or the first line is not their names. Fix:
+    /// correct the line that the message names; numbers have a decimal point, and commas only stand between columns.
+    #[error("{origin}: line {line}: {column} must be {rule}, found {found:?}")]
+    TableRow {
+        /// The table's file.
+        origin: String,
+        /// The row's line, from 1.
+        line: usize,
+        /// The column, or the row or header as a whole.
+        column: &'static str,
+        /// What is asked of it.
+        rule: String,
+        /// What it says, cut short where it is long.
+        found: String,
+    },
+
+    /// V132. A network names a table of demand beside its file, but is given as a text, which lies in no folder. Fix: read the
+    /// network from its file, or put the table's rows into it as `pairs`.
+    #[error(
+        "{origin}: hourly_demand: table {table:?} is to be read from the folder of the network file, and there is none"
+    )]
+    TableWithoutFolder {
+        /// The network.
+        origin: String,
+        /// The table's path.
+        table: String,
+    },
+
+    /// V133. Hourly demand of one pair, or of one pair and period in a table, is given twice. Fix: remove one of the two.
+    #[error("{origin}: {member} gives the demand of {what} again")]
+    GivenTwice {
+        /// The network or table.
+        origin: String,
+        /// The second of the two.
+        member: String,
+        /// What it gives again.
+        what: String,
+    },
+
+    /// V134. A setting of a distribution of demand is missing, or belongs to another distribution: `noise` belongs to
+    /// `normal`, `dispersion` to `negative-binomial`. Fix: add or remove it, or name the other distribution.
+    #[error("{origin}: {member} {rule} with the distribution {distribution:?}")]
+    UnfitSetting {
+        /// The file.
+        origin: String,
+        /// The setting.
+        member: String,
+        /// What is asked of it.
+        rule: &'static str,
+        /// The distribution.
+        distribution: &'static str,
+    },
+
     /// V119. A name is neither a shipped network, nor a random one, nor a file. Fix: give one of the names that the
     /// message lists, `random:` and a number, or the path of a network file.
     #[error(
@@ -287,7 +353,31 @@ pub enum Error {
         name: String,
         /// The names that are shipped.
         shipped: String,
+        /// The one of them that was meant, if it can be guessed.
+        meant: Option<String>,
     },
+
+    /// A file that would be lost (V141 to V144).
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+/// A kind of file that a command may expect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// One day, as JSON.
+    Scenario,
+    /// What days are drawn from, as TOML.
+    Network,
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Scenario => "a scenario (JSON)",
+            Self::Network => "a network (TOML)",
+        })
+    }
 }
 
 /// Every code of this crate with a title, in order: the index that the documentation is checked against.
@@ -314,6 +404,12 @@ pub const ALL: &[(Code, &str)] = &[
     (Code(120), "aircraft without a destination (warning)"),
     (Code(121), "not exactly one of several members"),
     (Code(122), "route from a vertiport to itself"),
+    (Code(130), "network for a scenario, or the other way round"),
+    (Code(131), "wrong row in a table of demand"),
+    (Code(132), "table of demand without a folder"),
+    (Code(133), "demand given twice"),
+    (Code(134), "setting that does not fit its distribution"),
+    (Code(135), "vertiport out of reach (warning)"),
 ];
 
 impl Error {
@@ -342,6 +438,12 @@ impl Error {
             Self::NotOneOf { .. } => 121,
             Self::RouteToItself { .. } => 122,
             Self::NoSuchMember { .. } => 123,
+            Self::WrongKind { .. } => 130,
+            Self::TableRow { .. } => 131,
+            Self::TableWithoutFolder { .. } => 132,
+            Self::GivenTwice { .. } => 133,
+            Self::UnfitSetting { .. } => 134,
+            Self::Output(refusal) => return refusal.code(),
         })
     }
 
@@ -350,7 +452,7 @@ impl Error {
         match self {
             Self::OutOfRange { hint, .. } => *hint,
             Self::CannotWrite { .. } => {
-                Some("nothing was changed: what was there before is still there")
+                Some("what was there before under this name is still there, unchanged")
             }
             Self::StartAfterEnd { .. } => {
                 Some("times go on past midnight: half past one at night is 25:30:00")
@@ -368,9 +470,20 @@ impl Error {
             Self::SeedOutOfRange { .. } => {
                 Some("seeds for comparison, validation and training are kept apart by their size")
             }
+            Self::UnknownNetwork { meant: Some(meant), .. } => Some(meant),
             Self::UnknownNetwork { .. } => Some("a network file is TOML, see networks/paper.toml"),
+            Self::Output(refusal) => Some(refusal.hint()),
             Self::NoSuchMember { .. } => Some(
                 "members are named as in the network file, entries of a list by id, position or *",
+            ),
+            Self::WrongKind { expected: FileKind::Scenario, .. } => Some(
+                "`vertifleet scenario FILE --seed 1 --output DAY.json` draws a scenario from a network",
+            ),
+            Self::WrongKind { expected: FileKind::Network, .. } => Some(
+                "`vertifleet simulate`, `check`, `bound` and `plan` take scenarios; a network file is TOML, see networks/paper.toml",
+            ),
+            Self::TableRow { .. } => Some(
+                "a table has the columns period,from,to,passengers, with commas between them and a decimal point in numbers",
             ),
             _ => None,
         }

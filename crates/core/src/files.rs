@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 use crate::Error;
+use crate::outputs::folder_of;
 
 /// Held for reading by whoever writes a file, and for writing by whoever ends the process between two of them.
 static WRITING: RwLock<()> = RwLock::new(());
@@ -13,13 +14,20 @@ static WRITING: RwLock<()> = RwLock::new(());
 /// The longest scenario file that is read. Every scenario that obeys the rules is shorter when written.
 pub(crate) const LONGEST_SCENARIO: u64 = 64 << 20;
 
-/// The longest network file that is read; people write them.
-pub(crate) const LONGEST_NETWORK: u64 = 1 << 20;
+/// The longest network file that is read: demand by hour and pair takes the most of it.
+pub(crate) const LONGEST_NETWORK: u64 = 32 << 20;
+
+/// The longest table of demand that is read.
+pub(crate) const LONGEST_TABLE: u64 = 16 << 20;
 
 /// What a path is called in messages.
 pub(crate) fn origin(path: &Path) -> String {
     path.display().to_string()
 }
+
+/// How the names of files and folders begin that are not finished yet, or were not when the process was killed. Nothing reads
+/// them, and they may be removed at any time when no program writes.
+pub(crate) const UNFINISHED: &str = ".vertifleet-";
 
 /// Reads a whole file of at most `longest` bytes.
 ///
@@ -68,7 +76,8 @@ pub fn between_files() -> RwLockWriteGuard<'static, ()> {
     WRITING.write().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn writing() -> RwLockReadGuard<'static, ()> {
+/// Held while files are written that belong together.
+pub(crate) fn writing() -> RwLockReadGuard<'static, ()> {
     WRITING.read().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -78,10 +87,7 @@ fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
     if former.as_ref().is_some_and(|former| !former.is_file()) {
         return fs::write(&target, contents);
     }
-    let folder = match target.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(&target);
     fs::metadata(folder)?;
     // Not for pipes, above: whoever waits for their reader may be ended.
     let _writing = writing();
@@ -98,7 +104,7 @@ fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
 /// An unnamed-to-be file with the permissions of any other new file; by default it would be its owner's alone.
 fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".vertifleet-");
+    builder.prefix(UNFINISHED);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;

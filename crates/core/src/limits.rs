@@ -164,6 +164,10 @@ pub(crate) const WEIGHT: Limits = Limits::between(0.0, 1e6);
 /// Standard deviation as a share of the mean. Draws stay within `PASSENGERS`, as a normal deviation is below 10.
 pub(crate) const NOISE: Limits = Limits::between(0.0, 0.4)
     .hint("noise is a standard deviation as a share of the mean, 0.1 is 10 %");
+/// Passengers' variance beyond that of a Poisson draw, as a share of the mean's square. Far below the least, a gamma draw
+/// would be lost in rounding.
+pub(crate) const DISPERSION: Limits =
+    Limits::between(1e-6, 10.0).hint("the variance is mean + dispersion x mean^2");
 pub(crate) const PROBABILITY: Limits =
     Limits::between(0.0, 1.0).hint("a probability is a share, 0.1 is 10 %");
 pub(crate) const SURGE_FACTOR: Limits = Limits::between(1.0, 10.0);

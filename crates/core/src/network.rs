@@ -6,7 +6,7 @@ use crate::demand_model::DemandModel;
 use crate::disturbance_model::DisturbanceModel;
 use crate::{
     AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Vertiport, files,
-    network_file, parse, random_network,
+    nearest, network_file, parse, random_network,
 };
 
 /// What stands before the number of a random network.
@@ -36,21 +36,23 @@ impl Network {
     /// Reads and checks a network file.
     ///
     /// # Errors
-    /// The file cannot be read, is longer than 1 MiB, or breaks a rule of the format; the message names the member.
+    /// The file, or the table of demand that it names, cannot be read, is too long, or breaks a rule of the format; the
+    /// message names the member.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let origin = files::origin(path);
         let text = files::read_at_most(path, files::LONGEST_NETWORK)?;
-        Self::from_toml(parse::utf8(&text, &origin)?, &origin)
+        network_file::network(parse::utf8(&text, &origin)?, path.parent(), &origin)
     }
 
-    /// Reads and checks the text of a network file; `origin` stands for the file in messages.
+    /// Reads and checks the text of a network file, which names no table beside it; `origin` stands for the file in
+    /// messages.
     ///
     /// # Errors
-    /// The text is longer than 1 MiB or breaks a rule of the format; the message names the member.
+    /// The text is longer than 32 MiB or breaks a rule of the format; the message names the member.
     pub fn from_toml(text: &str, origin: &str) -> Result<Self, Error> {
         files::check_length(text.as_bytes(), files::LONGEST_NETWORK, origin)?;
-        network_file::network(text, origin)
+        network_file::network(text, None, origin)
     }
 
     /// The shipped network of this name.
@@ -84,10 +86,19 @@ impl Network {
         if looks_like_a_path || path.exists() {
             return Self::read(path);
         }
+        let meant = nearest(name_or_path, Self::shipped_names());
         Err(Error::UnknownNetwork {
             name: parse::shortened(name_or_path, 64),
             shipped: Self::shipped_names().collect::<Vec<_>>().join(", "),
+            meant: meant.map(|name| format!("did you mean {name}?")),
         })
+    }
+
+    /// The file that [`find`](Self::find) reads for this name or path, if it reads any.
+    pub fn file_of(name_or_path: &str) -> Option<&Path> {
+        let shipped = Self::shipped_names().any(|name| name == name_or_path);
+        let path = Path::new(name_or_path);
+        (!shipped && path.exists()).then_some(path)
     }
 
     /// The name by which [`find`](Self::find) knows the random network for comparison of this number.
@@ -100,7 +111,8 @@ impl Network {
         &self.name
     }
 
-    /// The text of its network file: reading it again gives the same network.
+    /// The text of its network file, with the rows of its table of demand in it if it has one: reading it again gives the
+    /// same network.
     pub fn toml(&self) -> &str {
         &self.toml
     }

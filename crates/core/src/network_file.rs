@@ -1,19 +1,24 @@
 //! The network file: TOML of format `vertifleet-network/1` to a checked [`Network`].
 
+use std::path::Path;
+
 use serde::Deserialize;
 
-use crate::demand_model::{DemandModel, RawDailyDemand, RawEquation1, RawUniformDemand};
+use crate::demand_model::{
+    DemandModel, RawDailyDemand, RawEquation1, RawHourlyDemand, RawUniformDemand,
+};
 use crate::disturbance_model::RawDisturbanceModel;
 use crate::feature_scales::RawFeatureScales;
 use crate::limits::{self, entries};
 use crate::parse::shortened;
 use crate::raw::{Positions, RawAircraftType, RawOperations, each};
 use crate::raw_disturbances::RawRoute;
+use crate::scheduled_closures::{self, RawScheduledClosure};
 use crate::sites::{RawSite, Sites};
 use crate::tariffs::RawTariffs;
 use crate::{
     Aircraft, AircraftType, Day, Disturbances, Error, Matrix, Network, TypeIx, Vertiport,
-    VertiportIx, check, parse,
+    VertiportIx, check, demand_table, files, parse,
 };
 
 const FORMAT: &str = "vertifleet-network/1";
@@ -34,7 +39,10 @@ struct RawNetwork {
     tariffs: RawTariffs,
     demand: Option<RawEquation1>,
     daily_demand: Option<RawDailyDemand>,
+    hourly_demand: Option<RawHourlyDemand>,
     uniform_demand: Option<RawUniformDemand>,
+    #[serde(default)]
+    closures: Vec<RawScheduledClosure>,
     #[serde(default)]
     disturbances: RawDisturbanceModel,
     feature_scales: RawFeatureScales,
@@ -57,75 +65,122 @@ struct RawFleet {
     count: f64,
 }
 
-/// Reads and checks the text of a network file.
-pub(crate) fn network(text: &str, origin: &str) -> Result<Network, Error> {
+/// Reads and checks the text of a network file; a table that it names is read from `folder`.
+pub(crate) fn network(text: &str, folder: Option<&Path>, origin: &str) -> Result<Network, Error> {
+    let text = text.strip_prefix(parse::MARK).unwrap_or(text);
+    parse::is_no_json(text, origin)?;
     let raw: RawNetwork = parse::toml(text, FORMAT, origin)?;
-    name(&raw.name, origin)?;
-    let list = |member, found, most| check::entry_count(origin, member, found, most);
-    list("vertiports", raw.vertiports.len(), entries::VERTIPORTS)?;
-    list("aircraft_types", raw.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
-    let operations = raw.operations.check(origin)?;
-    let Sites { vertiports, distance_mi } = Sites::of(raw.vertiports, origin)?;
-    let aircraft_types = each(raw.aircraft_types, |raw, at| raw.check(at, origin))?;
-    let aircraft = fleet(&raw.fleet, &aircraft_types, &vertiports, origin)?;
-    let models = (raw.demand, raw.daily_demand, raw.uniform_demand);
-    let demand = demand_model(models, &vertiports, origin)?;
-    let places = Positions::of_vertiports(&vertiports, origin)?;
-    let corridors = raw.corridors.map(|routes| {
-        each(routes, |raw, at| raw.check(&places, &format!("corridors[{at}]"), origin))
-    });
-    let disturbances = raw.disturbances.check(&places, vertiports.len(), origin)?;
-    raw.tariffs.check(demand.periods.len(), origin)?;
-
-    let passenger_cost_usd = raw.tariffs.passenger_costs_usd(&distance_mi);
-    let nobody = Matrix::from_fn(vertiports.len(), |_, _| 0);
-    let idle_day = Day {
-        name: raw.name.clone(),
-        seed: 0,
-        operations,
-        aircraft_types,
-        aircraft,
-        corridors: corridors.transpose()?,
-        fare_usd: raw.tariffs.fares_usd(&distance_mi, &passenger_cost_usd, &demand),
-        distance_mi,
-        passenger_cost_usd,
-        periods: demand.periods.clone(),
-        demand: vec![nobody; demand.periods.len()],
-        energy_price_usd: raw.tariffs.energy_prices_usd(demand.periods.len()),
-        disturbances: Disturbances::default(),
-        vertiports,
+    let Some((hourly, table, folder)) = raw.table(folder) else {
+        return raw.check(text, origin);
     };
-    Ok(Network {
-        name: raw.name,
-        toml: text.to_owned(),
-        idle_day: idle_day.check(origin)?,
-        demand,
-        disturbances,
-        feature_scales: raw.feature_scales.check(origin)?,
-    })
+    let vertiports: Vec<&str> = raw.vertiports.iter().map(RawSite::id).collect();
+    let text = demand_table::inlined(text, hourly, table, &vertiports, folder)?;
+    files::check_length(text.as_bytes(), files::LONGEST_NETWORK, origin)?;
+    network(&text, None, origin)
 }
 
-/// The one demand model that the file has.
-fn demand_model(
-    models: (Option<RawEquation1>, Option<RawDailyDemand>, Option<RawUniformDemand>),
-    vertiports: &[Vertiport],
-    origin: &str,
-) -> Result<DemandModel, Error> {
-    match models {
-        (Some(raw), None, None) => {
-            raw.check(vertiports.iter().map(|vertiport| vertiport.busy).collect(), origin)
+impl RawNetwork {
+    /// The table that the file names, and where it is to be found.
+    fn table<'a>(
+        &'a self,
+        folder: Option<&'a Path>,
+    ) -> Option<(&'a RawHourlyDemand, &'a str, &'a Path)> {
+        let hourly = self.hourly_demand.as_ref().filter(|hourly| hourly.pairs.is_none())?;
+        Some((hourly, hourly.table.as_deref()?, folder?))
+    }
+
+    /// The network; `text` is what it was read from.
+    fn check(self, text: &str, origin: &str) -> Result<Network, Error> {
+        let raw = self;
+        name(&raw.name, origin)?;
+        let list = |member, found, most| check::entry_count(origin, member, found, most);
+        list("vertiports", raw.vertiports.len(), entries::VERTIPORTS)?;
+        list("aircraft_types", raw.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
+        let operations = raw.operations.check(origin)?;
+        let Sites { vertiports, distance_mi } = Sites::of(raw.vertiports, origin)?;
+        let aircraft_types = each(raw.aircraft_types, |raw, at| raw.check(at, origin))?;
+        let aircraft = fleet(&raw.fleet, &aircraft_types, &vertiports, origin)?;
+        let places = Positions::of_vertiports(&vertiports, origin)?;
+        let models = DemandModels {
+            equation_1: raw.demand,
+            daily: raw.daily_demand,
+            hourly: raw.hourly_demand,
+            uniform: raw.uniform_demand,
+        };
+        let demand = models.the_one(&vertiports, &places, origin)?;
+        let corridors = raw.corridors.map(|routes| {
+            each(routes, |raw, at| raw.check(&places, &format!("corridors[{at}]"), origin))
+        });
+        let closures = scheduled_closures::closures(raw.closures, &places, &vertiports, origin)?;
+        let disturbances = raw.disturbances.check(&places, vertiports.len(), origin)?;
+        scheduled_closures::at_most(closures.len() + disturbances.most_closures(), origin)?;
+        raw.tariffs.check(demand.periods.len(), origin)?;
+
+        let passenger_cost_usd = raw.tariffs.passenger_costs_usd(&distance_mi);
+        let nobody = Matrix::from_fn(vertiports.len(), |_, _| 0);
+        let idle_day = Day {
+            name: raw.name.clone(),
+            seed: 0,
+            operations,
+            aircraft_types,
+            aircraft,
+            corridors: corridors.transpose()?,
+            fare_usd: raw.tariffs.fares_usd(&distance_mi, &passenger_cost_usd, &demand),
+            passenger_cost_usd,
+            flight_cost_usd: raw.tariffs.flight_costs_usd(&distance_mi),
+            aircraft_cost_usd: raw.tariffs.aircraft_cost_usd(),
+            distance_mi,
+            periods: demand.periods.clone(),
+            demand: vec![nobody; demand.periods.len()],
+            energy_price_usd: raw.tariffs.energy_prices_usd(demand.periods.len()),
+            disturbances: Disturbances { closures, ..Disturbances::default() },
+            vertiports,
+        };
+        Ok(Network {
+            name: raw.name,
+            toml: text.to_owned(),
+            idle_day: idle_day.check(origin)?,
+            demand,
+            disturbances,
+            feature_scales: raw.feature_scales.check(origin)?,
+        })
+    }
+}
+
+/// The demand models that a file may have.
+struct DemandModels {
+    equation_1: Option<RawEquation1>,
+    daily: Option<RawDailyDemand>,
+    hourly: Option<RawHourlyDemand>,
+    uniform: Option<RawUniformDemand>,
+}
+
+impl DemandModels {
+    /// The one that the file has.
+    fn the_one(
+        self,
+        vertiports: &[Vertiport],
+        places: &Positions,
+        origin: &str,
+    ) -> Result<DemandModel, Error> {
+        let size = vertiports.len();
+        match (self.equation_1, self.daily, self.hourly, self.uniform) {
+            (Some(raw), None, None, None) => {
+                raw.check(vertiports.iter().map(|vertiport| vertiport.busy).collect(), origin)
+            }
+            (None, Some(raw), None, None) => raw.check(size, origin),
+            (None, None, Some(raw), None) => raw.check(places, size, origin),
+            (None, None, None, Some(raw)) => raw.check(size, origin),
+            (equation_1, daily, hourly, uniform) => Err(Error::NotOneOf {
+                origin: origin.to_owned(),
+                member: "the network".to_owned(),
+                choices: "demand, daily_demand, hourly_demand and uniform_demand",
+                found: [equation_1.is_some(), daily.is_some(), hourly.is_some(), uniform.is_some()]
+                    .into_iter()
+                    .filter(|&given| given)
+                    .count(),
+            }),
         }
-        (None, Some(raw), None) => raw.check(vertiports.len(), origin),
-        (None, None, Some(raw)) => raw.check(vertiports.len(), origin),
-        (equation_1, daily, uniform) => Err(Error::NotOneOf {
-            origin: origin.to_owned(),
-            member: "the network".to_owned(),
-            choices: "demand, daily_demand and uniform_demand",
-            found: [equation_1.is_some(), daily.is_some(), uniform.is_some()]
-                .into_iter()
-                .filter(|&given| given)
-                .count(),
-        }),
     }
 }
 

@@ -4,6 +4,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use crate::Error;
+use crate::error::FileKind;
 
 /// The first line of every file of ours; other members may be anything until the format is known.
 #[derive(Deserialize)]
@@ -32,6 +33,40 @@ pub(crate) fn toml<T: DeserializeOwned>(
     let header: Header = toml_value(text, origin)?;
     check_format(&header, format, origin)?;
     toml_value(text, origin)
+}
+
+/// The byte order mark, which some programs write at the start of UTF-8.
+pub(crate) const MARK: char = '\u{feff}';
+
+/// A text without the byte order mark at its start.
+pub(crate) fn without_mark(text: &[u8]) -> &[u8] {
+    text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text)
+}
+
+/// Refuses a network file where a scenario is expected, whose text can only be JSON.
+pub(crate) fn is_no_network(text: &[u8], origin: &str) -> Result<(), Error> {
+    let says_so = |line: &[u8]| {
+        let value = line.trim_ascii_start().strip_prefix(b"format").map(<[u8]>::trim_ascii_start);
+        let value = value.and_then(|value| value.strip_prefix(b"=")).map(<[u8]>::trim_ascii_start);
+        value.is_some_and(|value| value[1.min(value.len())..].starts_with(b"vertifleet-network/"))
+    };
+    let is_json = text.trim_ascii_start().starts_with(b"{");
+    if is_json || !text.split(|&byte| byte == b'\n').any(says_so) {
+        return Ok(());
+    }
+    let (found, expected) = ("a network file (TOML)", FileKind::Scenario);
+    Err(Error::WrongKind { origin: origin.to_owned(), found, expected })
+}
+
+/// Refuses JSON where a network is expected: no TOML begins with a brace.
+pub(crate) fn is_no_json(text: &str, origin: &str) -> Result<(), Error> {
+    if !text.trim_ascii_start().starts_with('{') {
+        return Ok(());
+    }
+    let says_so = text.contains("\"vertifleet-scenario/");
+    let found = if says_so { "a scenario file (JSON)" } else { "JSON" };
+    let expected = FileKind::Network;
+    Err(Error::WrongKind { origin: origin.to_owned(), found, expected })
 }
 
 /// The text of a TOML file, which must be UTF-8.

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::limits::{self, Limits};
 use crate::parse::shortened;
-use crate::{Aircraft, AircraftType, Error, Operations, Time, Vertiport, check};
+use crate::{Aircraft, AircraftType, Degrees, Error, Operations, Time, Vertiport, check};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of operations")]
@@ -45,6 +45,8 @@ pub(crate) struct RawVertiport {
     stands: f64,
     chargers: Option<f64>,
     busy: bool,
+    latitude: Option<f64>,
+    longitude: Option<f64>,
 }
 
 impl RawVertiport {
@@ -53,8 +55,20 @@ impl RawVertiport {
         let member = || format!("vertiport {:?}: stands", self.id);
         let stands = limits::STANDS.whole_number(self.stands, origin, member)?;
         let chargers = chargers(&self.id, self.chargers, origin)?;
+        let degrees = match (self.latitude, self.longitude) {
+            (None, None) => None,
+            (Some(latitude), Some(longitude)) => Some(Degrees { latitude, longitude }),
+            _ => {
+                return Err(Error::NotOneOf {
+                    origin: origin.to_owned(),
+                    member: format!("vertiport {:?}", self.id),
+                    choices: "latitude with longitude and neither of them",
+                    found: 0,
+                });
+            }
+        };
         let Self { id, x_mi, y_mi, busy, .. } = self;
-        Ok(Vertiport { id, x_mi, y_mi, stands, chargers, busy })
+        Ok(Vertiport { id, x_mi, y_mi, stands, chargers, busy, degrees })
     }
 }
 

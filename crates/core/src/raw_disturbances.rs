@@ -42,6 +42,8 @@ pub(crate) struct RawClosure {
     both_ways: bool,
     start: Time,
     end: Time,
+    #[serde(default)]
+    known: bool,
 }
 
 impl RawClosure {
@@ -51,10 +53,10 @@ impl RawClosure {
         places: &Positions,
         origin: &str,
     ) -> Result<Closure, Error> {
-        let Self { from, to, both_ways, start, end } = self;
+        let Self { from, to, both_ways, start, end, known } = self;
         let route = RawRoute { from, to, both_ways };
         let route = route.check(places, &format!("closures[{at}]"), origin)?;
-        Ok(Closure { route, start, end })
+        Ok(Closure { route, start, end, known })
     }
 }
 

@@ -32,6 +32,8 @@ impl Scenario {
     /// The text is longer than 64 MiB or breaks a rule of the format; the message names the member.
     pub fn from_json(text: &[u8], origin: &str) -> Result<Self, Error> {
         files::check_length(text, files::LONGEST_SCENARIO, origin)?;
+        let text = parse::without_mark(text);
+        parse::is_no_network(text, origin)?;
         let raw: RawScenario = parse::json(text, FORMAT, origin)?;
         raw.day(origin)?.check(origin)
     }
@@ -52,6 +54,9 @@ struct RawScenario {
     corridors: Option<Vec<RawRoute>>,
     fare: Vec<Vec<RawFare>>,
     passenger_cost: Vec<Vec<f64>>,
+    flight_cost: Option<Vec<Vec<f64>>>,
+    #[serde(default)]
+    aircraft_cost: f64,
     periods: Vec<Time>,
     demand: Vec<Vec<Vec<f64>>>,
     energy_price: Vec<f64>,
@@ -94,6 +99,10 @@ impl RawScenario {
         let distance_mi = table(self.distance_mi, "distance_mi")?;
         let fare_usd = fares(self.fare, size, origin)?;
         let passenger_cost_usd = table(self.passenger_cost, "passenger_cost")?;
+        let flight_cost_usd = match self.flight_cost {
+            Some(rows) => table(rows, "flight_cost")?,
+            None => Matrix::from_fn(size, |_, _| 0.0),
+        };
         let passengers = |tables: Vec<Vec<Vec<f64>>>, member: &str| {
             each(tables, |rows, period| {
                 let member = format!("{member}[{period}]");
@@ -131,6 +140,8 @@ impl RawScenario {
             corridors: corridors.transpose()?,
             fare_usd,
             passenger_cost_usd,
+            flight_cost_usd,
+            aircraft_cost_usd: self.aircraft_cost,
             periods: self.periods,
             demand,
             energy_price_usd: self.energy_price,

@@ -39,6 +39,17 @@ pub struct Vertiport {
     pub chargers: Option<u16>,
     /// Whether it belongs to V_B, the vertiports with high demand (Eq. 1).
     pub busy: bool,
+    /// Where it is on the globe, if that is known; for maps, and for warnings. Distances stand in the day.
+    pub degrees: Option<Degrees>,
+}
+
+/// A place on the globe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Degrees {
+    /// Degrees, north is above 0.
+    pub latitude: f64,
+    /// Degrees, east is above 0.
+    pub longitude: f64,
 }
 
 /// What aircraft of one kind can do.
@@ -105,6 +116,10 @@ pub struct Day {
     pub fare_usd: Fares,
     /// R_ij, dollars a passenger.
     pub passenger_cost_usd: Matrix<f64>,
+    /// What a flight costs whoever is on board, beside its energy; dollars a flight, all 0 in the paper.
+    pub flight_cost_usd: Matrix<f64>,
+    /// What each aircraft of the fleet costs whatever it does; dollars a day, 0 in the paper.
+    pub aircraft_cost_usd: f64,
     /// Start of each demand period; the last one lasts for the rest of the day.
     pub periods: Vec<Time>,
     /// Q(i, j, t): passengers who want to fly, per period.
@@ -143,6 +158,16 @@ impl Scenario {
     pub fn is_corridor(&self, from: VertiportIx, to: VertiportIx) -> bool {
         let corridors = self.corridors.as_ref();
         corridors.is_none_or(|routes| routes.iter().any(|route| route.covers(from, to)))
+    }
+
+    /// Whether any flight costs something whoever is on board, beside its energy.
+    pub fn has_flight_costs(&self) -> bool {
+        self.flight_cost_usd.cells().iter().any(|&cost_usd| cost_usd != 0.0)
+    }
+
+    /// What the whole fleet costs whatever it does, dollars.
+    pub fn fleet_cost_usd(&self) -> f64 {
+        self.aircraft.len() as f64 * self.aircraft_cost_usd
     }
 
     /// The reward's denominator (§III.H): every passenger of the day at full fare, dollars.

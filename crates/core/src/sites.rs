@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::limits::{self, Limits};
 use crate::raw::{chargers, each};
-use crate::{Error, Matrix, Vertiport, check};
+use crate::{Degrees, Error, Matrix, Vertiport, check};
 
 /// Mean radius of the Earth (IUGG), miles.
 const EARTH_RADIUS_MI: f64 = 3_958.761_3;
@@ -40,8 +40,7 @@ pub(crate) struct RawSite {
 enum Position {
     /// Miles east and north.
     Plane(f64, f64),
-    /// Degrees north and east.
-    Globe(f64, f64),
+    Globe(Degrees),
 }
 
 impl Sites {
@@ -75,7 +74,7 @@ impl Sites {
     fn on_globe(sites: Vec<(Vertiport, Position)>) -> Self {
         let degrees = |position| match position {
             Position::Plane(x_mi, y_mi) => (y_mi, x_mi),
-            Position::Globe(latitude, longitude) => (latitude, longitude),
+            Position::Globe(degrees) => (degrees.latitude, degrees.longitude),
         };
         let places: Vec<(f64, f64)> =
             sites.iter().map(|&(_, position)| degrees(position)).collect();
@@ -96,6 +95,10 @@ impl Sites {
 }
 
 impl RawSite {
+    pub(crate) fn id(&self) -> &str {
+        &self.id
+    }
+
     fn check(self, at: usize, origin: &str) -> Result<(Vertiport, Position), Error> {
         check::id(origin, || format!("vertiports[{at}]: id"), &self.id)?;
         let number = |value: f64, limits: &Limits, member: &str| {
@@ -106,7 +109,7 @@ impl RawSite {
             (None, None, Some(latitude), Some(longitude)) => {
                 number(latitude, &limits::LATITUDE, "latitude")?;
                 number(longitude, &limits::LONGITUDE, "longitude")?;
-                Position::Globe(latitude, longitude)
+                Position::Globe(Degrees { latitude, longitude })
             }
             (x_mi, y_mi, latitude, longitude) => {
                 let plane = x_mi.is_some() && y_mi.is_some();
@@ -119,18 +122,20 @@ impl RawSite {
                 });
             }
         };
-        let (x_mi, y_mi) =
-            if let Position::Plane(x_mi, y_mi) = position { (x_mi, y_mi) } else { (0.0, 0.0) };
+        let (x_mi, y_mi, degrees) = match position {
+            Position::Plane(x_mi, y_mi) => (x_mi, y_mi, None),
+            Position::Globe(degrees) => (0.0, 0.0, Some(degrees)),
+        };
         let member = || format!("vertiport {:?}: stands", self.id);
         let stands = limits::STANDS.whole_number(self.stands, origin, member)?;
         let chargers = chargers(&self.id, self.chargers, origin)?;
         let Self { id, busy, .. } = self;
-        Ok((Vertiport { id, x_mi, y_mi, stands, chargers, busy }, position))
+        Ok((Vertiport { id, x_mi, y_mi, stands, chargers, busy, degrees }, position))
     }
 }
 
 /// The haversine formula; places are latitude and longitude in degrees.
-fn great_circle_mi(from: (f64, f64), to: (f64, f64)) -> f64 {
+pub(crate) fn great_circle_mi(from: (f64, f64), to: (f64, f64)) -> f64 {
     let (from_north, to_north) = (from.0.to_radians(), to.0.to_radians());
     let half_north = libm::sin((to_north - from_north) / 2.0);
     let half_east = libm::sin((to.1 - from.1).to_radians() / 2.0);

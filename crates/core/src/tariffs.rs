@@ -15,6 +15,14 @@ pub(crate) struct RawTariffs {
     fare_base: f64,
     fare_demand_weight: f64,
     fare_factors: Option<Vec<f64>>,
+    #[serde(default)]
+    boarding_fee_usd: f64,
+    #[serde(default)]
+    flight_cost_usd: f64,
+    #[serde(default)]
+    flight_cost_usd_per_mi: f64,
+    #[serde(default)]
+    aircraft_cost_usd_per_day: f64,
     energy_price_usd_per_kwh: RawPrice,
 }
 
@@ -31,13 +39,17 @@ enum RawPrice {
 
 impl RawTariffs {
     pub(crate) fn check(&self, periods: usize, origin: &str) -> Result<(), Error> {
-        for (member, value) in [
-            ("passenger_cost_usd_per_mi", self.passenger_cost_usd_per_mi),
-            ("fare_usd_per_mi", self.fare_usd_per_mi),
-            ("fare_base", self.fare_base),
-            ("fare_demand_weight", self.fare_demand_weight),
+        for (member, value, limits) in [
+            ("passenger_cost_usd_per_mi", self.passenger_cost_usd_per_mi, &limits::TARIFF),
+            ("fare_usd_per_mi", self.fare_usd_per_mi, &limits::TARIFF),
+            ("fare_base", self.fare_base, &limits::TARIFF),
+            ("fare_demand_weight", self.fare_demand_weight, &limits::TARIFF),
+            ("boarding_fee_usd", self.boarding_fee_usd, &limits::MONEY_USD),
+            ("flight_cost_usd", self.flight_cost_usd, &limits::MONEY_USD),
+            ("flight_cost_usd_per_mi", self.flight_cost_usd_per_mi, &limits::TARIFF),
+            ("aircraft_cost_usd_per_day", self.aircraft_cost_usd_per_day, &limits::MONEY_USD),
         ] {
-            limits::TARIFF.check(value, origin, || format!("tariffs: {member}"))?;
+            limits.check(value, origin, || format!("tariffs: {member}"))?;
         }
         if let Some(factors) = &self.fare_factors {
             by_period(factors, &limits::FARE_FACTOR, periods, "fare_factors", origin)?;
@@ -66,8 +78,23 @@ impl RawTariffs {
         })
     }
 
-    /// P_ij = R_ij (base + weight Qbar_ij / max Qbar), and so much a mile beside it, times the period's factor; dollars a
-    /// passenger.
+    /// What a flight costs whoever is on board, dollars: so much a flight and so much a mile.
+    pub(crate) fn flight_costs_usd(&self, distance_mi: &Matrix<f64>) -> Matrix<f64> {
+        Matrix::from_fn(distance_mi.size(), |from, to| {
+            if from == to {
+                return 0.0;
+            }
+            self.flight_cost_usd + self.flight_cost_usd_per_mi * distance_mi[(from, to)]
+        })
+    }
+
+    /// What each aircraft costs whatever it does, dollars a day.
+    pub(crate) fn aircraft_cost_usd(&self) -> f64 {
+        self.aircraft_cost_usd_per_day
+    }
+
+    /// P_ij = R_ij (base + weight Qbar_ij / max Qbar), and so much a mile beside it, times the period's factor, and the
+    /// boarding fee; dollars a passenger.
     pub(crate) fn fares_usd(
         &self,
         distance_mi: &Matrix<f64>,
@@ -82,9 +109,13 @@ impl RawTariffs {
                 passenger_cost_usd[(from, to)] * (self.fare_base + self.fare_demand_weight * share);
             on_cost + self.fare_usd_per_mi * distance_mi[(from, to)]
         });
-        let Some(factors) = &self.fare_factors else { return all_day.into() };
-        let of_period =
-            |factor: &f64| Matrix::from_fn(all_day.size(), |from, to| all_day[(from, to)] * factor);
+        let of_period = |factor: &f64| {
+            Matrix::from_fn(all_day.size(), |from, to| {
+                let fee_usd = if from == to { 0.0 } else { self.boarding_fee_usd };
+                all_day[(from, to)] * factor + fee_usd
+            })
+        };
+        let Some(factors) = &self.fare_factors else { return of_period(&1.0).into() };
         Fares::by_period(factors.iter().map(of_period).collect())
     }
 }

@@ -60,7 +60,7 @@ pub struct NotATime(pub String);
 impl FromStr for Time {
     type Err = NotATime;
 
-    /// Reads `HH:MM:SS`; hours may pass 24 (at most four digits), minutes and seconds are two digits below 60.
+    /// Reads `HH:MM:SS`; hours may have one digit and may pass 24 (at most four digits), minutes and seconds are two digits below 60.
     fn from_str(text: &str) -> Result<Self, NotATime> {
         let wrong = || NotATime(text.chars().take(40).collect());
         let number = |part: &str, digits: std::ops::RangeInclusive<usize>| {
@@ -73,7 +73,7 @@ impl FromStr for Time {
         else {
             return Err(wrong());
         };
-        match (number(h, 2..=4), number(m, 2..=2), number(s, 2..=2)) {
+        match (number(h, 1..=4), number(m, 2..=2), number(s, 2..=2)) {
             (Some(h), Some(m), Some(s)) if m < 60 && s < 60 => Ok(Self(h * 3600 + m * 60 + s)),
             _ => Err(wrong()),
         }
@@ -105,10 +105,16 @@ mod tests {
     }
 
     #[test]
+    fn an_hour_may_have_one_digit_and_is_written_with_two() {
+        assert_eq!("6:05:00".parse::<Time>().expect("a time").to_string(), "06:05:00");
+    }
+
+    #[test]
     fn what_is_no_time_is_refused() {
         for text in [
             "",
-            "6:00:00",
+            ":00:00",
+            "6:0:00",
             "06:00",
             "06:60:00",
             "06:00:60",

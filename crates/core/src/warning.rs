@@ -1,11 +1,12 @@
-//! What is allowed in a scenario but hardly meant: found on request, never a reason to refuse the file.
+//! What is allowed in a scenario or a network but hardly meant: found on request, never a reason to refuse the file.
 
 use std::fmt;
 
-use crate::{AircraftType, Code, Scenario, VertiportIx};
+use crate::sites::great_circle_mi;
+use crate::{AircraftType, Code, Degrees, Network, Scenario, VertiportIx};
 
-/// Something in a scenario that is allowed but hardly meant.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// Something in a scenario or a network that is allowed but hardly meant.
+#[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// V120. A full battery does not take the aircraft from where it starts to any other vertiport, so that it stands
     /// there all day. Fix: start it elsewhere, or check its type's battery and the distances.
@@ -17,6 +18,34 @@ pub enum Warning {
         /// Where it starts.
         at: String,
     },
+
+    /// V135. No aircraft of the fleet can fly to or from a vertiport. Fix: check where it lies; a longitude west of
+    /// Greenwich and a latitude south of the equator are below 0.
+    OutOfReach {
+        /// The vertiport.
+        vertiport: String,
+        /// What makes it so, or likely does.
+        cause: Cause,
+    },
+}
+
+/// Why a vertiport is out of reach.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cause {
+    /// No corridor leads to or from it, though others are near enough.
+    NoCorridor,
+    /// It lies too far from all others.
+    TooFar {
+        /// Miles to the nearest other vertiport.
+        nearest_mi: f64,
+    },
+    /// It lies too far from all others, and would not with another sign or in another order of its degrees.
+    Misplaced {
+        /// Miles to the nearest other vertiport.
+        nearest_mi: f64,
+        /// Where it likely is.
+        likely: Degrees,
+    },
 }
 
 impl Warning {
@@ -24,17 +53,44 @@ impl Warning {
     pub fn code(&self) -> Code {
         match self {
             Self::NoDestination { .. } => Code(120),
+            Self::OutOfReach { .. } => Code(135),
         }
     }
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self::NoDestination { aircraft, kind, at } = self;
-        write!(
-            f,
-            "aircraft {aircraft:?} of type {kind:?} reaches no other vertiport from {at:?}: it stands there all day"
-        )
+        match self {
+            Self::NoDestination { aircraft, kind, at } => write!(
+                f,
+                "aircraft {aircraft:?} of type {kind:?} reaches no other vertiport from {at:?}: it stands there all day"
+            ),
+            Self::OutOfReach { vertiport, cause } => {
+                write!(f, "no aircraft can fly to or from vertiport {vertiport:?}: {cause}")
+            }
+        }
+    }
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoCorridor => f.write_str("no corridor that an aircraft can fly leads there"),
+            Self::TooFar { nearest_mi } => {
+                write!(f, "the nearest other vertiport is {nearest_mi:.0} miles away")
+            }
+            Self::Misplaced { nearest_mi, likely: Degrees { latitude, longitude } } => write!(
+                f,
+                "the nearest other vertiport is {nearest_mi:.0} miles away; at latitude {latitude} and longitude {longitude} it would be within reach"
+            ),
+        }
+    }
+}
+
+impl Network {
+    /// What is allowed in this network but hardly meant, in file order: what is so on every day of it.
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.idle_day.out_of_reach()
     }
 }
 
@@ -43,19 +99,72 @@ impl Scenario {
     pub fn warnings(&self) -> Vec<Warning> {
         let stranded = self.aircraft.iter().filter(|aircraft| {
             let kind = &self.aircraft_types[aircraft.kind.at()];
-            !VertiportIx::all(self.vertiports.len()).any(|to| {
-                to != aircraft.at
-                    && self.is_corridor(aircraft.at, to)
-                    && self.reaches(kind, self.distance_mi[(aircraft.at, to)])
-            })
+            !self.others(aircraft.at).any(|to| self.can_fly(kind, aircraft.at, to))
         });
-        stranded
-            .map(|aircraft| Warning::NoDestination {
-                aircraft: aircraft.id.clone(),
-                kind: self.aircraft_types[aircraft.kind.at()].id.clone(),
-                at: self.vertiports[aircraft.at.at()].id.clone(),
+        let stranded = stranded.map(|aircraft| Warning::NoDestination {
+            aircraft: aircraft.id.clone(),
+            kind: self.aircraft_types[aircraft.kind.at()].id.clone(),
+            at: self.vertiports[aircraft.at.at()].id.clone(),
+        });
+        self.out_of_reach().into_iter().chain(stranded).collect()
+    }
+
+    /// The vertiports to and from which nobody can fly. One alone has no other to be reached from.
+    fn out_of_reach(&self) -> Vec<Warning> {
+        let fleet: Vec<&AircraftType> = self
+            .aircraft_types
+            .iter()
+            .enumerate()
+            .filter(|&(at, _)| self.aircraft.iter().any(|aircraft| aircraft.kind.at() == at))
+            .map(|(_, kind)| kind)
+            .collect();
+        let reached = |vertiport| {
+            self.others(vertiport).any(|other| {
+                fleet.iter().any(|kind| {
+                    self.can_fly(kind, vertiport, other) || self.can_fly(kind, other, vertiport)
+                })
+            })
+        };
+        let all = VertiportIx::all(self.vertiports.len()).filter(|_| self.vertiports.len() > 1);
+        all.filter(|&vertiport| !reached(vertiport))
+            .map(|vertiport| Warning::OutOfReach {
+                vertiport: self.vertiports[vertiport.at()].id.clone(),
+                cause: self.cause(vertiport, &fleet),
             })
             .collect()
+    }
+
+    /// Why nobody can fly to or from a vertiport.
+    fn cause(&self, vertiport: VertiportIx, fleet: &[&AircraftType]) -> Cause {
+        let reaches = |mi| fleet.iter().any(|kind| self.reaches(kind, mi));
+        let ways = |other| {
+            let there = self.distance_mi[(vertiport, other)];
+            there.min(self.distance_mi[(other, vertiport)])
+        };
+        let nearest_mi = self.others(vertiport).map(ways).fold(f64::INFINITY, f64::min);
+        if reaches(nearest_mi) {
+            return Cause::NoCorridor;
+        }
+        let near_others = |degrees: &Degrees| {
+            let place = (degrees.latitude, degrees.longitude);
+            self.others(vertiport)
+                .filter_map(|other| self.vertiports[other.at()].degrees)
+                .any(|other| reaches(great_circle_mi(place, (other.latitude, other.longitude))))
+        };
+        let written = self.vertiports[vertiport.at()].degrees;
+        let likely = written.and_then(|written| slips(written).into_iter().find(near_others));
+        match likely {
+            Some(likely) => Cause::Misplaced { nearest_mi, likely },
+            None => Cause::TooFar { nearest_mi },
+        }
+    }
+
+    fn others(&self, vertiport: VertiportIx) -> impl Iterator<Item = VertiportIx> + use<> {
+        VertiportIx::all(self.vertiports.len()).filter(move |&other| other != vertiport)
+    }
+
+    fn can_fly(&self, kind: &AircraftType, from: VertiportIx, to: VertiportIx) -> bool {
+        self.is_corridor(from, to) && self.reaches(kind, self.distance_mi[(from, to)])
     }
 
     /// Whether a full battery lasts for a flight: e d_ij and the self-discharge of the journey, in whole seconds
@@ -67,4 +176,15 @@ impl Scenario {
         let lost_kwh = kind.battery_kwh * kind.self_discharge_per_h * flight_h;
         kind.lasts_for(kind.energy_kwh_per_mi * distance_mi + lost_kwh)
     }
+}
+
+/// Places that people mean when they write these degrees: a sign that is missing or too many, the two exchanged.
+fn slips(Degrees { latitude, longitude }: Degrees) -> [Degrees; 5] {
+    [
+        Degrees { latitude, longitude: -longitude },
+        Degrees { latitude: -latitude, longitude },
+        Degrees { latitude: -latitude, longitude: -longitude },
+        Degrees { latitude: longitude, longitude: latitude },
+        Degrees { latitude: longitude, longitude: -latitude },
+    ]
 }

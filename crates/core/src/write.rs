@@ -5,11 +5,18 @@ use std::path::Path;
 
 use crate::limits::number;
 use crate::{
-    Closure, Disturbances, Error, Matrix, Outage, Route, Scenario, TakeoffDelays, VertiportIx,
-    files, read,
+    Closure, Degrees, Disturbances, Error, Matrix, Outage, OutputKind, Route, Scenario,
+    TakeoffDelays, VertiportIx, files, read,
 };
 
 impl Scenario {
+    /// How a scenario file that this program wrote begins, of any version of the format.
+    pub const FILE: OutputKind = OutputKind {
+        name: "scenario",
+        skipped: 0,
+        opening: "{\n  \"format\": \"vertifleet-scenario/",
+    };
+
     /// Writes the scenario file whole or not at all.
     ///
     /// # Errors
@@ -35,6 +42,12 @@ impl Scenario {
             ("demand", passengers(&self.demand)),
             ("energy_price", row(self.energy_price_usd.iter().map(|&price| number(price)))),
         ];
+        if self.has_flight_costs() {
+            members.push(("flight_cost", table(&self.flight_cost_usd, 2, |&cell| number(cell))));
+        }
+        if self.aircraft_cost_usd != 0.0 {
+            members.push(("aircraft_cost", number(self.aircraft_cost_usd)));
+        }
         if let Some(corridors) = &self.corridors {
             let corridor = |route: &Route| format!("{{{}}}", self.route_json(*route));
             members.push(("corridors", lines(corridors.iter().map(corridor), 2)));
@@ -66,14 +79,19 @@ impl Scenario {
         let vertiport = |vertiport: &crate::Vertiport| {
             let chargers =
                 vertiport.chargers.map(|chargers| format!(r#", "chargers": {chargers}"#));
+            let degrees = vertiport.degrees.map(|Degrees { latitude, longitude }| {
+                let (latitude, longitude) = (number(latitude), number(longitude));
+                format!(r#", "latitude": {latitude}, "longitude": {longitude}"#)
+            });
             format!(
-                r#"{{"id": {}, "x_mi": {}, "y_mi": {}, "stands": {}{}, "busy": {}}}"#,
+                r#"{{"id": {}, "x_mi": {}, "y_mi": {}, "stands": {}{}, "busy": {}{}}}"#,
                 text(&vertiport.id),
                 number(vertiport.x_mi),
                 number(vertiport.y_mi),
                 vertiport.stands,
                 chargers.unwrap_or_default(),
-                vertiport.busy
+                vertiport.busy,
+                degrees.unwrap_or_default()
             )
         };
         lines(self.vertiports.iter().map(vertiport), 2)
@@ -125,8 +143,10 @@ impl Scenario {
         }
         if !closures.is_empty() {
             let closure = |closure: &Closure| {
-                let Closure { route, start, end } = closure;
-                format!(r#"{{{}, "start": "{start}", "end": "{end}"}}"#, self.route_json(*route))
+                let Closure { route, start, end, known } = *closure;
+                let known = if known { r#", "known": true"# } else { "" };
+                let route = self.route_json(route);
+                format!(r#"{{{route}, "start": "{start}", "end": "{end}"{known}}}"#)
             };
             members.push(("closures", lines(closures.iter().map(closure), 2)));
         }

@@ -6,6 +6,11 @@ use vertifleet_core::{DaySeed, Network, Scenario};
 
 const SCENARIO: &str = include_str!("data/small.json");
 const NETWORK: &str = include_str!("data/small.toml");
+/// The same with costs, places, and demand by hour and pair.
+const FULL_SCENARIO: &str = include_str!("data/full.json");
+const FULL_NETWORK: &str = include_str!("data/full.toml");
+const TABLE: &str =
+    "period,from,to,passengers\n06:00:00,A,B,2.5\n08:00:00,B,A,12\n8:00:00,A,B,1e-3\n";
 
 /// Numbers and other words that readers stumble over.
 const WORDS: &[&str] = &[
@@ -140,6 +145,40 @@ fn read_network(text: &[u8]) {
     }
 }
 
+/// The readers take what the mutations start from.
+#[test]
+fn the_full_files_are_read() {
+    let scenario = Scenario::from_json(FULL_SCENARIO.as_bytes(), "full.json").expect("a scenario");
+    assert_eq!(scenario.to_json(), FULL_SCENARIO);
+    Network::from_toml(FULL_NETWORK, "full.toml").expect("a network");
+}
+
+proptest! {
+    #![proptest_config(Config { failure_persistence: None, ..Config::with_cases(200) })]
+
+    #[test]
+    fn no_changed_table_makes_the_reader_panic(
+        mutations in prop::collection::vec(mutation(), 1..4),
+    ) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("net.toml");
+        let pairs = FULL_NETWORK;
+        let begin = pairs.find("pairs = ").expect("rows");
+        let end = begin + pairs[begin..].find('\n').expect("the end of their line");
+        let text = format!("{}table = \"demand.csv\"{}", &pairs[..begin], &pairs[end..]);
+        std::fs::write(&path, text).expect("a free folder");
+        std::fs::write(folder.path().join("demand.csv"), mutated(TABLE, &mutations)).expect("a free folder");
+        match Network::read(&path) {
+            Ok(network) => {
+                let again = Network::from_toml(network.toml(), "again").expect("its own text");
+                assert_eq!(again.toml(), network.toml());
+                obeys_every_rule(&network.draw(DaySeed::comparison(1).expect("small")));
+            }
+            Err(error) => assert!(error.to_string().len() < 2_000, "messages stay short: {error}"),
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(Config { failure_persistence: None, ..Config::with_cases(2_000) })]
 
@@ -154,6 +193,7 @@ proptest! {
         mutations in prop::collection::vec(mutation(), 1..4),
     ) {
         read_scenario(&mutated(SCENARIO, &mutations));
+        read_scenario(&mutated(FULL_SCENARIO, &mutations));
     }
 
     #[test]
@@ -161,6 +201,7 @@ proptest! {
         mutations in prop::collection::vec(mutation(), 1..4),
     ) {
         read_network(&mutated(NETWORK, &mutations));
+        read_network(&mutated(FULL_NETWORK, &mutations));
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! What goes beyond the paper: files hold it, networks draw it, and it leaves everything else as it was.
 
 use vertifleet_core::{
-    AircraftIx, Closure, Day, DaySeed, Disturbances, Fares, Network, Outage, Route, Scenario,
-    TakeoffDelays, Time, VertiportIx,
+    AircraftIx, ClosedTimes, Closure, Day, DaySeed, Disturbances, Fares, Network, Outage, Route,
+    Scenario, TakeoffDelays, Time, VertiportIx,
 };
 
 const SCENARIO: &str = include_str!("data/small.json");
@@ -17,6 +17,27 @@ closures = [
     { probability = 0.5, least_s = 1800, most_s = 7200, routes = [{ from = "V1", to = "V2", both_ways = true }] },
 ]
 outages = { probability = 0.2, least_s = 3600, most_s = 14400 }
+"#;
+
+/// A curfew at two vertiports, before and after the hours in which they may be used, and a fog that nobody knows of.
+const CLOSURES: &str = r#"
+[[closures]]
+start = "00:00:00"
+end = "07:00:00"
+vertiports = ["V3", "V5", "V3"]
+
+[[closures]]
+start = "16:30:00"
+end = "30:00:00"
+routes = [{ from = "V1", to = "V2" }]
+vertiports = ["V3"]
+known = true
+
+[[closures]]
+start = "06:30:00"
+end = "08:30:00"
+routes = [{ from = "V1", to = "V3", both_ways = true }]
+known = false
 "#;
 
 fn seed(seed: u64) -> DaySeed {
@@ -52,8 +73,24 @@ fn everything() -> Day {
             delay_s: vec![vec![0, 60, 5], vec![1, 0, 0]],
         }),
         closures: vec![
-            Closure { route: route(0, 1, true), start: time("07:00:00"), end: time("08:00:00") },
-            Closure { route: route(2, 0, false), start: time("07:30:00"), end: time("07:30:00") },
+            Closure {
+                route: route(0, 1, true),
+                start: time("07:00:00"),
+                end: time("08:00:00"),
+                known: false,
+            },
+            Closure {
+                route: route(2, 0, false),
+                start: time("07:30:00"),
+                end: time("07:30:00"),
+                known: false,
+            },
+            Closure {
+                route: route(1, 2, true),
+                start: time("00:00:00"),
+                end: time("06:30:00"),
+                known: true,
+            },
         ],
         outages: vec![Outage {
             aircraft: AircraftIx(2),
@@ -275,4 +312,81 @@ fn the_pairs_of_new_york_are_2_to_40_miles_apart_and_18_on_the_mean() {
     for (found, due) in [(shortest, 2.0), (longest, 39.6), (mean, 18.0)] {
         assert!((found - due).abs() < 0.06, "{found} and not {due}");
     }
+}
+
+#[test]
+fn a_network_closes_what_it_says_at_the_same_times_every_day() {
+    let (open, closed) = (with(""), with(CLOSURES));
+    for number in 0..20 {
+        let mut day = closed.draw(seed(number)).into_day();
+        let closures = std::mem::take(&mut day.disturbances.closures);
+        assert_eq!(day, open.draw(seed(number)).into_day(), "all else is as it is without");
+        // 7 routes lead to V3, 7 to V5, and one joins the two.
+        assert_eq!(closures.len(), 13 + 1 + 7 + 1);
+        let all = ClosedTimes::of(&closures, 8);
+        let known = ClosedTimes::of(closures.iter().filter(|closure| closure.known), 8);
+        let time = |text: &str| text.parse::<Time>().expect("a time");
+        for (from, to, at, is_closed, is_known) in [
+            (2, 4, "06:59:59", true, true),
+            (4, 2, "06:59:59", true, true),
+            (7, 4, "06:00:00", true, true),
+            (4, 7, "07:00:00", false, false),
+            (0, 2, "07:00:00", true, false),
+            (2, 0, "08:30:00", false, false),
+            (2, 7, "16:30:00", true, true),
+            (4, 7, "16:30:00", false, false),
+            (0, 1, "25:00:00", true, true),
+            (1, 0, "25:00:00", false, false),
+        ] {
+            let (from, to) = (VertiportIx(from), VertiportIx(to));
+            assert_eq!(all.is_closed(from, to, time(at)), is_closed, "{from:?} {to:?} {at}");
+            assert_eq!(known.is_closed(from, to, time(at)), is_known, "{from:?} {to:?} {at}");
+        }
+    }
+}
+
+#[test]
+fn closures_of_every_day_come_beside_those_that_are_drawn() {
+    let (drawn, both) = (with(DISTURBANCES), with(&format!("{CLOSURES}{DISTURBANCES}")));
+    for number in 0..20 {
+        let drawn = drawn.draw(seed(number)).into_day().disturbances.closures;
+        let both = both.draw(seed(number)).into_day().disturbances.closures;
+        assert_eq!(both[22..], drawn);
+        assert!(drawn.iter().all(|closure| !closure.known), "nobody knows what is drawn");
+    }
+}
+
+#[test]
+fn a_network_closes_no_more_routes_than_a_day_may() {
+    let closure = "[[closures]]\nstart = \"06:00:00\"\nend = \"07:00:00\"\n\
+                   vertiports = [\"V1\", \"V2\", \"V3\", \"V4\", \"V5\", \"V6\", \"V7\"]\n";
+    let text =
+        |count| PAPER.replace("[feature_scales]", &(closure.repeat(count) + "[feature_scales]"));
+    // 28 routes each.
+    assert_eq!(network(&text(357)).draw(seed(1)).disturbances.closures.len(), 9_996);
+    let error = Network::from_toml(&text(358), "net.toml").expect_err("10,024 routes");
+    assert_eq!(error.code().to_string(), "V108");
+    let random = format!("{}{DISTURBANCES}", text(357)).replace(
+        "closures = [",
+        "closures = [\n\
+        { probability = 0.5, least_s = 1, most_s = 2, routes = [\n\
+            { from = \"V1\", to = \"V2\" }, { from = \"V1\", to = \"V3\" },\n\
+            { from = \"V1\", to = \"V4\" }, { from = \"V1\", to = \"V5\" },\n\
+        ] },",
+    );
+    let error = Network::from_toml(&random, "net.toml").expect_err("10,001 routes");
+    assert_eq!(error.code().to_string(), "V108");
+    assert!(error.to_string().contains("found 10001"), "{error}");
+}
+
+#[test]
+fn the_closures_on_the_page_of_files_are_good_ones() {
+    let page = include_str!("../../../docs/src/reference/files.md");
+    let examples = page.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next());
+    let closures: Vec<&str> = examples.filter(|text| text.contains("[[closures]]")).collect();
+    assert_eq!(closures.len(), 1);
+    let text = NEW_YORK.replace("[feature_scales]", &format!("{}[feature_scales]", closures[0]));
+    let day = network(&text).draw(seed(1));
+    let lists = day.disturbances.closures.iter().filter(|closure| closure.known).count();
+    assert_eq!(lists, 8 + 8, "JRB is closed twice a day");
 }

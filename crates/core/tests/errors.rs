@@ -66,6 +66,12 @@ const SCENARIO_CHANGES: &[Change] = &[
     (r#"["06:00:00", "08:00:00"]"#, r#"["06:00:01", "08:00:00"]"#),
     (r#"["06:00:00", "08:00:00"]"#, r#"["06:00:00", "06:00:00"]"#),
     ("[8, 0, 0]", "[8, 0, 1]"),
+    // Costs beside those of the paper, and places.
+    ("[0.2, 0.31]", "[0.2, 0.31],\n  \"aircraft_cost\": -1"),
+    ("[0.2, 0.31]", "[0.2, 0.31],\n  \"flight_cost\": [[0, 1], [1, 0]]"),
+    ("[0.2, 0.31]", "[0.2, 0.31],\n  \"flight_cost\": [[0, 1, 2], [1, 0, -3], [2, 3, 0]]"),
+    (r#""stands": 1"#, r#""stands": 1, "latitude": 40"#),
+    (r#""stands": 1"#, r#""stands": 1, "latitude": 40, "longitude": 181"#),
     // Beyond the paper.
     ("[0, 48.1, 60]", "[[0, 48.1, 60]]"),
     (r#""stands": 1"#, r#""stands": 1, "chargers": 0"#),
@@ -117,6 +123,11 @@ const NETWORK_CHANGES: &[Change] = &[
     ("id = \"B\"", "id = \"A\""),
     ("count = 2", "count = 4"),
     ("start = \"06:00:00\"", "start = \"05:59:59\""),
+    ("fare_base = 2", "fare_base = 2\nflight_cost_usd = -1"),
+    ("fare_base = 2", "fare_base = 2\nflight_cost_usd_per_mi = 1e4"),
+    ("fare_base = 2", "fare_base = 2\nflight_cost_usd = 1e6\nflight_cost_usd_per_mi = 1"),
+    ("fare_base = 2", "fare_base = 2\naircraft_cost_usd_per_day = inf"),
+    ("fare_base = 2", "fare_base = 2\nboarding_fee_usd = -5"),
     // Beyond the paper.
     ("y_mi = 0", "latitude = 0"),
     ("x_mi = 0\ny_mi = 0", "latitude = 40\nlongitude = -74"),
@@ -140,10 +151,100 @@ const NETWORK_CHANGES: &[Change] = &[
     ),
     (
         "[feature_scales]",
+        "[[closures]]\nstart = \"22:00:00\"\nend = \"06:00:00\"\nvertiports = [\"A\"]\n[feature_scales]",
+    ),
+    (
+        "[feature_scales]",
+        "[[closures]]\nstart = \"22:00:00\"\nend = \"36:00:01\"\nvertiports = [\"A\"]\n[feature_scales]",
+    ),
+    (
+        "[feature_scales]",
+        "[[closures]]\nstart = \"22:00:00\"\nend = \"30:00:00\"\n[feature_scales]",
+    ),
+    (
+        "[feature_scales]",
+        "[[closures]]\nstart = \"06:00:00\"\nend = \"07:00:00\"\nvertiports = [\"A\", \"C\"]\n[feature_scales]",
+    ),
+    (
+        "[feature_scales]",
+        "[[closures]]\nstart = \"06:00:00\"\nend = \"07:00:00\"\n\
+         routes = [{ from = \"A\", to = \"B\" }, { from = \"B\", to = \"B\" }]\n[feature_scales]",
+    ),
+    (
+        "[feature_scales]",
+        "[[closures]]\nstart = \"06:00:00\"\nend = \"07:00:00\"\nvertiports = [\"A\"]\n\
+         announced = true\n[feature_scales]",
+    ),
+    (
+        "[feature_scales]",
         "[disturbances.takeoff_delays]\nslot_s = 900\nvertiports = [{ at = \"A\", probability = 0.1, \
          mean_s = -1, most_s = 9 }]\n[feature_scales]",
     ),
 ];
+
+/// What stands in the place of the good network's `[demand]`.
+const HOURLY_DEMANDS: &[&str] = &[
+    "pairs = []\ntable = \"demand.csv\"",
+    "",
+    "table = \"demand.csv\"",
+    "pairs = [{ from = \"A\", to = \"Z\", passengers = [1, 2] }]",
+    "pairs = [{ from = \"A\", to = \"A\", passengers = [1, 2] }]",
+    "pairs = [{ from = \"A\", to = \"B\", passengers = [1] }]",
+    "pairs = [{ from = \"A\", to = \"B\", passengers = [1, -2] }]",
+    "pairs = [{ from = \"A\", to = \"B\", passengers = [1, 2] }, { from = \"A\", to = \"B\", passengers = [1, 2] }]",
+    "pairs = []\ndistribution = \"gaussian\"",
+    "pairs = []\ndistribution = \"poisson\"\nnoise = 0.1",
+    "pairs = []\ndispersion = 0.1",
+    "pairs = []\ndistribution = \"negative-binomial\"",
+    "pairs = []\ndistribution = \"negative-binomial\"\ndispersion = 0",
+    "pairs = []\ndistribution = \"negative-binomial\"\ndispersion = 1\nnoise = 0.1",
+    "pairs = []\ndistribution = \"normal\"",
+    "pairs = []\nnoise = 0.5",
+];
+
+/// Tables beside the network file.
+const TABLES: &[&str] = &[
+    "",
+    "period;from;to;passengers\n06:00:00;A;B;1",
+    "period,from,to\n",
+    "period,from,to,passengers\n06:00:00,A,B",
+    "period,from,to,passengers\nsix,A,B,1",
+    "period,from,to,passengers\n06:30:00,A,B,1",
+    "period,from,to,passengers\n\n06:00:00,A,B,1\n08:00:00,A,\"Z\"\"\",1",
+    "period,from,to,passengers\r\n06:00:00,A,B,1\r\n08:00:00,B,B,1",
+    "period,from,to,passengers\n06:00:00,A,B,many",
+    "period,from,to,passengers\n06:00:00,A,B,\"1,5\"",
+    "period,from,to,passengers\n06:00:00,A,B,-1",
+    "period,from,to,passengers\n06:00:00,A,B,NaN",
+    "period,from,to,passengers\n06:00:00,A,B,1\n8:00:00,A,B,1\n6:00:00,A,B,2",
+];
+
+/// The good network with hourly demand.
+fn hourly(members: &str) -> String {
+    let begin = NETWORK.find("[demand]").expect("a demand model");
+    let end = NETWORK.find("[feature_scales]").expect("what follows it");
+    let periods = "periods = [\"06:00:00\", \"08:00:00\"]";
+    format!("{}[hourly_demand]\n{periods}\n{members}\n\n{}", &NETWORK[..begin], &NETWORK[end..])
+}
+
+/// The error of a table beside the good network. Its path is left out of it.
+fn error_of_table(folder: &std::path::Path, table: &[u8]) -> Option<Error> {
+    std::fs::write(folder.join("demand.csv"), table).expect("a free folder");
+    std::fs::write(folder.join("net.toml"), hourly("table = \"demand.csv\""))
+        .expect("a free folder");
+    let mut error = Network::read(folder.join("net.toml")).err()?;
+    if let Error::TableRow { origin, .. }
+    | Error::UnknownId { origin, .. }
+    | Error::OutOfRange { origin, .. }
+    | Error::RouteToItself { origin, .. }
+    | Error::GivenTwice { origin, .. }
+    | Error::FileTooLarge { origin, .. } = &mut error
+    {
+        assert_eq!(*origin, folder.join("demand.csv").display().to_string());
+        "demand.csv".clone_into(origin);
+    }
+    Some(error)
+}
 
 fn changed(text: &str, (from, to): Change) -> String {
     assert!(text.contains(from), "the good file has {from}");
@@ -168,8 +269,24 @@ fn provoked() -> Vec<(String, Error)> {
     }
     add("a scenario that is a list".into(), Scenario::from_json(b"[]", "day.json").err());
     add("an empty scenario".into(), Scenario::from_json(b"", "day.json").err());
-    let long = " ".repeat((1 << 20) + 1);
-    add("a network of 1 MiB and a byte".into(), Network::from_toml(&long, "net.toml").err());
+    let long = " ".repeat((32 << 20) + 1);
+    add("a network of 32 MiB and a byte".into(), Network::from_toml(&long, "net.toml").err());
+    for members in HOURLY_DEMANDS {
+        let error = Network::from_toml(&hourly(members), "net.toml").err();
+        add(format!("hourly demand: {members}"), error);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for table in TABLES {
+        add(format!("table: {table}"), error_of_table(folder.path(), table.as_bytes()));
+    }
+    let long = vec![b' '; (16 << 20) + 1];
+    add("a table of 16 MiB and a byte".into(), error_of_table(folder.path(), &long));
+    add(
+        "a network for a scenario".into(),
+        Scenario::from_json(NETWORK.as_bytes(), "net.toml").err(),
+    );
+    add("a scenario for a network".into(), Network::from_toml(SCENARIO, "day.json").err());
+    add("JSON for a network".into(), Network::from_toml("\n {}", "any.json").err());
     add("no such file".into(), Scenario::read("no/such/day.json").err());
     add("no such folder".into(), small().write("no/such/folder/day.json").err());
     add("no such network".into(), Network::find("paepr").err());
@@ -188,7 +305,7 @@ fn small() -> Scenario {
 fn every_error_names_file_member_value_and_rule() {
     let mut list = String::new();
     for (how, error) in provoked() {
-        let how = how.replace('\n', "\\n");
+        let how = how.replace('\r', "\\r").replace('\n', "\\n");
         writeln!(list, "{how}\n    error[{}]: {error}", error.code()).expect("a String");
         if let Some(hint) = error.hint() {
             writeln!(list, "    hint: {hint}").expect("a String");
@@ -203,6 +320,9 @@ fn every_code_can_be_provoked() {
     let mut stranded = small().into_day();
     stranded.aircraft_types[1].battery_kwh = 10.0;
     let warnings = stranded.check("day.json").expect("a valid day").warnings();
+    codes.extend(warnings.iter().map(vertifleet_core::Warning::code));
+    let far = changed(NETWORK, ("x_mi = 30.5", "x_mi = 3050"));
+    let warnings = Network::from_toml(&far, "net.toml").expect("a network").warnings();
     codes.extend(warnings.iter().map(vertifleet_core::Warning::code));
     let listed: BTreeSet<Code> = error::ALL.iter().map(|&(code, _)| code).collect();
     assert_eq!(codes, listed);

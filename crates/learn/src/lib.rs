@@ -13,6 +13,7 @@ mod curve;
 mod curve_files;
 mod error;
 mod features;
+pub mod kinds;
 mod learned;
 pub mod nn;
 mod ppo;

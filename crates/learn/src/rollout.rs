@@ -288,8 +288,14 @@ mod tests {
     use crate::nn::{Architecture, GcapsSettings, Network as Net};
     use crate::settings::{Reward, Settings};
 
+    /// Days of `paper` on which flights and aircraft cost something beside.
     fn source() -> Source {
         let network = Network::shipped("paper").expect("a shipped network");
+        let costs = [("flight_cost_usd", 20), ("aircraft_cost_usd_per_day", 100)];
+        let costs: Vec<(String, serde_json::Value)> =
+            costs.map(|(member, usd)| (format!("tariffs.{member}"), usd.into())).into();
+        let network = network.changed(costs.iter().map(|(path, usd)| (path, usd)));
+        let network = network.expect("a network");
         Source { network: Arc::new(network), run_seed: 5 }
     }
 

@@ -12,7 +12,8 @@ use crate::error::Error;
 pub enum Reward {
     /// All of it at the end of the day, as in the paper.
     Terminal,
-    /// Each flight's share when it is decided; the shares of a day add up to the same total.
+    /// Each flight's share when it is decided, and at the end what the fleet costs; the shares of a day add up to the same
+    /// total.
     Dense,
 }
 
@@ -20,7 +21,11 @@ impl Reward {
     /// What a decision pays, given what it came to and the day after it; `over` says whether it was the day's last.
     pub fn of(self, outcome: &TraceRow, day: &Simulation, over: bool) -> f64 {
         match self {
-            Self::Dense => share(outcome.profit_usd(), day.potential_usd()),
+            Self::Dense => {
+                // What the fleet costs is no flight's; it is paid for with the last decision.
+                let fleet_usd = if over { day.ledger().aircraft_cost_usd } else { 0.0 };
+                share(outcome.profit_usd() - fleet_usd, day.potential_usd())
+            }
             Self::Terminal if over => day.summary().reward,
             Self::Terminal => 0.0,
         }

@@ -1,58 +1,61 @@
 //! The certified upper bound: what no schedule of a day can earn more than.
 //!
 //! Stands and passengers get prices (`bound/prices.rs`). Prices prove a bound in exact arithmetic, whatever they are
-//! (`bound/certificate.rs`), over a day that is laid out once (`bound/network.rs`); a search finds prices that prove a good
-//! one (`bound/descent.rs`). docs/src/concepts/bound.md has the proof. A bound can be kept in a file (`bound/cache.rs`).
+//! (`bound/certificate.rs`), over a day that is laid out once (`bound/network.rs`). What the fleet would do at them
+//! (`bound/ways.rs`) says how to better them (`bound/descent.rs`), from coarse slices of time to fine ones (`bound/ladder.rs`).
+//! docs/src/concepts/bound.md has the proof. A bound can be kept in a file (`bound/cache.rs`).
 
 mod cache;
 mod certificate;
 mod descent;
+mod ladder;
+mod master;
 mod money;
 mod network;
 mod prices;
 #[cfg(test)]
 mod proof_tests;
 mod slices;
+mod ways;
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use vertifleet_core::{Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_core::{Scenario, Time, VertiportIx};
 
 use crate::Error;
-use certificate::Certificate;
-use descent::descend;
+use descent::Found;
 use network::Network;
 use prices::Prices;
+use slices::Slices;
 
 pub use cache::cached_upper_bound;
+pub(crate) use ladder::Watch;
 
-/// How long prices stay the same: a whole number of minutes from 1 to 60. Shorter steps give a tighter bound, later.
+/// How long prices stay the same at most: a whole number of minutes from 1 to 60. A shorter step never gives a looser bound, and
+/// takes longer.
+///
+/// Slices of time have 60, 15, 5, 3 or 1 minutes: the longest of these that is no longer than the step asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
     minutes: u32,
 }
 
 impl Step {
-    /// Prices that stay the same for so many minutes.
+    /// Prices that stay the same for at most so many minutes.
     ///
     /// # Errors
     /// [`Error::Step`] unless `minutes` is from 1 to 60.
     pub fn from_minutes(minutes: u32) -> Result<Self, Error> {
         if (1..=60).contains(&minutes) {
-            Ok(Self { minutes })
+            Ok(Self { minutes: ladder::cut_within(minutes) })
         } else {
             Err(Error::Step { found: minutes })
         }
     }
 
-    /// The same in seconds.
+    /// The length of the slices, seconds.
     pub fn seconds(self) -> u32 {
         60 * self.minutes
-    }
-
-    /// Steps of the search for prices: more prices take more of them.
-    fn effort(self) -> u32 {
-        (2_000 / self.minutes).max(200)
     }
 }
 
@@ -67,9 +70,10 @@ impl Default for Step {
 #[derive(Debug, Clone)]
 pub struct Bound {
     step: Step,
-    network: Network,
+    slices: Slices,
     prices: Prices,
-    certificate: Certificate,
+    /// By period, from, to: what one more passenger is worth at most, micro-dollars.
+    passenger_worth: Vec<i64>,
     micro_usd: i128,
 }
 
@@ -91,18 +95,59 @@ pub fn upper_bound_unless(
     scenario: &Scenario,
     step: Step,
 ) -> Result<Option<Bound>, Error> {
-    let network = Network::of(scenario, step.seconds())?;
-    let mut certificate = Certificate::new(&network);
-    let zero = Prices::zero(&network);
-    let prices = descend(&network, &mut certificate, zero, step.effort(), stopped);
-    Ok(prices.map(|prices| Bound::proven(step, network, certificate, prices)))
+    let bound = search(scenario, step, &Unless { stopped })?;
+    Ok(bound.filter(|_| !stopped.load(Ordering::Relaxed)))
+}
+
+/// As [`upper_bound`], while `watch` follows it: the best bound by the time that it wants no more, none if that is before the first.
+///
+/// # Errors
+/// Those of [`upper_bound`].
+pub(crate) fn search(
+    scenario: &Scenario,
+    step: Step,
+    watch: &dyn Watch,
+) -> Result<Option<Bound>, Error> {
+    ladder::climb(scenario, step, watch)
+}
+
+/// Whether a day is not too large for a bound with this step.
+///
+/// # Errors
+/// [`Error::TooManyFlights`] if it is.
+pub(crate) fn fits(scenario: &Scenario, step: Step) -> Result<(), Error> {
+    Network::fits(scenario, step.seconds())
+}
+
+/// Follows nothing.
+struct Unless<'a> {
+    stopped: &'a AtomicBool,
+}
+
+impl Watch for Unless<'_> {
+    fn stopped(&self) -> &AtomicBool {
+        self.stopped
+    }
+
+    fn has_come(&self, _: f64) {}
+
+    fn has_found(&self, _: &Bound) {}
+
+    fn is_lowest(&self, _: f64) -> bool {
+        false
+    }
 }
 
 impl Bound {
-    /// What `prices` prove.
-    fn proven(step: Step, network: Network, mut certificate: Certificate, prices: Prices) -> Self {
-        let micro_usd = certificate.evaluate(&network, &prices);
-        Self { step, network, prices, certificate, micro_usd }
+    /// What prices have been found to prove.
+    fn of(step: Step, network: &Network, found: &Found) -> Self {
+        Self {
+            step,
+            slices: network.slices.clone(),
+            passenger_worth: network.worth_of_passengers(&found.prices),
+            prices: found.prices.clone(),
+            micro_usd: found.bound(network),
+        }
     }
 
     /// No schedule of the day earns more, dollars.
@@ -110,38 +155,33 @@ impl Bound {
         money::usd_up(self.micro_usd)
     }
 
-    /// How long prices stay the same at most, seconds.
+    /// How long prices stay the same at most, seconds. It may be longer than what was asked for, where longer slices prove more.
     pub fn step_s(&self) -> u32 {
         self.step.seconds()
     }
 
-    /// What an aircraft of a type that is ready at a vertiport may still earn at most, after it has paid for stands and
-    /// passengers at the bound's prices; dollars, to the second. 0 past the last take-off time.
-    ///
-    /// `None` for a type that has no aircraft.
-    pub fn worth_usd(&self, kind: TypeIx, vertiport: VertiportIx, time: Time) -> Option<f64> {
-        let layer = self.network.layers.iter().position(|layer| layer.kind == kind)?;
-        let second = time.seconds().saturating_sub(self.network.slices.start_s(0));
-        let worth = self.certificate.worth(&self.network, layer, vertiport.at(), second as usize);
-        Some(money::usd(worth))
-    }
-
-    /// What one more stand is worth during the step that contains a time, dollars. 0 past the last take-off time.
+    /// What one more stand costs during the step that contains a time, dollars. 0 past the last take-off time.
     pub fn stand_price_usd(&self, vertiport: VertiportIx, time: Time) -> f64 {
-        let slice = self.network.slices.containing(time.seconds());
-        let at = slice * self.network.size() + vertiport.at();
+        let slice = self.slices.containing(time.seconds());
+        let at = slice * self.size() + vertiport.at();
         self.prices.stand.get(at).map_or(0.0, |&price| money::usd(price))
     }
 
-    /// What one more stand is worth all day, dollars.
+    /// With one more stand all day, no schedule earns more than the bound and so many dollars: its price over the day.
     pub fn stand_worth_usd(&self, vertiport: VertiportIx) -> f64 {
         let prices = self.prices.stand.iter().skip(vertiport.at());
-        money::usd(prices.step_by(self.network.size()).sum())
+        money::usd(prices.step_by(self.size()).sum())
     }
 
-    /// What one more passenger of a demand period is worth, dollars.
+    /// With one more passenger of a demand period, no schedule earns more than the bound and so many dollars: the passenger's price, or
+    /// all that a passenger earns where fewer want to fly than an aircraft has seats.
     pub fn passenger_worth_usd(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
-        let size = self.network.size();
-        money::usd(self.prices.demand[(period * size + from.at()) * size + to.at()])
+        let size = self.size();
+        money::usd(self.passenger_worth[(period * size + from.at()) * size + to.at()])
+    }
+
+    /// Number of vertiports.
+    fn size(&self) -> usize {
+        self.prices.stand.len() / self.slices.len()
     }
 }

@@ -1,8 +1,8 @@
 //! The planner: the best schedule it can find for a day that is known.
 //!
-//! [`plan`] starts from the best day of the policies that need no learning and improves it by large-neighbourhood search (`plan/search.rs`), whose
-//! moves are exact: the best way on for one aircraft while the others keep their flights (`plan/route_search.rs`). What it
-//! returns has been played in the simulator.
+//! [`plan`] starts from the best day of any policy (`plan/start.rs`) and improves it by large-neighbourhood search
+//! (`plan/search.rs`), whose moves are exact: the best way on for one aircraft while the others keep their flights
+//! (`plan/route_search.rs`). What it returns has been played in the simulator.
 
 mod day;
 mod foresight;
@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use vertifleet_core::Scenario;
-use vertifleet_policy::draw;
+use vertifleet_policy::{Policy, draw};
 use vertifleet_sim::Trace;
 
 use crate::Error;
@@ -35,8 +35,10 @@ const ROUNDS_A_MEETING: u64 = 100;
 const HOT_USD: f64 = 4.0;
 const COLD_USD: f64 = 1.0;
 
-/// Share of the time that the rolling horizon may take for a day to start from.
-const ROLLING: f64 = 0.5;
+/// Share of a day, or five times that of the limit, from which on it is judged whether a policy that plays the day will be done in time.
+const JUDGED_FROM: f64 = 0.05;
+/// Seconds that a round takes at most where time is limited, so that days of any size are watched many times a second.
+const ROUND_S: f64 = 0.05;
 
 /// How long to search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +78,7 @@ pub struct Plan {
     pub trace: Trace,
     /// What the day earns, as the simulator accounts for it, dollars.
     pub profit_usd: f64,
-    /// What the best policy that needs no learning earns, dollars; the plan is never worse.
+    /// What the best policy earns whose day was played within the budget, dollars; the plan is never worse.
     pub best_policy_usd: f64,
     /// Steps of each search.
     pub steps: u64,
@@ -93,24 +95,59 @@ pub fn can_plan(scenario: &Scenario) -> Result<(), Error> {
     })
 }
 
-/// Plans a day that is known in full: actual demand, delays, closures and outages. `watch` sees how far the plan is, many
-/// times a second on networks of usual size, and says whether to go on; when it says no, the plan is the best found by then.
+/// How many steps of a search on this day are about as much work as `paper_steps` are on a day of `paper`; at least one. A step
+/// looks at every flight from every vertiport in every minute.
+pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
+    const PAPER_LOOKS: u64 = 8 * 8 * 720;
+    let minutes = u64::from(scenario.operations.end.since(scenario.operations.start)) / 60;
+    let looks = (scenario.vertiports.len() as u64).pow(2) * minutes;
+    (paper_steps * PAPER_LOOKS / looks.max(PAPER_LOOKS)).max(1)
+}
+
+/// Plans a day that is known in full: actual demand, delays, closures and outages. The plan is never worse than the day of any
+/// policy that needs no learning, nor of any of `more`, as far as they can be played within the budget; the quick ones come
+/// first and the rolling horizon last. `watch` sees how far the plan is, many times a second, and says whether to go on; when
+/// it says no, the plan is the best found by then.
+///
+/// A limit of time is kept within a second or a tenth of it, whatever the size of the day.
 ///
 /// # Errors
 /// As [`can_plan`].
 pub fn plan(
     scenario: &Arc<Scenario>,
     settings: &Settings,
+    more: &mut [Box<dyn Policy>],
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Plan, Error> {
     can_plan(scenario)?;
-    let begun = Instant::now();
-    let (trace, profit_usd) = start::best_policy(scenario, |profit_usd| {
-        let share = share(settings.budget, begun, 0);
-        let late = matches!(settings.budget, Budget::Time(_)) && share > ROLLING;
-        !late && watch(&Progress { share, steps: 0, profit_usd })
+    let clock = Clock { budget: settings.budget, begun: Instant::now() };
+    let mut stopped = false;
+    let (trace, profit_usd) = start::best_policy(scenario, more, &mut {
+        let mut day_begun = Instant::now();
+        let (clock, stopped, watch) = (&clock, &mut stopped, &mut *watch);
+        move |profit_usd, day_share: Option<f64>| {
+            *stopped |= !watch(&Progress { share: clock.share(0), steps: 0, profit_usd });
+            let Some(day_share) = day_share else {
+                day_begun = Instant::now();
+                return !*stopped && clock.has_time();
+            };
+            !*stopped && clock.leaves_time_for(day_begun, day_share)
+        }
     });
     let mut plan = Plan { trace, profit_usd, best_policy_usd: profit_usd, steps: 0 };
+    if !stopped && clock.share(0) < 1.0 {
+        search(scenario, (settings, &clock), &mut plan, watch);
+    }
+    Ok(plan)
+}
+
+/// Improves a plan until the budget is gone or `watch` says no.
+fn search(
+    scenario: &Arc<Scenario>,
+    (settings, clock): (&Settings, &Clock),
+    plan: &mut Plan,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) {
     let problem = Problem::of(scenario);
     let first = start::schedule_of(&problem, &plan.trace);
     let mut searches: Vec<Search> = (0_u32..)
@@ -118,38 +155,79 @@ pub fn plan(
         .map(|number| Search::new(first.clone(), draw(settings.seed, scenario.seed, number)))
         .collect();
     for round in 1.. {
-        let share = share(settings.budget, begun, plan.steps);
+        let share = clock.share(plan.steps);
         let progress = Progress { share, steps: plan.steps, profit_usd: plan.profit_usd };
         if !watch(&progress) || share >= 1.0 {
             break;
         }
         let temperature_usd = HOT_USD * (COLD_USD / HOT_USD).powf(share);
-        let steps = match settings.budget {
-            Budget::Time(_) => STEPS_A_ROUND,
-            Budget::Steps(limit) => STEPS_A_ROUND.min(limit - plan.steps),
-        };
-        searches.par_iter_mut().for_each(|search| {
-            for _ in 0..steps {
+        let steps = clock.steps_a_round(plan.steps);
+        let until = clock.end_of_round();
+        let taken = searches.par_iter_mut().map(|search| {
+            let goes_on = || until.is_none_or(|until| Instant::now() < until);
+            let mut taken = 0;
+            while taken < steps && goes_on() {
                 search.step(&problem, temperature_usd);
+                taken += 1;
             }
+            taken
         });
-        plan.steps += steps;
+        plan.steps += taken.min().expect("there is a search");
         if round % ROUNDS_A_MEETING == 0 {
             meet(&mut searches);
         }
-        keep_best(scenario, &searches, &mut plan);
+        keep_best(scenario, &searches, plan);
     }
-    Ok(plan)
 }
 
-/// Share of a budget that is gone, at most 1.
-fn share(budget: Budget, begun: Instant, steps: u64) -> f64 {
-    let share = match budget {
-        Budget::Time(limit) => begun.elapsed().as_secs_f64() / limit.as_secs_f64().max(1e-9),
-        Budget::Steps(0) => 1.0,
-        Budget::Steps(limit) => steps as f64 / limit as f64,
-    };
-    share.min(1.0)
+/// A budget that is being spent.
+struct Clock {
+    budget: Budget,
+    begun: Instant,
+}
+
+impl Clock {
+    /// Share that is gone after so many steps, at most 1.
+    fn share(&self, steps: u64) -> f64 {
+        let share = match self.budget {
+            Budget::Time(limit) => {
+                self.begun.elapsed().as_secs_f64() / limit.as_secs_f64().max(1e-9)
+            }
+            Budget::Steps(0) => 1.0,
+            Budget::Steps(limit) => steps as f64 / limit as f64,
+        };
+        share.min(1.0)
+    }
+
+    /// Whether there is time left, where time is what is limited.
+    fn has_time(&self) -> bool {
+        matches!(self.budget, Budget::Steps(_)) || self.share(0) < 1.0
+    }
+
+    /// Whether a day that is being played since `day_begun`, and of which a share is over, will be played to its end in time.
+    fn leaves_time_for(&self, day_begun: Instant, day_share: f64) -> bool {
+        let Budget::Time(limit) = self.budget else { return true };
+        let limit_s = limit.as_secs_f64();
+        let left_s = limit_s - self.begun.elapsed().as_secs_f64();
+        let played_s = day_begun.elapsed().as_secs_f64();
+        let to_come_s = played_s * (1.0 - day_share) / day_share;
+        let too_early = day_share < JUDGED_FROM && played_s < 5.0 * JUDGED_FROM * limit_s;
+        left_s > 0.0 && (too_early || to_come_s <= left_s)
+    }
+
+    /// Steps of each search in the round to come, at most.
+    fn steps_a_round(&self, done: u64) -> u64 {
+        match self.budget {
+            Budget::Time(_) => STEPS_A_ROUND,
+            Budget::Steps(limit) => STEPS_A_ROUND.min(limit - done),
+        }
+    }
+
+    /// When the round to come ends at the latest, where time is what is limited.
+    fn end_of_round(&self) -> Option<Instant> {
+        let Budget::Time(limit) = self.budget else { return None };
+        Some((self.begun + limit).min(Instant::now() + Duration::from_secs_f64(ROUND_S)))
+    }
 }
 
 /// The search that stands worst goes on from where the best one stands.

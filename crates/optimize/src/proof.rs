@@ -1,76 +1,170 @@
 //! A bound that is being proven while something else goes on, such as the search for a plan.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::Duration;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use vertifleet_core::Scenario;
 
-use crate::{Bound, Error, Step, upper_bound_unless};
+use crate::bound::{Watch, fits, search};
+use crate::{Bound, Error, Step};
 
 /// Minutes of the bound's slices, finest first; those after the first are for days that are too large for it.
 const STEPS_MIN: [u32; 4] = [3, 5, 15, 60];
 
-/// The finest bound that a day is not too large for, being proven on a thread of its own.
+/// The bound that a day is not too large for, with the finest slices, being proven on a thread of its own. At any time there is the best bound so
+/// far, as soon as there is one at all.
 pub struct Proof {
-    stopped: Arc<AtomicBool>,
-    from: Receiver<Result<Bound, Error>>,
-    outcome: Option<Result<Bound, Error>>,
+    shared: Arc<Shared>,
+}
+
+/// What the thread and its owner share.
+struct Shared {
+    stopped: AtomicBool,
+    /// The bits of a share.
+    has_come: AtomicU64,
+    /// The bits of the most that is known to be earned, dollars.
+    known_usd: AtomicU64,
+    state: Mutex<State>,
+    ended: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    best: Option<Arc<Bound>>,
+    end: Option<Result<(), Error>>,
+    panicked: bool,
 }
 
 impl Proof {
     /// Begins to prove.
     pub fn begin(scenario: &Arc<Scenario>) -> Self {
-        let (to, from) = channel();
-        let stopped = Arc::new(AtomicBool::new(false));
-        let (scenario, flag) = (Arc::clone(scenario), Arc::clone(&stopped));
-        // Not joined: whoever is in a hurry need not wait for it.
-        std::thread::spawn(move || {
-            if let Some(outcome) = finest_bound(&flag, &scenario).transpose() {
-                // Nobody listens any more if the plan was stopped.
-                let _ = to.send(outcome);
-            }
+        let shared = Arc::new(Shared {
+            stopped: AtomicBool::new(false),
+            has_come: AtomicU64::new(0.0_f64.to_bits()),
+            known_usd: AtomicU64::new(f64::NEG_INFINITY.to_bits()),
+            state: Mutex::default(),
+            ended: Condvar::new(),
         });
-        Self { stopped, from, outcome: None }
+        let (scenario, watch) = (Arc::clone(scenario), Ending(Arc::clone(&shared)));
+        // Not joined: a caller in a hurry need not wait for it.
+        std::thread::spawn(move || {
+            let end = prove(&scenario, &watch.0);
+            watch.0.lock().end = Some(end);
+        });
+        Self { shared }
     }
 
-    /// Waits until it is proven, but no longer than `patience`; whether it has come to an end.
+    /// The best bound so far.
+    pub fn best(&self) -> Option<Arc<Bound>> {
+        self.shared.lock().best.clone()
+    }
+
+    /// How far the search for the bound has come, as a share of its work.
+    pub fn share(&self) -> f64 {
+        f64::from_bits(self.shared.has_come.load(Ordering::Relaxed))
+    }
+
+    /// Whether the search has come to its end, so that [`Proof::best`] will not change any more.
+    pub fn has_ended(&self) -> bool {
+        self.shared.lock().end.is_some()
+    }
+
+    /// Some schedule earns so many dollars: a bound that comes down to it is as low as any can be, and the search ends.
+    pub fn knows(&self, profit_usd: f64) {
+        self.shared.known_usd.store(profit_usd.to_bits(), Ordering::Relaxed);
+    }
+
+    /// Waits until the search has come to its end, but no longer than `patience`; whether it has.
     ///
     /// # Panics
     /// If the thread that proves did.
-    pub fn wait(&mut self, patience: Duration) -> bool {
-        if self.outcome.is_none() {
-            self.outcome = match self.from.recv_timeout(patience) {
-                Ok(outcome) => Some(outcome),
-                Err(RecvTimeoutError::Timeout) => None,
-                Err(RecvTimeoutError::Disconnected) => {
-                    panic!("a proof ends with a bound or with an error")
-                }
-            };
-        }
-        self.outcome.is_some()
+    pub fn wait(&self, patience: Duration) -> bool {
+        let state = self.shared.lock();
+        let goes_on = |state: &mut State| state.end.is_none() && !state.panicked;
+        let (state, _) = self
+            .shared
+            .ended
+            .wait_timeout_while(state, patience, goes_on)
+            .unwrap_or_else(PoisonError::into_inner);
+        assert!(!state.panicked, "a proof ends with a bound or with an error");
+        state.end.is_some()
     }
 
-    /// The bound, if it is proven by now.
-    pub fn bound(&self) -> Option<&Bound> {
-        self.outcome.as_ref()?.as_ref().ok()
+    /// Asks the search to end, within about a tenth of a second; the best bound so far stays.
+    pub fn stop(&self) {
+        self.shared.stopped.store(true, Ordering::Relaxed);
     }
 
-    /// What came of it; nothing if it has not come to an end.
+    /// The best bound that a search for a plan may report that began at `begun` and had `limit` to take: the best by now. Where
+    /// there is none at all yet, the first one is waited for, no longer than for most of a second past the limit.
+    ///
+    /// # Errors
+    /// As [`Proof::outcome`].
+    pub fn best_in_time(self, begun: Instant, limit: Duration) -> Result<Option<Bound>, Error> {
+        let latest = limit + GRACE;
+        while self.best().is_none() && begun.elapsed() < latest && !self.wait(GLANCE) {}
+        self.outcome()
+    }
+
+    /// What has come of it by now: the best bound so far. The search ends if it has not.
     ///
     /// # Errors
     /// [`Error::TooManyFlights`] if the day is too large for any bound.
-    pub fn outcome(mut self) -> Result<Option<Bound>, Error> {
-        self.outcome.take().transpose()
+    pub fn outcome(self) -> Result<Option<Bound>, Error> {
+        let mut state = self.shared.lock();
+        state.end.take().unwrap_or(Ok(()))?;
+        Ok(state.best.as_deref().cloned())
     }
 }
 
 impl Drop for Proof {
     fn drop(&mut self) {
-        self.stopped.store(true, Ordering::Relaxed);
+        self.stop();
     }
 }
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        // No code that can panic runs while it is locked.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Tells the owner that the thread is over, however it ended.
+struct Ending(Arc<Shared>);
+
+impl Drop for Ending {
+    fn drop(&mut self) {
+        self.0.lock().panicked = std::thread::panicking();
+        self.0.ended.notify_all();
+    }
+}
+
+impl Watch for Shared {
+    fn stopped(&self) -> &AtomicBool {
+        &self.stopped
+    }
+
+    fn has_come(&self, share: f64) {
+        self.has_come.store(share.to_bits(), Ordering::Relaxed);
+    }
+
+    fn has_found(&self, bound: &Bound) {
+        let bound = Arc::new(bound.clone());
+        self.lock().best = Some(bound);
+    }
+
+    fn is_lowest(&self, bound_usd: f64) -> bool {
+        bound_usd <= f64::from_bits(self.known_usd.load(Ordering::Relaxed)) + CENT_USD
+    }
+}
+
+/// How long past its limit a plan waits for a first bound, and how often it looks.
+const GRACE: Duration = Duration::from_millis(800);
+const GLANCE: Duration = Duration::from_millis(10);
+/// Less than anyone would plan for.
+const CENT_USD: f64 = 0.01;
 
 impl Bound {
     /// [`gap`] of a profit to this bound.
@@ -79,19 +173,49 @@ impl Bound {
     }
 }
 
-/// Share of a bound by which a profit is below it; 0 where nothing can be earned.
+/// Share of a bound by which a profit is below it. Where nothing can be earned, or only a loss be kept small, it is the share of
+/// the loss that might be avoided, 0 to 1.
 pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
-    if bound_usd > 0.0 { (bound_usd - profit_usd) / bound_usd } else { 0.0 }
+    if bound_usd > 0.0 {
+        (bound_usd - profit_usd) / bound_usd
+    } else if profit_usd < 0.0 {
+        (bound_usd - profit_usd) / -profit_usd
+    } else {
+        0.0
+    }
 }
 
-/// The bound with the finest slices that the day is not too large for.
-fn finest_bound(stopped: &AtomicBool, scenario: &Scenario) -> Result<Option<Bound>, Error> {
-    let bound = |minutes| upper_bound_unless(stopped, scenario, Step::from_minutes(minutes)?);
-    let too_large = |outcome: &Result<Option<Bound>, Error>| {
-        matches!(outcome, Err(Error::TooManyFlights { .. }))
+/// Searches for the bound with the finest slices that the day is not too large for. The bound is what the watch has found.
+fn prove(scenario: &Scenario, watch: &Shared) -> Result<(), Error> {
+    let mut steps = STEPS_MIN.into_iter().map(Step::from_minutes);
+    let too_large = loop {
+        let step = steps.next().expect("the last one returns")?;
+        match fits(scenario, step) {
+            Ok(()) => return search(scenario, step, watch).map(|_| ()),
+            Err(error) if steps.len() == 0 => break error,
+            Err(_) => {}
+        }
     };
-    let [finest, coarser @ ..] = STEPS_MIN;
-    coarser.into_iter().fold(bound(finest), |outcome, minutes| {
-        if too_large(&outcome) { bound(minutes) } else { outcome }
-    })
+    Err(too_large)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::gap;
+
+    #[test]
+    fn a_gap_is_a_share_of_what_can_be_earned_or_of_the_loss() {
+        for (bound_usd, profit_usd, share) in [
+            (200.0, 150.0, 0.25),
+            (200.0, -100.0, 1.5),
+            (0.0, 0.0, 0.0),
+            (0.0, -70.0, 1.0),
+            // 100 $ of the loss cannot be helped, 25 $ can.
+            (-100.0, -125.0, 0.2),
+            (-100.0, -100.0, 0.0),
+        ] {
+            let found = gap(bound_usd, profit_usd);
+            assert!((found - share).abs() < 1e-12, "{bound_usd}, {profit_usd}: {found}");
+        }
+    }
 }

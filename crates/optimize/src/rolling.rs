@@ -34,17 +34,7 @@ impl Policy for Rolling {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
         let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
         prices.keep_up(*view, decision.time);
-        let listed = self.shortlist.rank(prices, *view, decision);
-        if let [(_, only)] = *listed {
-            return Ok(only);
-        }
-        let values_usd = self.trial.values_usd(prices, (*view, decision), listed);
-        let mut best = (f64::NEG_INFINITY, decision.at);
-        for (&usd, &(_, to)) in values_usd.iter().zip(listed) {
-            if usd > best.0 {
-                best = (usd, to);
-            }
-        }
-        Ok(best.1)
+        let listed = self.shortlist.rank_with_empty_flights(prices, *view, decision);
+        Ok(self.trial.best_choice(prices, (*view, decision), listed))
     }
 }

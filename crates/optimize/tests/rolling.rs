@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use common::{Size, any_day, any_extended_day};
 use rayon::prelude::*;
-use vertifleet_core::Scenario;
+use vertifleet_core::{DaySeed, Matrix, Network, Scenario};
 use vertifleet_optimize::Rolling;
-use vertifleet_policy::{Greedy, Policy, play};
+use vertifleet_policy::{Greedy, Policy, Priced, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
 const SMALL: Size = Size { vertiports: 5, fleet: 8, hours: 5 };
@@ -116,4 +116,45 @@ fn days_can_be_played_by_turns() {
             break;
         }
     }
+}
+
+/// A day on which so few want to fly that most flights would be empty.
+fn thin_day(number: u64) -> Arc<Scenario> {
+    let network = Network::shipped("new-york").expect("a shipped network");
+    let day = network.draw(DaySeed::validation(number).expect("a seed"));
+    let mut day = Scenario::clone(&day).into_day();
+    let forecast = day.disturbances.forecast.iter_mut().flatten();
+    for passengers in day.demand.iter_mut().chain(forecast).flat_map(Matrix::cells_mut) {
+        *passengers /= 12;
+    }
+    day.disturbances.takeoff_delays = None;
+    day.disturbances.outages.clear();
+    day.operations.end = day.operations.start + 3 * 3600;
+    day.aircraft.truncate(12);
+    Arc::new(day.check("a thin day").expect("a day"))
+}
+
+#[test]
+fn where_demand_is_thin_it_earns_as_much_as_the_rule_that_it_looks_ahead_with() {
+    let (mut rolling_usd, mut prices_usd, mut greedy_usd) = (0.0, 0.0, 0.0);
+    for number in 0..6 {
+        let day = thin_day(number);
+        rolling_usd += played(&day, &mut Rolling::default()).1;
+        prices_usd += played(&day, &mut Priced::default()).1;
+        greedy_usd += played(&day, &mut Greedy).1;
+    }
+    assert!(greedy_usd > 0.0, "some want to fly");
+    assert!(rolling_usd >= prices_usd, "{rolling_usd} is less than the {prices_usd} of prices");
+    assert!(rolling_usd >= greedy_usd, "{rolling_usd} is less than the {greedy_usd} of greedy");
+}
+
+#[test]
+fn where_nobody_wants_to_fly_nobody_flies() {
+    let mut idle = Scenario::clone(&thin_day(1)).into_day();
+    for table in idle.demand.iter_mut().chain(idle.disturbances.forecast.iter_mut().flatten()) {
+        table.cells_mut().fill(0);
+    }
+    let idle = Arc::new(idle.check("a day without demand").expect("a day"));
+    let (trace, _) = played(&idle, &mut Rolling::default());
+    assert!(trace.rows.iter().all(|row| row.to == row.from), "every aircraft holds");
 }

@@ -9,9 +9,10 @@ use crate::{Policy, PolicyError};
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Greedy;
 
-impl Policy for Greedy {
+impl Greedy {
+    /// The feasible flight with the highest profit per hour; a hold if none earns anything.
     #[inline]
-    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
+    pub(crate) fn flight_or_hold(view: View<'_>, decision: &Decision) -> VertiportIx {
         let kind = view.kind(decision.aircraft);
         let period = view.period();
         let mut best = (decision.at, 0.0);
@@ -24,6 +25,13 @@ impl Policy for Greedy {
                 best = (to, rate);
             }
         }
-        Ok(best.0)
+        best.0
+    }
+}
+
+impl Policy for Greedy {
+    #[inline]
+    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        Ok(Self::flight_or_hold(*view, decision))
     }
 }

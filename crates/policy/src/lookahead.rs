@@ -7,8 +7,8 @@ use crate::{Policy, PolicyError};
 
 /// Looks two flights ahead: this one, and the best one from where it ends, with the demand forecast for then.
 ///
-/// Who will stand where by then is not known, nor what will be closed, so the second flight takes a route that is open now to a
-/// vertiport that has a stand free now, or back to the one that this flight leaves. Holds if no flight earns anything; among equals the vertiport listed first
+/// Who will stand where by then is not known, so the second flight goes to a vertiport that has a stand free now, or back to the
+/// one that this flight leaves; by a route that is not closed unexpectedly now, nor known to be closed by then. Holds if no flight earns anything; among equals the vertiport listed first
 /// wins.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Lookahead;
@@ -53,9 +53,10 @@ fn best_rate(view: View<'_>, kind: TypeIx, decision: &Decision, to: VertiportIx)
     let has_room = |next: &VertiportIx| {
         *next == decision.at || view.stands_taken()[next.at()] < view.stands(*next)
     };
-    let closed = view.closed(to);
-    let next_flights =
-        view.within_range(kind, to).iter().filter(|&next| !closed.contains(next)).filter(has_room);
+    let (closed, known) = (view.closed_unexpectedly(to), view.known_closures());
+    let is_open =
+        |next: &VertiportIx| !closed.contains(*next) && !known.is_closed(to, *next, ready);
+    let next_flights = view.within_range(kind, to).iter().filter(is_open).filter(has_room);
     next_flights
         .map(|next| first.then(Prospect::of_flight(view, ready, kind, (to, next))).rate())
         .fold(first.rate(), f64::max)

@@ -7,16 +7,20 @@
 //! (`prices/relaxation.rs`). They come from what a [`View`] shows, so the future enters as its forecast. They guide and bound
 //! nothing: the certified bound is another crate's.
 
+mod base_rule;
 mod clock;
 mod hops;
+mod intervals;
 mod relaxation;
 mod units;
 mod volume;
 mod ways_on;
 
 use vertifleet_core::{Time, TypeIx, VertiportIx};
-use vertifleet_sim::{Decision, View};
+use vertifleet_sim::{Decision, Imagined, View};
 
+use base_rule::BaseRule;
+pub(crate) use base_rule::is_empty_flight;
 use relaxation::Relaxation;
 use units::units_usd;
 use volume::{Effort, Volume};
@@ -28,6 +32,8 @@ const FIRST: Effort = Effort { passes: 500, hops: 480_000_000, step: 1.0 };
 const AGAIN: Effort = Effort { passes: 150, hops: 37_000_000, step: 0.1 };
 /// Seconds after which prices are found anew. On days of `paper` 5 minutes earned no more.
 const RENEWAL_S: u32 = 900;
+/// Seconds after which the rule by which the fleet decides is chosen anew.
+const BASE_RULE_RENEWAL_S: u32 = 3_600;
 
 /// Prices for the rest of a day, and what they say about every choice.
 #[derive(Debug, Clone)]
@@ -38,29 +44,58 @@ pub struct DayPrices {
     made_at: Time,
     /// Openings and closings of routes that the prices know.
     route_changes: usize,
+    stake_usd: f64,
+    base_rule: BaseRule,
+    base_rule_made_at: Time,
+    /// Room to play the rest of the day out in.
+    room: Option<Imagined>,
 }
 
 impl DayPrices {
     /// Prices from `now`, the view's moment, to the end of its day.
     pub fn of(view: View<'_>, now: Time) -> Self {
-        let mut relaxation = Relaxation::of(view);
-        let mut volume = Volume::new(&relaxation);
-        relaxation.take_up(view);
-        volume.search(&mut relaxation, FIRST);
-        let route_changes = view.route_changes();
-        Self { relaxation, volume, units_usd: units_usd(view), made_at: now, route_changes }
+        let relaxation = Relaxation::of(view);
+        let mut prices = Self {
+            volume: Volume::new(&relaxation),
+            relaxation,
+            units_usd: units_usd(view),
+            made_at: now,
+            route_changes: view.route_changes(),
+            stake_usd: 0.0,
+            base_rule: BaseRule::Prices,
+            base_rule_made_at: now,
+            room: None,
+        };
+        prices.search(view, FIRST);
+        prices.choose_base_rule(view, now);
+        prices
     }
 
-    /// Keeps up with the day: after a quarter of an hour, and at once when a route closes or opens, prices are found anew from
-    /// these ones, with the fleet and the demand as they are by then. `now` is the view's moment, later on the same day.
+    /// Keeps up with the day: after a quarter of an hour, and at once when a route closes or opens unexpectedly, prices are found
+    /// anew from these ones, with the fleet and the demand as they are by then. `now` is the view's moment, later on the same day.
     pub fn keep_up(&mut self, view: View<'_>, now: Time) {
         let changes = view.route_changes();
         if now >= self.made_at + RENEWAL_S || changes != self.route_changes {
             self.route_changes = changes;
-            self.relaxation.take_up(view);
-            self.volume.search(&mut self.relaxation, AGAIN);
+            self.search(view, AGAIN);
             self.made_at = now;
+            if now >= self.base_rule_made_at + BASE_RULE_RENEWAL_S {
+                self.choose_base_rule(view, now);
+            }
         }
+    }
+
+    fn search(&mut self, view: View<'_>, effort: Effort) {
+        self.relaxation.take_up(view);
+        let rest_usd = self.volume.search(&mut self.relaxation, effort);
+        self.stake_usd = rest_usd.max(0.0) / f64::from(self.relaxation.decisions().max(1));
+    }
+
+    fn choose_base_rule(&mut self, view: View<'_>, now: Time) {
+        let mut room = self.room.take();
+        self.base_rule = BaseRule::best(self, view, &mut room);
+        self.room = room;
+        self.base_rule_made_at = now;
     }
 
     /// What an aircraft of a type that is ready at a vertiport at a time may still earn, less what it pays for stands and
@@ -84,6 +119,12 @@ impl DayPrices {
         self.units_usd[kind.at()]
     }
 
+    /// What is at stake in a decision of the rest of the day: what the fleet may still earn over the decisions that it takes for
+    /// that, dollars. 0 where nothing can be earned.
+    pub fn stake_usd(&self) -> f64 {
+        self.stake_usd
+    }
+
     /// What a feasible choice is worth: what its flight earns, what follows from being ready at its end, less what the
     /// passengers and the stand until then cost; dollars.
     #[inline]
@@ -100,16 +141,26 @@ impl DayPrices {
         view.flight_profit_usd(time, kind, (from, to), waiting) + way_on_usd(ready.seconds())
     }
 
-    /// The feasible choice that is worth most; the vertiport listed first among equals.
+    /// The choice of the rule by which the fleet decides at these prices: the feasible choice that is worth most, the
+    /// vertiport listed first among equals, unless another rule is expected to earn more over the rest of the day.
     #[inline]
     pub fn best_choice(&self, view: View<'_>, decision: &Decision) -> VertiportIx {
-        let mut best = (f64::NEG_INFINITY, decision.at);
-        for to in view.feasible(decision).iter() {
-            let worth_usd = self.choice_usd(view, decision, to);
-            if worth_usd > best.0 {
-                best = (worth_usd, to);
-            }
-        }
-        best.1
+        self.base_rule.choice(self, view, decision)
+    }
+
+    /// The choices that the rule by which the fleet decides leaves open, each with what it is worth, dollars.
+    #[inline]
+    pub(crate) fn open_choices<'a>(
+        &'a self,
+        view: View<'a>,
+        decision: &'a Decision,
+    ) -> impl Iterator<Item = (f64, VertiportIx)> + 'a {
+        let only = (self.base_rule == BaseRule::Greedy).then(|| self.best_choice(view, decision));
+        let feasible = view.feasible(decision);
+        let open = move |&to: &VertiportIx| match only {
+            Some(only) => to == only,
+            None => self.base_rule.allows(view, decision, to),
+        };
+        feasible.iter().filter(open).map(move |to| (self.choice_usd(view, decision, to), to))
     }
 }

@@ -47,7 +47,7 @@ fn shut_in(seed: u64, closed_s: u32) -> Arc<Scenario> {
     let others = VertiportIx::all(day.vertiports.len()).filter(|&to| to != from);
     let routes = others.map(|to| Route { from, to, both_ways: false });
     day.disturbances.closures =
-        routes.map(|route| Closure { route, start, end: start + closed_s }).collect();
+        routes.map(|route| Closure { route, start, end: start + closed_s, known: false }).collect();
     Arc::new(day.check("a day with closed routes").expect("a day"))
 }
 
@@ -166,4 +166,36 @@ fn days_played_by_turns_are_not_mixed_up() {
             simulation.apply(turn.expect("an answer")).expect("a choice from the mask");
         }
     }
+}
+
+/// The day with so many passengers of each pair and period as there were hundreds.
+fn thin(seed: u64) -> Arc<Scenario> {
+    let mut day = Scenario::clone(&day(seed)).into_day();
+    for demand in day.demand.iter_mut().flat_map(vertifleet_core::Matrix::cells_mut) {
+        *demand /= 50;
+    }
+    Arc::new(day.check("a thin day").expect("a day"))
+}
+
+#[test]
+fn where_hardly_anybody_wants_to_fly_prices_earn_as_much_as_greedy() {
+    let (mut prices_usd, mut greedy_usd) = (0.0, 0.0);
+    for seed in 0..6 {
+        let day = thin(seed);
+        prices_usd += played(&day, &mut Priced::default()).1;
+        greedy_usd += played(&day, &mut Greedy).1;
+    }
+    assert!(greedy_usd > 0.0, "the days have passengers");
+    assert!(prices_usd >= greedy_usd, "{prices_usd} is less than {greedy_usd}");
+}
+
+#[test]
+fn nothing_is_at_stake_where_nobody_wants_to_fly() {
+    let mut idle = Scenario::clone(&day(1)).into_day();
+    idle.demand.iter_mut().for_each(|table| table.cells_mut().fill(0));
+    let idle = Arc::new(idle.check("a day without demand").expect("a day"));
+    assert_eq!(prices_of(&idle).stake_usd(), 0.0);
+    let (trace, _) = played(&idle, &mut Priced::default());
+    assert!(trace.rows.iter().all(|row| row.to == row.from), "every aircraft holds");
+    assert!(prices_of(&day(1)).stake_usd() > 50.0, "a decision of a busy day is worth a flight");
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{DaySeed, Network, Scenario, VertiportIx};
+use vertifleet_core::{Closure, DaySeed, Network, Route, Scenario, VertiportIx};
 use vertifleet_policy::{Greedy, Lookahead, PlayError, Policy, PolicyError, Random, Replay, play};
 use vertifleet_sim::{Decision, Simulation, Trace, View, check::check};
 
@@ -74,8 +74,8 @@ fn a_replay_of_another_day_gets_stuck_and_says_where() {
 }
 
 /// Asks a policy and an oracle the same question at every decision of a greedy day.
-fn on_every_decision(seed: u64, mut ask: impl FnMut(&Decision, &View<'_>)) {
-    let mut simulation = Simulation::new(day(seed));
+fn on_every_decision(day: &Arc<Scenario>, mut ask: impl FnMut(&Decision, &View<'_>)) {
+    let mut simulation = Simulation::new(Arc::clone(day));
     while let Some(decision) = simulation.next_decision() {
         ask(&decision, &simulation.view());
         let choice = Greedy.choose(&decision, &simulation.view()).expect("greedy always answers");
@@ -86,7 +86,7 @@ fn on_every_decision(seed: u64, mut ask: impl FnMut(&Decision, &View<'_>)) {
 #[test]
 fn greedy_takes_the_highest_profit_per_hour() {
     let day = day(11);
-    on_every_decision(11, |decision, view| {
+    on_every_decision(&day, |decision, view| {
         let rate = |to: VertiportIx| {
             if to == decision.at {
                 return 0.0;
@@ -106,9 +106,32 @@ fn greedy_takes_the_highest_profit_per_hour() {
     });
 }
 
+/// A day on which a third of all routes close for two hours at some time or other, every other one of them known to.
+fn day_with_closures(seed: u64) -> Arc<Scenario> {
+    let mut day = Scenario::clone(&day(seed)).into_day();
+    let all = VertiportIx::all(day.vertiports.len());
+    let pairs = all.clone().flat_map(|from| all.clone().map(move |to| (from, to)));
+    for ((from, to), number) in pairs.filter(|(from, to)| from != to).zip(0_u32..) {
+        if number.is_multiple_of(3) {
+            let route = Route { from, to, both_ways: false };
+            let start = day.operations.start + 1_000 * (number * 7 % 30);
+            let (end, known) = (start + 7_200, number.is_multiple_of(2));
+            day.disturbances.closures.push(Closure { route, start, end, known });
+        }
+    }
+    Arc::new(day.check("a day with closures").expect("a day"))
+}
+
 #[test]
 fn lookahead_takes_the_best_two_flights_in_a_row() {
-    on_every_decision(12, |decision, view| {
+    let day = day_with_closures(12);
+    on_every_decision(&day, |decision, view| {
+        let closed_later = |to, next, ready| {
+            day.disturbances.closures.iter().any(|closure| {
+                let looks_at = if closure.known { ready } else { decision.time };
+                closure.route.covers(to, next) && (closure.start..closure.end).contains(&looks_at)
+            })
+        };
         let kind = view.kind(decision.aircraft);
         let flight = |time, from, to| {
             let waiting = view.demand_left(view.period_at(time), from, to);
@@ -120,7 +143,8 @@ fn lookahead_takes_the_best_two_flights_in_a_row() {
             let ready = decision.time + view.leg(kind, decision.at, to).block_s();
             let seconds = VertiportIx::all(view.vertiports()).filter(|&next| {
                 let room = view.stands_taken()[next.at()] < view.stands(next);
-                next != to && (room || next == decision.at) && ready <= view.day_end()
+                let flies = next != to && (room || next == decision.at);
+                flies && ready <= view.day_end() && !closed_later(to, next, ready)
             });
             seconds
                 .map(|next| {

@@ -5,7 +5,8 @@ use vertifleet_core::VertiportIx;
 use crate::{Decision, Ledger, Refusal, Simulation, TraceRow, View};
 
 /// A day that goes on from a decision as expected: demand comes as forecast, flights take off on time, aircraft are ready
-/// when they are expected to be, no further route closes, and what is closed now stays closed. Made by
+/// when they are expected to be, and known closures begin and end at their times. Of the others none begins any more, and one
+/// that is in force stays so. Made by
 /// [`View::imagined`]; the day it was made from does not change, and nothing that is not known yet can be learned from it.
 ///
 /// [`Clone::clone_from`] copies a course that has begun into the room of another and takes no memory if both are of one day.

@@ -1,6 +1,7 @@
 //! The day's account (Eq. 2-5): what came in, what it cost, and what was flown for it.
 
 use serde::Serialize;
+use vertifleet_core::Scenario;
 
 use crate::TraceRow;
 
@@ -13,6 +14,10 @@ pub struct Ledger {
     pub passenger_cost_usd: f64,
     /// C^C (Eq. 3).
     pub energy_cost_usd: f64,
+    /// What flights cost whoever is on board, beside their energy.
+    pub flight_cost_usd: f64,
+    /// What the fleet costs whatever it does, entered when the day begins.
+    pub aircraft_cost_usd: f64,
     /// Energy flown, which is the energy charged.
     pub energy_kwh: f64,
     /// Flights, with passengers or without.
@@ -30,10 +35,19 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// z (Eq. 5): revenue less passenger cost less energy cost, dollars.
+    /// The account before the first decision.
+    pub(crate) fn at_start(scenario: &Scenario) -> Self {
+        Self { aircraft_cost_usd: scenario.fleet_cost_usd(), ..Self::default() }
+    }
+
+    /// z (Eq. 5): revenue less passenger cost less energy cost, and less what flights and aircraft cost beside them; dollars.
     #[inline]
     pub fn profit_usd(&self) -> f64 {
-        self.revenue_usd - self.passenger_cost_usd - self.energy_cost_usd
+        self.revenue_usd
+            - self.passenger_cost_usd
+            - self.energy_cost_usd
+            - self.flight_cost_usd
+            - self.aircraft_cost_usd
     }
 
     /// Flights and holds.
@@ -48,6 +62,7 @@ impl Ledger {
         self.revenue_usd += row.revenue_usd;
         self.passenger_cost_usd += row.passenger_cost_usd;
         self.energy_cost_usd += row.energy_cost_usd;
+        self.flight_cost_usd += row.flight_cost_usd;
         self.energy_kwh += row.energy_kwh;
         self.flights += 1;
         self.repositioning_flights += u32::from(row.passengers == 0);
@@ -68,6 +83,10 @@ pub struct Summary {
     pub passenger_cost: f64,
     /// Dollars (Eq. 3).
     pub energy_cost: f64,
+    /// What flights cost whoever is on board, beside their energy; dollars.
+    pub flight_cost: f64,
+    /// What the fleet costs whatever it does, dollars.
+    pub aircraft_cost: f64,
     /// Energy charged.
     pub energy_kwh: f64,
     /// The reward's denominator: all of the day's demand at full fare, dollars (§III.H).
@@ -98,6 +117,8 @@ impl Summary {
             revenue: ledger.revenue_usd,
             passenger_cost: ledger.passenger_cost_usd,
             energy_cost: ledger.energy_cost_usd,
+            flight_cost: ledger.flight_cost_usd,
+            aircraft_cost: ledger.aircraft_cost_usd,
             energy_kwh: ledger.energy_kwh,
             potential: potential_usd,
             reward: share(ledger.profit_usd(), potential_usd),

@@ -39,9 +39,11 @@ pub struct Simulation {
     ledger: Ledger,
     closures: Closures,
     outages: Outages,
-    /// Whether anything may yet happen that nobody expects; never on an imagined day, where closures stay as they are and
-    /// outages count in `queue` only.
+    /// Whether anything may yet happen that nobody expects; never on an imagined day, where unknown closures stay as they are
+    /// and outages count in `queue` only.
     surprises: bool,
+    /// Whether anything may happen by itself: a surprise, or a known closure, which imagined days have too.
+    eventful: bool,
     /// Time of the latest decision asked for, the start of operations before the first; not kept without surprises.
     now: Time,
     /// The latest demand period whose actual demand is known; not kept without surprises.
@@ -62,6 +64,7 @@ clone_into_room!(Simulation {
     closures,
     outages,
     surprises,
+    eventful,
     now,
     known_period,
     period,
@@ -77,10 +80,11 @@ impl Simulation {
             demand: Demand::of(&scenario),
             queue: ReadyQueue::new(scenario.aircraft.len(), scenario.operations.start),
             place: scenario.aircraft.iter().map(|aircraft| aircraft.at).collect(),
-            ledger: Ledger::default(),
+            ledger: Ledger::at_start(&scenario),
             closures: Closures::of(&scenario),
             outages: Outages::of(&scenario),
             surprises: !scenario.disturbances.is_none(),
+            eventful: !scenario.disturbances.is_none(),
             now: scenario.operations.start,
             known_period: 0,
             period: 0,
@@ -99,7 +103,7 @@ impl Simulation {
         while self.scenario.periods.get(self.period + 1).is_some_and(|&start| start <= time) {
             self.period += 1;
         }
-        if self.surprises {
+        if self.eventful {
             self.discover(time);
         }
         Some(Decision {
@@ -113,12 +117,15 @@ impl Simulation {
     /// What comes to be known up to and at `time`: the demand of periods that have begun, routes that close or open.
     #[cold]
     fn discover(&mut self, time: Time) {
+        self.closures.advance(time);
+        if !self.surprises {
+            return;
+        }
         self.now = time;
         while self.known_period < self.period {
             self.known_period += 1;
             self.demand.begin(self.known_period, &self.scenario.demand[self.known_period]);
         }
-        self.closures.advance(time);
     }
 
     /// Sends the aircraft that decides now to `choice`; its own vertiport means hold. Returns what that came to.
@@ -181,6 +188,7 @@ impl Simulation {
             passenger_cost_usd: 0.0,
             energy_kwh: 0.0,
             energy_cost_usd: 0.0,
+            flight_cost_usd: 0.0,
             arrival: decision.time,
             ready,
         }
@@ -211,6 +219,7 @@ impl Simulation {
             passenger_cost_usd: f64::from(passengers) * self.scenario.passenger_cost_usd[pair],
             energy_kwh: leg.energy_kwh,
             energy_cost_usd: leg.energy_kwh * self.energy_price_at(arrival),
+            flight_cost_usd: self.scenario.flight_cost_usd[pair],
             arrival,
             ready,
         };
@@ -271,6 +280,8 @@ impl Simulation {
             self.queue.set_all(self.place.len(), |aircraft| outages.ready(aircraft, now));
         }
         self.surprises = false;
+        self.closures.expect_no_surprises();
+        self.eventful = !self.closures.known().is_empty();
     }
 
     /// What a policy may look at.

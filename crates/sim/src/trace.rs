@@ -7,12 +7,13 @@ mod error;
 mod read;
 mod write;
 
-use vertifleet_core::{AircraftIx, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 
 pub use error::TraceError;
 
-/// The members of a row, in the order of the file's columns.
-const COLUMNS: [&str; 11] = [
+/// The members of a row, in the order of the file's columns. The last is there only on days on which a flight costs
+/// something beside its energy.
+const COLUMNS: [&str; 12] = [
     "time",
     "aircraft",
     "from",
@@ -24,7 +25,13 @@ const COLUMNS: [&str; 11] = [
     "energy_cost",
     "arrival",
     "ready",
+    "flight_cost",
 ];
+
+/// The columns of the traces of a day.
+fn columns(scenario: &Scenario) -> &'static [&'static str] {
+    if scenario.has_flight_costs() { &COLUMNS } else { &COLUMNS[..COLUMNS.len() - 1] }
+}
 
 /// One decision and what it came to. A hold goes from a vertiport to itself, carries and costs nothing, arrives when
 /// it is decided and is ready once the hold is over.
@@ -48,6 +55,8 @@ pub struct TraceRow {
     pub energy_kwh: f64,
     /// What charging costs, dollars.
     pub energy_cost_usd: f64,
+    /// What the flight costs whoever is on board, beside its energy; dollars.
+    pub flight_cost_usd: f64,
     /// When the flight ends.
     pub arrival: Time,
     /// When the aircraft can decide again.
@@ -62,9 +71,9 @@ pub struct Trace {
 }
 
 impl TraceRow {
-    /// What the flight earns: fares less passenger cost less energy cost, dollars.
+    /// What the flight earns: fares less passenger cost, energy cost and its own cost; dollars.
     #[inline]
     pub fn profit_usd(&self) -> f64 {
-        self.revenue_usd - self.passenger_cost_usd - self.energy_cost_usd
+        self.revenue_usd - self.passenger_cost_usd - self.energy_cost_usd - self.flight_cost_usd
     }
 }

@@ -48,6 +48,13 @@ impl VertiportSet {
         Self { words: std::array::from_fn(|word| self.words[word] & other.words[word]) }
     }
 
+    /// The vertiports that are in one of the sets or in both.
+    #[inline]
+    #[must_use]
+    pub fn or(&self, other: &Self) -> Self {
+        Self { words: std::array::from_fn(|word| self.words[word] | other.words[word]) }
+    }
+
     /// The vertiports of this set that are not in the other.
     #[inline]
     #[must_use]

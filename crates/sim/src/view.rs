@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, AircraftType, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_core::{AircraftIx, AircraftType, ClosedTimes, Scenario, Time, TypeIx, VertiportIx};
 
 use crate::{Decision, Imagined, Leg, Simulation, VertiportSet};
 
@@ -89,10 +89,24 @@ impl<'a> View<'a> {
         self.simulation.closures().from(from)
     }
 
-    /// How often routes have closed or opened so far: while it stays the same, so does what is closed.
+    /// The same because of closures of which nobody knew before they began. Nobody knows how long they last.
+    #[inline]
+    pub fn closed_unexpectedly(&self, from: VertiportIx) -> VertiportSet {
+        self.simulation.closures().unexpected_from(from)
+    }
+
+    /// When routes are closed that are known to be, all day. Closures of which nobody knows are not among these, also while they
+    /// are in force.
+    #[inline]
+    pub fn known_closures(&self) -> &'a ClosedTimes {
+        self.simulation.closures().known()
+    }
+
+    /// How often routes have closed or opened so far without anybody knowing beforehand: while it stays the same, what is closed
+    /// is what was to be expected.
     #[inline]
     pub fn route_changes(&self) -> usize {
-        self.simulation.closures().changes_so_far()
+        self.simulation.closures().surprises_so_far()
     }
 
     /// Where each aircraft stands or will land.
@@ -157,6 +171,17 @@ impl<'a> View<'a> {
         self.scenario().passenger_cost_usd.row(from)
     }
 
+    /// What a flight costs whoever is on board, beside its energy; dollars, from one vertiport to each.
+    #[inline]
+    pub fn flight_costs_usd(&self, from: VertiportIx) -> &'a [f64] {
+        self.scenario().flight_cost_usd.row(from)
+    }
+
+    /// What the fleet costs whatever it does, dollars a day.
+    pub fn fleet_cost_usd(&self) -> f64 {
+        self.scenario().fleet_cost_usd()
+    }
+
     /// E now, dollars per kWh.
     #[inline]
     pub fn energy_price_usd(&self) -> f64 {
@@ -170,7 +195,7 @@ impl<'a> View<'a> {
     }
 
     /// What a flight decided at `time` (not before now) would earn with `waiting` passengers there if it is on time: dollars,
-    /// fares less passenger cost less energy at the price of its arrival.
+    /// fares less passenger cost less energy at the price of its arrival less what any flight costs.
     #[inline]
     pub fn flight_profit_usd(
         &self,
@@ -184,7 +209,9 @@ impl<'a> View<'a> {
         let fares_usd = self.fares_usd(self.period_at(time), from);
         let margin_usd = fares_usd[to.at()] - self.passenger_costs_usd(from)[to.at()];
         let energy_price_usd = self.simulation.energy_price_at(time + leg.flight_s);
-        f64::from(waiting.min(seats)) * margin_usd - leg.energy_kwh * energy_price_usd
+        f64::from(waiting.min(seats)) * margin_usd
+            - leg.energy_kwh * energy_price_usd
+            - self.flight_costs_usd(from)[to.at()]
     }
 
     /// Start of operations.

@@ -87,12 +87,14 @@ fn break_rule(rule: Rule, day: &mut Day, rows: &mut Vec<TraceRow>) -> bool {
         Rule::Revenue => rows[0].revenue_usd -= 0.01,
         Rule::PassengerCost => rows[4].passenger_cost_usd = 0.01,
         Rule::EnergyCost => rows[2].energy_cost_usd = 45.0 * 0.2,
+        Rule::FlightCost => rows[2].flight_cost_usd = 0.01,
         Rule::StandBound => day.vertiports[2].stands = 1,
         Rule::ChargerBound => day.vertiports[2].chargers = Some(1),
         Rule::Corridor => day.corridors = Some(vec![route(0, 2), route(2, 0)]),
         Rule::Closure => {
             let (start, end) = (rows[2].time, rows[2].time + 1);
-            day.disturbances.closures = vec![Closure { route: route(0, 2), start, end }];
+            day.disturbances.closures =
+                vec![Closure { route: route(0, 2), start, end, known: false }];
         }
         Rule::TakeoffDelay => {
             // Row 4 leaves V3 in the second hour, late by a minute; its energy is paid at the same price then.
@@ -220,7 +222,7 @@ fn the_verdict_reads_well() {
     trace.rows[3].ready = trace.rows[3].ready + 60;
     trace.rows.truncate(4);
     insta::assert_snapshot!(judge(day, &trace), @r#"
-    the schedule breaks 7 of 25 rules; findings: 7
+    the schedule breaks 7 of 26 rules; findings: 7
             1 x missing-decision An aircraft that is ready no later than the end of operations decides.
             1 x hold-time        A hold arrives when it is decided and is ready after the scenario's hold time (Eq. 8).
             1 x seats            A flight carries no more passengers than its aircraft has seats (Eq. 11).
@@ -253,6 +255,8 @@ fn machines_get_the_same_verdict() {
         "revenue": 390.0,
         "passenger_cost": 195.0,
         "energy_cost": 27.1,
+        "flight_cost": 0.0,
+        "aircraft_cost": 0.0,
         "energy_kwh": 113.0,
         "flights": 3,
         "repositioning_flights": 0,

@@ -158,6 +158,8 @@ proptest! {
             (totals.revenue, summary.revenue),
             (totals.passenger_cost, summary.passenger_cost),
             (totals.energy_cost, summary.energy_cost),
+            (totals.flight_cost, summary.flight_cost),
+            (totals.aircraft_cost, summary.aircraft_cost),
             (totals.energy_kwh, summary.energy_kwh),
         ] {
             prop_assert!(close(theirs, ours), "{theirs} and {ours}");

@@ -35,6 +35,37 @@ fn a_trace_reads_as_design_says() {
     "#);
 }
 
+/// From V1 to V3 a flight costs 7.25 $, and every aircraft 100 $ a day.
+#[test]
+fn a_day_with_flight_costs_has_a_column_for_them() {
+    let mut day = scenario().into_day();
+    day.flight_cost_usd.cells_mut()[2] = 7.25;
+    day.aircraft_cost_usd = 100.0;
+    let day = day.check("day").expect("a day within the rules");
+    let mut trace = schedule();
+    let missing = check(&day, &trace);
+    assert_eq!(missing.broken.keys().map(|rule| rule.name()).collect::<Vec<_>>(), ["flight-cost"]);
+    for row in &mut trace.rows {
+        row.flight_cost_usd = if (row.from.0, row.to.0) == (0, 2) { 7.25 } else { 0.0 };
+    }
+    let csv = trace.to_csv(&day);
+    assert!(csv.starts_with("time,aircraft,") && csv.contains(",ready,flight_cost\n"), "{csv}");
+    assert!(csv.contains(",07:35:00,7.25\n"), "{csv}");
+    let marked = format!("\u{feff}{}", csv.replace('\n', "\r\n").replace("\n06:", "\n6:"));
+    assert_eq!(Trace::from_csv(marked.as_bytes(), &day, "day.csv").expect("a trace"), trace);
+    let verdict = check(&day, &trace);
+    assert!(verdict.is_valid(), "{verdict}");
+    let totals = verdict.totals;
+    assert_eq!((totals.flight_cost, totals.aircraft_cost), (2.0 * 7.25, 2.0 * 100.0));
+    let plain = check(&scenario(), &schedule()).totals;
+    assert!((totals.profit - (plain.profit - 214.5)).abs() < 1e-9);
+    assert!(verdict.to_string().ends_with("flight cost $14.50 - aircraft cost $200.00"));
+    for (csv, day) in [(csv, scenario()), (schedule().to_csv(&scenario()), day)] {
+        let error = Trace::from_csv(csv.as_bytes(), &day, "day.csv").expect_err("another header");
+        assert_eq!(error.code().to_string(), "V205");
+    }
+}
+
 #[test]
 fn a_written_trace_reads_back_and_replaces_the_file_before_it() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -153,6 +184,7 @@ fn any_row() -> impl Strategy<Value = TraceRow> {
             passenger_cost_usd: amounts[1],
             energy_kwh: amounts[2],
             energy_cost_usd: amounts[3],
+            flight_cost_usd: amounts[0],
             arrival,
             ready,
         },
@@ -175,6 +207,7 @@ fn storable_row() -> impl Strategy<Value = TraceRow> {
             passenger_cost_usd: amounts.1,
             energy_kwh: amounts.2,
             energy_cost_usd: amounts.3,
+            flight_cost_usd: 0.0,
             arrival: times.1,
             ready: times.2,
             ..row

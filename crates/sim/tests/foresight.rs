@@ -25,8 +25,9 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         (view.day_start(), view.day_end(), view.hold_s(), view.day_seed()),
         view.vertiports(),
         view.period_at(decision.time + 1800),
-        (view.day() == view.day(), view.route_changes()),
+        (view.day() == view.day(), view.route_changes(), view.fleet_cost_usd()),
     )];
+    shown.push(format!("{:?}", view.known_closures()));
     for aircraft in AircraftIx::all(view.places().len()) {
         let kind = view.kind(aircraft);
         let of_it = (view.aircraft_id(aircraft), view.ready_at(aircraft), view.aircraft_type(kind));
@@ -34,7 +35,9 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     }
     for from in VertiportIx::all(view.vertiports()) {
         shown.push(format!("{:?} {:?}", view.stands(from), (view.parked(from), view.closed(from))));
+        shown.push(format!("{:?}", view.closed_unexpectedly(from)));
         shown.push(format!("{:?}", view.passenger_costs_usd(from)));
+        shown.push(format!("{:?}", view.flight_costs_usd(from)));
         for kind in TypeIx::all(view.aircraft_types().len()) {
             shown.push(format!(
                 "{:?} {:?}",
@@ -112,10 +115,15 @@ fn with_another_future(day: &Scenario, now: Time, change: u32) -> Arc<Scenario> 
     }
     let later = now + 1 + change % 600;
     let closures = &mut day.disturbances.closures;
-    closures.retain(|closure| closure.start <= now || change.is_multiple_of(2));
+    closures.retain(|closure| closure.known || closure.start <= now || change.is_multiple_of(2));
+    for closure in closures.iter_mut().filter(|closure| !closure.known) {
+        if (closure.start..closure.end).contains(&now) {
+            closure.end = later;
+        }
+    }
     if day.vertiports.len() > 1 {
         let route = Route { from: VertiportIx(0), to: VertiportIx(1), both_ways: true };
-        closures.push(Closure { route, start: later, end: later + 1200 });
+        closures.push(Closure { route, start: later, end: later + 1200, known: false });
     }
     let outages = &mut day.disturbances.outages;
     outages.retain(|outage| outage.start <= now || change.is_multiple_of(3));
@@ -160,10 +168,19 @@ proptest! {
     }
 
     #[test]
-    fn a_quiet_day_goes_as_it_is_imagined(
-        day in common::small_day(), draws in prop::collection::vec(any::<u32>(), 1..20)
+    fn a_day_goes_as_it_is_imagined_if_all_that_happens_is_known(
+        day in extended_day(), draws in prop::collection::vec(any::<u32>(), 1..20)
     ) {
+        let mut day = Scenario::clone(&day).into_day();
+        let mut closures = std::mem::take(&mut day.disturbances).closures;
+        for closure in &mut closures {
+            closure.known = true;
+        }
+        day.disturbances.closures = closures;
+        let day = Arc::new(day.check("no surprises").expect("a day within the rules"));
         let mut simulation = Simulation::new(Arc::clone(&day));
+        // What has begun before the first decision is seen at it.
+        simulation.next_decision();
         let mut imagined = simulation.view().imagined();
         while let Some(decision) = simulation.next_decision() {
             prop_assert_eq!(imagined.next_decision(), Some(decision));

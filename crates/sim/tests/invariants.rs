@@ -92,7 +92,14 @@ proptest! {
         prop_assert_eq!(summary.passenger_cost, sum(|row| row.passenger_cost_usd));
         prop_assert_eq!(summary.energy_cost, sum(|row| row.energy_cost_usd));
         prop_assert_eq!(summary.energy_kwh, sum(|row| row.energy_kwh));
-        prop_assert_eq!(summary.profit, summary.revenue - summary.passenger_cost - summary.energy_cost);
+        prop_assert_eq!(summary.flight_cost, sum(|row| row.flight_cost_usd));
+        let flown = rows.iter().filter(|row| row.from != row.to);
+        let due: f64 = flown.map(|row| day.flight_cost_usd[(row.from, row.to)]).sum();
+        prop_assert_eq!(summary.flight_cost, due);
+        let fleet_cost = day.aircraft_cost_usd * day.aircraft.len() as f64;
+        prop_assert_eq!(summary.aircraft_cost, fleet_cost);
+        let earned = summary.revenue - summary.passenger_cost - summary.energy_cost;
+        prop_assert_eq!(summary.profit, earned - summary.flight_cost - fleet_cost);
         let flights = rows.iter().filter(|row| row.from != row.to).count();
         prop_assert_eq!(summary.flights as usize, flights);
         prop_assert_eq!(summary.decisions as usize, rows.len());
@@ -107,7 +114,8 @@ proptest! {
     fn rewards_paid_by_the_flight_sum_to_the_reward_of_the_day(day in extended_day(), draws in draws()) {
         let (simulation, rows) = play(&day, &draws, |_, _| ());
         if simulation.potential_usd() > 0.0 {
-            let dense: f64 = rows.iter().map(|row| row.profit_usd() / simulation.potential_usd()).sum();
+            let flights: f64 = rows.iter().map(TraceRow::profit_usd).sum();
+            let dense = (flights - day.fleet_cost_usd()) / simulation.potential_usd();
             prop_assert!((dense - simulation.summary().reward).abs() < 1e-9);
         }
     }

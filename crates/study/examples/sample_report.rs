@@ -14,7 +14,7 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let study = made_up::study(100);
-    match vertifleet_study::report::write(&study, Path::new(&folder)) {
+    match vertifleet_study::report::write(&study, Path::new(&folder), false) {
         Ok(paths) => {
             println!("{}", paths.report.display());
             ExitCode::SUCCESS

@@ -11,6 +11,7 @@ use crate::entrants::{Asked, Entrant, contenders};
 use crate::error::Error;
 use crate::kept_bounds::KeptBounds;
 use crate::origin::NetworkOrigin;
+use crate::own_days::OwnDays;
 use crate::record::{PolicyRecord, Study};
 use crate::run::{Day, run};
 
@@ -20,7 +21,8 @@ pub struct Comparison {
     origin: NetworkOrigin,
     entrants: Vec<Entrant>,
     scenarios: Vec<Arc<Scenario>>,
-    first_seed: u64,
+    first_seed: Option<u64>,
+    days_from: Option<String>,
     step: Option<Step>,
 }
 
@@ -47,11 +49,7 @@ impl Comparison {
         step: Option<Step>,
         stopped: &AtomicBool,
     ) -> Result<Self, Error> {
-        let entrants = asked.entrants()?;
-        contenders(&entrants)?;
-        if entrants.is_empty() {
-            return Err(Error::Empty { policies: 0, days: days as usize });
-        }
+        let entrants = entrants(asked, days as usize)?;
         let scenarios = draw(network, first_seed, days, stopped)?;
         let first = scenarios.first().ok_or(Error::Empty { policies: entrants.len(), days: 0 })?;
         entrants.iter().try_for_each(|entrant| entrant.check_fits(first))?;
@@ -61,9 +59,36 @@ impl Comparison {
             origin,
             entrants,
             scenarios,
-            first_seed,
+            first_seed: Some(first_seed),
+            days_from: None,
             step,
         })
+    }
+
+    /// Days of the user's own, each with its upper bound where a step is given.
+    ///
+    /// # Errors
+    /// If there is no such policy, two policies have one name, or a policy cannot play one of these days.
+    pub fn of_own(days: OwnDays, asked: &Asked<'_>, step: Option<Step>) -> Result<Self, Error> {
+        let entrants = entrants(asked, days.scenarios.len())?;
+        // Drawn days have one fleet and one set of rules; these may differ in everything but their vertiports.
+        for day in days.days() {
+            entrants.iter().try_for_each(|entrant| entrant.check_fits(day))?;
+        }
+        Ok(Self {
+            network: days.network().to_owned(),
+            origin: days.origin(),
+            entrants,
+            scenarios: days.scenarios,
+            first_seed: None,
+            days_from: Some(days.from),
+            step,
+        })
+    }
+
+    /// The days that will be played.
+    pub fn days(&self) -> impl Iterator<Item = &Scenario> {
+        self.scenarios.iter().map(Arc::as_ref)
     }
 
     /// What is allowed but hardly meant ([`Recipe::warning`](crate::policies::Recipe::warning)).
@@ -84,7 +109,7 @@ impl Comparison {
         stopped: &AtomicBool,
         watch: &impl Watch,
     ) -> Result<Study, Error> {
-        let Self { network, origin, entrants, scenarios, first_seed, step } = self;
+        let Self { network, origin, entrants, scenarios, first_seed, days_from, step } = self;
         let number = scenarios.len();
         let days = match step {
             Some(step) => {
@@ -93,18 +118,31 @@ impl Comparison {
             None => scenarios.into_iter().map(Day::unbounded).collect(),
         };
         let policies = play(&days, &entrants, stopped, watch)?;
+        // How somebody learned on another network says nothing of these days. Nobody was trained on days of the user's own.
+        let here = |entrant: &&Entrant| days_from.is_none() && entrant.was_trained_on(&network);
         Ok(Study {
+            curves: entrants.iter().filter(here).filter_map(Entrant::curve).collect(),
+            trainings: entrants.iter().filter(here).filter_map(Entrant::training).collect(),
             network,
             network_origin: origin,
             seed: first_seed,
+            days_from,
             days: number,
             bound_step_s: step.map(Step::seconds),
             command,
             policies,
-            curves: entrants.iter().filter_map(Entrant::curve).collect(),
-            trainings: entrants.iter().filter_map(Entrant::training).collect(),
         })
     }
+}
+
+/// Everybody who is asked for, no two of one name.
+fn entrants(asked: &Asked<'_>, days: usize) -> Result<Vec<Entrant>, Error> {
+    let entrants = asked.entrants()?;
+    contenders(&entrants)?;
+    if entrants.is_empty() {
+        return Err(Error::Empty { policies: 0, days });
+    }
+    Ok(entrants)
 }
 
 /// Plays all days with everybody, one after the other, and tells who watches.

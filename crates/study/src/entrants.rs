@@ -3,7 +3,7 @@
 use std::sync::atomic::Ordering;
 
 use vertifleet_core::Scenario;
-use vertifleet_optimize::{Budget, Settings, can_plan, plan};
+use vertifleet_optimize::{Budget, Settings, can_plan, plan, steps_of_equal_work};
 
 use crate::error::Error;
 use crate::numbers::grouped;
@@ -11,8 +11,8 @@ use crate::policies::{self, Given, Recipe, kind_of};
 use crate::record::{Curve, Training};
 use crate::run::{Contender, Contenders, Way};
 
-/// Steps of the planner a day: no time limit, so that the plan is the same everywhere. On `paper` they take about a quarter
-/// of a minute on one core.
+/// Steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; on other days as many as
+/// are as much work. There is no time limit, so that the plan is the same everywhere.
 const PLAN_STEPS: u64 = 200_000;
 
 /// Somebody who takes part, with its name.
@@ -104,6 +104,11 @@ impl Entrant {
         }
     }
 
+    /// Whether it was trained on days of the network of this name.
+    pub(crate) fn was_trained_on(&self, network: &str) -> bool {
+        self.recipe().and_then(Recipe::trained_on) == Some(network)
+    }
+
     /// Its learning curve on the training days, where it has one.
     pub(crate) fn curve(&self) -> Option<Curve> {
         let points = self.recipe()?.curve();
@@ -121,7 +126,7 @@ impl Entrant {
             Kind::Policy(recipe) => (recipe.description(), Way::Online(Box::new(|| recipe.make()))),
             Kind::Plan(seed) => (
                 format!(
-                    "knows the day beforehand and searches for its best schedule in {} steps",
+                    "knows the day beforehand and searches for its best schedule, on `paper` in {} steps",
                     grouped(PLAN_STEPS as f64, 0)
                 ),
                 planned(*seed),
@@ -133,9 +138,11 @@ impl Entrant {
 
 /// Days take turns on the threads, so each plan needs but one search.
 fn planned(seed: u64) -> Way<'static> {
-    let settings = Settings { budget: Budget::Steps(PLAN_STEPS), searches: 1, seed };
     Way::Offline(Box::new(move |day, stop| {
-        let plan = plan(day, &settings, &mut |_| !stop.load(Ordering::Relaxed));
+        let budget = Budget::Steps(steps_of_equal_work(day, PLAN_STEPS));
+        let settings = Settings { budget, searches: 1, seed };
+        let mut learned = policies::shipped_for(day);
+        let plan = plan(day, &settings, &mut learned, &mut |_| !stop.load(Ordering::Relaxed));
         plan.expect("the days were found to be fit for it").trace
     }))
 }

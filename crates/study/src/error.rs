@@ -112,6 +112,25 @@ pub enum Error {
         /// What differs.
         rule: String,
     },
+
+    /// V410. Days of one's own cannot be compared. Cause: there is none, they have different vertiports, or two have one name. Fix:
+    /// compare days of one network, each with a `name` of its own.
+    #[error("the days do not go together: {rule}")]
+    DaysDiffer {
+        /// What differs.
+        rule: String,
+    },
+
+    /// V307. No policy has this name. Cause: it is mistyped. Fix: give one of the names that the message lists.
+    #[error("there is no policy {name:?}: known are {known}")]
+    UnknownPolicy {
+        /// What was asked for.
+        name: String,
+        /// The names that there are.
+        known: String,
+        /// The one that was meant, if it can be guessed, as a question.
+        meant: Option<String>,
+    },
 }
 
 impl Error {
@@ -139,6 +158,8 @@ impl Error {
             Self::Asked { .. } => 407,
             Self::Stopped => 408,
             Self::PartsDiffer { .. } => 409,
+            Self::DaysDiffer { .. } => 410,
+            Self::UnknownPolicy { .. } => 307,
         })
     }
 
@@ -163,6 +184,12 @@ impl Error {
             Self::Asked { hint, .. } => Some(hint),
             Self::PartsDiffer { .. } => {
                 Some("join all parts of one comparison, in the order of their days")
+            }
+            Self::DaysDiffer { .. } => {
+                Some("days of one comparison have the same vertiports, and each a name of its own")
+            }
+            Self::UnknownPolicy { meant, .. } => {
+                Some(meant.as_deref().unwrap_or("for weights of your own, name them with --model"))
             }
             Self::NotFinite { .. } | Self::Stopped => None,
         }

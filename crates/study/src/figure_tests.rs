@@ -42,7 +42,8 @@ fn study(names: &[&str], days: u32) -> Study {
     Study {
         network: "small & odd".to_owned(),
         network_origin: NetworkOrigin::Own,
-        seed: 3,
+        seed: Some(3),
+        days_from: None,
         days: days as usize,
         bound_step_s: None,
         command: "vertifleet compare".to_owned(),
@@ -70,6 +71,8 @@ fn record(policy: u32, day: u32) -> DayRecord {
         revenue_usd: 3_000.0,
         passenger_cost_usd: 1_500.0,
         energy_cost_usd: 100.0,
+        flight_cost_usd: 0.0,
+        aircraft_cost_usd: 0.0,
         energy_kwh: 500.0,
         potential_usd: 10_000.0,
         reward: profit_usd / 10_000.0,

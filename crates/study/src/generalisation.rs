@@ -16,7 +16,7 @@ use crate::record::{DayRecord, PolicyRecord};
 use crate::statistics::{Estimate, PairedTest};
 use crate::summary;
 
-pub use report::write;
+pub use report::{Written, write};
 pub use table::text;
 
 /// Name and version of the format of `summary.json`.

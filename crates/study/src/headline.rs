@@ -8,17 +8,35 @@ use crate::summary::{Comparison, PolicySummary, Summary};
 pub(crate) fn text(summary: &Summary) -> String {
     let best = summary.best();
     let earns = format!(
-        "{} earns {} a day on average over {} of {}the “{}” network{}",
+        "{} earns {} a day on average over {}{}",
         best.name,
         dollars(best.profit_usd.mean),
-        counted(summary.days, "unseen day", "unseen days"),
-        if summary.network_origin == NetworkOrigin::Changed { "a changed copy of " } else { "" },
-        summary.network,
+        days(summary),
         of_bound(best)
     );
     match summary.best_against_reference() {
         None => format!("{earns}."),
         Some(comparison) => format!("{earns}{}", lead(summary, comparison)),
+    }
+}
+
+/// `100 unseen days of the “paper” network`.
+fn days(summary: &Summary) -> String {
+    let changed = summary.network_origin == NetworkOrigin::Changed;
+    let copy = if changed { "a changed copy of " } else { "" };
+    let network = &summary.network;
+    match &summary.days_from {
+        None => {
+            let days = counted(summary.days, "unseen day", "unseen days");
+            format!("{days} of {copy}the “{network}” network")
+        }
+        Some(from) if from == network => {
+            format!("{} from {from}", counted(summary.days, "day", "days"))
+        }
+        Some(from) => {
+            let days = counted(summary.days, "day", "days");
+            format!("{days} from {from}, of {copy}the “{network}” network")
+        }
     }
 }
 

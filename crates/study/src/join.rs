@@ -33,21 +33,21 @@ impl Study {
             study.policies.iter().map(|policy: &PolicyRecord| policy.name.clone()).collect()
         };
         // No day has a seed that high; a study read from elsewhere may say so.
-        let next_seed = self.seed.saturating_add(self.days as u64);
+        let next_seed = self.seed.map(|seed| seed.saturating_add(self.days as u64));
         let rule = if part.network != self.network {
             format!("network {:?} after {:?}", part.network, self.network)
         } else if part.bound_step_s != self.bound_step_s {
             format!("bound step {:?} s after {:?} s", part.bound_step_s, self.bound_step_s)
         } else if names(part) != names(self) {
             format!("policies {:?} after {:?}", names(part), names(self))
-        } else if part.seed != next_seed {
-            format!(
-                "days from seed {} after those up to {}",
-                part.seed,
-                next_seed.saturating_sub(1)
-            )
         } else {
-            return Ok(());
+            match (part.seed, next_seed) {
+                (Some(seed), Some(next)) if seed == next => return Ok(()),
+                (Some(seed), Some(next)) => {
+                    format!("days from seed {seed} after those up to {}", next.saturating_sub(1))
+                }
+                _ => "days of one's own have no order; compare them all at once".to_owned(),
+            }
         };
         Err(Error::PartsDiffer { rule })
     }

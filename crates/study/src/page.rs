@@ -57,17 +57,25 @@ fn style() -> String {
 }
 
 fn opening(summary: &Summary) -> Markup {
-    let (first, last) = summary.day_seeds;
+    let days = match summary.days_from {
+        None => counted(summary.days, "unseen day", "unseen days"),
+        Some(_) => counted(summary.days, "day", "days"),
+    };
     let changed = summary.network_origin == NetworkOrigin::Changed;
     html! {
         p.program { "Vertifleet " (summary.program_version) " · comparison of policies" }
-        h1 { (contenders(summary)) " on " (counted(summary.days, "unseen day", "unseen days")) }
+        h1 { (contenders(summary)) " on " (days) }
         p.headline { (headline::text(summary)) }
         dl {
-            div { dt { "Network" } dd { (summary.network) @if changed { ", changed" } } }
+            div { dt { "Network" } dd { (summary.network) ", " (origin(summary.network_origin)) } }
             div { dt { "Days" } dd { (summary.days) } }
-            div { dt { "Seed" } dd { (summary.seed) } }
-            div { dt { "Days drawn from seeds" } dd { (first) " to " (last) } }
+            @if let Some(from) = &summary.days_from {
+                div { dt { "Days of one’s own" } dd { (from) } }
+            }
+            @if let Some(seed) = summary.seed { div { dt { "Seed" } dd { (seed) } } }
+            @if let Some((first, last)) = summary.day_seeds {
+                div { dt { "Days drawn from seeds" } dd { (first) " to " (last) } }
+            }
             @if let Some(bound) = &summary.bound {
                 div { dt { "Upper bound a day" } dd { (dollars(bound.upper_bound_usd.mean)) } }
             }
@@ -78,6 +86,15 @@ fn opening(summary: &Summary) -> Markup {
                 "here, and the shipped policies were trained on days of that one." }
         }
         pre { (summary.command) }
+    }
+}
+
+/// Whose network it is.
+fn origin(origin: NetworkOrigin) -> &'static str {
+    match origin {
+        NetworkOrigin::Shipped => "as shipped",
+        NetworkOrigin::Changed => "changed",
+        NetworkOrigin::Own => "not shipped",
     }
 }
 
@@ -209,7 +226,8 @@ fn trainings(summary: &Summary) -> Markup {
     let reward = |value: f64| format!("{value:.5}");
     html! {
         h2 { "Training" }
-        p.lead { "Mean reward on the validation days at the end of training, best choices. Runs differ in their seeds alone; the "
+        p.lead { "Mean reward on the validation days of the network “" (summary.network) "”, on which these policies were "
+            "trained, at the end of training, best choices; they are not the days of this report. Runs differ in their seeds alone; the "
             "first one’s weights play here. sd: standard deviation between runs." }
         div.wide { table {
             thead { tr {
@@ -290,7 +308,8 @@ fn published_cells(summary: &Summary, result: &PublishedResult) -> Markup {
 fn closing(figures: &[Figure]) -> Markup {
     html! {
         footer {
-            p { "Profit is fares less passenger and energy cost (Eq. 5 of the paper). Reward is profit as a share of the "
+            p { "Profit is fares less passenger and energy cost (Eq. 5 of the paper), and less what flights and aircraft cost beside "
+                "them where the network says so. Reward is profit as a share of the "
                 "revenue if every passenger flew (§III.H). Every policy met the same days. What the paper leaves open, and "
                 "what was assumed instead, is listed under " em { "Concepts: the model" } " in Vertifleet’s documentation." }
             p { "Files beside this page: " a href="days.csv" { "days.csv" } ", every policy’s every day; "

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use vertifleet_core::Scenario;
+use vertifleet_core::{Scenario, nearest};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::relative::{AnyModel, GcapsX, Round};
 use vertifleet_learn::{
@@ -196,8 +196,20 @@ impl Recipe {
             let TrainedAny { model, curves } = shipped_any()?;
             return Ok(Self::AnySize { model: Arc::new(model), tried, curves });
         }
+        if Architecture::named(name).is_none() {
+            return Err(unknown(name));
+        }
         let Trained { model, curve } = shipped(network, name)?;
         Ok(Self::Learned { model: Arc::new(model), curves: vec![curve], shipped: true })
+    }
+
+    /// Name of the network whose days it was trained on, if it was.
+    pub(crate) fn trained_on(&self) -> Option<&str> {
+        match self {
+            Self::Learned { model, .. } => Some(&model.header().network),
+            Self::AnySize { model, .. } => Some(&model.header().network),
+            _ => None,
+        }
     }
 
     /// Whether the policy can play this day.
@@ -248,6 +260,22 @@ impl Recipe {
         };
         runs.retain(|run| !run.is_empty());
         runs
+    }
+}
+
+/// Names of policies that commands take as they are.
+const NAMES: [&str; 9] =
+    ["random", "greedy", "lookahead", "prices", "rolling", "gcaps", "mlp", ANY_SIZE, "plan"];
+
+/// That no policy has this name.
+fn unknown(name: &str) -> Error {
+    let known = NAMES.join(", ");
+    Error::UnknownPolicy {
+        name: name.to_owned(),
+        known: format!(
+            "{known} (in compare), {ANY_SIZE}:rollouts=K and replay:TRACE (in simulate)"
+        ),
+        meant: nearest(name, NAMES).map(|name| format!("did you mean {name}?")),
     }
 }
 
@@ -309,6 +337,16 @@ pub(crate) fn takes_no_weights(policy: &str) -> Error {
 }
 
 /// The network a day was drawn from, by its name: `paper` of `paper-7`.
-fn network_of(scenario: &Scenario) -> &str {
+pub(crate) fn network_of(scenario: &Scenario) -> &str {
     scenario.name.strip_suffix(&format!("-{}", scenario.seed)).unwrap_or(&scenario.name)
+}
+
+/// The learned policies that the program ships for a day's network, and those for every network: with the rules, all from
+/// whose days a plan can set out.
+pub fn shipped_for(scenario: &Scenario) -> Vec<Box<dyn Policy>> {
+    let recipes = [ANY_SIZE, "gcaps", "mlp"].into_iter().filter_map(|name| {
+        let recipe = Recipe::shipped(name, network_of(scenario)).ok()?;
+        recipe.check_fits(scenario).is_ok().then_some(recipe)
+    });
+    recipes.map(|recipe| recipe.make()).collect()
 }

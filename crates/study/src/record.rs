@@ -16,7 +16,7 @@ pub struct DayRecord {
     pub day: String,
     /// Seed that the day was drawn from.
     pub seed: u64,
-    /// Revenue less passenger and energy cost (Eq. 5), in dollars.
+    /// Revenue less all costs (Eq. 5), in dollars.
     pub profit_usd: f64,
     /// Fares paid (Eq. 4), in dollars.
     pub revenue_usd: f64,
@@ -24,6 +24,12 @@ pub struct DayRecord {
     pub passenger_cost_usd: f64,
     /// Cost of charging (Eq. 3), in dollars.
     pub energy_cost_usd: f64,
+    /// What flights cost whoever is on board, beside their energy, in dollars.
+    #[serde(default)]
+    pub flight_cost_usd: f64,
+    /// What the fleet costs whatever it does, in dollars.
+    #[serde(default)]
+    pub aircraft_cost_usd: f64,
     /// Energy charged, in kWh.
     pub energy_kwh: f64,
     /// Revenue if every passenger of the day flew: the denominator of the reward, in dollars.
@@ -49,14 +55,17 @@ pub struct DayRecord {
 }
 
 impl DayRecord {
-    /// Profit as a share of the day's upper bound, where there is one. Where nothing can be earned, earning nothing is all
-    /// of it, and a loss is nothing of it.
+    /// Profit as a share of the day's upper bound, where there is one. Where nothing can be earned, or only a loss be kept
+    /// small, it is the least possible loss as a share of the loss: 1 where there is no other, 0 where there need be none.
     pub fn bound_share(&self) -> Option<f64> {
         self.upper_bound_usd.map(|bound_usd| {
             if bound_usd > 0.0 {
                 self.profit_usd / bound_usd
+            } else if self.profit_usd < 0.0 {
+                // Not -0 where the bound is 0.
+                (0.0 - bound_usd) / -self.profit_usd
             } else {
-                f64::from(u8::from(self.profit_usd >= 0.0))
+                1.0
             }
         })
     }
@@ -107,12 +116,15 @@ pub struct Training {
 /// Many policies on the same days.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Study {
-    /// Name of the network that the days were drawn from.
+    /// Name of the network that the days were drawn from, or that the user's own days have in common; where they have none, where they
+    /// came from.
     pub network: String,
     /// Whether that is a shipped network.
     pub network_origin: NetworkOrigin,
-    /// Seed of the first day, as the user gave it.
-    pub seed: u64,
+    /// Seed of the first day, as the user gave it; none where the days are not drawn but the user's own.
+    pub seed: Option<u64>,
+    /// Where the user's own days came from; none where they were drawn from a seed.
+    pub days_from: Option<String>,
     /// Number of days; each policy has as many records.
     pub days: usize,
     /// Length of the steps of the days' upper bounds, in seconds, where those were asked for.

@@ -1,9 +1,10 @@
-//! Writes a comparison to a folder: page, figures, table of days, numbers for machines.
+//! Writes a comparison to a folder: page, figures, table of days, numbers for machines. The folder is replaced as a whole, so
+//! that a page never stands beside figures of another run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use vertifleet_core::write_atomically;
+use vertifleet_core::{FolderKind, OutputKind, replace_folder};
 
 use crate::error::Error;
 use crate::figure::Figure;
@@ -22,63 +23,95 @@ pub struct Paths {
     pub summary: PathBuf,
     /// The figures, each as SVG and as PNG.
     pub figures: Vec<PathBuf>,
+    /// Where a folder is kept that was there before and held something else.
+    pub kept: Option<PathBuf>,
 }
 
-/// Whether there is or can be a folder of this name for a report, asked before the days are played. Leaves none behind that
-/// was not there.
+/// What stands first in the numbers for machines, of any version of the format.
+const fn summary_of(opening: &'static str) -> OutputKind {
+    OutputKind { name: "report", skipped: 0, opening }
+}
+
+/// A folder that holds a report of a comparison or of many networks, and nothing else.
+pub(crate) const FOLDER: FolderKind = FolderKind {
+    name: "report",
+    mark: (
+        "summary.json",
+        &[
+            summary_of("{\n  \"format\": \"vertifleet-comparison/"),
+            summary_of("{\n  \"format\": \"vertifleet-generalisation/"),
+        ],
+    ),
+    holds: |name| {
+        let end = Path::new(name).extension();
+        let picture = end.is_some_and(|end| end == "svg" || end == "png");
+        (picture && name.starts_with("figure-"))
+            || ["report.html", "summary.json", "days.csv", "networks.csv"].contains(&name)
+    },
+};
+
+/// Whether a report may be written to this folder, asked before the days are played: it can be made, is empty or holds an earlier
+/// report, or `force` is given. Leaves no folder behind that was not there.
 ///
 /// # Errors
-/// [`Error::CannotMakeFolder`].
-pub fn check_folder(folder: &Path) -> Result<(), Error> {
+/// [`Error::CannotMakeFolder`], or [`Error::Core`] for a folder that holds something else (V143) or is read-only (V144).
+pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
     let missing =
         folder.ancestors().take_while(|path| !path.as_os_str().is_empty() && !path.exists());
     let missing: Vec<&Path> = missing.collect();
-    let made = make(folder);
+    let made = fs::create_dir_all(folder)
+        .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause });
     for path in missing {
         // Somebody else may have put something into it by now; then it stays.
         let _ = fs::remove_dir(path);
     }
-    made
+    made?;
+    Ok(vertifleet_core::check_folder(folder, &FOLDER, force)?)
 }
 
-/// Writes the whole report of a study into `folder`, which is made if it is not there.
-///
-/// Every file is replaced at once or not at all; the page comes last, so that it never links to what is not there.
+/// Writes the whole report of a study into `folder`, or nothing; the folder is made if it is not there. An earlier report in it
+/// is replaced, and what else may be there is kept beside it, which takes `force`.
 ///
 /// # Errors
-/// [`Error::CannotMakeFolder`], [`Error::Core`] (V102) for a file that cannot be written, or any error of [`Summary::of`];
-/// after the last of these nothing is written.
-pub fn write(study: &Study, folder: &Path) -> Result<Paths, Error> {
+/// As [`check_folder`]; [`Error::Core`] (V102) where it cannot be written, or any error of [`Summary::of`]. Everything is as it was
+/// then.
+pub fn write(study: &Study, folder: &Path, force: bool) -> Result<Paths, Error> {
     let summary = Summary::of(study)?;
     let figures = figure::all(&summary);
+    let mut files = pictures(&figures);
+    let drawn: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
+    files.extend([
+        ("days.csv".to_owned(), days_csv::text(study).into_bytes()),
+        ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
+        ("report.html".to_owned(), page::text(&summary, &figures).into_bytes()),
+    ]);
+    let kept = replace(folder, force, &files)?;
     Ok(Paths {
-        figures: write_figures(&figures, folder)?,
-        days: put(folder, "days.csv", days_csv::text(study).as_bytes())?,
-        summary: put(folder, "summary.json", (summary.to_json() + "\n").as_bytes())?,
-        report: put(folder, "report.html", page::text(&summary, &figures).as_bytes())?,
+        report: folder.join("report.html"),
+        days: folder.join("days.csv"),
+        summary: folder.join("summary.json"),
+        figures: drawn,
+        kept,
     })
 }
 
-/// Makes the folder and writes the figures into it, each as SVG and as PNG.
-pub(crate) fn write_figures(figures: &[Figure], folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    let pngs: Vec<Vec<u8>> = figures.iter().map(|figure| figure::png(&figure.svg)).collect();
-    // Only now, so that a program that is ended before leaves no empty folder.
-    make(folder)?;
-    let mut pictures = Vec::with_capacity(2 * figures.len());
-    for (figure, png) in figures.iter().zip(&pngs) {
-        pictures.push(put(folder, &format!("{}.svg", figure.slug), figure.svg.as_bytes())?);
-        pictures.push(put(folder, &format!("{}.png", figure.slug), png)?);
-    }
-    Ok(pictures)
+/// Puts a folder with these files in place of this one.
+pub(crate) fn replace(
+    folder: &Path,
+    force: bool,
+    files: &[(String, Vec<u8>)],
+) -> Result<Option<PathBuf>, Error> {
+    check_folder(folder, force)?;
+    Ok(replace_folder(folder, &FOLDER, force, files)?)
 }
 
-fn make(folder: &Path) -> Result<(), Error> {
-    fs::create_dir_all(folder)
-        .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })
-}
-
-pub(crate) fn put(folder: &Path, name: &str, contents: &[u8]) -> Result<PathBuf, Error> {
-    let path = folder.join(name);
-    write_atomically(&path, contents)?;
-    Ok(path)
+/// The figures, each as SVG and as PNG, by the names of their files.
+pub(crate) fn pictures(figures: &[Figure]) -> Vec<(String, Vec<u8>)> {
+    let both = |figure: &Figure| {
+        [
+            (format!("{}.svg", figure.slug), figure.svg.clone().into_bytes()),
+            (format!("{}.png", figure.slug), figure::png(&figure.svg)),
+        ]
+    };
+    figures.iter().flat_map(both).collect()
 }

@@ -153,6 +153,8 @@ fn record(policy: usize, day: &Day, summary: &vertifleet_sim::Summary) -> DayRec
         revenue_usd: summary.revenue,
         passenger_cost_usd: summary.passenger_cost,
         energy_cost_usd: summary.energy_cost,
+        flight_cost_usd: summary.flight_cost,
+        aircraft_cost_usd: summary.aircraft_cost,
         energy_kwh: summary.energy_kwh,
         potential_usd: summary.potential,
         reward: summary.reward,
@@ -275,7 +277,8 @@ mod tests {
         let study = Study {
             network: "paper".to_owned(),
             network_origin: NetworkOrigin::Shipped,
-            seed: 11,
+            seed: Some(11),
+            days_from: None,
             days: 6,
             bound_step_s: Some(300),
             command: "vertifleet compare".to_owned(),
@@ -284,7 +287,7 @@ mod tests {
             trainings: Vec::new(),
         };
         let summary = Summary::of(&study).expect("records of one run");
-        assert_eq!(summary.day_seeds, (11, 16));
+        assert_eq!(summary.day_seeds, Some((11, 16)));
         let [plan, greedy, random] = &summary.policies[..] else { panic!("three took part") };
         assert_eq!(plan.profit_usd, greedy.profit_usd, "its days are greedy's, flown once more");
         assert!(plan.is_offline() && plan.decision_ns.is_none());

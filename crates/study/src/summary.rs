@@ -26,19 +26,21 @@ pub struct Summary {
     pub network: String,
     /// Whether that is a shipped network.
     pub network_origin: NetworkOrigin,
-    /// Seed as the user gave it.
-    pub seed: u64,
+    /// Seed as the user gave it; none where the days are not drawn but the user's own.
+    pub seed: Option<u64>,
+    /// Where the user's own days came from; none where they were drawn from a seed.
+    pub days_from: Option<String>,
     /// Number of days.
     pub days: usize,
-    /// Smallest and largest seed that a day was drawn from.
-    pub day_seeds: (u64, u64),
+    /// Smallest and largest seed that a day was drawn from; none where the days are the user's own.
+    pub day_seeds: Option<(u64, u64)>,
     /// The days' upper bounds, where those were asked for.
     pub bound: Option<BoundSummary>,
     /// Every policy, highest mean profit first.
     pub policies: Vec<PolicySummary>,
     /// Every pair of policies once, in the order of `policies`.
     pub comparisons: Vec<Comparison>,
-    /// Published results beside which these stand; empty but for the network `paper` as it is shipped.
+    /// Published results beside which these stand; empty but for days drawn from the network `paper` as it is shipped.
     pub published: &'static [PublishedResult],
     /// Where the trainings of the learned policies came out.
     pub trainings: Vec<TrainingSummary>,
@@ -118,6 +120,10 @@ pub struct PolicySummary {
     pub passenger_cost_usd: f64,
     /// Cost of charging, in dollars.
     pub energy_cost_usd: f64,
+    /// What flights cost whoever is on board, beside their energy, in dollars.
+    pub flight_cost_usd: f64,
+    /// What the fleet costs whatever it does, in dollars.
+    pub aircraft_cost_usd: f64,
     /// Energy charged, in kWh.
     pub energy_kwh: f64,
     /// Revenue if every passenger of the day flew, in dollars.
@@ -206,12 +212,16 @@ impl Summary {
             network: study.network.clone(),
             network_origin: study.network_origin,
             seed: study.seed,
+            days_from: study.days_from.clone(),
             days: study.days,
-            day_seeds,
+            day_seeds: study.days_from.is_none().then_some(day_seeds),
             bound: study.bound_step_s.zip(bounds_usd).map(bound),
             comparisons: compare_all(&policies),
             policies,
-            published: published::results_for(&study.network, study.network_origin),
+            published: match study.days_from {
+                None => published::results_for(&study.network, study.network_origin),
+                Some(_) => &[],
+            },
             trainings: study.trainings.iter().filter_map(TrainingSummary::of).collect(),
             curves: study.curves.clone(),
         })
@@ -223,6 +233,11 @@ impl Summary {
     /// Never: numbers and texts can always be written.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
+    }
+
+    /// Whether these days are such as the paper's, so that figures correspond to its own.
+    pub(crate) fn is_of_the_paper(&self) -> bool {
+        !self.published.is_empty()
     }
 
     /// The policy with the highest mean profit. An offline reference is no policy, unless there is nothing else.
@@ -283,6 +298,8 @@ impl PolicySummary {
             revenue_usd: average(|day| day.revenue_usd),
             passenger_cost_usd: average(|day| day.passenger_cost_usd),
             energy_cost_usd: average(|day| day.energy_cost_usd),
+            flight_cost_usd: average(|day| day.flight_cost_usd),
+            aircraft_cost_usd: average(|day| day.aircraft_cost_usd),
             energy_kwh: average(|day| day.energy_kwh),
             potential_usd: average(|day| day.potential_usd),
             flights: average(|day| f64::from(day.flights)),
@@ -362,6 +379,8 @@ fn check_finite(policy: &str, day: &DayRecord) -> Result<(), Error> {
         ("revenue_usd", day.revenue_usd),
         ("passenger_cost_usd", day.passenger_cost_usd),
         ("energy_cost_usd", day.energy_cost_usd),
+        ("flight_cost_usd", day.flight_cost_usd),
+        ("aircraft_cost_usd", day.aircraft_cost_usd),
         ("energy_kwh", day.energy_kwh),
         ("potential_usd", day.potential_usd),
         ("reward", day.reward),

@@ -22,13 +22,16 @@ enum Align {
 /// The text that `compare` prints: policies by mean profit, then every pair's t-test on the daily profit. No line
 /// end after the last line.
 pub fn text(summary: &Summary) -> String {
-    let mut text = format!(
-        "network {}{}, {}, seed {}\n\n",
-        summary.network,
-        if summary.network_origin == NetworkOrigin::Changed { " (changed)" } else { "" },
-        counted(summary.days, "day", "days"),
-        summary.seed
-    );
+    let changed = if summary.network_origin == NetworkOrigin::Changed { " (changed)" } else { "" };
+    let mut text =
+        format!("network {}{changed}, {}", summary.network, counted(summary.days, "day", "days"));
+    if let Some(seed) = summary.seed {
+        let _ = write!(text, ", seed {seed}");
+    }
+    if let Some(from) = &summary.days_from {
+        let _ = write!(text, " of one's own from {from}");
+    }
+    text.push_str("\n\n");
     let mut policies = vec![heading([
         "policy",
         "profit, $ a day",

@@ -76,7 +76,8 @@ fn a_study_of_nothing_or_of_other_days_is_refused() {
 fn the_folder_holds_all_that_the_page_links_to_and_every_network() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let study = study(50);
-    let page = generalisation::write(&study, &folder.path().join("new")).expect("a report");
+    let page =
+        generalisation::write(&study, &folder.path().join("new"), false).expect("a report").report;
     let text = fs::read_to_string(&page).expect("the page");
     let links: Vec<&str> =
         text.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
@@ -99,7 +100,7 @@ fn one_network_and_one_policy_make_a_report_too() {
     let mut study = study(1);
     study.policies.truncate(1);
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let page = generalisation::write(&study, folder.path()).expect("a report");
+    let page = generalisation::write(&study, folder.path(), false).expect("a report").report;
     assert!(fs::read_to_string(page).expect("the page").contains("1 random network"));
     let summary = Summary::of(&study).expect("a sound study");
     assert!(generalisation::text(&summary).contains("greedy"));

@@ -4,7 +4,7 @@ mod made_up;
 
 use std::path::Path;
 
-use vertifleet_study::{Error, PolicyRecord, Study, Summary, report, table};
+use vertifleet_study::{Error, NetworkOrigin, PolicyRecord, Study, Summary, report, table};
 
 fn read(path: &Path) -> String {
     std::fs::read_to_string(path).expect("a written file")
@@ -12,7 +12,7 @@ fn read(path: &Path) -> String {
 
 fn written(study: &Study) -> (tempfile::TempDir, report::Paths) {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let paths = report::write(study, &folder.path().join("new/folder")).expect("a report");
+    let paths = report::write(study, &folder.path().join("new/folder"), false).expect("a report");
     (folder, paths)
 }
 
@@ -90,6 +90,8 @@ fn where_nothing_can_be_earned_nothing_earned_is_all_of_it() {
     assert_eq!(share(90.0, None), None);
     assert_eq!(share(90.0, Some(100.0)), Some(0.9));
     assert_eq!((share(0.0, Some(0.0)), share(-5.0, Some(0.0))), (Some(1.0), Some(0.0)));
+    // Where aircraft cost more a day than they can earn, the least loss is the measure.
+    assert_eq!((share(-80.0, Some(-80.0)), share(-100.0, Some(-80.0))), (Some(1.0), Some(0.8)));
 }
 
 #[test]
@@ -157,9 +159,62 @@ fn published_figures_stand_in_the_report_of_the_paper_network_only() {
     let mut study = made_up::study(12);
     let (_folder, paths) = written(&study);
     assert!(read(&paths.report).contains("28,747"));
+    assert!(read(&paths.report).contains("Corresponds to Fig. 5 of the paper"));
+    let own_days = Study { days_from: Some("my days".to_owned()), seed: None, ..study.clone() };
     study.network = "new-york".to_owned();
-    let (_folder, paths) = written(&study);
-    assert!(!read(&paths.report).contains("28,747"));
+    for elsewhere in [study, own_days] {
+        let (_folder, paths) = written(&elsewhere);
+        let page = read(&paths.report);
+        assert!(
+            !page.contains("28,747") && !page.contains("of the paper."),
+            "{}",
+            elsewhere.network
+        );
+    }
+}
+
+#[test]
+fn a_page_says_whose_days_it_shows() {
+    let shown = |study: &Study| {
+        let (_folder, paths) = written(study);
+        read(&paths.report)
+    };
+    let mut study = made_up::study(4);
+    let page = shown(&study);
+    assert!(page.contains("paper, as shipped") && page.contains("1 to 4"));
+    assert!(page.contains("On validation days of the network “paper”, not on those compared here"));
+    study.network_origin = NetworkOrigin::Changed;
+    let page = shown(&study);
+    assert!(page.contains("paper, changed") && page.contains("perhaps before it was changed"));
+    study.network_origin = NetworkOrigin::Own;
+    (study.seed, study.days_from) = (None, Some("days/of mine".to_owned()));
+    let page = shown(&study);
+    assert!(page.contains("paper, not shipped") && page.contains("4 days from days/of mine"));
+    assert!(!page.contains("unseen") && !page.contains("Days drawn from seeds"));
+    let summary: serde_json::Value =
+        serde_json::from_str(&Summary::of(&study).expect("a sound study").to_json()).expect("JSON");
+    assert_eq!(summary["days_from"], "days/of mine");
+    assert!(summary["seed"].is_null() && summary["day_seeds"].is_null());
+}
+
+#[test]
+fn a_folder_with_anything_else_in_it_is_no_report() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let target = folder.path().join("out");
+    report::write(&made_up::study(5), &target, false).expect("a report");
+    std::fs::write(target.join("notes.txt"), "dear").expect("a file");
+    for attempt in [
+        report::check_folder(&target, false).map(|()| None),
+        report::write(&made_up::study(9), &target, false).map(|paths| paths.kept),
+    ] {
+        assert_eq!(attempt.expect_err("notes are there").code().0, 143);
+    }
+    assert!(read(&target.join("report.html")).contains("5 unseen days"), "it is untouched");
+    let paths = report::write(&made_up::study(9), &target, true).expect("by force");
+    let kept = paths.kept.expect("a place for what was there");
+    assert_eq!(read(&kept.join("notes.txt")), "dear");
+    assert!(read(&kept.join("report.html")).contains("5 unseen days"));
+    assert!(read(&paths.report).contains("9 unseen days"));
 }
 
 #[test]
@@ -191,8 +246,8 @@ fn the_summary_for_machines_holds_policies_by_profit_and_every_pair() {
 #[test]
 fn a_report_replaces_an_older_one_and_leaves_no_other_file() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    report::write(&made_up::study(5), folder.path()).expect("a report");
-    let paths = report::write(&made_up::study(9), folder.path()).expect("a second report");
+    report::write(&made_up::study(5), folder.path(), false).expect("a report");
+    let paths = report::write(&made_up::study(9), folder.path(), false).expect("a second report");
     assert!(read(&paths.report).contains("9 unseen days"));
     let files = std::fs::read_dir(folder.path()).expect("a folder").count();
     assert_eq!(files, 3 + paths.figures.len());
@@ -203,7 +258,7 @@ fn a_report_that_cannot_be_written_names_the_file() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("taken");
     std::fs::write(&file, "").expect("a file");
-    let error = report::write(&made_up::study(3), &file).expect_err("a file is no folder");
+    let error = report::write(&made_up::study(3), &file, false).expect_err("a file is no folder");
     assert_eq!(error.code().0, 401);
     assert!(error.to_string().contains("taken"), "{error}");
 }
@@ -211,14 +266,15 @@ fn a_report_that_cannot_be_written_names_the_file() {
 #[test]
 fn a_folder_is_checked_without_a_trace() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    report::check_folder(&folder.path().join("new/folder")).expect("a folder that can be made");
+    report::check_folder(&folder.path().join("new/folder"), false)
+        .expect("a folder that can be made");
     assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0);
-    report::check_folder(folder.path()).expect("a folder that is there");
+    report::check_folder(folder.path(), false).expect("a folder that is there");
     assert!(folder.path().exists(), "it stays");
     let file = folder.path().join("taken");
     std::fs::write(&file, "").expect("a file");
     for taken in [file.clone(), file.join("below")] {
-        assert_eq!(report::check_folder(&taken).expect_err("a file").code().0, 401);
+        assert_eq!(report::check_folder(&taken, false).expect_err("a file").code().0, 401);
     }
     assert!(file.exists());
 }

@@ -1,45 +1,112 @@
-//! `vertifleet bound`: proves how much a known day can earn at most.
+//! `vertifleet bound`: proves how much known days can earn at most.
 
 use std::process::ExitCode;
 use std::time::Instant;
 
-use serde_json::json;
-use vertifleet_optimize::{Step, upper_bound};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use vertifleet_core::Scenario;
+use vertifleet_optimize::{Bound, Error, Step, upper_bound};
+use vertifleet_study::OwnDays;
 
 use crate::args::BoundArguments;
-use crate::commands::read_scenario;
+use crate::commands::{read_scenario, warn_of_days};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
+use crate::mean_worth::{self, Mean};
 use crate::output::print;
 use crate::worth;
 
 pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
     let step = Step::from_minutes(arguments.step)?;
-    let scenario = read_scenario(&arguments.scenario)?;
-    let begun = Instant::now();
-    let bound = upper_bound(&scenario, step)?;
-    let seconds = begun.elapsed().as_secs_f64();
+    let (numbers, lines) = match &arguments.scenarios[..] {
+        [one] if !one.is_dir() => {
+            let scenario = read_scenario(one)?;
+            let day = Day::bounded(&scenario, step)?;
+            (day.numbers(), day.lines())
+        }
+        several => {
+            let days = OwnDays::read(several)?;
+            warn_of_days(days.days());
+            let scenarios: Vec<&Scenario> = days.days().collect();
+            let bounded = scenarios.into_par_iter().map(|scenario| Day::bounded(scenario, step));
+            let bounded = bounded.collect::<Result<Vec<_>, _>>()?;
+            (numbers_of_days(&bounded), lines_of_days(&bounded))
+        }
+    };
     if arguments.json {
-        let numbers = json!({
-            "upper_bound": bound.upper_bound_usd(),
-            "step_s": bound.step_s(),
-            "seconds": seconds,
-            "stand_worth": worth::of_stands(&scenario, &bound),
-            "passenger_worth": worth::of_passengers(&scenario, &bound),
-        });
         print(&serde_json::to_string_pretty(&numbers).expect("numbers are plain data"))?;
     } else {
-        let mut lines = vec![
-            format!("{} bounded in {seconds:.1} s", scenario.name),
-            format!(
-                "  upper bound     {:>12.2} $    no schedule earns more (steps of {} min)",
-                bound.upper_bound_usd(),
-                arguments.step
-            ),
-        ];
-        lines.extend(worth::lines(&scenario, &bound));
         print(&lines.join("\n"))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A day and its bound.
+struct Day<'a> {
+    scenario: &'a Scenario,
+    bound: Bound,
+    seconds: f64,
+}
+
+impl<'a> Day<'a> {
+    fn bounded(scenario: &'a Scenario, step: Step) -> Result<Self, Error> {
+        let begun = Instant::now();
+        let bound = upper_bound(scenario, step)?;
+        Ok(Self { scenario, bound, seconds: begun.elapsed().as_secs_f64() })
+    }
+
+    fn numbers(&self) -> Value {
+        let Self { scenario, bound, seconds } = self;
+        json!({
+            "name": scenario.name,
+            "upper_bound": bound.upper_bound_usd(),
+            "step_s": bound.step_s(),
+            "seconds": seconds,
+            "stand_worth": worth::of_stands(scenario, bound),
+            "charger_worth": worth::of_chargers(scenario, bound),
+            "passenger_worth": worth::of_passengers(scenario, bound),
+        })
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let mut lines = vec![
+            format!("{} bounded in {:.1} s", self.scenario.name, self.seconds),
+            format!(
+                "  upper bound     {:>12.2} $    no schedule earns more (steps of {} min)",
+                self.bound.upper_bound_usd(),
+                self.bound.step_s() / 60
+            ),
+        ];
+        lines.extend(worth::lines(self.scenario, &self.bound));
+        lines
+    }
+}
+
+/// The mean bound of the days.
+fn mean_bound(days: &[Day<'_>]) -> Mean {
+    Mean::of(&days.iter().map(|day| day.bound.upper_bound_usd()).collect::<Vec<_>>())
+}
+
+/// Scenarios and bounds.
+fn pairs<'a>(days: &'a [Day<'a>]) -> Vec<(&'a Scenario, &'a Bound)> {
+    days.iter().map(|day| (day.scenario, &day.bound)).collect()
+}
+
+fn numbers_of_days(days: &[Day<'_>]) -> Value {
+    let mut mean = mean_worth::numbers(&pairs(days));
+    mean.insert("upper_bound".to_owned(), mean_bound(days).number());
+    json!({ "days": days.iter().map(Day::numbers).collect::<Vec<_>>(), "mean": mean })
+}
+
+fn lines_of_days(days: &[Day<'_>]) -> Vec<String> {
+    let mut lines = vec!["no schedule earns more than".to_owned()];
+    lines.extend(days.iter().map(|day| {
+        let (name, bound_usd) = (&day.scenario.name, day.bound.upper_bound_usd());
+        format!("  {name:<15} {bound_usd:>12.2} $    steps of {} min", day.bound.step_s() / 60)
+    }));
+    lines.push(format!("  {:<15} {}", "mean", mean_bound(days).text()));
+    lines.extend(mean_worth::lines(&pairs(days)));
+    lines
 }

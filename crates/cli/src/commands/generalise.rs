@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use anstream::eprintln;
-use vertifleet_core::{DaySeed, Network, Purpose, Scenario, random_network};
+use vertifleet_core::{DaySeed, Network, Outputs, Purpose, Scenario, random_network};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::comparison::{Watch as _, play};
@@ -14,7 +14,7 @@ use vertifleet_study::generalisation::{self, NetworkRecord, Study, Summary};
 use vertifleet_study::{KeptBounds, report};
 
 use crate::args::GeneraliseArguments;
-use crate::commands::command;
+use crate::commands::{command, reads_models, tell_kept, warn_of_days};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::print;
@@ -35,13 +35,17 @@ pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> 
     // A name that comes twice is refused before anything is drawn.
     contenders(&entrants)?;
     if let Some(folder) = &arguments.report {
-        report::check_folder(folder)?;
+        let mut outputs = Outputs::new(arguments.force);
+        reads_models(arguments.models.iter().map(|(_, model)| model), &mut outputs);
+        outputs.replaces_folder(folder)?;
+        report::check_folder(folder, arguments.force)?;
     }
     let numbers = || 0..u64::from(arguments.networks);
     let scenarios: Vec<Arc<Scenario>> = numbers().map(day).collect::<Result<_, Failure>>()?;
     for scenario in &scenarios {
         entrants.iter().try_for_each(|entrant| entrant.check_fits(scenario))?;
     }
+    warn_of_days(scenarios.iter().map(Arc::as_ref));
     let record = |(number, scenario): (u64, &Arc<Scenario>)| NetworkRecord {
         name: Network::random_name(number),
         vertiports: scenario.vertiports.len(),
@@ -61,7 +65,9 @@ pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> 
         print(&generalisation::text(&summary))?;
     }
     if let Some(folder) = &arguments.report {
-        eprintln!("report: {}", generalisation::write(&study, folder)?.display());
+        let written = generalisation::write(&study, folder, arguments.force)?;
+        tell_kept(written.kept.as_ref());
+        eprintln!("report: {}", written.report.display());
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -3,12 +3,14 @@
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use serde_json::{Value, json};
-use vertifleet_core::Scenario;
+use vertifleet_core::{Outputs, Scenario};
 use vertifleet_optimize::{Bound, Budget, Error, Plan, Proof, Settings, plan};
 use vertifleet_progress::SearchBar;
+use vertifleet_sim::Trace;
+use vertifleet_study::policies::shipped_for;
 
 use crate::args::PlanArguments;
 use crate::commands::read_scenario;
@@ -17,20 +19,19 @@ use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
 use crate::worth;
 
-/// How often somebody who waits for the bound looks up.
-const GLANCE: Duration = Duration::from_millis(50);
-
 pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = Arc::new(read_scenario(&arguments.scenario)?);
+    let mut outputs = Outputs::new(arguments.force);
+    outputs.reads(&arguments.scenario);
+    outputs.prints();
+    outputs.writes(&arguments.output, &Trace::FILE)?;
     let stop = stop_on_interrupt()?;
     let begun = Instant::now();
-    let mut proof = Proof::begin(&scenario);
-    let plan = search(arguments, &scenario, &stop, &mut proof)?;
+    let proof = Proof::begin(&scenario);
+    let plan = search(arguments, &scenario, &stop, &proof)?;
+    let bound = proof.best_in_time(begun, arguments.time_limit)?;
     let seconds = begun.elapsed().as_secs_f64();
-    // The schedule first: it is worth having whatever becomes of the bound.
     plan.trace.write(&scenario, &arguments.output)?;
-    while !proof.wait(GLANCE) && !stop.load(Ordering::Relaxed) {}
-    let bound = proof.outcome()?;
     if arguments.json {
         let numbers = numbers(&scenario, &plan, bound.as_ref(), seconds);
         print(&serde_json::to_string_pretty(&numbers).expect("numbers are plain data"))?;
@@ -40,12 +41,12 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Searches until the time is over, the gap is small enough or somebody presses Ctrl-C.
+/// Searches until the time is over, the gap is small enough or Ctrl-C is pressed.
 fn search(
     arguments: &PlanArguments,
     scenario: &Arc<Scenario>,
     stop: &AtomicBool,
-    proof: &mut Proof,
+    proof: &Proof,
 ) -> Result<Plan, Error> {
     let settings = Settings {
         budget: Budget::Time(arguments.time_limit),
@@ -53,10 +54,11 @@ fn search(
         seed: arguments.seed,
     };
     let mut bar = SearchBar::new("% of the time");
-    plan(scenario, &settings, &mut |now| {
-        proof.wait(Duration::ZERO);
-        let bound = proof.bound();
-        bar.show(now, bound);
+    let mut learned = shipped_for(scenario);
+    plan(scenario, &settings, &mut learned, &mut |now| {
+        proof.knows(now.profit_usd);
+        let bound = proof.best();
+        bar.show(now, bound.as_deref());
         let gap = bound.map(|bound| bound.gap(now.profit_usd));
         let good_enough = arguments.gap.zip(gap).is_some_and(|(asked, gap)| gap <= asked);
         !good_enough && !stop.load(Ordering::Relaxed)
@@ -84,7 +86,10 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
         format!("  best policy     {:>12.2} $    where the search began", plan.best_policy_usd),
     ];
     let Some(bound) = bound else {
-        lines.push("  upper bound     not known: stopped before it was proven".to_owned());
+        lines.push(
+            "  upper bound     not known: the day is too large for one, or the time was too short"
+                .to_owned(),
+        );
         return lines.join("\n");
     };
     let gap_percent = 100.0 * bound.gap(plan.profit_usd);

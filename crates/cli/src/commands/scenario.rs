@@ -3,36 +3,52 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use vertifleet_core::{DaySeed, Network};
+use vertifleet_core::{DaySeed, Network, Outputs, Scenario};
 use vertifleet_progress::Bar;
 
 use crate::args::ScenarioArguments;
+use crate::commands::{find_network, warn_of_days};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::print;
 
 pub(crate) fn run(arguments: &ScenarioArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
-    let network = Network::find(&arguments.network)?;
-    match (arguments.days, &arguments.output) {
-        (None, None) => {
-            print(&network.draw(DaySeed::comparison(arguments.seed)?).to_json())?;
-        }
-        (None, Some(file)) => {
-            network.draw(DaySeed::comparison(arguments.seed)?).write(file)?;
-        }
-        (Some(days), folder) => {
-            let here = Path::new(".");
-            draw_days(&network, arguments.seed, days, folder.as_deref().unwrap_or(here))?;
-        }
+    let mut outputs = Outputs::new(arguments.force);
+    let network = find_network(&arguments.network, &mut outputs)?;
+    if let Some(days) = arguments.days {
+        let folder = arguments.output.as_deref().unwrap_or(Path::new("."));
+        draw_days(&network, (arguments.seed, days), folder, &mut outputs)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let day = network.draw(DaySeed::comparison(arguments.seed)?);
+    if let Some(file) = &arguments.output {
+        outputs.writes(file, &Scenario::FILE)?;
+    }
+    warn_of_days([&day]);
+    match &arguments.output {
+        None => print(&day.to_json())?,
+        Some(file) => day.write(file)?,
     }
     Ok(ExitCode::SUCCESS)
 }
 
-fn draw_days(network: &Network, seed: u64, days: u32, folder: &Path) -> Result<(), Failure> {
+fn draw_days(
+    network: &Network,
+    (seed, days): (u64, u32),
+    folder: &Path,
+    outputs: &mut Outputs,
+) -> Result<(), Failure> {
     // The last seed first, so that nothing is written where not everything can be.
     DaySeed::comparison(seed.saturating_add(u64::from(days) - 1))?;
+    if folder.exists() {
+        for day in 0..u64::from(days) {
+            let name = format!("{}-{}.json", network.name(), seed + day);
+            outputs.writes(&folder.join(name), &Scenario::FILE)?;
+        }
+    }
     vertifleet_core::create_folder(folder)?;
+    warn_of_days([&network.draw(DaySeed::comparison(seed)?)]);
     let progress = Bar::new(u64::from(days), "days");
     for day in 0..u64::from(days) {
         let scenario = network.draw(DaySeed::comparison(seed + day)?);

@@ -1,15 +1,16 @@
 //! `vertifleet simulate`: plays a day with one policy.
 
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use vertifleet_core::{Code, Scenario};
+use vertifleet_core::{Code, Outputs, Scenario};
 use vertifleet_policy::play;
 use vertifleet_sim::{Simulation, Summary, Trace};
 use vertifleet_study::policies::{self, Choice};
 
 use crate::args::SimulateArguments;
-use crate::commands::read_scenario;
+use crate::commands::{read_scenario, reads_models};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::{print, warn};
@@ -20,6 +21,9 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     let choice =
         Choice { name: &arguments.policy, seed: arguments.seed, model: arguments.model.as_ref() };
     let (recipe, warning) = policies::for_scenario(&choice, &scenario)?;
+    if let Some(trace) = &arguments.trace {
+        claim(trace, arguments)?;
+    }
     if let Some(warning) = warning {
         warn(Code(310), &warning);
     }
@@ -44,10 +48,22 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// The trace is none of the files that are read.
+fn claim(trace: &Path, arguments: &SimulateArguments) -> Result<(), Failure> {
+    let mut outputs = Outputs::new(arguments.force);
+    outputs.reads(&arguments.scenario);
+    reads_models(&arguments.model, &mut outputs);
+    if let Some(replayed) = arguments.policy.strip_prefix("replay:") {
+        outputs.reads(Path::new(replayed));
+    }
+    outputs.prints();
+    Ok(outputs.writes(trace, &Trace::FILE)?)
+}
+
 fn text(summary: &Summary, scenario: &Scenario, policy: &str) -> String {
     let Summary { flights, repositioning_flights, holds, passengers, spilled_passengers, .. } =
         summary;
-    let lines = [
+    let mut lines = vec![
         format!("{} with {policy}", scenario.name),
         format!("  profit          {:>12.2} $", summary.profit),
         format!("  revenue         {:>12.2} $", summary.revenue),
@@ -56,6 +72,11 @@ fn text(summary: &Summary, scenario: &Scenario, policy: &str) -> String {
             "  energy cost     {:>12.2} $  ({:.0} kWh)",
             summary.energy_cost, summary.energy_kwh
         ),
+    ];
+    let beside = [("flight cost  ", summary.flight_cost), ("aircraft cost", summary.aircraft_cost)];
+    let beside = beside.into_iter().filter(|&(_, cost)| cost != 0.0);
+    lines.extend(beside.map(|(name, cost)| format!("  {name}   {cost:>12.2} $")));
+    lines.extend([
         format!(
             "  reward          {:>12.5}    of {:.0} $ potential",
             summary.reward, summary.potential
@@ -64,6 +85,6 @@ fn text(summary: &Summary, scenario: &Scenario, policy: &str) -> String {
         format!("  holds           {holds:>12}"),
         format!("  passengers      {passengers:>12}    {spilled_passengers} spilled"),
         format!("  load factor     {:>11.1} %", 100.0 * summary.load_factor),
-    ];
+    ]);
     lines.join("\n")
 }

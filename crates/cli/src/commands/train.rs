@@ -8,15 +8,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use anstream::eprintln;
-use vertifleet_core::Network;
+use vertifleet_core::{DaySeed, Network, Outputs};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{
-    Checkpoint, CurveRow, EventFile, Model, Plan, Settings, Training, curve_beside, to_csv,
+    Checkpoint, CurveRow, EventFile, Model, Plan, Settings, Training, curve_beside, kinds, to_csv,
 };
 use vertifleet_progress::Bar;
 
 use crate::args::{TrainArguments, Trainable};
-use crate::commands::train_any;
+use crate::commands::{find_network, train_any, warn_of_days};
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
@@ -43,6 +43,14 @@ impl Files {
             checkpoint: folder.join(format!("{name}-checkpoint.safetensors")),
             events: folder.join("tensorboard").join(name),
         }
+    }
+
+    /// None of them is read for something else, and what is there already is of an earlier run.
+    fn claim(&self, outputs: &mut Outputs) -> Result<(), Failure> {
+        outputs.writes(&self.weights, &kinds::WEIGHTS)?;
+        outputs.writes(&self.curve, &kinds::CURVE)?;
+        outputs.writes(&self.checkpoint, &kinds::CHECKPOINT)?;
+        Ok(())
     }
 
     /// Leaves the run as it stood; each file is whole at every moment.
@@ -75,9 +83,14 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     if arguments.policy == Trainable::GcapsX {
         return train_any::run(arguments);
     }
-    let plan = plan(arguments)?;
-    vertifleet_core::create_folder(&arguments.out)?;
+    let mut outputs = Outputs::new(arguments.force);
+    let network = find_network(&arguments.network, &mut outputs)?;
+    warn_of_training(&network, arguments.seed)?;
+    let plan = plan(arguments, network)?;
     let files = Files::of(arguments.policy, &arguments.out);
+    if arguments.out.exists() && (arguments.resume || !files.checkpoint.exists()) {
+        files.claim(&mut outputs)?;
+    }
     let mut training = if arguments.resume {
         Training::resume(plan, Checkpoint::read(&files.checkpoint)?)?
     } else if files.checkpoint.exists() {
@@ -85,6 +98,7 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     } else {
         Training::start(plan)?
     };
+    vertifleet_core::create_folder(&arguments.out)?;
     // The update under way is given up then, and the run set aside as it stood before.
     let stop = stop_on_interrupt()?;
     let last = learn(&mut training, &files, &stop)?;
@@ -94,6 +108,12 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
         eprintln!("stopped early; --resume goes on from {}", files.checkpoint.display());
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Says what looks wrong with the network, by its first training day.
+pub(super) fn warn_of_training(network: &Network, seed: u32) -> Result<(), Failure> {
+    warn_of_days([&network.draw(DaySeed::training(seed, 0)?)]);
+    Ok(())
 }
 
 /// A new run would write over the checkpoint of an earlier one.
@@ -166,14 +186,14 @@ impl Events {
     }
 }
 
-fn plan(arguments: &TrainArguments) -> Result<Plan, Failure> {
+fn plan(arguments: &TrainArguments, network: Network) -> Result<Plan, Failure> {
     let mut settings = Settings::preset(&arguments.preset)?;
     let steps = arguments.steps.map(|steps| steps.to_string());
     let steps = steps.iter().map(|steps| ("total_steps", steps.as_str()));
     let named = arguments.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
     settings.set(steps.chain(named))?;
     Ok(Plan {
-        network: Arc::new(Network::find(&arguments.network)?),
+        network: Arc::new(network),
         policy: Architecture::named(arguments.policy.name())
             .expect("every kind that can be trained has its sizes"),
         settings,

@@ -6,14 +6,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::eprintln;
-use vertifleet_core::Network;
+use vertifleet_core::{Network, Outputs};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::relative::{Course, Plan, Study};
-use vertifleet_learn::{curve_beside, to_csv};
+use vertifleet_learn::{curve_beside, kinds, to_csv};
 use vertifleet_progress::Bar;
 
 use crate::args::TrainArguments;
-use crate::commands::train::earlier_run;
+use crate::commands::find_network;
+use crate::commands::train::{earlier_run, warn_of_training};
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
@@ -32,6 +33,14 @@ impl Files {
         Self { curve: curve_beside(&weights), weights, checkpoint }
     }
 
+    /// None of them is read for something else, and what is there already is of an earlier run.
+    fn claim(&self, outputs: &mut Outputs) -> Result<(), Failure> {
+        outputs.writes(&self.weights, &kinds::WEIGHTS_ANY)?;
+        outputs.writes(&self.curve, &kinds::CURVE_ANY)?;
+        outputs.writes(&self.checkpoint, &kinds::CHECKPOINT_ANY)?;
+        Ok(())
+    }
+
     /// Leaves the run as it stands. The checkpoint comes last, so that what it knows of is there.
     fn write(&self, study: &Study) -> Result<(), Failure> {
         study.model().write(&self.weights)?;
@@ -42,9 +51,14 @@ impl Files {
 }
 
 pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
-    let plan = plan(arguments)?;
-    vertifleet_core::create_folder(&arguments.out)?;
+    let mut outputs = Outputs::new(arguments.force);
+    let network = find_network(&arguments.network, &mut outputs)?;
+    warn_of_training(&network, arguments.seed)?;
+    let plan = plan(arguments, network)?;
     let files = Files::of(&arguments.out);
+    if arguments.out.exists() && (arguments.resume || !files.checkpoint.exists()) {
+        files.claim(&mut outputs)?;
+    }
     let mut study = if arguments.resume {
         Study::resume(plan, &files.checkpoint)?
     } else if files.checkpoint.exists() {
@@ -52,6 +66,7 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     } else {
         Study::start(plan)?
     };
+    vertifleet_core::create_folder(&arguments.out)?;
     // The round under way is given up then; the files are as the round before left them.
     let stop = stop_on_interrupt()?;
     learn(&mut study, &files, &stop)?;
@@ -99,7 +114,7 @@ fn tell(study: &Study, files: &Files) -> Result<(), Failure> {
     Ok(())
 }
 
-fn plan(arguments: &TrainArguments) -> Result<Plan, Failure> {
+fn plan(arguments: &TrainArguments, network: Network) -> Result<Plan, Failure> {
     if arguments.steps.is_some() || arguments.preset != "default" {
         return Err(Failure::usage(
             "--steps and --preset are not for gcaps-x, which learns in rounds".to_owned(),
@@ -109,7 +124,7 @@ fn plan(arguments: &TrainArguments) -> Result<Plan, Failure> {
     let mut course = Course::default();
     course.set(arguments.set.iter().map(|(name, value)| (name.as_str(), value.as_str())))?;
     Ok(Plan {
-        network: Arc::new(Network::find(&arguments.network)?),
+        network: Arc::new(network),
         policy: Architecture::named("gcaps-x").expect("a policy with sizes"),
         course,
         seed: arguments.seed,

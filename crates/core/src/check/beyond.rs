@@ -1,6 +1,6 @@
 //! The rules of what goes beyond the paper: corridors, forecasts, delays, closures, outages.
 
-use super::{Check, entry_count};
+use super::{Check, entry_count, span};
 use crate::limits::{self, entries};
 use crate::{Error, Route, TakeoffDelays};
 
@@ -62,8 +62,7 @@ impl Check<'_> {
         for (at, closure) in closures.iter().enumerate() {
             let member = || format!("closures[{at}]");
             self.route(closure.route, member)?;
-            self.in_order(closure.start, closure.end, member)?;
-            self.not_too_late(closure.end, || format!("closures[{at}]: end"))?;
+            span(closure.start, closure.end, self.origin, member)?;
         }
         Ok(())
     }
@@ -76,8 +75,7 @@ impl Check<'_> {
             if outage.aircraft.at() >= self.day.aircraft.len() {
                 return Err(self.unknown(member(), outage.aircraft.at(), "aircraft"));
             }
-            self.in_order(outage.start, outage.end, member)?;
-            self.not_too_late(outage.end, || format!("outages[{at}]: end"))?;
+            span(outage.start, outage.end, self.origin, member)?;
         }
         Ok(())
     }

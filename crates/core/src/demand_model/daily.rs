@@ -2,7 +2,8 @@
 
 use serde::Deserialize;
 
-use super::{DemandModel, Kind, Level, check_periods};
+use super::distribution::{Distribution, Name, RawDistribution};
+use super::{DemandModel, Kind, check_periods};
 use crate::{Error, Matrix, Time, VertiportIx, limits};
 
 /// Mean passengers a day, and how they spread over the day.
@@ -12,14 +13,16 @@ pub(super) struct DailyDemand {
     passengers: Matrix<f64>,
     /// The share of the day's passengers in each period.
     shares: Vec<f64>,
-    /// Standard deviation as a share of the mean.
-    noise: f64,
+    distribution: Distribution,
 }
 
 impl DailyDemand {
-    pub(super) fn level(&self, period: usize, from: VertiportIx, to: VertiportIx) -> Level {
-        let mean = self.passengers[(from, to)] * self.shares[period];
-        Level { mean, sd: self.noise * mean }
+    pub(super) fn mean(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
+        self.passengers[(from, to)] * self.shares[period]
+    }
+
+    pub(super) fn distribution(&self) -> Distribution {
+        self.distribution
     }
 }
 
@@ -29,7 +32,9 @@ impl DailyDemand {
 pub(crate) struct RawDailyDemand {
     periods: Vec<Time>,
     shares_percent: Vec<f64>,
-    noise: f64,
+    distribution: Option<Name>,
+    noise: Option<f64>,
+    dispersion: Option<f64>,
     passengers: Option<Vec<Vec<f64>>>,
     gravity: Option<RawGravity>,
 }
@@ -52,7 +57,12 @@ impl RawDailyDemand {
             let member = || member(&format!("shares_percent[{at}]"));
             limits::SHARE_PERCENT.check(share, origin, member)?;
         }
-        limits::NOISE.check(self.noise, origin, || member("noise"))?;
+        let distribution = RawDistribution {
+            name: self.distribution,
+            noise: self.noise,
+            dispersion: self.dispersion,
+        };
+        let distribution = distribution.check("daily_demand", origin)?;
         let passengers = match (self.passengers, self.gravity) {
             (Some(rows), None) => table(rows, vertiports, origin)?,
             (None, Some(gravity)) => gravity.passengers(vertiports, origin)?,
@@ -66,7 +76,7 @@ impl RawDailyDemand {
             }
         };
         let shares = self.shares_percent.iter().map(|percent| percent / 100.0).collect();
-        let kind = Kind::Daily(DailyDemand { passengers, shares, noise: self.noise });
+        let kind = Kind::Daily(DailyDemand { passengers, shares, distribution });
         Ok(DemandModel { periods: self.periods, kind })
     }
 }

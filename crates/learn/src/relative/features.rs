@@ -195,11 +195,13 @@ impl Rows {
         rivals
     }
 
-    /// Notes where another aircraft wants to go, of what is open now.
+    /// Notes where another aircraft wants to go, of what is open now and not known to be closed by then.
     fn court(&mut self, Scene { view, prices, unit_usd, .. }: Scene<'_>, other: &Decision) {
         let mut best = (f64::NEG_INFINITY, other.at);
         let mut second_usd = f64::NEG_INFINITY;
-        for to in view.feasible(other).iter() {
+        let known = view.known_closures();
+        let is_open = |to: &VertiportIx| !known.is_closed(other.at, *to, other.time);
+        for to in view.feasible(other).iter().filter(is_open) {
             let usd = prices.choice_usd(view, other, to);
             if usd > best.0 {
                 second_usd = best.0;

@@ -12,7 +12,7 @@ use crate::relative::features::Scene;
 use crate::relative::judge::Judge;
 
 /// How choices are tried out.
-const TRY_OUT: TryOut = TryOut { horizon_s: 7_200, courses: COURSES, noise: 0.08, own: 0.5 };
+const TRY_OUT: TryOut = TryOut { horizon_s: 7_200, courses: COURSES, noise: 0.06, own: 0.5 };
 pub(crate) const COURSES: u32 = 8;
 
 /// Why a course that is asked has a decision.
@@ -143,7 +143,7 @@ impl Course {
         let decision = self.next.as_ref().expect(ASKED);
         let simulation = &mut self.simulation;
         let unit_usd = prices.unit_usd(simulation.view().kind(decision.aircraft));
-        let noise_usd = if self.number == 0 { 0.0 } else { TRY_OUT.noise * unit_usd };
+        let noise_usd = if self.number == 0 { 0.0 } else { TRY_OUT.noise * prices.stake_usd() };
         let mut best = (f64::NEG_INFINITY, decision.at);
         for &listed in &self.listed {
             let noise = noise(self.number, decision, listed.1);

@@ -39,12 +39,18 @@ fn opinionated(seed: u64) -> Arc<AnyModel> {
     Arc::new(AnyModel::new(small(), params, source(), 0))
 }
 
-/// A day of `paper` and two of random networks.
+/// A day of `paper`, two of random networks, and one of `paper` with a curfew and a fog.
 fn days() -> Vec<Arc<Scenario>> {
     let seed = DaySeed::validation(3).expect("a seed");
     let paper = Network::shipped("paper").expect("a shipped network");
+    let closures = "[[closures]]\nstart = \"14:00:00\"\nend = \"30:00:00\"\nvertiports = [\"V1\"]\n\
+                    [[closures]]\nstart = \"07:00:00\"\nend = \"09:00:00\"\nvertiports = [\"V6\"]\n\
+                    known = false\n[feature_scales]";
+    let closed = Network::from_toml(&paper.toml().replace("[feature_scales]", closures), "closed")
+        .expect("a good network");
     let random = [2, 7].map(|number| random_network(Purpose::Validation, number));
-    [paper].iter().chain(&random).map(|network| Arc::new(network.draw(seed))).collect()
+    let networks = [paper].into_iter().chain(random).chain([closed]);
+    networks.map(|network| Arc::new(network.draw(seed))).collect()
 }
 
 fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> Trace {

@@ -14,19 +14,22 @@ use siphasher::sip128::{Hasher128, SipHasher24};
 use vertifleet_core::{Scenario, create_folder, read_at_most, write_atomically};
 
 use super::certificate::Certificate;
+use super::descent::Found;
 use super::network::Network;
 use super::prices::Prices;
 use super::{Bound, Step, upper_bound_unless};
 use crate::Error;
 
 /// Changes whenever the search would find other prices.
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 /// No file of ours is longer.
 const LONGEST: u64 = 256 << 20;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Kept {
+    /// Length of the slices of these prices.
+    minutes: u32,
     stand: Vec<i64>,
     demand: Vec<i64>,
 }
@@ -42,24 +45,27 @@ pub fn cached_upper_bound(
     folder: &Path,
 ) -> Result<Option<Bound>, Error> {
     let path = path(scenario, step, folder);
-    if let Some(bound) = kept(scenario, step, &path)? {
+    if let Some(bound) = kept(scenario, stopped, &path)? {
         return Ok(Some(bound));
     }
     let Some(bound) = upper_bound_unless(stopped, scenario, step)? else { return Ok(None) };
-    let kept = Kept { stand: bound.prices.stand, demand: bound.prices.demand };
+    let (minutes, Prices { stand, demand }) = (bound.step.minutes, bound.prices);
+    let kept = Kept { minutes, stand, demand };
     create_folder(folder)?;
     write_atomically(&path, &serde_json::to_vec(&kept).expect("whole numbers are plain data"))?;
     Ok(Some(Bound { prices: Prices { stand: kept.stand, demand: kept.demand }, ..bound }))
 }
 
-/// The bound of the prices in a file; `None` if there is no such file, or no prices for this day in it.
-fn kept(scenario: &Scenario, step: Step, path: &Path) -> Result<Option<Bound>, Error> {
+/// The bound of the prices in a file; `None` if there is no such file, or no prices for this day in it, or if `stopped` is
+/// raised meanwhile.
+fn kept(scenario: &Scenario, stopped: &AtomicBool, path: &Path) -> Result<Option<Bound>, Error> {
     let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
     let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
+    let Ok(step) = Step::from_minutes(kept.minutes) else { return Ok(None) };
     let network = Network::of(scenario, step.seconds())?;
     let Some(prices) = Prices::checked(&network, kept.stand, kept.demand) else { return Ok(None) };
-    let certificate = Certificate::new(&network);
-    Ok(Some(Bound::proven(step, network, certificate, prices)))
+    let proven = Certificate::new(&network).evaluate(&network, &prices, stopped);
+    Ok(proven.map(|micro_usd| Bound::of(step, &network, &Found { prices, micro_usd })))
 }
 
 fn path(scenario: &Scenario, step: Step, folder: &Path) -> PathBuf {

@@ -7,53 +7,83 @@
 //! vertiports and whole seconds, found from the end of the day back to its start; flights and holds last exactly as long
 //! there as in the simulator.
 
-use super::network::{Flight, Network};
-use super::prices::{Excess, Prices};
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What prices prove, and what each aircraft would do at them. Evaluated again and again without a new allocation.
+use pulp::{Arch, Simd, WithSimd};
+
+use super::network::{Flight, Network};
+use super::prices::Prices;
+
+/// Seconds that are worked out side by side: their worths so far stay in the fastest memory.
+const SIDE_BY_SIDE: usize = 256;
+
+/// What prices prove, and what it is worth at them to be ready anywhere at any time. Evaluated again and again without a new allocation.
 #[derive(Debug, Clone)]
 pub(super) struct Certificate {
     /// What a stand has cost from the first slice until each slice begins and the last one ends, by slice, then vertiport.
     paid: Vec<i64>,
     /// What it is worth to be ready, *less* what the stand has cost since the day began, so that what an aircraft pays from
-    /// one second to another is one subtraction; by layer, vertiport, second of the day.
+    /// one second to another is one subtraction; by layer, vertiport, second of the day, and as many seconds past it as are ever
+    /// read.
     ///
     /// A day has at most 5,762 slices (36 hours in minutes, 1,440 more where periods begin, and 2,161 where slots of delays
     /// do), an aircraft flies at most 2,161 times, a flight earns at most 1,000 x 10^12, and a stand costs at most 10^14 a slice: all is below 2^62.
     worth_less_paid: Vec<i64>,
-    /// The best for each second of a piece of a slice.
-    best: Vec<i64>,
+    /// From a vertiport to the next in `worth_less_paid`.
+    stride: usize,
+    arch: Arch,
 }
 
 impl Certificate {
     /// Room for the evaluations of a network.
     pub(super) fn new(network: &Network) -> Self {
-        let places = network.layers.len() * network.size();
+        let stride = (network.slices.day_s() + network.shortest_s) as usize;
         Self {
             paid: Vec::with_capacity((network.slices.len() + 1) * network.size()),
-            worth_less_paid: vec![0; places * network.slices.day_s() as usize],
-            best: Vec::with_capacity(network.shortest_s as usize),
+            worth_less_paid: vec![0; network.layers.len() * network.size() * stride],
+            stride,
+            arch: Arch::new(),
         }
     }
 
-    /// Works out what `prices` prove: no schedule earns more than so many micro-dollars.
-    pub(super) fn evaluate(&mut self, network: &Network, prices: &Prices) -> i128 {
+    /// Works out what `prices` prove: before what the fleet costs whatever it does, no schedule earns more than so many micro-dollars.
+    /// None soon after `stopped` is raised.
+    pub(super) fn evaluate(
+        &mut self,
+        network: &Network,
+        prices: &Prices,
+        stopped: &AtomicBool,
+    ) -> Option<i128> {
         self.pay(network, prices);
-        let day_s = network.slices.day_s() as usize;
-        let mut worths = std::mem::take(&mut self.worth_less_paid);
-        for (layer, worths) in worths.chunks_exact_mut(day_s * network.size()).enumerate() {
-            for slice in (0..network.slices.len()).rev() {
-                self.work_out_slice(network, prices, layer, slice, worths);
+        let layers = self.worth_less_paid.chunks_exact_mut(self.stride * network.size());
+        for (layer, worths) in layers.enumerate() {
+            let (paid, stride) = (&self.paid[..], self.stride);
+            let pass = LayerPass { network, prices, paid, layer, stride, worths, stopped };
+            if !self.arch.dispatch(pass) {
+                return None;
             }
         }
-        self.worth_less_paid = worths;
-        self.fleet(network) + given_back(network, prices)
+        Some(self.fleet(network) + given_back(network, prices))
     }
 
-    /// What being ready is worth, micro-dollars; `second` counts from the first take-off time.
-    pub(super) fn worth(&self, network: &Network, layer: usize, at: usize, second: usize) -> i64 {
-        let slice = network.slices.containing(network.slices.start_s(0) + small(second));
-        self.worth_less_paid(network, layer, at, second) + self.paid(network, slice, at)
+    /// What a stand at a vertiport has cost until a slice begins.
+    #[inline]
+    pub(super) fn paid(&self, network: &Network, slice: usize, at: usize) -> i64 {
+        self.paid[slice * network.size() + at]
+    }
+
+    /// What being ready is worth, less what the stand has cost since the day began; micro-dollars. `second` counts from the first
+    /// take-off time. Past the last one there is nothing to earn, and the stand is paid for until the last slice ends.
+    #[inline]
+    pub(super) fn worth_less_paid(
+        &self,
+        network: &Network,
+        layer: usize,
+        at: usize,
+        second: usize,
+    ) -> i64 {
+        let second = second.min(network.slices.day_s() as usize);
+        self.worth_less_paid[(layer * network.size() + at) * self.stride + second]
     }
 
     fn pay(&mut self, network: &Network, prices: &Prices) {
@@ -64,176 +94,94 @@ impl Certificate {
         }
     }
 
-    fn paid(&self, network: &Network, slice: usize, at: usize) -> i64 {
-        self.paid[slice * network.size() + at]
+    /// What the whole fleet earns for itself; nothing has been paid when the day begins.
+    fn fleet(&self, network: &Network) -> i128 {
+        let starts = network.layers.iter().flat_map(|layer| &layer.starts);
+        let worths = self.worth_less_paid.iter().step_by(self.stride);
+        starts.zip(worths).map(|(&count, &worth)| i128::from(count) * i128::from(worth)).sum()
     }
+}
 
-    /// Past the last take-off time there is nothing to earn, and the stand is paid for until the last slice ends.
-    fn worth_less_paid(&self, network: &Network, layer: usize, at: usize, second: usize) -> i64 {
-        let day_s = network.slices.day_s() as usize;
-        if second >= day_s {
-            return -self.paid(network, network.slices.len(), at);
+/// One layer's pass over the day, from its end back to its start.
+struct LayerPass<'a> {
+    network: &'a Network,
+    prices: &'a Prices,
+    paid: &'a [i64],
+    layer: usize,
+    stride: usize,
+    worths: &'a mut [i64],
+    stopped: &'a AtomicBool,
+}
+
+impl WithSimd for LayerPass<'_> {
+    /// Whether it came to its end.
+    type Output = bool;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
+    fn with_simd<S: Simd>(mut self, _: S) -> bool {
+        let slices = &self.network.slices;
+        let day_s = slices.day_s() as usize;
+        for at in 0..self.network.size() {
+            let over = -self.paid(slices.len(), at);
+            self.worths[at * self.stride..][..self.stride][day_s..].fill(over);
         }
-        self.worth_less_paid[(layer * network.size() + at) * day_s + second]
+        let second = |slice| (slices.start_s(slice) - slices.start_s(0)) as usize;
+        // No flight and no hold begins and ends in the same piece: all that a piece needs is known.
+        let longest = SIDE_BY_SIDE.min(self.network.shortest_s as usize);
+        for slice in (0..slices.len()).rev() {
+            let (first, mut past) = (second(slice), second(slice + 1));
+            while past > first {
+                if self.stopped.load(Ordering::Relaxed) {
+                    return false;
+                }
+                let begin = first.max(past.saturating_sub(longest));
+                for from in 0..self.network.size() {
+                    self.work_out_piece(slice, from, begin, past);
+                }
+                past = begin;
+            }
+        }
+        true
+    }
+}
+
+impl LayerPass<'_> {
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "part of the pass")]
+    fn paid(&self, slice: usize, at: usize) -> i64 {
+        self.paid[slice * self.network.size() + at]
     }
 
-    /// Works out one slice of a layer from the slices after it.
-    fn work_out_slice(
-        &mut self,
-        network: &Network,
-        prices: &Prices,
-        layer: usize,
-        slice: usize,
-        worths: &mut [i64],
-    ) {
-        let slices = &network.slices;
-        let first = (slices.start_s(slice) - slices.start_s(0)) as usize;
-        let mut past = (slices.start_s(slice + 1) - slices.start_s(0)) as usize;
-        while past > first {
-            // No flight and no hold begins and ends in the same piece: all that a piece needs is known.
-            let begin = first.max(past.saturating_sub(network.shortest_s as usize));
-            for from in 0..network.size() {
-                let mut best = std::mem::take(&mut self.best);
-                best.clear();
-                best.resize(past - begin, i64::MIN);
-                let stays = self.paid(network, slice, from);
-                self.raise(
-                    &mut best,
-                    network,
-                    worths,
-                    from,
-                    begin + network.hold_s as usize,
-                    stays,
-                );
-                for flight in network.flights(slice, layer, from) {
-                    let to = flight.to.at();
-                    let flies = earnings(network, prices, flight) + self.paid(network, slice, to);
-                    self.raise(
-                        &mut best,
-                        network,
-                        worths,
-                        to,
-                        begin + flight.block_s as usize,
-                        flies,
-                    );
-                }
-                let day_s = slices.day_s() as usize;
-                let known = &mut worths[from * day_s..][begin..past];
-                for (known, best) in known.iter_mut().zip(&best) {
-                    *known = best - stays;
-                }
-                if network.layers[layer].waits_freely {
-                    let own = &mut worths[from * day_s..][..day_s];
-                    let over = -self.paid(network, slices.len(), from);
-                    let afterwards = own.get(past).copied().unwrap_or(over);
-                    wait_freely(&mut own[begin..past], afterwards);
-                }
-                self.best = best;
-            }
-            past = begin;
+    /// Works out the seconds from `begin` to before `past`, which are in `slice`, from those after them.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
+    fn work_out_piece(&mut self, slice: usize, from: usize, begin: usize, past: usize) {
+        let mut best = [i64::MIN; SIDE_BY_SIDE];
+        let best = &mut best[..past - begin];
+        let stays = self.paid(slice, from);
+        self.raise(best, from, begin + self.network.hold_s as usize, 0);
+        for flight in self.network.flights(slice, self.layer, from) {
+            let to = flight.to.at();
+            let flies = earnings(self.network, self.prices, flight) + self.paid(slice, to) - stays;
+            self.raise(best, to, begin + flight.block_s as usize, flies);
+        }
+        let own = &mut self.worths[from * self.stride..][..self.stride];
+        own[begin..past].copy_from_slice(best);
+        if self.network.layers[self.layer].waits_freely {
+            let afterwards = own[past];
+            wait_freely(&mut own[begin..past], afterwards);
         }
     }
 
     /// Raises each entry of `best` to what another choice is worth: `gain`, and the worth at `to` from `ready` on.
-    fn raise(
-        &self,
-        best: &mut [i64],
-        network: &Network,
-        worths: &[i64],
-        to: usize,
-        ready: usize,
-        gain: i64,
-    ) {
-        let day_s = network.slices.day_s() as usize;
-        let worths = worths[to * day_s..][..day_s].get(ready..).unwrap_or(&[]);
-        let (in_time, late) = best.split_at_mut(worths.len().min(best.len()));
-        for (best, worth) in in_time.iter_mut().zip(worths) {
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
+    fn raise(&self, best: &mut [i64], to: usize, ready: usize, gain: i64) {
+        let ready = ready.min(self.network.slices.day_s() as usize);
+        let worths = &self.worths[to * self.stride + ready..][..best.len()];
+        for (best, worth) in best.iter_mut().zip(worths) {
             *best = (*best).max(gain + worth);
-        }
-        let over = gain - self.paid(network, network.slices.len(), to);
-        for best in late {
-            *best = (*best).max(over);
-        }
-    }
-
-    /// What the whole fleet earns for itself; nothing has been paid when the day begins.
-    fn fleet(&self, network: &Network) -> i128 {
-        let starts = network.layers.iter().flat_map(|layer| &layer.starts);
-        let worths = self.worth_less_paid.iter().step_by(network.slices.day_s() as usize);
-        starts.zip(worths).map(|(&count, &worth)| i128::from(count) * i128::from(worth)).sum()
-    }
-
-    /// What is wanted too much or too little if each aircraft takes the way that is worth most to it, at the prices that
-    /// were evaluated last. Among equal ways the first flight in file order goes first, a hold last; who
-    /// may wait freely waits as long as that is as good.
-    pub(super) fn excess(&self, network: &Network, prices: &Prices, excess: &mut Excess) {
-        *excess = Excess::of_nobody(network);
-        for (layer, kind) in network.layers.iter().enumerate() {
-            for (at, &count) in kind.starts.iter().enumerate().filter(|(_, count)| **count > 0) {
-                self.walk(network, prices, layer, at, f64::from(count), excess);
-            }
-        }
-    }
-
-    /// Until when an aircraft that may wait freely does so: as long as being ready is worth as much later.
-    fn waits_until(&self, network: &Network, layer: usize, at: usize, mut second: usize) -> usize {
-        let day_s = network.slices.day_s() as usize;
-        let worth = |second| self.worth_less_paid(network, layer, at, second);
-        while network.layers[layer].waits_freely
-            && second < day_s
-            && worth(second) == worth(second + 1)
-        {
-            second += 1;
-        }
-        second
-    }
-
-    /// The first flight in file order that is worth as much as being ready at a place, second and slice is.
-    fn best_flight<'a>(
-        &self,
-        network: &'a Network,
-        prices: &Prices,
-        layer: usize,
-        (at, second, slice): (usize, usize, usize),
-    ) -> Option<&'a Flight> {
-        let here = self.worth_less_paid(network, layer, at, second) + self.paid(network, slice, at);
-        network.flights(slice, layer, at).iter().find(|flight| {
-            let (to, ready) = (flight.to.at(), second + flight.block_s as usize);
-            let goes_on = self.worth_less_paid(network, layer, to, ready);
-            here == earnings(network, prices, flight) + self.paid(network, slice, to) + goes_on
-        })
-    }
-
-    /// Follows the best way of `count` aircraft that start at `at`.
-    fn walk(
-        &self,
-        network: &Network,
-        prices: &Prices,
-        layer: usize,
-        mut at: usize,
-        count: f64,
-        excess: &mut Excess,
-    ) {
-        let slices = &network.slices;
-        let (mut second, mut slice) = (0, 0);
-        while slice < slices.len() {
-            let leaves = self.waits_until(network, layer, at, second);
-            if leaves > second {
-                second = leaves;
-            } else if let Some(flight) =
-                self.best_flight(network, prices, layer, (at, second, slice))
-            {
-                excess.demand[flight.cell as usize] += count * f64::from(flight.passengers);
-                at = flight.to.at();
-                second += flight.block_s as usize;
-            } else {
-                second += network.hold_s as usize;
-            }
-            let until = slices.containing(slices.start_s(0).saturating_add(small(second)));
-            for taken in slice..until {
-                excess.stand[taken * network.size() + at] += count;
-            }
-            slice = until;
         }
     }
 }
@@ -248,10 +196,11 @@ fn wait_freely(worths: &mut [i64], mut later: i64) {
 }
 
 /// What a flight earns at most after it has paid for its passengers.
-fn earnings(network: &Network, prices: &Prices, flight: &Flight) -> i64 {
+#[inline]
+pub(super) fn earnings(network: &Network, prices: &Prices, flight: &Flight) -> i64 {
     let cell = flight.cell as usize;
     let a_passenger = network.margin[cell] - prices.demand[cell];
-    i64::from(flight.passengers) * a_passenger - flight.energy_cost
+    i64::from(flight.passengers) * a_passenger - flight.cost
 }
 
 /// What all stands and all passengers cost together.
@@ -259,8 +208,4 @@ fn given_back(network: &Network, prices: &Prices) -> i128 {
     let stands = network.stands.iter().cycle().zip(&prices.stand);
     let all = stands.chain(network.demand.iter().zip(&prices.demand));
     all.map(|(&count, &price)| i128::from(count) * i128::from(price)).sum()
-}
-
-fn small(second: usize) -> u32 {
-    u32::try_from(second).expect("a day's seconds, and those of one flight more")
 }

@@ -1,6 +1,6 @@
 //! Money in whole micro-dollars, rounded to the safe side, so that sums are exact and a bound stays one.
 //!
-//! Numbers of a day are within bounds (`vertifleet_core`): no passenger and no charge is worth 5,000,000 dollars, 2^43
+//! Numbers of a day are within bounds (`vertifleet_core`): no passenger, and no flight with its charge, is worth 8,000,000 dollars, 2^43
 //! micro-dollars. `f64` holds such amounts to less than a hundredth of a micro-dollar, also after the few operations
 //! that made them. Rounding outwards *and* by one more micro-dollar is therefore always outwards.
 

@@ -4,10 +4,11 @@
 //! which outages are dropped and waiting is free. What a flight earns depends on the slice in which it begins,
 //! never on the second within it.
 
-use vertifleet_core::{Matrix, Scenario, Time, TypeIx, Vertiport, VertiportIx};
+use vertifleet_core::{ClosedTimes, Matrix, Scenario, Time, TypeIx, Vertiport, VertiportIx};
 use vertifleet_sim::Legs;
 
 use super::money;
+use super::prices::Prices;
 use super::slices::Slices;
 use crate::Error;
 
@@ -27,8 +28,8 @@ pub(super) struct Flight {
     pub(super) cell: u32,
     /// The most passengers it may carry: its seats, or all who wait where those are fewer.
     pub(super) passengers: u32,
-    /// The least that its energy may cost, micro-dollars.
-    pub(super) energy_cost: i64,
+    /// The least that it may cost whoever is on board, its energy included; micro-dollars.
+    pub(super) cost: i64,
 }
 
 /// The aircraft of one type, those with outages or those without.
@@ -55,6 +56,8 @@ pub(super) struct Network {
     pub(super) demand: Vec<u32>,
     /// The most that a passenger may earn, by period, from, to; micro-dollars, never negative.
     pub(super) margin: Vec<i64>,
+    /// The least that the fleet costs whatever it does, micro-dollars.
+    pub(super) fleet_cost: i64,
     /// Seconds that a hold lasts.
     pub(super) hold_s: u32,
     /// The shortest time from a take-off to the next one, or a hold where that is shorter; seconds, at least 1.
@@ -70,27 +73,18 @@ impl Network {
     /// # Errors
     /// [`Error::TooManyFlights`].
     pub(super) fn of(scenario: &Scenario, step_s: u32) -> Result<Self, Error> {
+        Self::fits(scenario, step_s)?;
         let legs = Legs::of(scenario);
         let layers = layers(scenario);
         let slices = Slices::of(scenario, step_s);
-        let flights = slices.len() * pairs(&legs, &layers, scenario.vertiports.len());
-        let places = layers.len() * scenario.vertiports.len() * slices.day_s() as usize;
-        if flights > MOST_FLIGHTS || places > MOST_PLACES {
-            return Err(Error::TooManyFlights {
-                step_s,
-                flights,
-                most_flights: MOST_FLIGHTS,
-                places,
-                most_places: MOST_PLACES,
-            });
-        }
         let mut network = Self {
             stands: scenario.vertiports.iter().map(room).collect(),
             demand: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
             margin: margins(scenario),
+            fleet_cost: fleet_cost(scenario),
             hold_s: scenario.operations.hold_s,
             shortest_s: scenario.operations.hold_s,
-            flights: Vec::with_capacity(flights),
+            flights: Vec::new(),
             offsets: vec![0],
             slices,
             layers,
@@ -99,21 +93,59 @@ impl Network {
         Ok(network)
     }
 
+    /// Whether a day is not too large for slices of at most `step_s` seconds.
+    ///
+    /// # Errors
+    /// [`Error::TooManyFlights`] if it is.
+    pub(super) fn fits(scenario: &Scenario, step_s: u32) -> Result<(), Error> {
+        let layers = layers(scenario);
+        let slices = Slices::of(scenario, step_s);
+        let size = scenario.vertiports.len();
+        let flights = slices.len() * pairs(&Legs::of(scenario), &layers, size);
+        let places = layers.len() * size * slices.day_s() as usize;
+        if flights <= MOST_FLIGHTS && places <= MOST_PLACES {
+            return Ok(());
+        }
+        Err(Error::TooManyFlights {
+            step_s,
+            flights,
+            most_flights: MOST_FLIGHTS,
+            places,
+            most_places: MOST_PLACES,
+        })
+    }
+
+    /// The same day on a clock that ticks every `tick_s` seconds only, and all durations rounded to whole ticks: what is worked out
+    /// on it is near the truth and takes a fraction of the time, but proves nothing.
+    pub(super) fn on_coarse_clock(mut self, tick_s: u32) -> Self {
+        let nearest = |seconds: u32| ((seconds + tick_s / 2) / tick_s).max(1);
+        self.hold_s = nearest(self.hold_s);
+        self.shortest_s = nearest(self.shortest_s);
+        for flight in &mut self.flights {
+            flight.block_s = nearest(flight.block_s);
+        }
+        self.slices = self.slices.on_coarse_clock(tick_s);
+        self
+    }
+
     fn add_flights(&mut self, scenario: &Scenario, legs: &Legs) {
         let size = self.size();
+        let closed = ClosedTimes::of(&scenario.disturbances.closures, size);
         for slice in 0..self.slices.len() {
             let first_cell = self.slices.period(slice) * size * size;
             let times_s = (self.slices.start_s(slice), self.slices.last_s(slice));
+            let [first, last] = [times_s.0, times_s.1].map(Time::from_seconds);
             for layer in &self.layers {
                 for from in VertiportIx::all(size) {
                     for to in legs.within_range(layer.kind, from).iter() {
-                        if closed_throughout(scenario, (from, to), times_s) {
+                        if closed.is_closed_throughout(from, to, first, last) {
                             continue;
                         }
                         let leg = legs.leg(layer.kind, from, to);
                         let late_s = delay_s(scenario, from, times_s.0);
                         let flight_s = leg.flight_s + late_s;
                         let arrivals_s = (times_s.0 + flight_s, times_s.1 + flight_s);
+                        let cost_usd = scenario.flight_cost_usd[(from, to)];
                         let price_usd = lowest_energy_price_usd(scenario, arrivals_s);
                         let cell = first_cell + from.at() * size + to.at();
                         self.flights.push(Flight {
@@ -121,7 +153,7 @@ impl Network {
                             block_s: leg.block_s() + late_s,
                             cell: small(cell),
                             passengers: layer.seats.min(self.demand[cell]),
-                            energy_cost: money::down(leg.energy_kwh * price_usd),
+                            cost: money::down(leg.energy_kwh * price_usd + cost_usd),
                         });
                         self.shortest_s = self.shortest_s.min(leg.block_s());
                     }
@@ -129,6 +161,16 @@ impl Network {
                 }
             }
         }
+    }
+
+    /// What one more passenger is worth at most, by period, from, to; micro-dollars. If all who want to fly fill no aircraft, one
+    /// more may fly with them, and the price says nothing of that.
+    pub(super) fn worth_of_passengers(&self, prices: &Prices) -> Vec<i64> {
+        let seats = self.layers.iter().map(|layer| layer.seats).max().unwrap_or(0);
+        let cells = self.demand.iter().zip(&self.margin).zip(&prices.demand);
+        cells
+            .map(|((&waiting, &margin), &price)| if waiting < seats { margin } else { price })
+            .collect()
     }
 
     /// Number of vertiports.
@@ -178,19 +220,6 @@ fn delay_s(scenario: &Scenario, from: VertiportIx, time_s: u32) -> u32 {
     delays.map_or(0, |delays| delays.at(start, Time::from_seconds(time_s), from))
 }
 
-/// Whether one closure of a route lasts from the first to the last of these times.
-fn closed_throughout(
-    scenario: &Scenario,
-    (from, to): (VertiportIx, VertiportIx),
-    (first_s, last_s): (u32, u32),
-) -> bool {
-    scenario.disturbances.closures.iter().any(|closure| {
-        closure.route.covers(from, to)
-            && closure.start.seconds() <= first_s
-            && last_s < closure.end.seconds()
-    })
-}
-
 /// Flights that may begin in each slice.
 fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
     let within_range = |layer: &Layer| -> usize {
@@ -205,6 +234,13 @@ fn margins(scenario: &Scenario) -> Vec<i64> {
     let fares = (0..scenario.periods.len())
         .flat_map(|period| scenario.fare_usd.in_period(period).cells().iter().zip(costs));
     fares.map(|(fare, cost)| money::up(fare - cost).max(0)).collect()
+}
+
+/// Exact, and nothing where aircraft cost nothing: rounding down would cost them less than that.
+fn fleet_cost(scenario: &Scenario) -> i64 {
+    let an_aircraft = money::down(scenario.aircraft_cost_usd).max(0);
+    let fleet = i64::try_from(scenario.aircraft.len()).expect("at most 10,000 aircraft");
+    fleet * an_aircraft
 }
 
 /// The lowest price of energy at any time from the first to the second of `arrivals_s`.

@@ -3,9 +3,13 @@
 //! Any prices within the limits that this file keeps to prove a bound (`certificate.rs`); good ones prove a tight one.
 
 use super::network::Network;
+use super::slices::Slices;
 
 /// The most that a stand may cost in a slice, micro-dollars. It keeps every sum of `certificate.rs` within `i64`.
-const MOST_FOR_A_STAND: i64 = 100_000_000_000_000;
+pub(super) const MOST_FOR_A_STAND: i64 = 100_000_000_000_000;
+
+/// How fast a passenger's price moves beside that of a stand in a slice of a quarter of an hour.
+pub(super) const PACE_OF_PASSENGERS: f64 = 0.2;
 
 /// Prices in whole micro-dollars.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,58 +41,46 @@ impl Prices {
         (lengths && within).then_some(Self { stand, demand })
     }
 
-    /// The prices of a step from `self`: each goes up by `step` times what is wanted too much of it, down by what is wanted
-    /// too little, and stays within its limits.
-    pub(super) fn step(&self, network: &Network, excess: &Excess, step: f64, to: &mut Self) {
-        let moved =
-            |price: i64, excess: f64, most: i64| whole(price as f64 + step * excess).clamp(0, most);
-        for ((to, &from), &excess) in to.stand.iter_mut().zip(&self.stand).zip(&excess.stand) {
-            *to = moved(from, excess, MOST_FOR_A_STAND);
+    /// The same prices in other slices of the same day: what a stand costs in a slice is spread evenly over its seconds, so that the
+    /// rent of a long stay is what it was.
+    pub(super) fn in_slices(&self, from: &Slices, to: &Slices, size: usize) -> Self {
+        let mut stand = Vec::with_capacity(to.len() * size);
+        for slice in 0..to.len() {
+            let (start_s, past_s) = (to.start_s(slice), to.start_s(slice + 1));
+            for at in 0..size {
+                let parts = (from.containing(start_s)..=from.containing(past_s - 1)).map(|old| {
+                    let (begins_s, ends_s) = (from.start_s(old), from.start_s(old + 1));
+                    let shared_s = past_s.min(ends_s) - start_s.max(begins_s);
+                    self.stand[old * size + at] as f64 * f64::from(shared_s)
+                        / f64::from(ends_s - begins_s)
+                });
+                stand.push(whole(parts.sum()).clamp(0, MOST_FOR_A_STAND));
+            }
         }
-        let demand = to.demand.iter_mut().zip(&self.demand).zip(&excess.demand);
-        for (((to, &from), &excess), &margin) in demand.zip(&network.margin) {
-            *to = moved(from, excess, margin);
-        }
+        Self { stand, demand: self.demand.clone() }
     }
 }
 
-/// How much more of everything is wanted than there is; less than 0 where some is left. In the order of [`Prices`].
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Excess {
-    pub(super) stand: Vec<f64>,
-    pub(super) demand: Vec<f64>,
+/// How fast prices move. A stand's price in a slice moves in proportion to the length of the slice, so that the rent of a stay
+/// moves as fast whatever the slices are.
+pub(super) struct Pace {
+    /// By slice.
+    stand: Vec<f64>,
 }
 
-impl Excess {
-    /// All there is is left.
-    pub(super) fn of_nobody(network: &Network) -> Self {
-        let stands = network.stands.iter().cycle().take(network.slices.len() * network.size());
-        let all = |count: &u32| -f64::from(*count);
-        Self { stand: stands.map(all).collect(), demand: network.demand.iter().map(all).collect() }
+impl Pace {
+    pub(super) fn of(slices: &Slices) -> Self {
+        let pace = |slice| f64::from(slices.start_s(slice + 1) - slices.start_s(slice)) / 900.0;
+        Self { stand: (0..slices.len()).map(pace).collect() }
     }
 
-    /// Moves each entry a part of the way towards another's.
-    pub(super) fn approach(&mut self, other: &Self, part: f64) {
-        let entries = self.stand.iter_mut().zip(&other.stand);
-        for (mean, entry) in entries.chain(self.demand.iter_mut().zip(&other.demand)) {
-            *mean += part * (entry - *mean);
-        }
-    }
-
-    /// The squares, summed over the prices that may still move the way their excess points.
-    pub(super) fn movable_square(&self, network: &Network, prices: &Prices) -> f64 {
-        let stands = self.stand.iter().zip(&prices.stand).map(|(e, p)| (e, p, &MOST_FOR_A_STAND));
-        let demand = self.demand.iter().zip(&prices.demand).zip(&network.margin);
-        let demand = demand.map(|((e, p), most)| (e, p, most));
-        stands
-            .chain(demand)
-            .filter(|&(&excess, &price, &most)| if excess < 0.0 { price > 0 } else { price < most })
-            .map(|(excess, ..)| excess * excess)
-            .sum()
+    /// That of a stand in a slice.
+    pub(super) fn of_stands(&self, slice: usize) -> f64 {
+        self.stand[slice]
     }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "`as` saturates, and limits follow")]
-fn whole(micro: f64) -> i64 {
+pub(super) fn whole(micro: f64) -> i64 {
     micro.round() as i64
 }

@@ -5,6 +5,7 @@
 mod days;
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use proptest::prelude::{ProptestConfig, any, proptest};
 use vertifleet_core::{AircraftIx, DaySeed, Network as Days, Scenario, TakeoffDelays, Time};
@@ -84,7 +85,8 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
     let network = Network::of(day, step_s).expect("a small day");
     let prices = any_prices(&network, mix);
     let mut certificate = Certificate::new(&network);
-    let bound = certificate.evaluate(&network, &prices);
+    let never = AtomicBool::new(false);
+    let bound = certificate.evaluate(&network, &prices, &never).expect("nobody stops it");
     for trace in traces(day) {
         let mut taken = vec![0; prices.stand.len()];
         let mut carried = vec![0; prices.demand.len()];
@@ -109,7 +111,7 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
             // An aircraft does no better than the longest path.
             let start = day.aircraft[aircraft.at()].at.at();
             let layer = layer_of(day, &network, aircraft);
-            let worth = certificate.worth(&network, layer, start, 0);
+            let worth = certificate.worth_less_paid(&network, layer, start, 0);
             assert!(left <= worth, "aircraft {aircraft:?} has {left} left, its best way {worth}");
         }
         // What is paid is no more than what is given back.
@@ -150,5 +152,54 @@ proptest! {
     ) {
         let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 6 });
         takes_each_step_of_the_proof(&day, 60 * minutes, mix);
+    }
+}
+
+/// What prices prove for a day, micro-dollars.
+fn proven(day: &Scenario, step_s: u32, mix: u64) -> (i128, Prices) {
+    let network = Network::of(day, step_s).expect("a small day");
+    let prices = any_prices(&network, mix);
+    let never = AtomicBool::new(false);
+    let micro_usd = Certificate::new(&network).evaluate(&network, &prices, &never);
+    (micro_usd.expect("nobody stops it"), prices)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn one_more_stand_raises_what_prices_prove_by_its_price(
+        number in any::<u32>(), minutes in 1_u32..60, mix in any::<u64>()
+    ) {
+        let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 6 });
+        let (before, prices) = proven(&day, 60 * minutes, mix);
+        let size = day.vertiports.len();
+        let at = (number % u32::try_from(size).expect("few")) as usize;
+        let mut more = Scenario::clone(&day).into_day();
+        more.vertiports[at].stands += 1;
+        let more = more.check("one more").expect("a day within the rules");
+        let (after, _) = proven(&more, 60 * minutes, mix);
+        let worth: i64 = prices.stand.iter().skip(at).step_by(size).sum();
+        assert_eq!(after, before + i128::from(worth));
+    }
+
+    #[test]
+    fn shorter_slices_prove_no_less_with_the_same_prices_at_their_ends(
+        number in any::<u32>(), mix in any::<u64>()
+    ) {
+        let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 6 });
+        let (longer_proves, prices) = proven(&day, 900, mix);
+        let (longer, shorter) = (Network::of(&day, 900), Network::of(&day, 180));
+        let (longer, shorter) = (longer.expect("a small day"), shorter.expect("a small day"));
+        let mut same = Prices::zero(&shorter);
+        same.demand.clone_from(&prices.demand);
+        for slice in 0..longer.slices.len() {
+            let last = shorter.slices.containing(longer.slices.last_s(slice));
+            let size = longer.size();
+            same.stand[last * size..][..size].copy_from_slice(&prices.stand[slice * size..][..size]);
+        }
+        let never = AtomicBool::new(false);
+        let shorter_proves = Certificate::new(&shorter).evaluate(&shorter, &same, &never);
+        assert!(shorter_proves.expect("nobody stops it") <= longer_proves);
     }
 }

@@ -41,6 +41,13 @@ impl Slices {
         Self { starts_s, periods }
     }
 
+    /// The same slices on a clock that ticks every `tick_s` seconds only, from 0 on. Slices shorter than a tick may be empty there.
+    pub(super) fn on_coarse_clock(&self, tick_s: u32) -> Self {
+        let first_s = self.start_s(0);
+        let starts_s = self.starts_s.iter().map(|start_s| (start_s - first_s).div_ceil(tick_s));
+        Self { starts_s: starts_s.collect(), periods: self.periods.clone() }
+    }
+
     /// Number of slices, at least 1.
     pub(super) fn len(&self) -> usize {
         self.periods.len()

@@ -14,6 +14,8 @@ pub(super) struct Hop {
     /// Seconds from take-off until ready again.
     pub(super) block_s: u32,
     pub(super) energy_kwh: f64,
+    /// What the flight costs beside its energy, dollars.
+    flight_cost_usd: f64,
 }
 
 /// How a flight ends.
@@ -35,6 +37,8 @@ pub(super) struct Day {
     /// First second of each demand period.
     pub(super) period_starts_s: Vec<u32>,
     pub(super) energy_price_usd: Vec<f64>,
+    /// What the fleet costs whatever it does, dollars.
+    pub(super) fleet_cost_usd: f64,
     /// U_max of each vertiport.
     pub(super) stands: Vec<u16>,
     /// The type of each aircraft.
@@ -62,6 +66,7 @@ impl Day {
                         flight_s: leg.flight_s,
                         block_s: leg.block_s(),
                         energy_kwh: leg.energy_kwh,
+                        flight_cost_usd: view.flight_costs_usd(from)[to.at()],
                     }
                 };
                 hops.push(view.within_range(kind, from).iter().map(hop).collect());
@@ -74,6 +79,7 @@ impl Day {
             hold_s: view.hold_s(),
             period_starts_s: view.period_starts().iter().map(|start| start.seconds()).collect(),
             energy_price_usd: view.energy_prices_usd().to_vec(),
+            fleet_cost_usd: view.fleet_cost_usd(),
             stands: VertiportIx::all(vertiports).map(|vertiport| view.stands(vertiport)).collect(),
             kind_of: fleet.map(|aircraft| view.kind(aircraft)).collect(),
             seats: types.iter().map(|kind| kind.seats).collect(),
@@ -161,10 +167,12 @@ impl Day {
         self.margins_usd[cell]
     }
 
-    /// Cost of charging after a flight that takes off in `period` and lands at `arrival_s`, dollars.
+    /// What a flight that takes off in `period` and lands at `arrival_s` costs whoever is on board, dollars: charging after it,
+    /// and its own cost.
     #[inline]
-    pub(super) fn energy_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
+    pub(super) fn flying_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
         hop.energy_kwh * self.energy_price_usd[self.period_from(period, arrival_s)]
+            + hop.flight_cost_usd
     }
 }
 

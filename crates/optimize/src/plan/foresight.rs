@@ -2,7 +2,7 @@
 //!
 //! A plan of a whole known day reckons with it exactly. Who plans while the day goes on does not have it.
 
-use vertifleet_core::{AircraftIx, Disturbances, Scenario, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, ClosedTimes, Disturbances, Scenario, Time, VertiportIx};
 
 use super::day::{Hop, Landing};
 
@@ -11,6 +11,7 @@ use super::day::{Hop, Landing};
 pub(super) struct Foresight {
     start: Time,
     disturbances: Disturbances,
+    closed: ClosedTimes,
 }
 
 impl Foresight {
@@ -18,7 +19,8 @@ impl Foresight {
     pub(super) fn of(scenario: &Scenario) -> Option<Self> {
         let disturbances = scenario.disturbances.clone();
         let start = scenario.operations.start;
-        (!disturbances.is_none()).then_some(Self { start, disturbances })
+        let closed = ClosedTimes::of(&disturbances.closures, scenario.vertiports.len());
+        (!disturbances.is_none()).then_some(Self { start, disturbances, closed })
     }
 
     /// When a flight of an aircraft from a vertiport lands, and when the aircraft is ready again.
@@ -44,9 +46,6 @@ impl Foresight {
 
     /// Whether a route is closed at a time.
     pub(super) fn is_closed(&self, from: VertiportIx, to: VertiportIx, time_s: u32) -> bool {
-        self.disturbances.closures.iter().any(|closure| {
-            closure.route.covers(from, to)
-                && (closure.start.seconds()..closure.end.seconds()).contains(&time_s)
-        })
+        self.closed.is_closed(from, to, Time::from_seconds(time_s))
     }
 }

@@ -200,8 +200,8 @@ impl RouteSearch {
         let landing = day.landing(task.aircraft, choice.place, hop, choice.time_s);
         let cell = day.cell(choice.period, choice.place, hop.to);
         let passengers = task.schedule.boarding(cell, task.seats);
-        let energy_usd = day.energy_cost_usd(hop, choice.period, landing.arrival_s);
-        let profit_usd = passengers as f64 * day.margin_usd(cell) - energy_usd;
+        let cost_usd = day.flying_cost_usd(hop, choice.period, landing.arrival_s);
+        let profit_usd = passengers as f64 * day.margin_usd(cell) - cost_usd;
         self.reach(task, choice, hop.to, window, landing.ready_s, profit_usd);
     }
 

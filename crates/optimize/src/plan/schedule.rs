@@ -49,7 +49,7 @@ impl Schedule {
             routes.push(Route { place, ready_s: *first_s, flights: Vec::new(), whole: false });
         }
         let left = demand.iter().map(|&passengers| i64::from(passengers)).collect();
-        Self { routes, stands, left, value_usd: 0.0 }
+        Self { routes, stands, left, value_usd: 0.0 - day.fleet_cost_usd }
     }
 
     /// What the flights earn, dollars.
@@ -145,8 +145,8 @@ impl Schedule {
         // Passengers of the pair are demand less what is left of it, never less than none left.
         let passengers = (before.max(0) - after.max(0)).abs();
         let landing = day.landing(aircraft, flight.from, hop, flight.take_off_s);
-        let energy_usd = day.energy_cost_usd(hop, period, landing.arrival_s);
-        passengers as f64 * day.margin_usd(cell) - energy_usd
+        let cost_usd = day.flying_cost_usd(hop, period, landing.arrival_s);
+        passengers as f64 * day.margin_usd(cell) - cost_usd
     }
 
     /// Sets the account to an amount known from before, so that undoing a change leaves no rounding behind.

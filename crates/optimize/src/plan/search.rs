@@ -183,7 +183,7 @@ mod tests {
         let network = Network::shipped("paper").expect("a shipped network");
         let day = Arc::new(network.draw(DaySeed::validation(9).expect("a seed")));
         let problem = Problem::of(&day);
-        let (trace, _) = start::best_policy(&day, |_| true);
+        let (trace, _) = start::best_policy(&day, &mut [], &mut |_, _| true);
         let mut search = Search::new(start::schedule_of(&problem, &trace), 3);
         for step in 0..300 {
             // Hot and cold, so that steps are kept as well as undone.

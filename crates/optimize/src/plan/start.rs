@@ -13,18 +13,21 @@ use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 use crate::Rolling;
 
-/// A day played by one policy; nothing if `go_on`, asked after each decision, says no.
+/// A day that was played, and its profit in dollars.
+pub(super) type Played = (Trace, f64);
+
+/// A day played by one policy; `None` if `go_on`, asked after each decision with how many there were, says no.
 fn played(
     scenario: &Arc<Scenario>,
     policy: &mut dyn Policy,
-    go_on: &mut dyn FnMut() -> bool,
-) -> Option<(Trace, f64)> {
+    go_on: &mut dyn FnMut(usize) -> bool,
+) -> Option<Played> {
     let mut simulation = Simulation::new(Arc::clone(scenario));
     let mut trace = Trace::default();
     let stop = AtomicBool::new(false);
     let outcome = play(&mut simulation, &mut Stoppable { policy, stop: &stop }, |row| {
         trace.rows.push(*row);
-        stop.store(!go_on(), Ordering::Relaxed);
+        stop.store(!go_on(trace.rows.len()), Ordering::Relaxed);
     });
     match outcome {
         Ok(()) => Some((trace, simulation.ledger().profit_usd())),
@@ -33,21 +36,33 @@ fn played(
     }
 }
 
-/// The best day of the policies that need no learning. That of the rolling horizon, which is mostly the best and takes a while on
-/// large networks, is left out if `go_on`, told the profit of the others in dollars, says no while it is being played.
+/// The best day of several policies: the rules that need no learning, `more`, and the rolling horizon, the quickest first.
+///
+/// `go_on` is told the best profit so far in dollars, and of a day that is being played how much of it is over, as a share
+/// of greedy's decisions. When it says no, that day is left out, and before a day begins also all that follow. Greedy's is
+/// always played.
 pub(super) fn best_policy(
     scenario: &Arc<Scenario>,
-    mut go_on: impl FnMut(f64) -> bool,
-) -> (Trace, f64) {
-    let rules: [&mut dyn Policy; 4] =
-        [&mut Priced::default(), &mut Lookahead, &mut Greedy, &mut Random::new(0)];
-    let days = rules.map(|rule| played(scenario, rule, &mut || true));
-    let best = days.into_iter().flatten().max_by(|one, other| one.1.total_cmp(&other.1));
-    let best = best.expect("there are rules");
-    match played(scenario, &mut Rolling::default(), &mut || go_on(best.1)) {
-        Some(rolling) if rolling.1 > best.1 => rolling,
-        _ => best,
+    more: &mut [Box<dyn Policy>],
+    go_on: &mut dyn FnMut(f64, Option<f64>) -> bool,
+) -> Played {
+    let mut best = played(scenario, &mut Greedy, &mut |_| true).expect("it is not stopped");
+    let decisions = best.0.rows.len().max(1) as f64;
+    let mut rules: [Box<dyn Policy>; 3] =
+        [Box::new(Lookahead), Box::new(Random::new(0)), Box::<Priced>::default()];
+    let mut rolling: [Box<dyn Policy>; 1] = [Box::<Rolling>::default()];
+    for policy in rules.iter_mut().chain(more).chain(&mut rolling) {
+        if !go_on(best.1, None) {
+            break;
+        }
+        let day = played(scenario, policy.as_mut(), &mut |taken| {
+            go_on(best.1, Some((taken as f64 / decisions).min(1.0)))
+        });
+        if let Some(day) = day.filter(|day| day.1 > best.1) {
+            best = day;
+        }
     }
+    best
 }
 
 /// The flights of a whole day's trace.

@@ -44,6 +44,7 @@ pub(crate) fn any_day(number: u64, most: Size) -> Arc<Scenario> {
                 stands: u16::try_from(standing).expect("few").max(1) + random.random_range(0..=1),
                 chargers: None,
                 busy: false,
+                degrees: None,
             }
         })
         .collect();
@@ -88,6 +89,11 @@ pub(crate) fn any_day(number: u64, most: Size) -> Arc<Scenario> {
             .collect(),
         fare_usd: Matrix::from_fn(size, |from, to| 2.0 * distance_mi[(from, to)] + 1.25).into(),
         passenger_cost_usd: Matrix::from_fn(size, |from, to| 0.64 * distance_mi[(from, to)]),
+        // Every third day has them.
+        flight_cost_usd: Matrix::from_fn(size, |from, to| {
+            if number.is_multiple_of(3) { 1.5 + 0.4 * distance_mi[(from, to)] } else { 0.0 }
+        }),
+        aircraft_cost_usd: if number.is_multiple_of(3) { 20.0 } else { 0.0 },
         distance_mi,
         corridors: None,
         periods: periods.into_iter().map(Time::from_seconds).collect(),
@@ -149,7 +155,8 @@ pub(crate) fn any_extended_day(number: u64, most: Size) -> Arc<Scenario> {
         let end = first + random.random_range(0..7200);
         if size > 1 {
             let route = route(&mut random);
-            day.disturbances.closures.push(Closure { route, start: first, end });
+            let known = number.is_multiple_of(2);
+            day.disturbances.closures.push(Closure { route, start: first, end, known });
         }
         let aircraft = AircraftIx::new(random.random_range(0..day.aircraft.len()));
         day.disturbances.outages.push(Outage { aircraft, start: first, end });

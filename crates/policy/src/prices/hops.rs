@@ -1,4 +1,4 @@
-//! The flights that aircraft of each type may make from each vertiport, and what they earn in each demand period.
+//! The flights that aircraft of each type may make from each vertiport, and what they earn in each interval of the day.
 
 use std::ops::Range;
 
@@ -6,9 +6,10 @@ use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 use super::clock::{Clock, SLOT_S};
+use super::intervals::Intervals;
 
-/// Demand periods for which a route that is closed now is taken to stay so, this one and the next: nobody knows how long it
-/// will be. On 60 days of `disrupted`, 1, 3 and all of them earned a little less, within chance.
+/// Demand periods for which a route that is closed unexpectedly now is taken to stay so, this one and the next: nobody knows how
+/// long it will be. On 60 days of `disrupted`, 1, 3 and all of them earned a little less, within chance.
 const CLOSED_PERIODS: usize = 2;
 
 /// A flight or a hold in slots of the clock, from its decision until the aircraft is ready again.
@@ -43,6 +44,7 @@ pub(super) struct Hop {
     pub(super) stay: Stay,
     flight_s: u32,
     energy_kwh: f64,
+    flight_cost_usd: f64,
     seats: u32,
     /// Place of the pair among all pairs of vertiports.
     pub(super) pair: usize,
@@ -55,7 +57,8 @@ pub(super) struct Hops {
     all: Vec<Hop>,
     /// Where the hops of each type and vertiport begin, and where the last end.
     begins: Vec<usize>,
-    /// By period, then hop: what it earns before its passengers are paid for, dollars, and how many they are.
+    pub(super) intervals: Intervals,
+    /// By interval, then hop: what it earns before its passengers are paid for, dollars, and how many they are.
     profit_usd: Vec<f64>,
     passengers: Vec<f64>,
     /// The same at the prices of passengers that were set last.
@@ -78,6 +81,7 @@ impl Hops {
                         stay: Stay::of(block_s, clock),
                         flight_s: leg.flight_s,
                         energy_kwh: leg.energy_kwh,
+                        flight_cost_usd: view.flight_costs_usd(from)[to.at()],
                         seats,
                         pair: from.at() * vertiports + to.at(),
                     }
@@ -85,11 +89,13 @@ impl Hops {
                 begins.push(hops.len());
             }
         }
-        let cells = view.period_starts().len() * hops.len();
+        let intervals = Intervals::of(view, clock);
+        let cells = intervals.all.len() * hops.len();
         Self {
             vertiports,
             all: hops,
             begins,
+            intervals,
             profit_usd: vec![0.0; cells],
             passengers: vec![0.0; cells],
             gain_usd: vec![0.0; cells],
@@ -100,30 +106,38 @@ impl Hops {
     pub(super) fn take_up(&mut self, view: View<'_>) {
         let count = self.all.len();
         let closed_until = view.period() + CLOSED_PERIODS;
-        for period in view.period()..view.period_starts().len() {
-            for (at, hop) in self.all.iter().enumerate() {
+        let known = view.known_closures();
+        for at in self.intervals.first_of(view.period())..self.intervals.all.len() {
+            let interval = self.intervals.all[at];
+            let period = interval.period;
+            for (cell, hop) in (at * count..).zip(&self.all) {
                 let from = VertiportIx::new(hop.pair / self.vertiports);
-                if period < closed_until && view.closed(from).contains(hop.to) {
-                    self.passengers[period * count + at] = 0.0;
-                    self.profit_usd[period * count + at] = f64::NEG_INFINITY;
+                if period < closed_until && view.closed_unexpectedly(from).contains(hop.to)
+                    || interval.is_closed(known, from, hop.to)
+                {
+                    self.passengers[cell] = 0.0;
+                    self.profit_usd[cell] = f64::NEG_INFINITY;
                     continue;
                 }
                 let waiting = view.demand_left(period, from, hop.to);
                 let passengers = f64::from(waiting.min(hop.seats));
                 let margin_usd = view.fares_usd(period, from)[hop.to.at()]
                     - view.passenger_costs_usd(from)[hop.to.at()];
-                self.passengers[period * count + at] = passengers;
-                self.profit_usd[period * count + at] = passengers * margin_usd
-                    - hop.energy_kwh * energy_price_usd(view, period, hop.flight_s);
+                self.passengers[cell] = passengers;
+                self.profit_usd[cell] = passengers * margin_usd
+                    - hop.energy_kwh * energy_price_usd(view, period, hop.flight_s)
+                    - hop.flight_cost_usd;
             }
         }
     }
 
-    /// Lets flights of the periods from `first` on pay for their passengers; prices by period, then pair.
+    /// Lets flights of the demand periods from `first` on pay for their passengers; prices by period, then pair.
     pub(super) fn charge(&mut self, first: usize, price_usd: &[f64]) {
         let (count, pairs) = (self.all.len(), self.vertiports * self.vertiports);
-        for (period, price_usd) in price_usd.chunks_exact(pairs).enumerate().skip(first) {
-            let row = period * count..(period + 1) * count;
+        let first = self.intervals.first_of(first);
+        for (at, interval) in self.intervals.all.iter().enumerate().skip(first) {
+            let price_usd = &price_usd[interval.period * pairs..][..pairs];
+            let row = at * count..(at + 1) * count;
             let earned = self.profit_usd[row.clone()].iter().zip(&self.passengers[row.clone()]);
             for ((gain_usd, hop), (profit_usd, passengers)) in
                 self.gain_usd[row].iter_mut().zip(&self.all).zip(earned)
@@ -156,21 +170,21 @@ impl Hops {
         &self.all[at]
     }
 
-    /// The hops at some positions, each with what it gains in a period.
+    /// The hops at some positions, each with what it gains in an interval.
     #[inline]
     pub(super) fn gains(
         &self,
-        period: usize,
+        interval: usize,
         range: Range<usize>,
     ) -> impl Iterator<Item = (&Hop, f64)> {
-        let gains = &self.gain_usd[period * self.all.len()..];
+        let gains = &self.gain_usd[interval * self.all.len()..];
         self.all[range.clone()].iter().zip(gains[range].iter().copied())
     }
 
-    /// Passengers of a hop in a period.
+    /// Passengers of a hop in an interval.
     #[inline]
-    pub(super) fn passengers(&self, period: usize, at: usize) -> f64 {
-        self.passengers[period * self.all.len() + at]
+    pub(super) fn passengers(&self, interval: usize, at: usize) -> f64 {
+        self.passengers[interval * self.all.len() + at]
     }
 }
 

@@ -3,7 +3,7 @@
 //! One pass from the end of the day back to now values being ready anywhere at any time (`ways_on.rs`); another, forward,
 //! follows each aircraft along its best way and counts what is asked for.
 
-use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
+use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 use super::clock::{Clock, SLOT_S};
@@ -25,8 +25,6 @@ pub(super) struct Relaxation {
     hops: Hops,
     vertiports: usize,
     hold_s: u32,
-    /// The demand period of each slot.
-    periods: Vec<usize>,
     stands: Vec<f64>,
     /// Passengers left, by period, then pair.
     demand: Vec<f64>,
@@ -41,6 +39,8 @@ pub(super) struct Relaxation {
     pub(super) stand_excess: Vec<f64>,
     pub(super) passenger_excess: Vec<f64>,
     ways_on: WaysOn,
+    /// Decisions that the fleet takes on its best ways.
+    decisions: u32,
 }
 
 impl Relaxation {
@@ -48,7 +48,6 @@ impl Relaxation {
     pub(super) fn of(view: View<'_>) -> Self {
         let clock = Clock::of(view);
         let vertiports = view.vertiports();
-        let period = |slot| view.period_at(Time::from_seconds(clock.begin_s(slot)));
         let cells = clock.slots * vertiports;
         let pairs = view.period_starts().len() * vertiports * vertiports;
         let stands = VertiportIx::all(vertiports).map(|at| f64::from(view.stands(at)));
@@ -56,7 +55,6 @@ impl Relaxation {
             hops: Hops::of(view, &clock),
             vertiports,
             hold_s: view.hold_s(),
-            periods: (0..clock.slots).map(period).collect(),
             stands: stands.collect(),
             demand: vec![0.0; pairs],
             fleet: Vec::with_capacity(view.places().len()),
@@ -67,6 +65,7 @@ impl Relaxation {
             stand_excess: vec![0.0; cells],
             passenger_excess: vec![0.0; pairs],
             ways_on: WaysOn::of(view, &clock),
+            decisions: 0,
             clock,
         }
     }
@@ -108,7 +107,7 @@ impl Relaxation {
     pub(super) fn evaluate(&mut self) -> f64 {
         self.hops.charge(self.first_period, &self.passenger_usd);
         self.ways_on.pay(&self.stand_usd, self.first_slot);
-        self.ways_on.value(&self.hops, &self.periods, self.first_slot);
+        self.ways_on.value(&self.hops, self.first_slot);
         self.offer_usd() + self.send_fleet()
     }
 
@@ -133,6 +132,7 @@ impl Relaxation {
     /// Sends every aircraft along its best way and counts what it asks for. Returns what the ways are worth.
     fn send_fleet(&mut self) -> f64 {
         let mut usd = 0.0;
+        self.decisions = 0;
         for at in 0..self.fleet.len() {
             let Ready { kind, place, at_s } = self.fleet[at];
             // Nothing has been paid when the first slot begins.
@@ -148,6 +148,7 @@ impl Relaxation {
         let mut slot = self.clock.slot(time_s);
         self.ask(place, self.first_slot, slot);
         while time_s <= self.clock.end_s {
+            self.decisions += 1;
             // The best choice of the boundary that is nearer.
             let near = ((time_s - self.clock.start_s + SLOT_S / 2) / SLOT_S) as usize;
             let best = self.ways_on.best(kind, place, near.min(slots - 1));
@@ -156,9 +157,10 @@ impl Relaxation {
             } else {
                 let best = usize::try_from(best).expect("made from a position");
                 let hop = *self.hops.hop(best);
-                let period = self.periods[slot];
+                let interval = self.hops.intervals.of_slot[slot];
+                let period = self.hops.intervals.all[interval].period;
                 let cell = period * size * size + hop.pair;
-                self.passenger_excess[cell] += self.hops.passengers(period, best);
+                self.passenger_excess[cell] += self.hops.passengers(interval, best);
                 place = hop.to;
                 time_s += hop.block_s;
             }
@@ -194,6 +196,11 @@ impl Relaxation {
             }
             (before, rest) = (row, later);
         }
+    }
+
+    /// Decisions that the fleet takes on its best ways at the prices.
+    pub(super) fn decisions(&self) -> u32 {
+        self.decisions
     }
 
     /// What it is worth to be ready, and what stands cost, anywhere at any time.

@@ -18,7 +18,9 @@ fn unit_usd(view: View<'_>, kind: TypeIx) -> f64 {
             let margin_usd =
                 view.fares_usd(0, from)[to.at()] - view.passenger_costs_usd(from)[to.at()];
             let energy_kwh = view.leg(kind, from, to).energy_kwh;
-            sum_usd += seats * margin_usd - energy_kwh * energy_price_usd;
+            sum_usd += seats * margin_usd
+                - energy_kwh * energy_price_usd
+                - view.flight_costs_usd(from)[to.at()];
             pairs += 1;
         }
     }

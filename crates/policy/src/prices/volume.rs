@@ -54,7 +54,7 @@ impl Volume {
     }
 
     /// Leaves the relaxation at the best prices that are met on the way from those it has.
-    pub(super) fn search(&mut self, relaxation: &mut Relaxation, effort: Effort) {
+    pub(super) fn search(&mut self, relaxation: &mut Relaxation, effort: Effort) -> f64 {
         let mut lowest_usd = f64::INFINITY;
         let (mut step, mut failures) = (effort.step, 0);
         for pass in 0..effort.passes_over(relaxation) {
@@ -81,7 +81,7 @@ impl Volume {
         let (stand, passenger) = relaxation.begins();
         relaxation.stand_usd[stand..].copy_from_slice(&self.stand_usd[stand..]);
         relaxation.passenger_usd[passenger..].copy_from_slice(&self.passenger_usd[passenger..]);
-        relaxation.evaluate();
+        relaxation.evaluate()
     }
 
     fn keep(&mut self, relaxation: &Relaxation) {

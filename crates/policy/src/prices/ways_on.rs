@@ -67,7 +67,7 @@ impl WaysOn {
     }
 
     /// The best way on from everywhere, and what it is worth, for each type; from the first slot on.
-    pub(super) fn value(&mut self, hops: &Hops, periods: &[usize], first_slot: usize) {
+    pub(super) fn value(&mut self, hops: &Hops, first_slot: usize) {
         let table = self.vertiports * self.stride;
         let worths = self.worth_less_paid_usd.chunks_exact_mut(table);
         for (kind, (worth_usd, best)) in worths.zip(self.best.chunks_exact_mut(table)).enumerate() {
@@ -77,7 +77,6 @@ impl WaysOn {
             }
             self.arch.dispatch(BackwardPass {
                 hops,
-                periods,
                 kind: TypeIx::new(kind),
                 first_slot,
                 slots: self.clock.slots,
@@ -127,7 +126,6 @@ impl WaysOn {
 /// One type's pass from the end of the day back to the first slot.
 struct BackwardPass<'a> {
     hops: &'a Hops,
-    periods: &'a [usize],
     kind: TypeIx,
     first_slot: usize,
     slots: usize,
@@ -145,20 +143,21 @@ impl WithSimd for BackwardPass<'_> {
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn with_simd<S: Simd>(mut self, simd: S) {
         let most = self.hops.shortest(self.kind).min(S::F64_LANES);
+        let intervals = &self.hops.intervals.of_slot;
         let mut until = self.slots;
         while until > self.first_slot {
-            let period = self.periods[until - 1];
+            let interval = intervals[until - 1];
             let mut begin = until - 1;
             while begin > self.first_slot
                 && until - begin < most
-                && self.periods[begin - 1] == period
+                && intervals[begin - 1] == interval
             {
                 begin -= 1;
             }
             // Lanes past `until` are known already and not written again.
             let first_lane = until.saturating_sub(S::F64_LANES);
             for from in VertiportIx::all(self.paid_usd.len() / self.stride) {
-                let (usd, best) = self.best_hop(simd, period, from, first_lane);
+                let (usd, best) = self.best_hop(simd, interval, from, first_lane);
                 self.hold_or_fly(from, first_lane, begin..until, (&usd, &best));
             }
             until = begin;
@@ -173,7 +172,7 @@ impl BackwardPass<'_> {
     fn best_hop<S: Simd>(
         &self,
         simd: S,
-        period: usize,
+        interval: usize,
         from: VertiportIx,
         first_lane: usize,
     ) -> ([f64; MOST_LANES], [u64; MOST_LANES]) {
@@ -183,7 +182,7 @@ impl BackwardPass<'_> {
         let mut most_usd = simd.splat_f64s(f64::NEG_INFINITY);
         let mut best = simd.splat_u64s(HOLD);
         let range = self.hops.range(self.kind, from);
-        for (at, (hop, gain_usd)) in range.clone().zip(self.hops.gains(period, range)) {
+        for (at, (hop, gain_usd)) in range.clone().zip(self.hops.gains(interval, range)) {
             let row = hop.to.at() * self.stride;
             let ready = row + first_lane + hop.stay.slots;
             let (before, after) = (load(self.worth_usd, ready), load(self.worth_usd, ready + 1));
@@ -261,14 +260,11 @@ mod tests {
         hops.charge(0, &vec![1.5; pairs]);
         let stand_usd: Vec<f64> =
             (0..clock.slots * view.vertiports()).map(|at| (at % 7) as f64 / 3.0).collect();
-        let periods: Vec<usize> = (0..clock.slots)
-            .map(|slot| view.period_at(view.day_start() + (clock.begin_s(slot) - clock.start_s)))
-            .collect();
         let tables = |arch: Arch| {
             let mut ways_on = WaysOn::of(view, &clock);
             ways_on.arch = arch;
             ways_on.pay(&stand_usd, 3);
-            ways_on.value(&hops, &periods, 3);
+            ways_on.value(&hops, 3);
             (ways_on.worth_less_paid_usd, ways_on.best)
         };
         let widest = tables(Arch::new());

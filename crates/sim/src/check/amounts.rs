@@ -13,6 +13,7 @@ pub(super) fn check(event: &Event<'_>, expected: &Expected, findings: &mut Findi
         (Rule::Revenue, "dollars", row.revenue_usd, expected.revenue_usd),
         (Rule::PassengerCost, "dollars", row.passenger_cost_usd, expected.passenger_cost_usd),
         (Rule::EnergyCost, "dollars", row.energy_cost_usd, expected.energy_cost_usd),
+        (Rule::FlightCost, "dollars", row.flight_cost_usd, expected.flight_cost_usd),
     ] {
         if !agree(stated, due) {
             findings.add_event(rule, event, || {

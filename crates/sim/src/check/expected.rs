@@ -22,6 +22,7 @@ pub(super) struct Expected {
     pub(super) revenue_usd: f64,
     pub(super) passenger_cost_usd: f64,
     pub(super) energy_cost_usd: f64,
+    pub(super) flight_cost_usd: f64,
 }
 
 impl Expected {
@@ -60,6 +61,7 @@ impl Expected {
             revenue_usd: passengers * fares_usd[event.pair()],
             passenger_cost_usd: passengers * scenario.passenger_cost_usd[event.pair()],
             energy_cost_usd: energy_kwh * scenario.energy_price_usd[period_of(scenario, arrival_s)],
+            flight_cost_usd: scenario.flight_cost_usd[event.pair()],
         }
     }
 

@@ -9,12 +9,18 @@ use super::report::Findings;
 /// Judges one hold.
 pub(super) fn check(scenario: &Scenario, event: &Event<'_>, findings: &mut Findings) {
     let row = event.row;
-    let amounts = [row.revenue_usd, row.passenger_cost_usd, row.energy_kwh, row.energy_cost_usd];
+    let amounts = [
+        row.revenue_usd,
+        row.passenger_cost_usd,
+        row.energy_kwh,
+        row.energy_cost_usd,
+        row.flight_cost_usd,
+    ];
     if row.passengers != 0 || amounts.iter().any(|&amount| amount != 0.0) {
         findings.add_event(Rule::HoldEmpty, event, || {
             format!(
-                "{} passengers, revenue {}, passenger cost {}, energy {}, energy cost {}: a hold has none of them",
-                row.passengers, amounts[0], amounts[1], amounts[2], amounts[3]
+                "{} passengers, revenue {}, passenger cost {}, energy {}, energy cost {}, flight cost {}: a hold has none of them",
+                row.passengers, amounts[0], amounts[1], amounts[2], amounts[3], amounts[4]
             )
         });
     }

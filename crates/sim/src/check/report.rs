@@ -35,7 +35,7 @@ pub struct Finding {
 /// Members are named as in the simulator's summary. Dollars, kWh, counts.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Totals {
-    /// Revenue less both costs (Eq. 5).
+    /// Revenue less all costs (Eq. 5).
     pub profit: f64,
     /// Fares (Eq. 4).
     pub revenue: f64,
@@ -43,6 +43,10 @@ pub struct Totals {
     pub passenger_cost: f64,
     /// Cost of charging (Eq. 3).
     pub energy_cost: f64,
+    /// What flights cost whoever is on board, beside their energy.
+    pub flight_cost: f64,
+    /// What the fleet costs whatever it does.
+    pub aircraft_cost: f64,
     /// Energy charged.
     pub energy_kwh: f64,
     /// Flights, with passengers or without.
@@ -71,8 +75,18 @@ impl Totals {
         self.revenue += flight.revenue_usd;
         self.passenger_cost += flight.passenger_cost_usd;
         self.energy_cost += flight.energy_cost_usd;
+        self.flight_cost += flight.flight_cost_usd;
         self.energy_kwh += flight.energy_kwh;
-        self.profit = self.revenue - self.passenger_cost - self.energy_cost;
+    }
+
+    /// Enters what so many aircraft cost for the day, and draws the balance.
+    pub(super) fn close(&mut self, aircraft: usize, cost_usd: f64) {
+        self.aircraft_cost = cost_usd * aircraft as f64;
+        self.profit = self.revenue
+            - self.passenger_cost
+            - self.energy_cost
+            - self.flight_cost
+            - self.aircraft_cost;
     }
 }
 
@@ -204,6 +218,14 @@ impl fmt::Display for Totals {
             f,
             "profit ${:.2} = revenue ${:.2} - passenger cost ${:.2} - energy cost ${:.2} ({:.2} kWh)",
             self.profit, self.revenue, self.passenger_cost, self.energy_cost, self.energy_kwh
-        )
+        )?;
+        for (name, cost) in
+            [("flight cost", self.flight_cost), ("aircraft cost", self.aircraft_cost)]
+        {
+            if cost != 0.0 {
+                write!(f, " - {name} ${cost:.2}")?;
+            }
+        }
+        Ok(())
     }
 }

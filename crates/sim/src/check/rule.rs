@@ -74,6 +74,8 @@ rules! {
         "A flight's passenger cost is its passengers times the pair's cost a passenger (Eq. 2).",
     EnergyCost = "energy-cost":
         "A flight's energy cost is its energy times the price in the period of arrival (Eq. 3).",
+    FlightCost = "flight-cost":
+        "A flight's own cost is that of its pair, whoever is on board.",
     StandBound = "stand-bound":
         "At every instant the aircraft standing at a vertiport and in the air towards it are 0 to its stands (Eq. 16).",
     ChargerBound = "charger-bound":

@@ -9,7 +9,7 @@ use std::path::Path;
 use csv::ByteRecord;
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 
-use super::COLUMNS;
+use super::{COLUMNS, columns};
 use crate::{Trace, TraceError, TraceRow};
 
 const MOST_BYTES: u64 = 256 << 20;
@@ -31,6 +31,7 @@ impl Trace {
     /// # Errors
     /// [`TraceError`] names file, line, column, value and rule.
     pub fn from_csv(csv: &[u8], scenario: &Scenario, origin: &str) -> Result<Self, TraceError> {
+        let csv = csv.strip_prefix("\u{feff}".as_bytes()).unwrap_or(csv);
         Reader::new(csv, scenario, origin).rows(MOST_ROWS)
     }
 }
@@ -39,6 +40,7 @@ impl Trace {
 struct Reader<'a> {
     bytes: &'a [u8],
     origin: &'a str,
+    columns: &'static [&'static str],
     aircraft: HashMap<&'a [u8], AircraftIx>,
     vertiports: HashMap<&'a [u8], VertiportIx>,
 }
@@ -50,6 +52,7 @@ impl<'a> Reader<'a> {
         Self {
             bytes,
             origin,
+            columns: columns(scenario),
             aircraft: aircraft.zip(AircraftIx::all(scenario.aircraft.len())).collect(),
             vertiports: vertiports.zip(VertiportIx::all(scenario.vertiports.len())).collect(),
         }
@@ -80,23 +83,23 @@ impl<'a> Reader<'a> {
     }
 
     fn header(&self, record: &ByteRecord) -> Result<(), TraceError> {
-        if record.iter().eq(COLUMNS.iter().map(|column| column.as_bytes())) {
+        if record.iter().eq(self.columns.iter().map(|column| column.as_bytes())) {
             return Ok(());
         }
         let found = record.iter().map(String::from_utf8_lossy).collect::<Vec<_>>().join(",");
         Err(TraceError::WrongHeader {
             origin: self.origin.to_owned(),
-            expected: COLUMNS.join(","),
+            expected: self.columns.join(","),
             found: shortened(&found),
         })
     }
 
     fn row(&self, record: &ByteRecord) -> Result<TraceRow, TraceError> {
-        if record.len() != COLUMNS.len() {
+        if record.len() != self.columns.len() {
             return Err(TraceError::WrongWidth {
                 origin: self.origin.to_owned(),
                 line: self.line(record),
-                expected: COLUMNS.len(),
+                expected: self.columns.len(),
                 found: record.len(),
             });
         }
@@ -112,6 +115,10 @@ impl<'a> Reader<'a> {
             energy_cost_usd: self.amount(record, 8)?,
             arrival: self.time(record, 9)?,
             ready: self.time(record, 10)?,
+            flight_cost_usd: match record.get(11) {
+                Some(_) => self.amount(record, 11)?,
+                None => 0.0,
+            },
         })
     }
 
@@ -194,8 +201,8 @@ mod tests {
     #[test]
     fn a_row_too_many_is_refused_with_its_line() {
         let hold = "06:00:00,A,V,V,0,0,0,0,0,06:00:00,06:15:00\n";
-        let csv = format!("{}\n{}", super::COLUMNS.join(","), hold.repeat(3));
         let scenario = one_place().check("day").expect("a day within the rules");
+        let csv = format!("{}\n{}", super::columns(&scenario).join(","), hold.repeat(3));
         let reader = Reader::new(csv.as_bytes(), &scenario, "day.csv");
         assert_eq!(reader.rows(3).expect("as many as there may be").rows.len(), 3);
         let error = reader.rows(2).expect_err("one too many");
@@ -215,6 +222,7 @@ mod tests {
                 stands: 1,
                 chargers: None,
                 busy: false,
+                degrees: None,
             }],
             aircraft_types: vec![AircraftType {
                 id: "T".to_owned(),
@@ -230,6 +238,8 @@ mod tests {
             corridors: None,
             fare_usd: Matrix::from_fn(1, |_, _| 0.0).into(),
             passenger_cost_usd: Matrix::from_fn(1, |_, _| 0.0),
+            flight_cost_usd: Matrix::from_fn(1, |_, _| 0.0),
+            aircraft_cost_usd: 0.0,
             periods: vec![start],
             demand: vec![Matrix::from_fn(1, |_, _| 0)],
             energy_price_usd: vec![0.2],

@@ -3,12 +3,19 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use vertifleet_core::Scenario;
+use vertifleet_core::{OutputKind, Scenario};
 
-use super::COLUMNS;
+use super::columns;
 use crate::{Trace, TraceError, TraceRow};
 
 impl Trace {
+    /// How a trace that this program wrote begins.
+    pub const FILE: OutputKind = OutputKind {
+        name: "trace",
+        skipped: 0,
+        opening: "time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready\n",
+    };
+
     /// Writes the trace as a CSV file that is there whole or not at all.
     ///
     /// # Errors
@@ -32,9 +39,10 @@ impl Trace {
 
     fn write_rows(&self, scenario: &Scenario, to: impl Write) -> io::Result<()> {
         let mut csv = csv::Writer::from_writer(to);
-        csv.write_record(COLUMNS)?;
+        csv.write_record(columns(scenario))?;
+        let with_flight_costs = scenario.has_flight_costs();
         for row in &self.rows {
-            write_row(row, scenario, &mut csv)?;
+            write_row(row, scenario, with_flight_costs, &mut csv)?;
         }
         csv.flush()
     }
@@ -43,6 +51,7 @@ impl Trace {
 fn write_row(
     row: &TraceRow,
     scenario: &Scenario,
+    with_flight_costs: bool,
     csv: &mut csv::Writer<impl Write>,
 ) -> io::Result<()> {
     csv.write_field(row.time.to_string())?;
@@ -56,7 +65,24 @@ fn write_row(
     }
     csv.write_field(row.arrival.to_string())?;
     csv.write_field(row.ready.to_string())?;
+    if with_flight_costs {
+        csv.write_field(row.flight_cost_usd.to_string())?;
+    }
     // An empty record after fields only ends the line.
     csv.write_record(None::<&[u8]>)?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::{DaySeed, Network};
+
+    use crate::Trace;
+
+    #[test]
+    fn a_written_trace_is_known_again() {
+        let network = Network::shipped("paper").expect("a shipped network");
+        let day = network.draw(DaySeed::comparison(1).expect("a seed"));
+        assert_eq!(Trace::default().to_csv(&day), Trace::FILE.opening);
+    }
 }

@@ -18,6 +18,7 @@ pub(crate) fn day() -> Day {
         stands,
         chargers: None,
         busy: false,
+        degrees: None,
     };
     let aircraft =
         |id: &str, at| Aircraft { id: id.to_owned(), kind: TypeIx(0), at: VertiportIx(at) };
@@ -50,6 +51,8 @@ pub(crate) fn day() -> Day {
         corridors: None,
         fare_usd: table([[0.0, 30.0, 50.0], [30.0, 0.0, 40.0], [50.0, 40.0, 0.0]]).into(),
         passenger_cost_usd: table([[0.0, 13.0, 26.0], [13.0, 0.0, 20.0], [26.0, 20.0, 0.0]]),
+        flight_cost_usd: table([[0.0; 3]; 3]),
+        aircraft_cost_usd: 0.0,
         periods: vec![time("06:00:00"), time("07:00:00")],
         demand: vec![
             table([[0, 5, 6], [3, 0, 0], [0, 0, 0]]),
@@ -101,6 +104,7 @@ fn flight(
         passenger_cost_usd,
         energy_kwh,
         energy_cost_usd,
+        flight_cost_usd: 0.0,
         arrival: time(arrival),
         ready: time(ready),
     }

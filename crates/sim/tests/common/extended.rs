@@ -72,8 +72,8 @@ fn extended(day: &Arc<Scenario>, parts: &[bool], numbers: &[Index]) -> Arc<Scena
     if parts[5] && size > 1 {
         for _ in 0..3 {
             let (start, end) = span(&mut below);
-            let route = route(&mut below);
-            disturbances.closures.push(Closure { route, start, end });
+            let (route, known) = (route(&mut below), below(2) == 1);
+            disturbances.closures.push(Closure { route, start, end, known });
         }
     }
     if parts[6] {

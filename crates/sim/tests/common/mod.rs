@@ -50,6 +50,7 @@ fn day(
             stands,
             chargers: None,
             busy: false,
+            degrees: None,
         })
         .collect();
     for (at, vertiport) in vertiports.iter_mut().enumerate() {
@@ -92,6 +93,11 @@ fn day(
             .collect(),
         fare_usd: Matrix::from_fn(size, |from, to| 3.0 * distance_mi[(from, to)] + 1.25).into(),
         passenger_cost_usd: Matrix::from_fn(size, |from, to| 0.64 * distance_mi[(from, to)]),
+        // Every other day has them.
+        flight_cost_usd: Matrix::from_fn(size, |from, to| {
+            if seed.is_multiple_of(2) { 0.0 } else { 2.75 + 0.3 * distance_mi[(from, to)] }
+        }),
+        aircraft_cost_usd: if seed % 4 == 1 { 12.5 } else { 0.0 },
         distance_mi,
         corridors: None,
         periods: (0..demand.len())

@@ -57,7 +57,7 @@ pub(super) fn daily_profit(summary: &Summary) -> Figure {
             tick: |value, _| dollars(value),
             limit: None,
         },
-        "Corresponds to Fig. 5 of the paper.",
+        corresponds(summary, "Corresponds to Fig. 5 of the paper. "),
     )
 }
 
@@ -77,7 +77,7 @@ pub(super) fn episode_reward(summary: &Summary) -> Figure {
             tick: |value, decimals| typeset(&grouped(value, decimals)),
             limit: None,
         },
-        "Corresponds to Fig. 4 of the paper.",
+        corresponds(summary, "Corresponds to Fig. 4 of the paper. "),
     )
 }
 
@@ -98,10 +98,15 @@ pub(super) fn bound_share(summary: &Summary) -> Option<Figure> {
         limit: Some((1.0, "bound")),
     };
     let source = format!(
-        "No schedule of a day earns more than its upper bound, the line at 100 % (proven with steps of {}).",
+        "No schedule of a day earns more than its upper bound, the line at 100 % (proven with steps of {}). ",
         minutes(bound.step_s)
     );
     Some(draw(summary, &measure, &source))
+}
+
+/// Which figure of the paper it is, on the network that the paper describes.
+fn corresponds(summary: &Summary, source: &'static str) -> &'static str {
+    if summary.is_of_the_paper() { source } else { "" }
 }
 
 fn subtitle(summary: &Summary) -> String {
@@ -154,7 +159,7 @@ fn draw(summary: &Summary, measure: &Measure, source: &str) -> Figure {
     Figure {
         slug: measure.slug,
         caption: format!(
-            "{source} Box: middle half of the days; line in it: median; whiskers: at most 1.5 times as long as the box."
+            "{source}Box: middle half of the days; line in it: median; whiskers: at most 1.5 times as long as the box."
         ),
         svg: canvas.into_svg(),
     }

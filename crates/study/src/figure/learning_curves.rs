@@ -6,6 +6,7 @@ use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};
 use super::key;
 use super::palette::{Paint, dash};
 use crate::numbers::{grouped, typeset};
+use crate::origin::NetworkOrigin;
 use crate::record::Curve;
 use crate::summary::Summary;
 
@@ -26,15 +27,19 @@ struct Chart {
     title: &'static str,
     subtitle: &'static str,
     axis: &'static str,
+    days: &'static str,
     caption: &'static str,
 }
 
+const FIG_3: &str = "figure-3-learning-curves";
+
 const ON_TRAINING_DAYS: Chart = Chart {
-    slug: "figure-3-learning-curves",
+    slug: FIG_3,
     title: "Learning curves",
     subtitle: "Mean episode reward on the training days against steps of training",
     axis: "steps of training",
-    caption: "Corresponds to Fig. 3 of the paper. Reward: profit as a share of the revenue if every passenger flew; a step is one decision.",
+    days: "training days",
+    caption: "Reward: profit as a share of the revenue if every passenger flew; a step is one decision.",
 };
 
 const ON_VALIDATION_DAYS: Chart = Chart {
@@ -42,6 +47,7 @@ const ON_VALIDATION_DAYS: Chart = Chart {
     title: "Learning curves on the validation days",
     subtitle: "Mean reward, best choices, against decisions learned from",
     axis: "decisions learned from",
+    days: "validation days",
     caption: "Policies that learn in different ways, on one scale: decisions learned from are steps of PPO, and decisions whose choices were \
               tried out of gcaps-x. A thick line with marks is the run whose weights play; thin lines are runs with other \
               seeds. Every policy looks at as many validation days as its settings say.",
@@ -111,7 +117,27 @@ fn draw(summary: &Summary, chart: &Chart, mut lessons: Vec<Lesson<'_>>) -> Optio
     for (lines, place) in lines.iter().zip(places) {
         draw_key(&mut canvas, lines, place);
     }
-    Some(Figure { slug: chart.slug, caption: chart.caption.to_owned(), svg: canvas.into_svg() })
+    Some(Figure { slug: chart.slug, caption: caption(summary, chart), svg: canvas.into_svg() })
+}
+
+/// Says whose days the curves are of: every policy that has one was trained on the network of that name.
+fn caption(summary: &Summary, chart: &Chart) -> String {
+    let fig_3 = match chart.slug {
+        FIG_3 if summary.is_of_the_paper() => "Corresponds to Fig. 3 of the paper. ",
+        _ => "",
+    };
+    let network = &summary.network;
+    let perhaps = match summary.network_origin {
+        NetworkOrigin::Changed => {
+            " as it was when the policy was trained, perhaps before it was changed"
+        }
+        _ => "",
+    };
+    let days = chart.days;
+    format!(
+        "{fig_3}On {days} of the network “{network}”{perhaps}, not on those compared here. {}",
+        chart.caption
+    )
 }
 
 /// A curve looks like the policy of its name; other curves take what no policy has.

@@ -6,18 +6,28 @@ use super::{Study, Summary, networks_csv, page};
 use crate::error::Error;
 use crate::{figure, report};
 
-/// Writes the whole report into `folder`, which is made if it is not there; says where the page is.
-///
-/// Every file is replaced at once or not at all; the page comes last, so that it never links to what is not there.
+/// Where a report was written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Written {
+    /// The page.
+    pub report: PathBuf,
+    /// Where a folder is kept that was there before and held something else.
+    pub kept: Option<PathBuf>,
+}
+
+/// Writes the whole report into `folder`, or nothing, as [`report::write`] does.
 ///
 /// # Errors
-/// [`Error::CannotMakeFolder`], [`Error::Core`] (V102) for a file that cannot be written, or any error of [`Summary::of`];
-/// after the last of these nothing is written.
-pub fn write(study: &Study, folder: &Path) -> Result<PathBuf, Error> {
+/// As [`report::write`].
+pub fn write(study: &Study, folder: &Path, force: bool) -> Result<Written, Error> {
     let summary = Summary::of(study)?;
     let figures = [figure::share_by_size(&summary)];
-    report::write_figures(&figures, folder)?;
-    report::put(folder, "networks.csv", networks_csv::text(&summary).as_bytes())?;
-    report::put(folder, "summary.json", (summary.to_json() + "\n").as_bytes())?;
-    report::put(folder, "report.html", page::text(&summary, &figures).as_bytes())
+    let mut files = report::pictures(&figures);
+    files.extend([
+        ("networks.csv".to_owned(), networks_csv::text(&summary).into_bytes()),
+        ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
+        ("report.html".to_owned(), page::text(&summary, &figures).into_bytes()),
+    ]);
+    let kept = report::replace(folder, force, &files)?;
+    Ok(Written { report: folder.join("report.html"), kept })
 }

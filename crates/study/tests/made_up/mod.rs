@@ -85,7 +85,8 @@ pub(crate) fn study(days: usize) -> Study {
     Study {
         network: "paper".to_owned(),
         network_origin: NetworkOrigin::Shipped,
-        seed: 1,
+        seed: Some(1),
+        days_from: None,
         days,
         bound_step_s: None,
         command: format!(
@@ -113,6 +114,8 @@ fn record(policy: usize, outline: &Outline, day: u64, season: f64, noise: &mut N
         revenue_usd: profit_usd * 1.9,
         passenger_cost_usd: profit_usd * 0.8,
         energy_cost_usd: profit_usd * 0.1,
+        flight_cost_usd: 0.0,
+        aircraft_cost_usd: 0.0,
         energy_kwh: profit_usd * 0.5,
         potential_usd,
         reward: profit_usd / potential_usd,

@@ -1,0 +1,112 @@
+//! What one more stand or passenger is worth in the mean of several days.
+
+use serde_json::{Map, Value, json};
+use vertifleet_core::{Scenario, VertiportIx};
+use vertifleet_optimize::Bound;
+use vertifleet_study::statistics::{mean, standard_deviation};
+
+use crate::worth::{self, ALL_STANDS, PASSENGERS, SHOWN_PASSENGERS};
+
+/// A mean over days.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mean {
+    mean: f64,
+    /// Nothing of a single day.
+    standard_error: Option<f64>,
+}
+
+impl Mean {
+    pub(crate) fn of(values: &[f64]) -> Self {
+        let deviation = standard_deviation(values);
+        let standard_error = deviation.map(|deviation| deviation / (values.len() as f64).sqrt());
+        Self { mean: mean(values), standard_error }
+    }
+
+    pub(crate) fn number(self) -> Value {
+        json!({ "mean": self.mean, "standard_error": self.standard_error })
+    }
+
+    pub(crate) fn text(self) -> String {
+        match self.standard_error {
+            Some(error) => format!("{:>12.2} $    standard error {error:.2}", self.mean),
+            None => format!("{:>12.2} $", self.mean),
+        }
+    }
+}
+
+/// By vertiport, the mean of what one more stand is worth.
+fn of_stands(days: &[(&Scenario, &Bound)]) -> Vec<(String, Mean)> {
+    let Some((first, _)) = days.first() else { return Vec::new() };
+    let mean = |at: VertiportIx| {
+        let worth: Vec<f64> = days.iter().map(|(_, bound)| bound.stand_worth_usd(at)).collect();
+        (first.vertiports[at.at()].id.clone(), Mean::of(&worth))
+    };
+    VertiportIx::all(first.vertiports.len()).map(mean).collect()
+}
+
+/// By pair and period, the mean of what one more passenger is worth, most first; only where it is worth something on some day. A day on
+/// which that is nothing, or that has no such period, counts as nothing.
+fn of_passengers(days: &[(&Scenario, &Bound)]) -> Vec<([String; 3], Mean)> {
+    let mut worths: Vec<([String; 3], Vec<f64>)> = Vec::new();
+    let mut places = std::collections::BTreeMap::new();
+    for (number, (scenario, bound)) in days.iter().enumerate() {
+        for (key, worth_usd) in worth::passengers_by_name(scenario, bound) {
+            let place = *places.entry(key.clone()).or_insert_with(|| {
+                worths.push((key, vec![0.0; days.len()]));
+                worths.len() - 1
+            });
+            worths[place].1[number] = worth_usd;
+        }
+    }
+    let mut means: Vec<_> =
+        worths.into_iter().map(|(key, worths)| (key, Mean::of(&worths))).collect();
+    means.sort_by(|one, other| {
+        other.1.mean.total_cmp(&one.1.mean).then_with(|| one.0.cmp(&other.0))
+    });
+    means
+}
+
+/// Means for machines.
+pub(crate) fn numbers(days: &[(&Scenario, &Bound)]) -> Map<String, Value> {
+    let separate = |id: &str| {
+        days.iter().any(|(day, _)| {
+            day.vertiports.iter().any(|place| place.id == id && place.chargers.is_some())
+        })
+    };
+    let stands = of_stands(days);
+    let by_id = |kept: &dyn Fn(&str) -> bool| -> Map<String, Value> {
+        let kept = stands.iter().filter(|(id, _)| kept(id));
+        kept.map(|(id, mean)| (id.clone(), mean.number())).collect()
+    };
+    let passengers = of_passengers(days).into_iter().map(|([from, to, period], mean)| {
+        json!({
+            "from": from,
+            "to": to,
+            "period": period,
+            "mean": mean.mean,
+            "standard_error": mean.standard_error,
+        })
+    });
+    let numbers = [
+        ("stand_worth", json!(by_id(&|_| true))),
+        ("charger_worth", json!(by_id(&separate))),
+        ("passenger_worth", passengers.collect()),
+    ];
+    numbers.map(|(name, number)| (name.to_owned(), number)).into_iter().collect()
+}
+
+/// Means for people, most first.
+pub(crate) fn lines(days: &[(&Scenario, &Bound)]) -> Vec<String> {
+    let mut stands = of_stands(days);
+    stands.sort_by(|one, other| other.1.mean.total_cmp(&one.1.mean));
+    let mut lines = vec![format!("{ALL_STANDS}, in the mean")];
+    lines.extend(stands.iter().map(|(id, mean)| format!("  {id:<15} {}", mean.text())));
+    let passengers = of_passengers(days);
+    if !passengers.is_empty() {
+        lines.push(format!("{PASSENGERS}, in the mean"));
+    }
+    lines.extend(passengers.iter().take(SHOWN_PASSENGERS).map(|([from, to, period], mean)| {
+        format!("  {:<15} {}, period from {period}", format!("{from} -> {to}"), mean.text())
+    }));
+    lines
+}

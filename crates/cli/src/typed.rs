@@ -1,0 +1,75 @@
+//! Values as typed, checked one by one: what is asked for, where a value is none of it.
+
+use std::time::Duration;
+
+use vertifleet_study::policies::Given;
+
+pub(crate) fn parse_pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() && !value.is_empty() => {
+            Ok((name.to_owned(), value.to_owned()))
+        }
+        _ => Err("expected a name, an equals sign and a value".to_owned()),
+    }
+}
+
+pub(crate) fn parse_model(text: &str) -> Result<(String, Given), String> {
+    parse_pair(text).map(|(name, path)| (name, Given::File(path.into())))
+}
+
+/// A policy's name; people put blanks behind commas.
+pub(crate) fn parse_name(text: &str) -> Result<String, String> {
+    match text.trim() {
+        "" => Err("expected a policy's name, found none; is there a comma too many?".to_owned()),
+        name => Ok(name.to_owned()),
+    }
+}
+
+/// Days, or networks.
+pub(crate) fn parse_count(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(count @ 1..=1_000_000) => Ok(count),
+        _ => Err("expected a whole number from 1 to 1000000".to_owned()),
+    }
+}
+
+/// A seed; its upper limit is known to what draws from it.
+pub(crate) fn parse_seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "seeds are whole numbers from 0".to_owned())
+}
+
+/// The seed of a training run, as [`parse_seed`].
+pub(crate) fn parse_seed_of_a_run(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| "seeds of a training are whole numbers from 0 to 16777215".to_owned())
+}
+
+/// Decisions to learn from.
+pub(crate) fn parse_steps(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "expected a whole number".to_owned())
+}
+
+/// The steps of a bound; its limits are known to what proves it.
+pub(crate) fn parse_minutes(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| "expected whole minutes from 1 to 60".to_owned())
+}
+
+pub(crate) fn parse_threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads @ 1..=1024) => Ok(threads),
+        _ => Err("expected a number from 1 to 1024".to_owned()),
+    }
+}
+
+pub(crate) fn parse_seconds(text: &str) -> Result<Duration, String> {
+    match text.parse() {
+        Ok(seconds @ 0.0..=1e6) => Ok(Duration::from_secs_f64(seconds)),
+        _ => Err("expected seconds from 0 to 1000000".to_owned()),
+    }
+}
+
+pub(crate) fn parse_share(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(share @ 0.0..=1.0) => Ok(share),
+        _ => Err("expected a share from 0 to 1, as 0.03".to_owned()),
+    }
+}

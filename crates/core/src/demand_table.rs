@@ -1,0 +1,200 @@
+//! A table of demand beside a network file: CSV of period, from, to, passengers, as a spreadsheet writes it.
+//!
+//! A network keeps everything it says in its own text, so that a copy of it elsewhere draws the same days. So the table's
+//! rows are put in the place of the member that names it, and from there on nobody knows of the table.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::path::Path;
+
+use csv::ByteRecord;
+
+use crate::demand_model::RawHourlyDemand;
+use crate::parse::{shortened, without_mark};
+use crate::{Error, Time, files, limits};
+
+const COLUMNS: [&str; 4] = ["period", "from", "to", "passengers"];
+
+/// The text of a network file with the rows of its table in it, read from `folder`; `raw` is what that text says of hourly
+/// demand, and `vertiports` are the ids of its vertiports.
+pub(crate) fn inlined(
+    text: &str,
+    raw: &RawHourlyDemand,
+    table: &str,
+    vertiports: &[&str],
+    folder: &Path,
+) -> Result<String, Error> {
+    let path = folder.join(table);
+    let csv = files::read_at_most(&path, files::LONGEST_TABLE)?;
+    let reader = Reader {
+        csv: without_mark(&csv),
+        origin: files::origin(&path),
+        periods: raw.periods.iter().copied().zip(0..).collect(),
+        vertiports: vertiports.iter().map(|id| id.as_bytes()).zip(0..).collect(),
+    };
+    let pairs = toml::Value::Array(
+        reader.pairs()?.iter().map(|pair| pair_value(pair, vertiports)).collect(),
+    );
+    let mut file: toml::Table = toml::from_str(text).expect("the text has been read before");
+    if let Some(toml::Value::Table(hourly)) = file.get_mut("hourly_demand") {
+        hourly.remove("table");
+        hourly.insert("pairs".to_owned(), pairs);
+    }
+    Ok(toml::to_string(&file).expect("what was read can be written"))
+}
+
+/// The mean passengers of a pair by period; the pair by the positions of its vertiports.
+struct Pair {
+    ends: (usize, usize),
+    passengers: Vec<f64>,
+}
+
+/// A pair as it stands in a network file; whole numbers without a fraction, which keeps the text short.
+#[expect(clippy::cast_possible_truncation, reason = "within bounds, and only whole numbers")]
+fn pair_value(pair: &Pair, vertiports: &[&str]) -> toml::Value {
+    let number = |&mean: &f64| {
+        if mean.fract() == 0.0 { toml::Value::Integer(mean as i64) } else { mean.into() }
+    };
+    let mut value = toml::Table::new();
+    value.insert("from".to_owned(), vertiports[pair.ends.0].into());
+    value.insert("to".to_owned(), vertiports[pair.ends.1].into());
+    let passengers = pair.passengers.iter().map(number).collect();
+    value.insert("passengers".to_owned(), toml::Value::Array(passengers));
+    value.into()
+}
+
+/// A table under reading.
+struct Reader<'a> {
+    csv: &'a [u8],
+    origin: String,
+    periods: HashMap<Time, usize>,
+    vertiports: HashMap<&'a [u8], usize>,
+}
+
+impl Reader<'_> {
+    /// The pairs of the table in the order in which they first appear.
+    fn pairs(&self) -> Result<Vec<Pair>, Error> {
+        let mut csv =
+            csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(self.csv);
+        let mut record = ByteRecord::new();
+        let mut next = |record: &mut ByteRecord| {
+            csv.read_byte_record(record)
+                .expect("bytes in memory, rows of any width: nothing to fail")
+        };
+        next(&mut record);
+        let header = Row { table: self, record: &record };
+        if !record.iter().eq(COLUMNS.iter().map(|column| column.as_bytes())) {
+            let rule = format!("{:?}", COLUMNS.join(","));
+            return Err(header.wrong("the header", rule, &header.whole()));
+        }
+        let mut pairs: Vec<Pair> = Vec::new();
+        let mut known = HashMap::new();
+        let mut begins = HashMap::new();
+        while next(&mut record) {
+            let row = Row { table: self, record: &record };
+            let (period, ends, mean) = row.read()?;
+            if let Some(before) = begins.insert((period, ends), row.begin()) {
+                return Err(Error::GivenTwice {
+                    origin: self.origin.clone(),
+                    member: row.name(),
+                    what: format!("the period and pair of line {}", self.line(before)),
+                });
+            }
+            let at = *known.entry(ends).or_insert_with(|| {
+                pairs.push(Pair { ends, passengers: vec![0.0; self.periods.len()] });
+                pairs.len() - 1
+            });
+            pairs[at].passengers[period] = mean;
+        }
+        Ok(pairs)
+    }
+
+    /// The line of the record that begins at a byte. Counted anew: the parser's own count lags behind where it skips empty
+    /// lines or the second half of a CR LF.
+    fn line(&self, begin: usize) -> usize {
+        let mut begin = begin.min(self.csv.len());
+        begin += self.csv[begin..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
+        self.csv[..begin].split(|&byte| byte == b'\n').count()
+    }
+}
+
+/// A row of a table.
+struct Row<'a> {
+    table: &'a Reader<'a>,
+    record: &'a ByteRecord,
+}
+
+impl Row<'_> {
+    /// Its period, the ends of its pair, and the mean.
+    fn read(&self) -> Result<(usize, (usize, usize), f64), Error> {
+        if self.record.len() != COLUMNS.len() {
+            let rule = format!("of {} values", COLUMNS.len());
+            return Err(self.wrong("a row", rule, &self.whole()));
+        }
+        let (period, ends) = (self.period()?, (self.vertiport(1)?, self.vertiport(2)?));
+        if ends.0 == ends.1 {
+            return Err(Error::RouteToItself {
+                origin: self.table.origin.clone(),
+                member: self.name(),
+                vertiport: self.text(1).into_owned(),
+            });
+        }
+        let mean = self.text(3).parse().ok();
+        let mean = mean.ok_or_else(|| self.wrong_value(3, "a number"))?;
+        let member = || format!("{}: {}", self.name(), COLUMNS[3]);
+        limits::DEMAND_MEAN.check(mean, &self.table.origin, member)?;
+        Ok((period, ends, mean))
+    }
+
+    fn period(&self) -> Result<usize, Error> {
+        let start: Option<Time> = self.text(0).parse().ok();
+        let start = start.ok_or_else(|| self.wrong_value(0, "a time as HH:MM:SS"))?;
+        let period = self.table.periods.get(&start).copied();
+        period.ok_or_else(|| self.unknown(0, "starts of demand periods"))
+    }
+
+    fn vertiport(&self, column: usize) -> Result<usize, Error> {
+        let position = self.table.vertiports.get(&self.record[column]).copied();
+        position.ok_or_else(|| self.unknown(column, "vertiports"))
+    }
+
+    fn text(&self, column: usize) -> Cow<'_, str> {
+        String::from_utf8_lossy(&self.record[column])
+    }
+
+    fn whole(&self) -> String {
+        self.record.iter().map(String::from_utf8_lossy).collect::<Vec<_>>().join(",")
+    }
+
+    fn begin(&self) -> usize {
+        let byte = self.record.position().map_or(0, csv::Position::byte);
+        usize::try_from(byte).unwrap_or(usize::MAX)
+    }
+
+    fn name(&self) -> String {
+        format!("line {}", self.table.line(self.begin()))
+    }
+
+    fn unknown(&self, column: usize, list: &'static str) -> Error {
+        Error::UnknownId {
+            origin: self.table.origin.clone(),
+            member: format!("{}: {}", self.name(), COLUMNS[column]),
+            found: shortened(&self.text(column), 64),
+            list,
+        }
+    }
+
+    fn wrong_value(&self, column: usize, rule: &str) -> Error {
+        self.wrong(COLUMNS[column], rule.to_owned(), &self.text(column))
+    }
+
+    fn wrong(&self, column: &'static str, rule: String, found: &str) -> Error {
+        Error::TableRow {
+            origin: self.table.origin.clone(),
+            line: self.table.line(self.begin()),
+            column,
+            rule,
+            found: shortened(found, 80),
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Refusals to write over what would be lost.
+
+use crate::Code;
+
+/// Why a command does not write to a file or folder. Nothing was done then.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// V141. A file that a command is to write is one that it reads, perhaps by another name: a link leads there. Fix: name
+    /// another file for what is written. No flag allows it.
+    #[error("{output}: cannot be written, because this command reads it (as {input})")]
+    IsInput {
+        /// What was to be written.
+        output: String,
+        /// What the command reads, as it was named.
+        input: String,
+    },
+
+    /// V142. Two results of one command would go to the same file, so that one of them would be lost. Fix: name two files.
+    #[error("{second}: cannot be written, because this command writes it already (as {first})")]
+    Twice {
+        /// The first name of the file.
+        first: String,
+        /// The second name.
+        second: String,
+    },
+
+    /// V143. A file or folder of this name is there, and it is none that this program wrote for the same purpose. Fix: name another
+    /// one, or say with `--force` (in Python `force=True`) that it may be replaced.
+    #[error("{origin}: is there already, and is no {kind} that this program wrote")]
+    NotOurs {
+        /// The file or folder.
+        origin: String,
+        /// What would be written there.
+        kind: &'static str,
+    },
+
+    /// V144. A file of this name is there, and it is read-only. Fix: name another one, or say with `--force` (in Python
+    /// `force=True`) that it may be replaced.
+    #[error("{origin}: is there already, and is read-only")]
+    ReadOnly {
+        /// The file.
+        origin: String,
+    },
+}
+
+impl OutputError {
+    /// The stable number, printed as `V141`.
+    pub fn code(&self) -> Code {
+        Code(match self {
+            Self::IsInput { .. } => 141,
+            Self::Twice { .. } => 142,
+            Self::NotOurs { .. } => 143,
+            Self::ReadOnly { .. } => 144,
+        })
+    }
+
+    /// What helps.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::IsInput { .. } => "name another file to write to; nothing was changed",
+            Self::Twice { .. } => "name two files",
+            Self::NotOurs { .. } | Self::ReadOnly { .. } => {
+                "name another one, or give --force (in Python force=True) to replace this one"
+            }
+        }
+    }
+}

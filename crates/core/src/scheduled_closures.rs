@@ -1,0 +1,94 @@
+//! `[[closures]]` of the network file: what is closed at the same times every day, as by a night curfew or a morning fog.
+
+use serde::Deserialize;
+
+use crate::limits::entries;
+use crate::raw::{Positions, each};
+use crate::raw_disturbances::RawRoute;
+use crate::{Closure, Error, Route, Time, Vertiport, VertiportIx, check};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the members of a closure")]
+pub(crate) struct RawScheduledClosure {
+    start: Time,
+    end: Time,
+    #[serde(default)]
+    routes: Vec<RawRoute>,
+    #[serde(default)]
+    vertiports: Vec<String>,
+    /// What comes at the same time every day is no surprise, unless the file says so.
+    #[serde(default = "announced")]
+    known: bool,
+}
+
+fn announced() -> bool {
+    true
+}
+
+/// The closures of every day, route by route.
+pub(crate) fn closures(
+    raw: Vec<RawScheduledClosure>,
+    places: &Positions,
+    vertiports: &[Vertiport],
+    origin: &str,
+) -> Result<Vec<Closure>, Error> {
+    let mut closures = Vec::new();
+    for (at, raw) in raw.into_iter().enumerate() {
+        let (start, end, known) = (raw.start, raw.end, raw.known);
+        let routes = raw.routes(&format!("closures[{at}]"), places, vertiports, origin)?;
+        closures.extend(routes.into_iter().map(|route| Closure { route, start, end, known }));
+        // Checked as the list grows: every vertiport of a closure is many routes.
+        at_most(closures.len(), origin)?;
+    }
+    Ok(closures)
+}
+
+/// Refuses more closures than a day may have, those that are drawn included.
+pub(crate) fn at_most(found: usize, origin: &str) -> Result<(), Error> {
+    if found <= entries::CLOSURES {
+        return Ok(());
+    }
+    let member = "closures, counted by routes, those of disturbances included,";
+    check::entry_count(origin, member, found, entries::CLOSURES)
+}
+
+impl RawScheduledClosure {
+    /// The routes that it closes.
+    fn routes(
+        self,
+        member: &str,
+        places: &Positions,
+        vertiports: &[Vertiport],
+        origin: &str,
+    ) -> Result<Vec<Route>, Error> {
+        check::span(self.start, self.end, origin, || member.to_owned())?;
+        let named = self.routes.len() + self.vertiports.len();
+        let together = format!("{member}: routes and vertiports together");
+        check::entry_count(origin, &together, named, entries::CLOSURES)?;
+        let mut routes = each(self.routes, |raw, at| {
+            let member = format!("{member}: routes[{at}]");
+            let route = raw.check(places, &member, origin)?;
+            if route.from != route.to {
+                return Ok(route);
+            }
+            let vertiport = vertiports[route.from.at()].id.clone();
+            Err(Error::RouteToItself { origin: origin.to_owned(), member, vertiport })
+        })?;
+        let mut closed = vec![false; vertiports.len()];
+        for (at, id) in self.vertiports.iter().enumerate() {
+            let place = || format!("{member}: vertiports[{at}]");
+            closed[places.position(id, origin, place)?] = true;
+        }
+        routes.extend(routes_of(&closed));
+        Ok(routes)
+    }
+}
+
+/// The routes from and to every vertiport that is closed, each once.
+fn routes_of(closed: &[bool]) -> impl Iterator<Item = Route> {
+    let all = VertiportIx::all(closed.len());
+    all.clone().filter(|one| closed[one.at()]).flat_map(move |from| {
+        let others = all.clone().filter(move |&to| to != from && !(closed[to.at()] && to < from));
+        others.map(move |to| Route { from, to, both_ways: true })
+    })
+}

@@ -1,0 +1,203 @@
+//! The way to a good bound: from coarse slices to fine ones, from a coarse clock to the true one.
+//!
+//! The way to the slices that are asked for passes through all coarser ones (`CUTS`), whatever is asked, and does the same work in
+//! each. What it proves is the best of all that was proven on the way. So a shorter step never gives a looser bound. In each, prices are first
+//! looked for on a clock that ticks once a minute, where a step takes a fraction of the time and proves nothing, and then to
+//! the second, where every step proves a bound.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use vertifleet_core::Scenario;
+
+use super::descent::Descent;
+use super::network::Network;
+use super::prices::{Pace, Prices};
+use super::slices::Slices;
+use super::{Bound, Step};
+use crate::Error;
+
+/// Seconds from one tick of the coarse clock to the next.
+const TICK_S: u32 = 60;
+
+/// Slices of one length, and how much work they are worth.
+struct Cut {
+    minutes: u32,
+    on_coarse_clock: Descent,
+    to_the_second: Descent,
+}
+
+/// From the coarsest to the finest. Prices that come from coarser slices need less of a search than those that begin at nothing.
+const CUTS: [Cut; 5] = [
+    Cut {
+        minutes: 60,
+        on_coarse_clock: Descent { steps: 200, first: 0.05, enough: 5e-5 },
+        to_the_second: Descent { steps: 30, first: 0.003, enough: 1e-5 },
+    },
+    Cut {
+        minutes: 15,
+        on_coarse_clock: Descent { steps: 500, first: 0.02, enough: 5e-5 },
+        to_the_second: Descent { steps: 60, first: 0.003, enough: 1e-5 },
+    },
+    Cut {
+        minutes: 5,
+        on_coarse_clock: Descent { steps: 300, first: 0.01, enough: 5e-5 },
+        to_the_second: Descent { steps: 120, first: 0.003, enough: 1e-5 },
+    },
+    Cut {
+        minutes: 3,
+        on_coarse_clock: Descent { steps: 300, first: 0.01, enough: 5e-5 },
+        to_the_second: Descent { steps: 250, first: 0.003, enough: 1e-5 },
+    },
+    Cut {
+        minutes: 1,
+        on_coarse_clock: Descent { steps: 200, first: 0.01, enough: 5e-5 },
+        to_the_second: Descent { steps: 200, first: 0.003, enough: 1e-5 },
+    },
+];
+
+/// Minutes of the longest slices on the way that are no longer than so many minutes, which are at least 1.
+pub(super) fn cut_within(minutes: u32) -> u32 {
+    let cut = CUTS.iter().find(|cut| cut.minutes <= minutes);
+    cut.expect("the shortest slices are of a minute").minutes
+}
+
+/// Somebody who follows a search.
+pub(crate) trait Watch: Sync {
+    /// Raised when the search shall end, soon.
+    fn stopped(&self) -> &AtomicBool;
+    /// The search has come so far, as a share of its work.
+    fn has_come(&self, share: f64);
+    /// This is the best bound so far.
+    fn has_found(&self, bound: &Bound);
+    /// Whether a bound of so many dollars is as low as any can be.
+    fn is_lowest(&self, bound_usd: f64) -> bool;
+}
+
+/// The best bound that is proven on the way to slices of `step`, or by the time that `watch` wants no more; none if that is before the
+/// first bound.
+///
+/// # Errors
+/// [`Error::TooManyFlights`] if the day is too large for this step.
+pub(super) fn climb(
+    scenario: &Scenario,
+    step: Step,
+    watch: &dyn Watch,
+) -> Result<Option<Bound>, Error> {
+    Network::fits(scenario, step.seconds())?;
+    let cuts = || CUTS.iter().filter(|cut| step.minutes <= cut.minutes);
+    let in_all = cuts().map(|cut| cut.work(scenario)).sum();
+    let mut climb = Climb { scenario, watch, best: None, done: 0.0, in_all };
+    let mut before = None;
+    for cut in cuts() {
+        before = climb.rise(cut, before)?;
+        if before.is_none() {
+            return Ok(climb.best);
+        }
+    }
+    watch.has_come(1.0);
+    Ok(climb.best)
+}
+
+impl Cut {
+    fn step(&self) -> Step {
+        Step { minutes: self.minutes }
+    }
+
+    /// Comparisons of all evaluations for each pair of vertiports, roughly.
+    fn work(&self, scenario: &Scenario) -> f64 {
+        let slices = Slices::of(scenario, self.step().seconds());
+        f64::from(self.on_coarse_clock.steps) * comparisons(&slices, TICK_S)
+            + f64::from(self.to_the_second.steps) * comparisons(&slices, 1)
+    }
+}
+
+/// Comparisons of an evaluation for each pair of vertiports, roughly. To begin with another flight takes as long as some of them.
+fn comparisons(slices: &Slices, tick_s: u32) -> f64 {
+    f64::from(slices.day_s() / tick_s) + 16.0 * slices.len() as f64
+}
+
+/// A search under way.
+struct Climb<'a> {
+    scenario: &'a Scenario,
+    watch: &'a dyn Watch,
+    best: Option<Bound>,
+    /// Work done, and all that there is.
+    done: f64,
+    in_all: f64,
+}
+
+impl Climb<'_> {
+    /// Searches in slices of one length, from the prices on that were found in coarser ones. The prices to go on from; none if
+    /// the search shall end.
+    fn rise(
+        &mut self,
+        cut: &Cut,
+        before: Option<(Slices, Prices)>,
+    ) -> Result<Option<(Slices, Prices)>, Error> {
+        let slices = Slices::of(self.scenario, cut.step().seconds());
+        let network = || Network::of(self.scenario, cut.step().seconds());
+        let size = self.scenario.vertiports.len();
+        let start = if let Some((coarser, prices)) = before {
+            Some(prices.in_slices(&coarser, &slices, size))
+        } else {
+            // Any prices prove a bound: nothing for everything gives the first, at once.
+            let network = network()?;
+            let zero = Prices::zero(&network);
+            self.prove(cut, &network, Descent { steps: 0, ..cut.to_the_second }, zero)
+        };
+        let coarse = network()?.on_coarse_clock(TICK_S);
+        let found = start.and_then(|start| self.look(cut, &coarse, &slices, start));
+        drop(coarse);
+        let Some(found) = found else { return Ok(None) };
+        let prices = self.prove(cut, &network()?, cut.to_the_second, found);
+        Ok(prices.map(|prices| (slices, prices)))
+    }
+
+    /// Looks for prices on the coarse clock.
+    fn look(
+        &mut self,
+        cut: &Cut,
+        coarse: &Network,
+        slices: &Slices,
+        start: Prices,
+    ) -> Option<Prices> {
+        let (pace, step) = (Pace::of(slices), comparisons(slices, TICK_S));
+        let done = self.done;
+        self.done += f64::from(cut.on_coarse_clock.steps) * step;
+        let (watch, in_all, mut steps) = (self.watch, self.in_all, 0.0);
+        let found = cut.on_coarse_clock.run(coarse, &pace, start, watch.stopped(), &mut |_| {
+            watch.has_come((done + steps * step) / in_all);
+            steps += 1.0;
+            true
+        })?;
+        (!watch.stopped().load(Ordering::Relaxed)).then_some(found.prices)
+    }
+
+    /// Looks for better prices to the second. Each proves a bound, and the best is kept. The prices to go on from, unless
+    /// the search shall end.
+    fn prove(
+        &mut self,
+        cut: &Cut,
+        network: &Network,
+        descent: Descent,
+        start: Prices,
+    ) -> Option<Prices> {
+        let (pace, step) = (Pace::of(&network.slices), comparisons(&network.slices, 1));
+        let done = self.done;
+        self.done += f64::from(descent.steps) * step;
+        let (watch, in_all, best, mut steps) = (self.watch, self.in_all, &mut self.best, 0.0);
+        let found = descent.run(network, &pace, start, watch.stopped(), &mut |found| {
+            watch.has_come((done + steps * step) / in_all);
+            steps += 1.0;
+            if best.as_ref().is_none_or(|best| found.bound(network) < best.micro_usd) {
+                let bound = Bound::of(cut.step(), network, found);
+                watch.has_found(&bound);
+                *best = Some(bound);
+            }
+            !best.as_ref().is_some_and(|best| watch.is_lowest(best.upper_bound_usd()))
+        })?;
+        let ends = watch.stopped().load(Ordering::Relaxed)
+            || self.best.as_ref().is_some_and(|best| watch.is_lowest(best.upper_bound_usd()));
+        (!ends).then_some(found.prices)
+    }
+}

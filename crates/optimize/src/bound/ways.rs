@@ -1,0 +1,78 @@
+//! What the fleet would do at given prices: every aircraft takes the way through the day that is worth most to it. What is
+//! then wanted too much, or too little, says which prices should rise and which fall.
+
+use super::certificate::{Certificate, earnings};
+use super::master::Way;
+use super::network::{Flight, Network};
+use super::prices::Prices;
+
+/// A day at the prices that its certificate was evaluated with last.
+pub(super) struct Ways<'a> {
+    pub(super) network: &'a Network,
+    pub(super) prices: &'a Prices,
+    pub(super) certificate: &'a Certificate,
+}
+
+impl Ways<'_> {
+    /// The best way of each group of aircraft of one layer that start at the same vertiport, and how many they are.
+    pub(super) fn of_groups(&self) -> Vec<(u32, Way)> {
+        let layers = self.network.layers.iter().enumerate();
+        let groups = layers.flat_map(|(layer, kind)| {
+            kind.starts.iter().enumerate().map(move |(at, &count)| (layer, at, count))
+        });
+        let taken = groups.filter(|&(.., count)| count > 0);
+        taken.map(|(layer, at, count)| (count, self.way(layer, at))).collect()
+    }
+
+    fn way(&self, layer: usize, mut at: usize) -> Way {
+        let slices = &self.network.slices;
+        let day_s = slices.day_s();
+        let mut way = Way { earnings: 0.0, stays: Vec::new(), flights: Vec::new() };
+        let (mut second, mut slice) = (0, 0);
+        while slice < slices.len() {
+            let leaves = self.waits_until(layer, at, second);
+            if leaves > second {
+                second = leaves;
+            } else if let Some(flight) = self.best_flight(layer, at, second, slice) {
+                let margin = self.network.margin[flight.cell as usize] as f64;
+                way.earnings += f64::from(flight.passengers) * margin - flight.cost as f64;
+                way.flights.push((flight.cell, flight.passengers));
+                at = flight.to.at();
+                second += flight.block_s;
+            } else {
+                second += self.network.hold_s;
+            }
+            let until = slices.containing(slices.start_s(0) + second.min(day_s));
+            way.stay(at, slice..until);
+            slice = until;
+        }
+        way
+    }
+
+    fn worth_less_paid(&self, layer: usize, at: usize, second: u32) -> i64 {
+        self.certificate.worth_less_paid(self.network, layer, at, second as usize)
+    }
+
+    /// Until when an aircraft that may wait freely does so: as long as being ready is worth as much later.
+    fn waits_until(&self, layer: usize, at: usize, mut second: u32) -> u32 {
+        let worth = |second| self.worth_less_paid(layer, at, second);
+        while self.network.layers[layer].waits_freely
+            && second < self.network.slices.day_s()
+            && worth(second) == worth(second + 1)
+        {
+            second += 1;
+        }
+        second
+    }
+
+    /// The first flight in file order that is worth as much as being ready at a place, second and slice is.
+    fn best_flight(&self, layer: usize, at: usize, second: u32, slice: usize) -> Option<&Flight> {
+        let paid = |at| self.certificate.paid(self.network, slice, at);
+        let here = self.worth_less_paid(layer, at, second) + paid(at);
+        self.network.flights(slice, layer, at).iter().find(|flight| {
+            let to = flight.to.at();
+            let goes_on = self.worth_less_paid(layer, to, second + flight.block_s);
+            here == earnings(self.network, self.prices, flight) + paid(to) + goes_on
+        })
+    }
+}

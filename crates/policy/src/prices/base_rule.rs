@@ -1,0 +1,84 @@
+//! The rule by which the fleet is expected to decide: the prices, the prices without empty flights, or greedy.
+//!
+//! Prices that a search has not settled promise too much. Where demand is thin, each aircraft of the fleet counts on the same
+//! few passengers, and empty flights towards them cost more than they bring. So once an hour the rest of the day is played
+//! out as expected under each rule, and the rule that earns the most decides until the next time.
+
+use vertifleet_core::VertiportIx;
+use vertifleet_sim::{Decision, Imagined, View};
+
+use super::DayPrices;
+use crate::Greedy;
+
+/// How the fleet decides while nothing better is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum BaseRule {
+    /// The choice that is worth most at the prices.
+    Prices,
+    /// The same among holding and the flights that carry passengers.
+    PricesCarrying,
+    /// The flight with the highest profit per hour.
+    Greedy,
+}
+
+impl BaseRule {
+    /// The rule under which the rest of the day, played out as expected, earns the most; the first of them among equals.
+    pub(super) fn best(prices: &DayPrices, view: View<'_>, room: &mut Option<Imagined>) -> Self {
+        let mut played_out = |rule: Self| {
+            let day = view.imagined_in(room);
+            let mut empty_flights = 0_u32;
+            while let Some(decision) = day.next_decision() {
+                let choice = rule.choice(prices, day.view(), &decision);
+                let row = day.apply(choice).expect("every rule chooses from the mask");
+                empty_flights += u32::from(row.to != row.from && row.passengers == 0);
+            }
+            (day.ledger().profit_usd(), empty_flights)
+        };
+        let (prices_usd, empty_flights) = played_out(Self::Prices);
+        let mut best = (prices_usd, Self::Prices);
+        let others: &[Self] = match empty_flights {
+            0 => &[Self::Greedy],
+            _ => &[Self::PricesCarrying, Self::Greedy],
+        };
+        for &rule in others {
+            let usd = played_out(rule).0;
+            if usd > best.0 {
+                best = (usd, rule);
+            }
+        }
+        best.1
+    }
+
+    /// What an aircraft does under this rule.
+    #[inline]
+    pub(super) fn choice(
+        self,
+        prices: &DayPrices,
+        view: View<'_>,
+        decision: &Decision,
+    ) -> VertiportIx {
+        if self == Self::Greedy {
+            return Greedy::flight_or_hold(view, decision);
+        }
+        let mut best = (f64::NEG_INFINITY, decision.at);
+        for to in view.feasible(decision).iter().filter(|&to| self.allows(view, decision, to)) {
+            let usd = prices.choice_usd(view, decision, to);
+            if usd > best.0 {
+                best = (usd, to);
+            }
+        }
+        best.1
+    }
+
+    /// Whether a choice is open to an aircraft under a rule of prices.
+    #[inline]
+    pub(super) fn allows(self, view: View<'_>, decision: &Decision, to: VertiportIx) -> bool {
+        self == Self::Prices || !is_empty_flight(view, decision, to)
+    }
+}
+
+/// Whether a choice is a flight that nobody wants to take.
+#[inline]
+pub(crate) fn is_empty_flight(view: View<'_>, decision: &Decision, to: VertiportIx) -> bool {
+    to != decision.at && view.demand_left(view.period(), decision.at, to) == 0
+}

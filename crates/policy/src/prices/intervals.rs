@@ -1,0 +1,61 @@
+//! The day cut into intervals, in each of which flights may leave and earn the same: demand periods, cut once more where known
+//! closures begin and end.
+
+use vertifleet_core::{ClosedTimes, Time, VertiportIx};
+use vertifleet_sim::View;
+
+use super::clock::Clock;
+
+/// A run of slots.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Interval {
+    /// Its demand period.
+    pub(super) period: usize,
+    /// When its first slot begins: what is known to be closed then is so at the beginning of each of its slots.
+    begin: Time,
+}
+
+impl Interval {
+    /// Whether a route is known to be closed.
+    #[inline]
+    pub(super) fn is_closed(
+        &self,
+        known: &ClosedTimes,
+        from: VertiportIx,
+        to: VertiportIx,
+    ) -> bool {
+        known.is_closed(from, to, self.begin)
+    }
+}
+
+/// The intervals of a day, in order.
+#[derive(Debug, Clone)]
+pub(super) struct Intervals {
+    pub(super) all: Vec<Interval>,
+    /// The interval of each slot.
+    pub(super) of_slot: Vec<usize>,
+}
+
+impl Intervals {
+    pub(super) fn of(view: View<'_>, clock: &Clock) -> Self {
+        let changes = view.known_closures().changes();
+        let mut intervals = Self { all: Vec::new(), of_slot: Vec::with_capacity(clock.slots) };
+        let mut past = 0;
+        for slot in 0..clock.slots {
+            let begin = Time::from_seconds(clock.begin_s(slot));
+            let period = view.period_at(begin);
+            let new = changes[past..].iter().take_while(|&&change| change <= begin).count();
+            past += new;
+            if new > 0 || intervals.all.last().is_none_or(|last| last.period != period) {
+                intervals.all.push(Interval { period, begin });
+            }
+            intervals.of_slot.push(intervals.all.len() - 1);
+        }
+        intervals
+    }
+
+    /// The first interval in which a demand period, or a later one, is in force.
+    pub(super) fn first_of(&self, period: usize) -> usize {
+        self.all.partition_point(|interval| interval.period < period)
+    }
+}
