@@ -25,7 +25,7 @@ const MOST_WARNINGS: usize = 10;
 /// The network of this name or path; what it is read from is not to be written to.
 fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
     let network = Network::find(name)?;
-    if let Some(file) = Network::file_of(name) {
+    for file in network.files() {
         outputs.reads(file);
     }
     Ok(network)

@@ -72,6 +72,21 @@ fn a_day_of_a_network_with_a_table_and_costs_is_played_checked_bounded_and_plann
 }
 
 #[test]
+fn a_table_beside_a_network_is_an_input_that_no_output_replaces() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    own_network(at);
+    let table = fs::read(at.join("demand.csv")).expect("the table");
+    for arguments in [
+        "scenario own.toml --seed 3 -o demand.csv --force",
+        "compare --network own.toml --policies greedy --days 1 --seed 1 --report demand.csv --force",
+    ] {
+        assert!(said(at, arguments, 2).contains("V141"), "{arguments}");
+    }
+    assert!(fs::read(at.join("demand.csv")).expect("the table") == table);
+}
+
+#[test]
 fn a_file_of_the_other_kind_is_said_to_be_one() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();

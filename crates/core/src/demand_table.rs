@@ -15,20 +15,18 @@ use crate::{Error, Time, files, limits};
 
 const COLUMNS: [&str; 4] = ["period", "from", "to", "passengers"];
 
-/// The text of a network file with the rows of its table in it, read from `folder`; `raw` is what that text says of hourly
+/// The text of a network file with the rows of its table in it, the file `table`; `raw` is what that text says of hourly
 /// demand, and `vertiports` are the ids of its vertiports.
 pub(crate) fn inlined(
     text: &str,
     raw: &RawHourlyDemand,
-    table: &str,
+    table: &Path,
     vertiports: &[&str],
-    folder: &Path,
 ) -> Result<String, Error> {
-    let path = folder.join(table);
-    let csv = files::read_at_most(&path, files::LONGEST_TABLE)?;
+    let csv = files::read_at_most(table, files::LONGEST_TABLE)?;
     let reader = Reader {
         csv: without_mark(&csv),
-        origin: files::origin(&path),
+        origin: files::origin(table),
         periods: raw.periods.iter().copied().zip(0..).collect(),
         vertiports: vertiports.iter().map(|id| id.as_bytes()).zip(0..).collect(),
     };

@@ -1,6 +1,6 @@
 //! A network: what days are drawn from, all that is the same every day and how the rest is distributed.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::demand_model::DemandModel;
 use crate::disturbance_model::DisturbanceModel;
@@ -25,6 +25,8 @@ pub struct Network {
     pub(crate) name: String,
     /// The text that it was read from.
     pub(crate) toml: String,
+    /// The files that it was read from.
+    pub(crate) files: Vec<PathBuf>,
     /// All that is the same every day. Its aircraft stand anywhere that is allowed, and nobody wants to fly.
     pub(crate) idle_day: Scenario,
     pub(crate) demand: DemandModel,
@@ -42,7 +44,10 @@ impl Network {
         let path = path.as_ref();
         let origin = files::origin(path);
         let text = files::read_at_most(path, files::LONGEST_NETWORK)?;
-        network_file::network(parse::utf8(&text, &origin)?, path.parent(), &origin)
+        let mut network =
+            network_file::network(parse::utf8(&text, &origin)?, path.parent(), &origin)?;
+        network.files.push(path.to_owned());
+        Ok(network)
     }
 
     /// Reads and checks the text of a network file, which names no table beside it; `origin` stands for the file in
@@ -94,13 +99,6 @@ impl Network {
         })
     }
 
-    /// The file that [`find`](Self::find) reads for this name or path, if it reads any.
-    pub fn file_of(name_or_path: &str) -> Option<&Path> {
-        let shipped = Self::shipped_names().any(|name| name == name_or_path);
-        let path = Path::new(name_or_path);
-        (!shipped && path.exists()).then_some(path)
-    }
-
     /// The name by which [`find`](Self::find) knows the random network for comparison of this number.
     pub fn random_name(number: u64) -> String {
         format!("{RANDOM}{number}")
@@ -115,6 +113,11 @@ impl Network {
     /// same network.
     pub fn toml(&self) -> &str {
         &self.toml
+    }
+
+    /// The files that it was read from: its own and its table of demand; none if it is a shipped or a random network.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// The vertiports, in file order.

@@ -74,9 +74,12 @@ pub(crate) fn network(text: &str, folder: Option<&Path>, origin: &str) -> Result
         return raw.check(text, origin);
     };
     let vertiports: Vec<&str> = raw.vertiports.iter().map(RawSite::id).collect();
-    let text = demand_table::inlined(text, hourly, table, &vertiports, folder)?;
+    let table = folder.join(table);
+    let text = demand_table::inlined(text, hourly, &table, &vertiports)?;
     files::check_length(text.as_bytes(), files::LONGEST_NETWORK, origin)?;
-    network(&text, None, origin)
+    let mut network = network(&text, None, origin)?;
+    network.files.push(table);
+    Ok(network)
 }
 
 impl RawNetwork {
@@ -139,6 +142,7 @@ impl RawNetwork {
         Ok(Network {
             name: raw.name,
             toml: text.to_owned(),
+            files: Vec::new(),
             idle_day: idle_day.check(origin)?,
             demand,
             disturbances,

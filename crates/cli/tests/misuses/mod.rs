@@ -135,7 +135,8 @@ const CHECK_AND_BOUND: &[Misuse] = &[
     ("bound day.json --step -5", 2, "whole minutes from 1 to 60"),
     ("bound day.json --step NaN", 2, "whole minutes from 1 to 60"),
     ("bound day.json --step 1 --step 2", 2, "--step"),
-    ("bound day.json other.json", 2, "other.json"),
+    ("bound day.json missing.json", 2, "missing.json"),
+    ("bound day.json day.json", 2, "V410"),
 ];
 
 const PLAN: &[Misuse] = &[
