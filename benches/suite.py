@@ -82,7 +82,8 @@ def run(*arguments: str) -> dict:
 
 def verdict(mean: float, half_width: float) -> str:
     """A difference as it stands in the table, and whether it breaks a promise."""
-    return f"{mean:+,.0f} ± {half_width:,.0f}" + (" **broken**" if mean + half_width < 0 else "")
+    rounded = "0" if abs(mean) < 0.5 else f"{mean:+,.0f}"
+    return f"{rounded} ± {half_width:,.0f}" + (" **broken**" if mean + half_width < 0 else "")
 
 
 def row(network: str, days: int, seed: int) -> str:

@@ -29,6 +29,7 @@ pub(crate) struct Bound {
     scenario: Arc<core::Scenario>,
     step: u32,
     upper_bound_usd: f64,
+    is_final: bool,
     /// By vertiport.
     stand_worth_usd: Vec<f64>,
     /// By period, vertiport from, vertiport to.
@@ -47,6 +48,12 @@ impl Bound {
     #[getter]
     fn upper_bound_usd(&self) -> f64 {
         self.upper_bound_usd
+    }
+
+    /// Whether the search for it came to its end; if not, a longer one may find a lower bound.
+    #[getter]
+    fn is_final(&self) -> bool {
+        self.is_final
     }
 
     /// Minutes for which the proof's prices stay the same; more than asked for where longer slices proved more.
@@ -83,26 +90,26 @@ impl Bound {
         scenario: &Scenario,
         step: u32,
         upper_bound_usd: f64,
+        is_final: bool,
         stand_worth_usd: Vec<f64>,
         passenger_worth_usd: Vec<f64>,
     ) -> Self {
         let scenario = Arc::clone(&scenario.scenario);
-        Self { scenario, step, upper_bound_usd, stand_worth_usd, passenger_worth_usd }
+        Self { scenario, step, upper_bound_usd, is_final, stand_worth_usd, passenger_worth_usd }
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, Numbers> {
-        let Self { step, upper_bound_usd, stand_worth_usd, passenger_worth_usd, .. } = self.clone();
         let scenario = Scenario { scenario: Arc::clone(&self.scenario) };
-        reduced::<Self, _>(
-            py,
-            "of_numbers",
-            (scenario, step, upper_bound_usd, stand_worth_usd, passenger_worth_usd),
-        )
+        let Self { step, upper_bound_usd, is_final, stand_worth_usd, passenger_worth_usd, .. } =
+            self.clone();
+        let numbers =
+            (scenario, step, upper_bound_usd, is_final, stand_worth_usd, passenger_worth_usd);
+        reduced::<Self, _>(py, "of_numbers", numbers)
     }
 }
 
 /// Arguments of [`Bound::of_numbers`].
-type Numbers = (Scenario, u32, f64, Vec<f64>, Vec<f64>);
+type Numbers = (Scenario, u32, f64, bool, Vec<f64>, Vec<f64>);
 
 impl Bound {
     /// The numbers of a proof.
@@ -118,6 +125,7 @@ impl Bound {
         Self {
             step: bound.step_s() / 60,
             upper_bound_usd: bound.upper_bound_usd(),
+            is_final: bound.is_final(),
             stand_worth_usd: VertiportIx::all(size).map(|at| bound.stand_worth_usd(at)).collect(),
             passenger_worth_usd: worth.collect(),
             scenario: Arc::clone(scenario),
@@ -276,7 +284,7 @@ pub(crate) fn plan(
             }
         };
         // A day too large for any bound has a plan all the same.
-        let bound = bound.ok().flatten().map(|bound| Bound::of(&day, &bound));
+        let bound = bound.map(|bound| Bound::of(&day, &bound));
         let exact::Plan { trace, profit_usd, best_policy_usd, steps } = plan;
         let trace = Trace { scenario: day, trace: Arc::new(trace) };
         Ok::<_, exact::Error>(Plan { trace, profit_usd, best_policy_usd, steps, bound })

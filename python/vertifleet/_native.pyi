@@ -147,6 +147,7 @@ class Bound:
         scenario: Scenario,
         step: int,
         upper_bound_usd: float,
+        is_final: bool,
         stand_worth_usd: Sequence[float],
         passenger_worth_usd: Sequence[float],
     ) -> Bound: ...
@@ -154,6 +155,8 @@ class Bound:
     def scenario(self) -> Scenario: ...
     @property
     def upper_bound_usd(self) -> float: ...
+    @property
+    def is_final(self) -> bool: ...
     @property
     def step(self) -> int: ...
     @property

@@ -3,6 +3,7 @@
 //! With one more of them, the same prices prove the bound and the worth: no schedule of that day earns more. A bound that is proven
 //! anew is another search, and may come out a little above that or below.
 
+use serde::Serialize;
 use serde_json::{Map, Value, json};
 use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_optimize::Bound;
@@ -40,15 +41,23 @@ pub(crate) fn passengers_by_name(scenario: &Scenario, bound: &Bound) -> Vec<([St
     passengers(scenario, bound).into_iter().map(named).collect()
 }
 
+/// What one more passenger of a pair and period is worth, for JSON.
+#[derive(Serialize)]
+pub(crate) struct PassengerWorth<'a> {
+    from: &'a str,
+    to: &'a str,
+    period: String,
+    worth: f64,
+}
+
 /// What one more passenger is worth, by pair and period, most first; only where it is worth something.
-pub(crate) fn of_passengers(scenario: &Scenario, bound: &Bound) -> Vec<Value> {
-    let entry = |Passenger { worth_usd, period, from, to }| {
-        json!({
-            "from": id(scenario, from),
-            "to": id(scenario, to),
-            "period": scenario.periods[period].to_string(),
-            "worth": worth_usd,
-        })
+pub(crate) fn of_passengers<'a>(scenario: &'a Scenario, bound: &Bound) -> Vec<PassengerWorth<'a>> {
+    let name = |at: VertiportIx| scenario.vertiports[at.at()].id.as_str();
+    let entry = |Passenger { worth_usd, period, from, to }| PassengerWorth {
+        from: name(from),
+        to: name(to),
+        period: scenario.periods[period].to_string(),
+        worth: worth_usd,
     };
     passengers(scenario, bound).into_iter().map(entry).collect()
 }

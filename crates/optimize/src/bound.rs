@@ -75,6 +75,7 @@ pub struct Bound {
     /// By period, from, to: what one more passenger is worth at most, micro-dollars.
     passenger_worth: Vec<i64>,
     micro_usd: i128,
+    is_final: bool,
 }
 
 /// Proves how much a day can earn at most. Same scenario and step, same bound, bit for bit.
@@ -147,12 +148,18 @@ impl Bound {
             passenger_worth: network.worth_of_passengers(&found.prices),
             prices: found.prices.clone(),
             micro_usd: found.bound(network),
+            is_final: false,
         }
     }
 
     /// No schedule of the day earns more, dollars.
     pub fn upper_bound_usd(&self) -> f64 {
         money::usd_up(self.micro_usd)
+    }
+
+    /// Whether the search for it came to its end. If not, time was over first, and a longer search may find a lower bound.
+    pub fn is_final(&self) -> bool {
+        self.is_final
     }
 
     /// How long prices stay the same at most, seconds. It may be longer than what was asked for, where longer slices prove more.

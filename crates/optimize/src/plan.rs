@@ -105,8 +105,8 @@ pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
 }
 
 /// Plans a day that is known in full: actual demand, delays, closures and outages. The plan is never worse than the day of any
-/// policy that needs no learning, nor of any of `more`, as far as they can be played within the budget; the quick ones come
-/// first and the rolling horizon last. `watch` sees how far the plan is, many times a second, and says whether to go on; when
+/// policy that needs no learning, nor of any of `more`, as far as they can be played within the budget; the rolling horizon comes
+/// last. `watch` sees how far the plan is, many times a second, and says whether to go on; when
 /// it says no, the plan is the best found by then.
 ///
 /// A limit of time is kept within a second or a tenth of it, whatever the size of the day.

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use vertifleet_core::Scenario;
 
 use crate::bound::{Watch, fits, search};
-use crate::{Bound, Error, Step};
+use crate::{Bound, Step};
 
 /// Minutes of the bound's slices, finest first; those after the first are for days that are too large for it.
 const STEPS_MIN: [u32; 4] = [3, 5, 15, 60];
@@ -32,7 +32,7 @@ struct Shared {
 #[derive(Default)]
 struct State {
     best: Option<Arc<Bound>>,
-    end: Option<Result<(), Error>>,
+    ended: bool,
     panicked: bool,
 }
 
@@ -49,8 +49,8 @@ impl Proof {
         let (scenario, watch) = (Arc::clone(scenario), Ending(Arc::clone(&shared)));
         // Not joined: a caller in a hurry need not wait for it.
         std::thread::spawn(move || {
-            let end = prove(&scenario, &watch.0);
-            watch.0.lock().end = Some(end);
+            prove(&scenario, &watch.0);
+            watch.0.lock().ended = true;
         });
         Self { shared }
     }
@@ -67,7 +67,7 @@ impl Proof {
 
     /// Whether the search has come to its end, so that [`Proof::best`] will not change any more.
     pub fn has_ended(&self) -> bool {
-        self.shared.lock().end.is_some()
+        self.shared.lock().ended
     }
 
     /// Some schedule earns so many dollars: a bound that comes down to it is as low as any can be, and the search ends.
@@ -81,14 +81,14 @@ impl Proof {
     /// If the thread that proves did.
     pub fn wait(&self, patience: Duration) -> bool {
         let state = self.shared.lock();
-        let goes_on = |state: &mut State| state.end.is_none() && !state.panicked;
+        let goes_on = |state: &mut State| !state.ended && !state.panicked;
         let (state, _) = self
             .shared
             .ended
             .wait_timeout_while(state, patience, goes_on)
             .unwrap_or_else(PoisonError::into_inner);
-        assert!(!state.panicked, "a proof ends with a bound or with an error");
-        state.end.is_some()
+        assert!(!state.panicked, "a proof comes to an end");
+        state.ended
     }
 
     /// Asks the search to end, within about a tenth of a second; the best bound so far stays.
@@ -98,23 +98,16 @@ impl Proof {
 
     /// The best bound that a search for a plan may report that began at `begun` and had `limit` to take: the best by now. Where
     /// there is none at all yet, the first one is waited for, no longer than for most of a second past the limit.
-    ///
-    /// # Errors
-    /// As [`Proof::outcome`].
-    pub fn best_in_time(self, begun: Instant, limit: Duration) -> Result<Option<Bound>, Error> {
+    pub fn best_in_time(self, begun: Instant, limit: Duration) -> Option<Bound> {
         let latest = limit + GRACE;
         while self.best().is_none() && begun.elapsed() < latest && !self.wait(GLANCE) {}
         self.outcome()
     }
 
-    /// What has come of it by now: the best bound so far. The search ends if it has not.
-    ///
-    /// # Errors
-    /// [`Error::TooManyFlights`] if the day is too large for any bound.
-    pub fn outcome(self) -> Result<Option<Bound>, Error> {
-        let mut state = self.shared.lock();
-        state.end.take().unwrap_or(Ok(()))?;
-        Ok(state.best.as_deref().cloned())
+    /// What has come of it by now: the best bound so far, none if there is none yet or the day is too large for any. The search ends
+    /// if it has not.
+    pub fn outcome(self) -> Option<Bound> {
+        self.best().as_deref().cloned()
     }
 }
 
@@ -185,18 +178,13 @@ pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
     }
 }
 
-/// Searches for the bound with the finest slices that the day is not too large for. The bound is what the watch has found.
-fn prove(scenario: &Scenario, watch: &Shared) -> Result<(), Error> {
-    let mut steps = STEPS_MIN.into_iter().map(Step::from_minutes);
-    let too_large = loop {
-        let step = steps.next().expect("the last one returns")?;
-        match fits(scenario, step) {
-            Ok(()) => return search(scenario, step, watch).map(|_| ()),
-            Err(error) if steps.len() == 0 => break error,
-            Err(_) => {}
-        }
-    };
-    Err(too_large)
+/// Searches for the bound with the finest slices that the day is not too large for; nothing is found if it is too large for all.
+fn prove(scenario: &Scenario, watch: &Shared) {
+    let mut steps = STEPS_MIN.into_iter().filter_map(|minutes| Step::from_minutes(minutes).ok());
+    let Some(step) = steps.find(|&step| fits(scenario, step).is_ok()) else { return };
+    if let Ok(Some(bound)) = search(scenario, step, watch) {
+        watch.has_found(&bound);
+    }
 }
 
 #[cfg(test)]

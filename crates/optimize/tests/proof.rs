@@ -92,7 +92,9 @@ fn a_proof_that_is_stopped_ends_soon_and_keeps_its_best_bound() {
     proof.stop();
     assert!(proof.wait(Duration::from_mins(1)));
     assert!(proof.share() < 1.0);
-    let kept = proof.outcome().expect("no day too large").expect("a bound").upper_bound_usd();
+    let kept = proof.outcome().expect("a bound");
+    assert!(!kept.is_final());
+    let kept = kept.upper_bound_usd();
     assert!(greedy_usd(&day) <= kept && kept <= first);
 }
 
@@ -104,7 +106,8 @@ fn a_proof_ends_as_soon_as_its_bound_is_known_to_be_reached() {
     let proof = Proof::begin(&day);
     proof.knows(0.0);
     assert!(proof.wait(Duration::from_mins(1)));
-    let bound = proof.outcome().expect("a small day").expect("a bound");
+    let bound = proof.outcome().expect("a bound");
+    assert!(bound.is_final());
     assert_eq!(bound.upper_bound_usd(), 0.0);
 
     let day = paper_day(3);

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::{Map, Value};
 use vertifleet_core::{Outputs, Scenario};
 use vertifleet_optimize::{Bound, Budget, Error, Plan, Proof, Settings, plan};
 use vertifleet_progress::SearchBar;
@@ -17,7 +18,7 @@ use crate::commands::read_scenario;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::worth;
+use crate::worth::{self, PassengerWorth};
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = Arc::new(read_scenario(&arguments.scenario)?);
@@ -29,11 +30,11 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let begun = Instant::now();
     let proof = Proof::begin(&scenario);
     let plan = search(arguments, &scenario, &stop, &proof)?;
-    let bound = proof.best_in_time(begun, arguments.time_limit)?;
+    let bound = proof.best_in_time(begun, arguments.time_limit);
     let seconds = begun.elapsed().as_secs_f64();
     plan.trace.write(&scenario, &arguments.output)?;
     if arguments.json {
-        let numbers = numbers(&scenario, &plan, bound.as_ref(), seconds);
+        let numbers = Numbers::of(&scenario, &plan, bound.as_ref(), seconds);
         print(&serde_json::to_string_pretty(&numbers).expect("numbers are plain data"))?;
     } else {
         print(&text(&scenario, &plan, bound.as_ref(), seconds))?;
@@ -65,18 +66,36 @@ fn search(
     })
 }
 
-fn numbers(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -> Value {
-    json!({
-        "profit": plan.profit_usd,
-        "best_policy": plan.best_policy_usd,
-        "upper_bound": bound.map(Bound::upper_bound_usd),
-        "gap": bound.map(|bound| bound.gap(plan.profit_usd)),
-        "step_s": bound.map(Bound::step_s),
-        "seconds": seconds,
-        "steps": plan.steps,
-        "stand_worth": bound.map(|bound| worth::of_stands(scenario, bound)),
-        "passenger_worth": bound.map(|bound| worth::of_passengers(scenario, bound)),
-    })
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Numbers<'a> {
+    profit: f64,
+    best_policy: f64,
+    upper_bound: Option<f64>,
+    gap: Option<f64>,
+    step_s: Option<u32>,
+    bound_is_final: Option<bool>,
+    seconds: f64,
+    steps: u64,
+    stand_worth: Option<Map<String, Value>>,
+    passenger_worth: Option<Vec<PassengerWorth<'a>>>,
+}
+
+impl<'a> Numbers<'a> {
+    fn of(scenario: &'a Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -> Self {
+        Self {
+            profit: plan.profit_usd,
+            best_policy: plan.best_policy_usd,
+            upper_bound: bound.map(Bound::upper_bound_usd),
+            gap: bound.map(|bound| bound.gap(plan.profit_usd)),
+            step_s: bound.map(Bound::step_s),
+            bound_is_final: bound.map(Bound::is_final),
+            seconds,
+            steps: plan.steps,
+            stand_worth: bound.map(|bound| worth::of_stands(scenario, bound)),
+            passenger_worth: bound.map(|bound| worth::of_passengers(scenario, bound)),
+        }
+    }
 }
 
 fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -> String {
@@ -94,8 +113,9 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
     };
     let gap_percent = 100.0 * bound.gap(plan.profit_usd);
     let (bound_usd, step_min) = (bound.upper_bound_usd(), bound.step_s() / 60);
+    let longer = if bound.is_final() { "" } else { "; a longer search may lower it" };
     lines.push(format!(
-        "  upper bound     {bound_usd:>12.2} $    no schedule earns more (steps of {step_min} min)"
+        "  upper bound     {bound_usd:>12.2} $    no schedule earns more (steps of {step_min} min{longer})"
     ));
     lines.push(format!(
         "  gap             {gap_percent:>12.2} %    of the bound: the best schedule is at most so far ahead"

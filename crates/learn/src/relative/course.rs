@@ -41,7 +41,7 @@ impl Default for Course {
             learning_rate: 1e-3,
             entropy_weight: 1.0,
             exploration: 0.05,
-            expert: TryOut { horizon_s: 7_200, courses: 8, noise: 0.08, own: 0.5 },
+            expert: TryOut { horizon_s: 7_200, courses: 8, noise: 0.06, own: 0.5 },
             validation_days: 12,
         }
     }

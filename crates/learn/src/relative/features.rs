@@ -38,12 +38,21 @@ pub(crate) struct Scene<'a> {
     pub(crate) view: View<'a>,
     pub(crate) decision: &'a Decision,
     pub(crate) prices: &'a DayPrices,
+    /// The profit of a typical full flight, dollars.
     pub(crate) unit_usd: f64,
 }
 
 impl<'a> Scene<'a> {
     pub(crate) fn of(view: View<'a>, decision: &'a Decision, prices: &'a DayPrices) -> Self {
         Self { view, decision, prices, unit_usd: prices.unit_usd(view.kind(decision.aircraft)) }
+    }
+
+    /// What the network's additions are counted in, dollars: a typical full flight, but less where less than that is at stake in a
+    /// decision. It learns where most flights are full; where most seats stay empty, the prices are the better judge, and a share
+    /// of a full flight would drown what they say.
+    pub(crate) fn addition_usd(&self) -> f64 {
+        let fullness = (self.prices.stake_usd() / self.unit_usd).min(1.0);
+        self.unit_usd * fullness * fullness
     }
 }
 

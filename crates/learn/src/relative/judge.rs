@@ -4,7 +4,7 @@
 //! worth_j = worth of j at the prices  +  logit_j * unit / 20
 //! ```
 //!
-//! with the profit of a typical full flight as unit. A network of zeros adds nothing, so it decides as `prices` does. Only
+//! with the profit of a typical full flight as unit, and less where less is at stake ([`Scene::addition_usd`]). A network of zeros adds nothing, so it decides as `prices` does. Only
 //! choices that are worth nearly as much as the best are judged: those of a [`Shortlist`].
 
 use std::sync::Arc;
@@ -54,7 +54,7 @@ impl Judge {
             return only;
         }
         self.judge(scene, listed);
-        self.best_of_row(0, scene.unit_usd, listed)
+        self.best_of_row(0, scene.addition_usd(), listed)
     }
 
     /// Judges one decision, in row 0.
@@ -73,12 +73,12 @@ impl Judge {
     pub(crate) fn best_of_row(
         &self,
         row: usize,
-        unit_usd: f64,
+        addition_usd: f64,
         listed: &[(f64, VertiportIx)],
     ) -> VertiportIx {
         let mut best = (f64::NEG_INFINITY, listed[0].1);
         for &choice in listed {
-            let usd = self.worth_usd(row, unit_usd, choice);
+            let usd = self.worth_usd(row, addition_usd, choice);
             if usd > best.0 {
                 best = (usd, choice.1);
             }
@@ -90,11 +90,11 @@ impl Judge {
     pub(crate) fn worth_usd(
         &self,
         row: usize,
-        unit_usd: f64,
+        addition_usd: f64,
         (priced_usd, to): (f64, VertiportIx),
     ) -> f64 {
         let logit = self.workspace.logits()[row * self.vertiports() + to.at()];
-        priced_usd + f64::from(logit) / LOGITS_A_UNIT * unit_usd
+        priced_usd + f64::from(logit) / LOGITS_A_UNIT * addition_usd
     }
 }
 

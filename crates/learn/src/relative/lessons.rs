@@ -10,8 +10,8 @@ use crate::relative::features::{Rows, Scene};
 #[derive(Debug, Clone)]
 pub(crate) struct Lessons {
     pub(crate) rows: Rows,
-    /// By row and vertiport: what the choice is worth at the prices less the best, in units; what trying out says it is worth
-    /// less the mean of the list. 0 for what is not on the list.
+    /// By row and vertiport: what the choice is worth at the prices less the best, in [`Scene::addition_usd`]; what trying out says
+    /// it is worth less the mean of the list. 0 for what is not on the list.
     pub(crate) priced: Vec<f32>,
     pub(crate) values: Vec<f32>,
 }
@@ -21,22 +21,25 @@ impl Lessons {
         Self { rows: Rows::new(vertiports), priced: Vec::new(), values: Vec::new() }
     }
 
-    /// Adds a decision with what trying out says that each choice is worth, dollars.
+    /// Adds a decision with what trying out says that each choice is worth, dollars. One with nothing at stake teaches nothing.
     pub(crate) fn push(
         &mut self,
         scene: Scene<'_>,
         listed: &[(f64, VertiportIx)],
         values_usd: &[f64],
     ) {
-        let vertiports = self.rows.vertiports();
+        let (vertiports, addition_usd) = (self.rows.vertiports(), scene.addition_usd());
+        if addition_usd <= 0.0 {
+            return;
+        }
         self.rows.push(scene, listed);
         let first = self.priced.len();
         self.priced.resize(first + vertiports, 0.0);
         self.values.resize(first + vertiports, 0.0);
         let mean_usd = values_usd.iter().sum::<f64>() / values_usd.len() as f64;
         for (&(priced_usd, to), value) in listed.iter().zip(values_usd) {
-            self.priced[first + to.at()] = ((priced_usd - listed[0].0) / scene.unit_usd) as f32;
-            self.values[first + to.at()] = ((value - mean_usd) / scene.unit_usd) as f32;
+            self.priced[first + to.at()] = ((priced_usd - listed[0].0) / addition_usd) as f32;
+            self.values[first + to.at()] = ((value - mean_usd) / addition_usd) as f32;
         }
     }
 

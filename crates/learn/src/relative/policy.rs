@@ -79,10 +79,11 @@ impl Policy for GcapsX {
         let scene = Scene::of(*view, decision, prices);
         judge.judge(scene, listed);
         let Some((most_tried, rollouts)) = &mut self.rollouts else {
-            return Ok(judge.best_of_row(0, scene.unit_usd, listed));
+            return Ok(judge.best_of_row(0, scene.addition_usd(), listed));
         };
+        let addition_usd = scene.addition_usd();
         let judged =
-            listed.iter().map(|&choice| (judge.worth_usd(0, scene.unit_usd, choice), choice.1));
+            listed.iter().map(|&choice| (judge.worth_usd(0, addition_usd, choice), choice.1));
         self.judged.clear();
         self.judged.extend(judged);
         self.judged.sort_by(|one, other| other.0.total_cmp(&one.0));

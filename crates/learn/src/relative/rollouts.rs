@@ -141,18 +141,17 @@ impl Course {
     /// Takes the choice of a row.
     fn follow(&mut self, judge: &Judge, prices: &DayPrices, row: usize) {
         let decision = self.next.as_ref().expect(ASKED);
-        let simulation = &mut self.simulation;
-        let unit_usd = prices.unit_usd(simulation.view().kind(decision.aircraft));
+        let addition_usd = Scene::of(self.simulation.view(), decision, prices).addition_usd();
         let noise_usd = if self.number == 0 { 0.0 } else { TRY_OUT.noise * prices.stake_usd() };
         let mut best = (f64::NEG_INFINITY, decision.at);
         for &listed in &self.listed {
             let noise = noise(self.number, decision, listed.1);
-            let usd = judge.worth_usd(row, unit_usd, listed) + noise_usd * noise;
+            let usd = judge.worth_usd(row, addition_usd, listed) + noise_usd * noise;
             if usd > best.0 {
                 best = (usd, listed.1);
             }
         }
         let choice = best.1;
-        simulation.apply(choice).expect("lists are of feasible choices");
+        self.simulation.apply(choice).expect("lists are of feasible choices");
     }
 }

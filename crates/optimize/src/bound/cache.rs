@@ -65,7 +65,11 @@ fn kept(scenario: &Scenario, stopped: &AtomicBool, path: &Path) -> Result<Option
     let network = Network::of(scenario, step.seconds())?;
     let Some(prices) = Prices::checked(&network, kept.stand, kept.demand) else { return Ok(None) };
     let proven = Certificate::new(&network).evaluate(&network, &prices, stopped);
-    Ok(proven.map(|micro_usd| Bound::of(step, &network, &Found { prices, micro_usd })))
+    Ok(proven.map(|micro_usd| {
+        let bound = Bound::of(step, &network, &Found { prices, micro_usd });
+        // Only what a search ended with is kept.
+        Bound { is_final: true, ..bound }
+    }))
 }
 
 fn path(scenario: &Scenario, step: Step, folder: &Path) -> PathBuf {

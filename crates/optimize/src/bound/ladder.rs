@@ -91,11 +91,16 @@ pub(super) fn climb(
     for cut in cuts() {
         before = climb.rise(cut, before)?;
         if before.is_none() {
-            return Ok(climb.best);
+            break;
         }
     }
-    watch.has_come(1.0);
-    Ok(climb.best)
+    if before.is_some() {
+        watch.has_come(1.0);
+    }
+    Ok(climb.best.map(|best| {
+        let is_final = before.is_some() || watch.is_lowest(best.upper_bound_usd());
+        Bound { is_final, ..best }
+    }))
 }
 
 impl Cut {

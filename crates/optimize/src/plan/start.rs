@@ -16,53 +16,87 @@ use crate::Rolling;
 /// A day that was played, and its profit in dollars.
 pub(super) type Played = (Trace, f64);
 
-/// A day played by one policy; `None` if `go_on`, asked after each decision with how many there were, says no.
-fn played(
-    scenario: &Arc<Scenario>,
-    policy: &mut dyn Policy,
-    go_on: &mut dyn FnMut(usize) -> bool,
-) -> Option<Played> {
-    let mut simulation = Simulation::new(Arc::clone(scenario));
-    let mut trace = Trace::default();
-    let stop = AtomicBool::new(false);
-    let outcome = play(&mut simulation, &mut Stoppable { policy, stop: &stop }, |row| {
-        trace.rows.push(*row);
-        stop.store(!go_on(trace.rows.len()), Ordering::Relaxed);
-    });
-    match outcome {
-        Ok(()) => Some((trace, simulation.ledger().profit_usd())),
-        Err(PlayError::NoAnswer(PolicyError::Stopped)) => None,
-        Err(error) => panic!("these policies always answer, and from the mask: {error}"),
+/// A day begun by one policy, until `go_on`, asked after each decision with how many there were, says no.
+struct Begun {
+    simulation: Simulation,
+    trace: Trace,
+    /// Whether the policy has come to the end of the day.
+    is_over: bool,
+}
+
+impl Begun {
+    fn by(
+        policy: &mut dyn Policy,
+        scenario: &Arc<Scenario>,
+        go_on: &mut dyn FnMut(usize) -> bool,
+    ) -> Self {
+        let mut simulation = Simulation::new(Arc::clone(scenario));
+        let mut trace = Trace::default();
+        let stop = AtomicBool::new(false);
+        let outcome = play(&mut simulation, &mut Stoppable { policy, stop: &stop }, |row| {
+            trace.rows.push(*row);
+            stop.store(!go_on(trace.rows.len()), Ordering::Relaxed);
+        });
+        let is_over = match outcome {
+            Ok(()) => true,
+            Err(PlayError::NoAnswer(PolicyError::Stopped)) => false,
+            Err(error) => panic!("{ANSWERS}: {error}"),
+        };
+        Self { simulation, trace, is_over }
+    }
+
+    /// The day, if the policy has come to its end.
+    fn whole(self) -> Option<Played> {
+        self.is_over.then(|| (self.trace, self.simulation.ledger().profit_usd()))
+    }
+
+    /// The day; greedy decides what is left of it.
+    fn finished(mut self) -> Played {
+        play(&mut self.simulation, &mut Greedy, |row| self.trace.rows.push(*row)).expect(ANSWERS);
+        (self.trace, self.simulation.ledger().profit_usd())
     }
 }
 
-/// The best day of several policies: the rules that need no learning, `more`, and the rolling horizon, the quickest first.
+const ANSWERS: &str = "these policies always answer, and from the mask";
+
+/// The best day of several policies: greedy, the prices, `more`, the other rules that need no learning, and the rolling horizon.
 ///
 /// `go_on` is told the best profit so far in dollars, and of a day that is being played how much of it is over, as a share
 /// of greedy's decisions. When it says no, that day is left out, and before a day begins also all that follow. Greedy's is
-/// always played.
+/// always played. The prices decide for as long as there is any time, and greedy for the rest of their day: on a large network
+/// with a short limit nothing else gets so far.
 pub(super) fn best_policy(
     scenario: &Arc<Scenario>,
     more: &mut [Box<dyn Policy>],
     go_on: &mut dyn FnMut(f64, Option<f64>) -> bool,
 ) -> Played {
-    let mut best = played(scenario, &mut Greedy, &mut |_| true).expect("it is not stopped");
+    let mut best = Begun::by(&mut Greedy, scenario, &mut |_| true).finished();
+    if !go_on(best.1, None) {
+        return best;
+    }
     let decisions = best.0.rows.len().max(1) as f64;
-    let mut rules: [Box<dyn Policy>; 3] =
-        [Box::new(Lookahead), Box::new(Random::new(0)), Box::<Priced>::default()];
-    let mut rolling: [Box<dyn Policy>; 1] = [Box::<Rolling>::default()];
-    for policy in rules.iter_mut().chain(more).chain(&mut rolling) {
+    // As if each decision were its last, so that it goes on until there is no time at all.
+    let priced = Begun::by(&mut Priced::default(), scenario, &mut |_| go_on(best.1, Some(1.0)));
+    best = better(best, priced.finished());
+    let mut others: [Box<dyn Policy>; 3] =
+        [Box::new(Lookahead), Box::new(Random::new(0)), Box::<Rolling>::default()];
+    for policy in more.iter_mut().chain(&mut others) {
         if !go_on(best.1, None) {
             break;
         }
-        let day = played(scenario, policy.as_mut(), &mut |taken| {
+        let day = Begun::by(policy.as_mut(), scenario, &mut |taken| {
             go_on(best.1, Some((taken as f64 / decisions).min(1.0)))
         });
-        if let Some(day) = day.filter(|day| day.1 > best.1) {
-            best = day;
+        if let Some(day) = day.whole() {
+            best = better(best, day);
         }
     }
     best
+}
+
+/// The day that earns more; the first of equals.
+fn better(one: Played, other: Played) -> Played {
+    if other.1 > one.1 { other } else { one }
 }
 
 /// The flights of a whole day's trace.
