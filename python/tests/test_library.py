@@ -150,6 +150,35 @@ def test_a_comparison_in_parts_is_the_whole(paper: Network) -> None:
     assert error.value.code == "V409"
 
 
+def test_days_of_ones_own_earn_what_they_do_alone_wherever_they_come_from(
+    paper: Network, tmp_path: Path
+) -> None:
+    days = [paper.draw(seed) for seed in (31, 32)]
+    for at, day in enumerate(days):
+        day.write(tmp_path / f"{at}.json")
+    given: list[Any] = [tmp_path, [tmp_path / "0.json", str(tmp_path / "1.json")], days]
+    alone = [vertifleet.simulate(day, "greedy").profit_usd for day in days]
+    for days_from in given:
+        comparison = vertifleet.compare(None, ["greedy"], days_from=days_from)
+        assert list(comparison.columns["profit"]) == alone
+    with pytest.raises(vertifleet.Error) as error:
+        vertifleet.compare(None, ["greedy"], days_from=[days[0], days[0]])
+    assert error.value.code == "V410"
+
+
+def test_what_somebody_else_wrote_is_replaced_by_force_alone(day: Scenario, tmp_path: Path) -> None:
+    path = tmp_path / "notes.json"
+    path.write_text("dear to somebody", encoding="utf-8")
+    with pytest.raises(vertifleet.Error) as error:
+        day.write(path)
+    assert error.value.code == "V143"
+    assert path.read_text(encoding="utf-8") == "dear to somebody"
+    day.write(path, force=True)
+    assert Scenario.read(path) == day
+    # Its own file needs no force.
+    day.write(path)
+
+
 def test_bounds_hold_and_plans_come_close_to_them(day: Scenario) -> None:
     bound = vertifleet.bound(day, step=15)
     plan = vertifleet.plan(day, steps=2000, threads=2)
@@ -157,6 +186,8 @@ def test_bounds_hold_and_plans_come_close_to_them(day: Scenario) -> None:
         plan.best_policy_usd <= plan.profit_usd <= plan.bound.upper_bound_usd <= bound.upper_bound_usd + 0.01
     )
     assert plan.gap == pytest.approx(1 - plan.profit_usd / plan.bound.upper_bound_usd)
+    assert bound.is_final
+    assert plan.bound.is_final
     assert bound.gap(plan.profit_usd) >= plan.gap
     assert vertifleet.check(day, plan.trace)["valid"]
     assert bound.stand_worth_usd.shape == (8,)

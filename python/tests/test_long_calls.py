@@ -53,6 +53,26 @@ def test_ctrl_c_ends_a_long_call(call: str, tmp_path: Path) -> None:
     assert process.returncode in (1, 130, -signal.SIGINT), "ended by the exception, not by a crash"
 
 
+def test_where_ctrl_c_is_ignored_a_call_goes_on_to_its_end(tmp_path: Path) -> None:
+    program = (
+        "import vertifleet\nprint('begun', flush=True)\n"
+        "vertifleet.plan(vertifleet.Network('paper').draw(1), time_limit=3)\nprint('done', flush=True)"
+    )
+    # So a shell without job control starts what runs in its background: a child keeps what is ignored.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        command = [sys.executable, "-c", program]
+        process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True)
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    assert process.stdout is not None
+    assert process.stdout.readline() == "begun\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    assert (out, process.returncode) == ("done\n", 0)
+
+
 @pytest.mark.parametrize(
     ("call", "units"),
     [

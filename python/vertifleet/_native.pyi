@@ -31,7 +31,9 @@ __all__ = [
     "check",
     "check_comparison",
     "compare",
+    "compare_own",
     "plan",
+    "read_days",
     "settings",
     "simulate",
 ]
