@@ -39,7 +39,7 @@ pub(crate) enum Command {
     Train(TrainArguments),
     /// Play many days with many policies and report who earns what
     Compare(CompareArguments),
-    /// Play a day each of many random networks and report who comes how near the bound
+    /// Play a day of each of many random networks and report shares of the bound
     Generalise(GeneraliseArguments),
 }
 
@@ -101,7 +101,7 @@ pub(crate) struct BoundArguments {
     /// Scenario file; several of them, or a folder with them (all *.json), give means over days too
     #[arg(required = true, value_name = "SCENARIO|DIR")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// Minutes for which prices stay the same at most, 1 to 60: 60, 15, 5, 3 and 1 are told apart; fewer never give a looser bound, and take
+    /// Minutes for which prices stay the same at most, 1 to 60; slices have 60, 15, 5, 3 or 1 minutes. Fewer never give a looser bound, and take
     /// longer
     #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
@@ -117,7 +117,7 @@ pub(crate) struct PlanArguments {
     /// Write the schedule, every decision of the day, to this CSV file
     #[arg(short, long, value_name = "TRACE")]
     pub(crate) output: PathBuf,
-    /// Seconds to search at most
+    /// Seconds that it takes at most, start and proof included; 0 gives the day of greedy
     #[arg(long, value_name = "S", default_value = "60", allow_hyphen_values = true, value_parser = parse_seconds)]
     pub(crate) time_limit: Duration,
     /// Stop as soon as the gap to the certified bound is no more than this share of the bound, as 0.03

@@ -108,5 +108,6 @@ pub(crate) fn lines(days: &[(&Scenario, &Bound)]) -> Vec<String> {
     lines.extend(passengers.iter().take(SHOWN_PASSENGERS).map(|([from, to, period], mean)| {
         format!("  {:<15} {}, period from {period}", format!("{from} -> {to}"), mean.text())
     }));
+    lines.extend(worth::more_passengers(passengers.len()));
     lines
 }

@@ -83,7 +83,14 @@ pub(crate) fn lines(scenario: &Scenario, bound: &Bound) -> Vec<String> {
             scenario.periods[period]
         ));
     }
+    lines.extend(more_passengers(passengers.len()));
     lines
+}
+
+/// Says how many lines of passengers are left out.
+pub(crate) fn more_passengers(count: usize) -> Option<String> {
+    let more = count.saturating_sub(SHOWN_PASSENGERS);
+    (more > 0).then(|| format!("  and {more} more, which --json lists"))
 }
 
 struct Passenger {

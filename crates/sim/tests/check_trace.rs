@@ -125,7 +125,7 @@ fn what_is_wrong_in_a_file_is_named_with_its_line_and_column() {
     ];
     insta::assert_snapshot!(messages.join("\n"), @r#"
     V205: day.csv: line 1: the header must be "time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready", found ""
-    V205: day.csv: line 1: the header must be "time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready", found "aircraft,time,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,a..."
+    V205: day.csv: line 1: the header must be "time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready", found "aircraft,time,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready"
     V208: day.csv: line 4: time must be a time as HH:MM:SS, found "06:53"
     V207: day.csv: line 4: aircraft "A3" is not among the scenario's aircraft
     V207: day.csv: line 4: to "V7" is not among the scenario's vertiports
@@ -138,7 +138,7 @@ fn what_is_wrong_in_a_file_is_named_with_its_line_and_column() {
     V206: day.csv: line 4: a row must have 11 values, found 12
     V207: day.csv: line 3: from "V2, by the lake\"\"" is not among the scenario's vertiports
     V207: day.csv: line 3: from "V2, by the lake\"\"\"" is not among the scenario's vertiports
-    V208: day.csv: line 4: arrival must be a time as HH:MM:SS, found "07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:..."
+    V208: day.csv: line 4: arrival must be a time as HH:MM:SS, found "07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�07:43:�0..."
     "#);
 }
 

@@ -59,7 +59,7 @@ pub fn text(summary: &Summary) -> String {
         let amount = estimate(&bound.upper_bound_usd, |value| grouped(value, 0));
         let _ = write!(
             text,
-            "\nof bound: share of what no schedule of the day earns more than, $ {amount} (steps of {})",
+            "\nof bound: share of the certified bound, which no schedule passes: $ {amount} (steps of {})",
             minutes(bound.step_s)
         );
     }

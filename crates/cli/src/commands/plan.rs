@@ -102,7 +102,10 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
     let mut lines = vec![
         format!("{} planned in {seconds:.1} s", scenario.name),
         format!("  profit          {:>12.2} $", plan.profit_usd),
-        format!("  best policy     {:>12.2} $    where the search began", plan.best_policy_usd),
+        format!(
+            "  best policy     {:>12.2} $    of those whose day was played in time; the search began there",
+            plan.best_policy_usd
+        ),
     ];
     let Some(bound) = bound else {
         lines.push(
@@ -113,12 +116,13 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
     };
     let gap_percent = 100.0 * bound.gap(plan.profit_usd);
     let (bound_usd, step_min) = (bound.upper_bound_usd(), bound.step_s() / 60);
+    let share = if bound_usd > 0.0 { "of the bound" } else { "of the loss" };
     let longer = if bound.is_final() { "" } else { "; a longer search may lower it" };
     lines.push(format!(
         "  upper bound     {bound_usd:>12.2} $    no schedule earns more (steps of {step_min} min{longer})"
     ));
     lines.push(format!(
-        "  gap             {gap_percent:>12.2} %    of the bound: the best schedule is at most so far ahead"
+        "  gap             {gap_percent:>12.2} %    {share}: no schedule is further ahead of this one"
     ));
     lines.extend(worth::lines(scenario, bound));
     lines.join("\n")

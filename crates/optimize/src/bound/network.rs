@@ -62,6 +62,8 @@ pub(super) struct Network {
     pub(super) hold_s: u32,
     /// The shortest time from a take-off to the next one, or a hold where that is shorter; seconds, at least 1.
     pub(super) shortest_s: u32,
+    /// Whether there is any flight for the passengers of a period, from, to.
+    is_flown: Vec<bool>,
     flights: Vec<Flight>,
     /// Where the flights from each vertiport begin, by slice, layer, vertiport.
     offsets: Vec<usize>,
@@ -84,6 +86,7 @@ impl Network {
             fleet_cost: fleet_cost(scenario),
             hold_s: scenario.operations.hold_s,
             shortest_s: scenario.operations.hold_s,
+            is_flown: vec![false; scenario.periods.len() * scenario.vertiports.len().pow(2)],
             flights: Vec::new(),
             offsets: vec![0],
             slices,
@@ -148,6 +151,7 @@ impl Network {
                         let cost_usd = scenario.flight_cost_usd[(from, to)];
                         let price_usd = lowest_energy_price_usd(scenario, arrivals_s);
                         let cell = first_cell + from.at() * size + to.at();
+                        self.is_flown[cell] = true;
                         self.flights.push(Flight {
                             to,
                             block_s: leg.block_s() + late_s,
@@ -164,13 +168,15 @@ impl Network {
     }
 
     /// What one more passenger is worth at most, by period, from, to; micro-dollars. If all who want to fly fill no aircraft, one
-    /// more may fly with them, and the price says nothing of that.
+    /// more may fly with them, and the price says nothing of that. Where no flight leads, nothing.
     pub(super) fn worth_of_passengers(&self, prices: &Prices) -> Vec<i64> {
         let seats = self.layers.iter().map(|layer| layer.seats).max().unwrap_or(0);
-        let cells = self.demand.iter().zip(&self.margin).zip(&prices.demand);
-        cells
-            .map(|((&waiting, &margin), &price)| if waiting < seats { margin } else { price })
-            .collect()
+        let worth = |cell: usize| match self.demand[cell] {
+            _ if !self.is_flown[cell] => 0,
+            waiting if waiting < seats => self.margin[cell],
+            _ => prices.demand[cell],
+        };
+        (0..self.demand.len()).map(worth).collect()
     }
 
     /// Number of vertiports.

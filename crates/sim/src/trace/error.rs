@@ -107,6 +107,14 @@ impl TraceError {
         match self {
             Self::Core(error) => error.hint(),
             Self::UnknownId { .. } => Some("a trace belongs to the scenario that it was made from"),
+            // The last column is all that traces differ in.
+            Self::WrongHeader { expected, found, .. }
+                if expected.starts_with(found.as_str()) || found.starts_with(expected.as_str()) =>
+            {
+                Some(
+                    "flight_cost is a column on days with flight costs alone: the trace is of another scenario",
+                )
+            }
             Self::WrongWidth { .. } => Some(
                 "an id with a comma or a quote in it stands in quotes, with its own quotes doubled",
             ),

@@ -183,7 +183,7 @@ impl<'a> Reader<'a> {
 
 /// At most 80 characters of a text, so that a broken file does not flood the screen.
 fn shortened(text: &str) -> String {
-    match text.char_indices().nth(80) {
+    match text.char_indices().nth(120) {
         Some((end, _)) => format!("{}...", &text[..end]),
         None => text.to_owned(),
     }

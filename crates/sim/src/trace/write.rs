@@ -13,7 +13,8 @@ impl Trace {
     pub const FILE: OutputKind = OutputKind {
         name: "trace",
         skipped: 0,
-        opening: "time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready\n",
+        // On days with flight costs there is one column more.
+        opening: "time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready",
     };
 
     /// Writes the trace as a CSV file that is there whole or not at all.
@@ -75,7 +76,7 @@ fn write_row(
 
 #[cfg(test)]
 mod tests {
-    use vertifleet_core::{DaySeed, Network};
+    use vertifleet_core::{DaySeed, Matrix, Network};
 
     use crate::Trace;
 
@@ -83,6 +84,11 @@ mod tests {
     fn a_written_trace_is_known_again() {
         let network = Network::shipped("paper").expect("a shipped network");
         let day = network.draw(DaySeed::comparison(1).expect("a seed"));
-        assert_eq!(Trace::default().to_csv(&day), Trace::FILE.opening);
+        assert_eq!(Trace::default().to_csv(&day), format!("{}\n", Trace::FILE.opening));
+        let mut costly = day.into_day();
+        costly.flight_cost_usd = Matrix::from_fn(costly.vertiports.len(), |_, _| 1.0);
+        let costly = costly.check("a day with flight costs").expect("a day within the rules");
+        let header = format!("{},flight_cost\n", Trace::FILE.opening);
+        assert_eq!(Trace::default().to_csv(&costly), header);
     }
 }

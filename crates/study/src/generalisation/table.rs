@@ -24,7 +24,7 @@ pub fn text(summary: &Summary) -> String {
     rows.extend(summary.policies.iter().map(|policy| row(policy, summary.networks.len())));
     append_aligned(&mut text, &rows);
     text.push_str("means over the networks; ± is the 95 % interval of the mean; p is of paired t-tests, two-sided\n");
-    text.push_str("of bound: share of what no schedule of the day earns more than (steps of ");
+    text.push_str("of bound: share of the certified bound, which no schedule passes (steps of ");
     text.push_str(&minutes(summary.bound_step_s));
     text.push(')');
     if summary.policies.iter().any(|policy| policy.knows_the_day) {
