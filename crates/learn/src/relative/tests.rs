@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
-use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, random_network};
+use vertifleet_core::{DaySeed, Matrix, Network, Purpose, Scenario, VertiportIx, random_network};
 use vertifleet_policy::{DayPrices, Policy, Priced, Shortlist, TryOut, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
@@ -68,6 +68,28 @@ fn weights_of_zeros_decide_as_prices_do() {
     for day in days() {
         assert_eq!(played(&day, &mut policy), played(&day, &mut Priced::default()));
     }
+}
+
+#[test]
+fn the_less_is_at_stake_the_less_weights_add() {
+    let paper = &days()[0];
+    // How much a flight's worth may change for the strongest opinion about it, where so many of the day's passengers are left.
+    let addition_usd = |one_in: u32| {
+        let mut day = Scenario::clone(paper).into_day();
+        day.demand.iter_mut().flat_map(Matrix::cells_mut).for_each(|cell| *cell /= one_in);
+        let day = Arc::new(day.check("a thin day").expect("a day within the rules"));
+        let mut simulation = Simulation::new(Arc::clone(&day));
+        let decision = simulation.next_decision().expect("a decision");
+        let view = simulation.view();
+        let prices = DayPrices::of(view, decision.time);
+        let scene = Scene::of(view, &decision, &prices);
+        (scene.addition_usd(), scene.unit_usd)
+    };
+    let (full_usd, unit_usd) = addition_usd(1);
+    assert_eq!(full_usd, unit_usd, "where flights are full, a share of a full flight");
+    let (thin_usd, unit_usd) = addition_usd(40);
+    assert!(0.0 < thin_usd && thin_usd < 0.1 * unit_usd, "{thin_usd}, {unit_usd}");
+    assert_eq!(addition_usd(u32::MAX).0, 0.0, "nobody wants to fly");
 }
 
 #[test]
