@@ -5,7 +5,7 @@ use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_optimize::Bound;
 use vertifleet_study::statistics::{mean, standard_deviation};
 
-use crate::worth::{self, ALL_STANDS, PASSENGERS, SHOWN_PASSENGERS};
+use crate::worth::{self, ALL_STANDS, PASSENGERS, PassengerWorth, SHOWN_PASSENGERS};
 
 /// A mean over days.
 #[derive(Debug, Clone, Copy)]
@@ -50,12 +50,13 @@ fn of_passengers(days: &[(&Scenario, &Bound)]) -> Vec<([String; 3], Mean)> {
     let mut worths: Vec<([String; 3], Vec<f64>)> = Vec::new();
     let mut places = std::collections::BTreeMap::new();
     for (number, (scenario, bound)) in days.iter().enumerate() {
-        for (key, worth_usd) in worth::passengers_by_name(scenario, bound) {
+        for PassengerWorth { from, to, period, worth } in worth::of_passengers(scenario, bound) {
+            let key = [from.to_owned(), to.to_owned(), period];
             let place = *places.entry(key.clone()).or_insert_with(|| {
                 worths.push((key, vec![0.0; days.len()]));
                 worths.len() - 1
             });
-            worths[place].1[number] = worth_usd;
+            worths[place].1[number] = worth;
         }
     }
     let mut means: Vec<_> =

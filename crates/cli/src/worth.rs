@@ -32,22 +32,13 @@ pub(crate) fn of_chargers(scenario: &Scenario, bound: &Bound) -> Map<String, Val
     separate.map(worth).collect()
 }
 
-/// What one more passenger is worth, dollars by from, to and start of the period; only where it is worth something.
-pub(crate) fn passengers_by_name(scenario: &Scenario, bound: &Bound) -> Vec<([String; 3], f64)> {
-    let named = |Passenger { worth_usd, period, from, to }| {
-        let period = scenario.periods[period].to_string();
-        ([id(scenario, from), id(scenario, to), period], worth_usd)
-    };
-    passengers(scenario, bound).into_iter().map(named).collect()
-}
-
-/// What one more passenger of a pair and period is worth, for JSON.
+/// What one more passenger of a pair and of the period that begins at a time is worth, dollars; as JSON has it.
 #[derive(Serialize)]
 pub(crate) struct PassengerWorth<'a> {
-    from: &'a str,
-    to: &'a str,
-    period: String,
-    worth: f64,
+    pub(crate) from: &'a str,
+    pub(crate) to: &'a str,
+    pub(crate) period: String,
+    pub(crate) worth: f64,
 }
 
 /// What one more passenger is worth, by pair and period, most first; only where it is worth something.
