@@ -45,7 +45,7 @@ fn prepared() -> tempfile::TempDir {
     }
     file("garbage", &[0xff, 0, 0x80, b'{', 0xfe]);
     file("notes.txt", b"dear to somebody");
-    for folder in ["folder", "none", "strange", "twice", "taken", "run", "rest"] {
+    for folder in ["folder", "none", "strange", "twice", "taken", "run", "rest", "foreign"] {
         fs::create_dir(at.join(folder)).expect("a folder");
     }
     file("folder/notes.txt", b"dear");
@@ -53,6 +53,7 @@ fn prepared() -> tempfile::TempDir {
     fs::write(at.join("twice/b.json"), &day).expect("a file");
     fs::write(at.join("strange/a.json"), &day).expect("a file");
     file("rest/a.json", b"{");
+    file("foreign/package.json", b"{\"dependencies\": {}}");
     run(at, "scenario random:1 --seed 1 -o strange/b.json");
     file("taken/paper-3.json", b"dear");
     file("run/mlp.safetensors", b"of another program");

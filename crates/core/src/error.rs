@@ -100,6 +100,16 @@ pub enum Error {
         found: String,
     },
 
+    /// V107. The file does not say which format it has, so it is probably something else. Fix: give the right file, or
+    /// begin it with the format that the message names.
+    #[error("{origin}: has no member `format`, which would be {expected:?}")]
+    NoFormat {
+        /// The file.
+        origin: String,
+        /// What this program reads.
+        expected: &'static str,
+    },
+
     /// V108. A list is empty or has more entries than this program takes. Fix: add or remove entries.
     #[error("{origin}: {member} must have 1 to {most} entries, found {found}")]
     EntryCount {
@@ -422,7 +432,7 @@ impl Error {
             Self::OutOfRange { .. } => 104,
             Self::NotParsed { .. } => 105,
             Self::WrongMember { .. } => 106,
-            Self::UnknownFormat { .. } => 107,
+            Self::UnknownFormat { .. } | Self::NoFormat { .. } => 107,
             Self::EntryCount { .. } => 108,
             Self::WrongShape { .. } => 109,
             Self::DuplicateId { .. } => 110,

@@ -56,7 +56,11 @@ pub(crate) fn check_length(text: &[u8], longest: u64, origin: &str) -> Result<()
 /// # Errors
 /// [`Error::CannotWrite`].
 pub fn create_folder(path: &Path) -> Result<(), Error> {
-    fs::create_dir_all(path).map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
+    let in_the_way = || {
+        io::Error::new(io::ErrorKind::NotADirectory, "a file has this name, and a folder is needed")
+    };
+    let created = if path.is_file() { Err(in_the_way()) } else { fs::create_dir_all(path) };
+    created.map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
 }
 
 /// Writes a whole file, so that whoever opens `path`, whenever the program ends, finds either what was there before or

@@ -10,7 +10,7 @@ use crate::error::FileKind;
 #[derive(Deserialize)]
 #[serde(expecting = "an object with a member `format`")]
 struct Header {
-    format: String,
+    format: Option<String>,
 }
 
 /// Reads JSON that says it has this format.
@@ -87,11 +87,14 @@ pub(crate) fn shortened(text: &str, most: usize) -> String {
 }
 
 fn check_format(header: &Header, expected: &'static str, origin: &str) -> Result<(), Error> {
-    if header.format == expected {
-        return Ok(());
+    let origin = origin.to_owned();
+    match &header.format {
+        Some(format) if format == expected => Ok(()),
+        Some(format) => {
+            Err(Error::UnknownFormat { origin, expected, found: shortened(format, 64) })
+        }
+        None => Err(Error::NoFormat { origin, expected }),
     }
-    let found = shortened(&header.format, 64);
-    Err(Error::UnknownFormat { origin: origin.to_owned(), expected, found })
 }
 
 fn json_value<T: DeserializeOwned>(text: &[u8], origin: &str) -> Result<T, Error> {

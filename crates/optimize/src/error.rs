@@ -38,9 +38,11 @@ pub enum Error {
     /// V503. A vertiport has chargers beside its stands, which the planner does not know. Fix: play such days with a policy, or
     /// give the vertiport one pool.
     #[error(
-        "vertiport {vertiport:?} has chargers beside its stands, and the planner knows one pool only"
+        "{day}: vertiport {vertiport:?} has chargers beside its stands, and the planner knows one pool only"
     )]
     SeparateChargers {
+        /// The day's name.
+        day: String,
         /// The first such vertiport.
         vertiport: String,
     },

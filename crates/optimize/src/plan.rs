@@ -91,7 +91,8 @@ pub struct Plan {
 pub fn can_plan(scenario: &Scenario) -> Result<(), Error> {
     let separate = scenario.vertiports.iter().find(|vertiport| vertiport.chargers.is_some());
     separate.map_or(Ok(()), |vertiport| {
-        Err(Error::SeparateChargers { vertiport: vertiport.id.clone() })
+        let (day, vertiport) = (scenario.name.clone(), vertiport.id.clone());
+        Err(Error::SeparateChargers { day, vertiport })
     })
 }
 

@@ -124,7 +124,7 @@ fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 fn folders(paths: &[PathBuf], files: &[PathBuf]) -> String {
     let folder = |path: &PathBuf| {
         let folder = if path.is_dir() { path } else { path.parent().unwrap_or(path) };
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let folder = if folder.as_os_str().is_empty() { Path::new("./") } else { folder };
         folder.display().to_string()
     };
     // Where there are no files, people want to know of the folder that they named.

@@ -269,13 +269,17 @@ const NAMES: [&str; 9] =
 
 /// That no policy has this name.
 fn unknown(name: &str) -> Error {
+    let meant = match nearest(name, NAMES) {
+        Some("plan") => Some("`vertifleet plan` plans a day that is known in full".to_owned()),
+        meant => meant.map(|name| format!("did you mean {name}?")),
+    };
     let known = NAMES.join(", ");
     Error::UnknownPolicy {
         name: name.to_owned(),
         known: format!(
             "{known} (in compare), {ANY_SIZE}:rollouts=K and replay:TRACE (in simulate)"
         ),
-        meant: nearest(name, NAMES).map(|name| format!("did you mean {name}?")),
+        meant,
     }
 }
 

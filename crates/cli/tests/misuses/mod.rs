@@ -30,7 +30,7 @@ const SCENARIO: &[Misuse] = &[
     ("scenario folder --seed 1", 2, "V101"),
     ("scenario day.json --seed 1", 2, "error[V1"),
     ("scenario garbage --seed 1", 2, "V105"),
-    ("scenario empty.toml --seed 1", 2, "V106"),
+    ("scenario empty.toml --seed 1", 2, "V107"),
     ("scenario notes.txt --seed 1", 2, "V105"),
     ("scenario trace.csv --seed 1", 2, "V105"),
     ("scenario small.toml", 2, "--seed"),
@@ -62,7 +62,7 @@ const SCENARIO: &[Misuse] = &[
     ("scenario small.toml --seed 1 -o missing/day.json", 1, "V102"),
     ("scenario small.toml --seed 1 -o /dev/full", 1, "V102"),
     ("scenario small.toml --seed 1 -o notes.txt/day.json", 1, "V102"),
-    ("scenario small.toml --seed 1 --days 2 -o notes.txt", 1, "V102"),
+    ("scenario small.toml --seed 1 --days 2 -o notes.txt", 1, "a folder is needed"),
     ("scenario small.toml --seed 1 --days 3 -o taken", 2, "taken/paper-3.json"),
 ];
 
@@ -79,6 +79,7 @@ const SIMULATE: &[Misuse] = &[
     ("simulate small.toml --policy greedy", 2, "error[V1"),
     ("simulate trace.csv --policy greedy", 2, "error[V1"),
     ("simulate w.st --policy greedy", 2, "error[V1"),
+    ("simulate day.json --policy plan", 2, "plans a day"),
     ("simulate day.json --policy greeedy", 2, "did you mean greedy?"),
     ("simulate day.json --policy GREEDY", 2, "did you mean greedy?"),
     ("simulate day.json --policy rollling", 2, "did you mean rolling?"),
@@ -259,6 +260,7 @@ const COMPARE: &[Misuse] = &[
     ("compare --days-from twice --policies greedy", 2, "V410"),
     ("compare --days-from day.json soft.json --policies greedy", 2, "V410"),
     ("compare --days-from rest --policies greedy", 2, "V105"),
+    ("compare --days-from foreign --policies greedy", 2, "V107"),
     ("compare --days-from small.toml --policies greedy", 2, "error[V1"),
     ("compare --days-from strange/b.json --policies gcaps", 2, "V307"),
     ("compare --days-from days --network small.toml --policies greedy", 2, "--network"),
