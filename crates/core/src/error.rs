@@ -3,11 +3,11 @@
 //! Messages are lower-case fragments that name file, member, value and rule; `docs/src/reference/errors.md` is written
 //! from the comments here, cause first, then fix.
 
-use std::{fmt, io};
+use std::io;
 
-use crate::Code;
 use crate::limits::SEED_LIMIT;
 use crate::output_error::OutputError;
+use crate::{Code, FileKind};
 
 /// What is wrong with a file, a network, a scenario or a seed.
 #[derive(Debug, thiserror::Error)]
@@ -100,8 +100,7 @@ pub enum Error {
         found: String,
     },
 
-    /// V107. The file does not say which format it has, so it is probably something else. Fix: give the right file, or
-    /// begin it with the format that the message names.
+    /// V107. The file does not say which format it has, so it is probably something else. Fix: give the right file.
     #[error("{origin}: has no member `format`, which would be {expected:?}")]
     NoFormat {
         /// The file.
@@ -370,24 +369,6 @@ pub enum Error {
     /// A file that would be lost (V141 to V144).
     #[error(transparent)]
     Output(#[from] OutputError),
-}
-
-/// A kind of file that a command may expect.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FileKind {
-    /// One day, as JSON.
-    Scenario,
-    /// What days are drawn from, as TOML.
-    Network,
-}
-
-impl fmt::Display for FileKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Scenario => "a scenario (JSON)",
-            Self::Network => "a network (TOML)",
-        })
-    }
 }
 
 /// Every code of this crate with a title, in order: the index that the documentation is checked against.

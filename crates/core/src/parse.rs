@@ -3,8 +3,7 @@
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use crate::Error;
-use crate::error::FileKind;
+use crate::{Error, FileKind};
 
 /// The first line of every file of ours; other members may be anything until the format is known.
 #[derive(Deserialize)]

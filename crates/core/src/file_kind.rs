@@ -1,0 +1,21 @@
+//! The kinds of files that commands read: telling one from another is worth an error of its own.
+
+use std::fmt;
+
+/// A kind of file that a command may expect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// One day, as JSON.
+    Scenario,
+    /// What days are drawn from, as TOML.
+    Network,
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Scenario => "a scenario (JSON)",
+            Self::Network => "a network (TOML)",
+        })
+    }
+}
