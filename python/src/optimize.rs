@@ -265,15 +265,21 @@ pub(crate) fn plan(
     let outcome = interruptible(py, threads, move |stop| {
         let proof = Proof::begin(&day);
         let settings = Settings { budget, searches: threads, seed };
-        let mut bar = SearchBar::new(units);
+        let limit = match budget {
+            Budget::Time(limit) => Some(limit),
+            Budget::Steps(_) => None,
+        };
+        let mut bar = SearchBar::new(units, limit);
         let mut learned = shipped_for(&day);
         let begun = Instant::now();
         let plan = exact::plan(&day, &settings, &mut learned, &mut |now| {
             proof.knows(now.profit_usd);
             let bound = proof.best();
             bar.show(now, bound.as_deref());
-            let found = bound.map(|bound| bound.gap(now.profit_usd));
-            let good_enough = asked.zip(found).is_some_and(|(asked, found)| found <= asked);
+            let good_enough = bound.is_some_and(|bound| {
+                let gap = bound.gap(now.profit_usd);
+                bound.is_reached_by(now.profit_usd) || asked.is_some_and(|asked| gap <= asked)
+            });
             !good_enough && !stop.load(Ordering::Relaxed)
         })?;
         let bound = match budget {

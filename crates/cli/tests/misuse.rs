@@ -60,6 +60,7 @@ fn prepared() -> tempfile::TempDir {
 
     symlink("day.json", at.join("soft.json")).expect("a link");
     symlink("small.toml", at.join("soft.toml")).expect("a link");
+    symlink("nowhere.csv", at.join("dangling.csv")).expect("a link");
     fs::hard_link(at.join("day.json"), at.join("hard.json")).expect("a link");
     fs::hard_link(at.join("small.toml"), at.join("hard.toml")).expect("a link");
     fs::hard_link(at.join("w.st"), at.join("hard.st")).expect("a link");

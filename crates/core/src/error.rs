@@ -254,7 +254,7 @@ pub enum Error {
     },
 
     /// V121. A file has two members of which it must have one, or none of them. Fix: keep the one that is meant.
-    #[error("{origin}: {member} must have exactly one of {choices}, found {found}")]
+    #[error("{origin}: {member} must have {choices}, found {found}")]
     NotOneOf {
         /// The file.
         origin: String,

@@ -85,7 +85,17 @@ pub(crate) fn writing() -> RwLockReadGuard<'static, ()> {
     WRITING.read().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Refuses a link to a file that is not there: it would be replaced by the file, and where it leads would stay empty.
+pub(crate) fn leads_somewhere(path: &Path) -> io::Result<()> {
+    if path.is_symlink() && !path.exists() {
+        let why = "it is a link to a file that is not there";
+        return Err(io::Error::new(io::ErrorKind::NotFound, why));
+    }
+    Ok(())
+}
+
 fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
+    leads_somewhere(path)?;
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let former = fs::metadata(&target).ok();
     if former.as_ref().is_some_and(|former| !former.is_file()) {

@@ -178,7 +178,7 @@ impl DemandModels {
             (equation_1, daily, hourly, uniform) => Err(Error::NotOneOf {
                 origin: origin.to_owned(),
                 member: "the network".to_owned(),
-                choices: "demand, daily_demand, hourly_demand and uniform_demand",
+                choices: "exactly one of demand, daily_demand, hourly_demand and uniform_demand",
                 found: [equation_1.is_some(), daily.is_some(), hourly.is_some(), uniform.is_some()]
                     .into_iter()
                     .filter(|&given| given)

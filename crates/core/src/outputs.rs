@@ -46,6 +46,7 @@ pub fn check_output(path: &Path, kind: &OutputKind, force: bool) -> Result<(), E
     let origin = files::origin(path);
     let cannot = |cause| Error::CannotWrite { origin: origin.clone(), cause };
     let Ok(former) = fs::metadata(path) else {
+        files::leads_somewhere(path).map_err(cannot)?;
         // A folder that is not there is found before the work is done rather than after it.
         return fs::metadata(folder_of(path)).map(|_| ()).map_err(cannot);
     };

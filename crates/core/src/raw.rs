@@ -62,8 +62,8 @@ impl RawVertiport {
                 return Err(Error::NotOneOf {
                     origin: origin.to_owned(),
                     member: format!("vertiport {:?}", self.id),
-                    choices: "latitude with longitude and neither of them",
-                    found: 0,
+                    choices: "latitude and longitude together, or neither",
+                    found: 1,
                 });
             }
         };

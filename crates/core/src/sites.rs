@@ -54,7 +54,7 @@ impl Sites {
             some => Err(Error::NotOneOf {
                 origin: origin.to_owned(),
                 member: "vertiports".to_owned(),
-                choices: "x_mi with y_mi (all of them) and latitude with longitude (all of them)",
+                choices: "exactly one of x_mi with y_mi (all of them) and latitude with longitude (all of them)",
                 found: 1 + usize::from(some > 0),
             }),
         }
@@ -117,7 +117,7 @@ impl RawSite {
                 return Err(Error::NotOneOf {
                     origin: origin.to_owned(),
                     member: format!("vertiport {:?}", self.id),
-                    choices: "x_mi with y_mi and latitude with longitude, and nothing of the other",
+                    choices: "exactly one of x_mi with y_mi and latitude with longitude, and nothing of the other",
                     found: usize::from(plane) + usize::from(globe),
                 });
             }

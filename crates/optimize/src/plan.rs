@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use vertifleet_core::Scenario;
 use vertifleet_policy::{Policy, draw};
-use vertifleet_sim::Trace;
+use vertifleet_sim::{Simulation, Trace};
 
 use crate::Error;
 use problem::Problem;
@@ -35,8 +35,8 @@ const ROUNDS_A_MEETING: u64 = 100;
 const HOT_USD: f64 = 4.0;
 const COLD_USD: f64 = 1.0;
 
-/// Share of a day, or five times that of the limit, from which on it is judged whether a policy that plays the day will be done in time.
-const JUDGED_FROM: f64 = 0.05;
+/// Share of the time that is left when a policy's day begins for which it is played before it is judged whether it will end in time.
+const JUDGED_FROM: f64 = 0.25;
 /// Seconds that a round takes at most where time is limited, so that days of any size are watched many times a second.
 const ROUND_S: f64 = 0.05;
 
@@ -123,20 +123,26 @@ pub fn plan(
     can_plan(scenario)?;
     let clock = Clock { budget: settings.budget, begun: Instant::now() };
     let mut stopped = false;
+    // What a day's prices take at its start, which the search needs too.
+    let mut first = Duration::ZERO;
     let (trace, profit_usd) = start::best_policy(scenario, more, &mut {
-        let mut day_begun = Instant::now();
-        let (clock, stopped, watch) = (&clock, &mut stopped, &mut *watch);
+        let mut day = PlayedDay::begin(&clock);
+        let (clock, stopped, first, watch) = (&clock, &mut stopped, &mut first, &mut *watch);
         move |profit_usd, day_share: Option<f64>| {
             *stopped |= !watch(&Progress { share: clock.share(0), steps: 0, profit_usd });
             let Some(day_share) = day_share else {
-                day_begun = Instant::now();
-                return !*stopped && clock.has_time();
+                day = PlayedDay::begin(clock);
+                return !*stopped && clock.left() > *first;
             };
-            !*stopped && clock.leaves_time_for(day_begun, day_share)
+            day.has_decided();
+            *first = (*first).max(day.first.unwrap_or_default());
+            !*stopped && clock.leaves_time_for(&day, day_share)
         }
     });
     let mut plan = Plan { trace, profit_usd, best_policy_usd: profit_usd, steps: 0 };
-    if !stopped && clock.share(0) < 1.0 {
+    // Where nobody pays for a seat, no flight is better than none.
+    let is_worth_it = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
+    if is_worth_it && !stopped && clock.left() > first {
         search(scenario, (settings, &clock), &mut plan, watch);
     }
     Ok(plan)
@@ -200,20 +206,21 @@ impl Clock {
         share.min(1.0)
     }
 
-    /// Whether there is time left, where time is what is limited.
-    fn has_time(&self) -> bool {
-        matches!(self.budget, Budget::Steps(_)) || self.share(0) < 1.0
+    /// The time that is left; as good as endless where time is not limited.
+    fn left(&self) -> Duration {
+        match self.budget {
+            Budget::Time(limit) => limit.saturating_sub(self.begun.elapsed()),
+            Budget::Steps(_) => Duration::MAX,
+        }
     }
 
-    /// Whether a day that is being played since `day_begun`, and of which a share is over, will be played to its end in time.
-    fn leaves_time_for(&self, day_begun: Instant, day_share: f64) -> bool {
-        let Budget::Time(limit) = self.budget else { return true };
-        let limit_s = limit.as_secs_f64();
-        let left_s = limit_s - self.begun.elapsed().as_secs_f64();
-        let played_s = day_begun.elapsed().as_secs_f64();
-        let to_come_s = played_s * (1.0 - day_share) / day_share;
-        let too_early = day_share < JUDGED_FROM && played_s < 5.0 * JUDGED_FROM * limit_s;
-        left_s > 0.0 && (too_early || to_come_s <= left_s)
+    /// Whether a policy may go on with a day of which a share is over: there is time for one more decision, and the day seems to
+    /// end in time.
+    fn leaves_time_for(&self, day: &PlayedDay, day_share: f64) -> bool {
+        let left = self.left();
+        let played = day.begun.elapsed();
+        let seems_to_end = || to_come_s(played, day_share) <= left.as_secs_f64();
+        left > day.longest && (played < day.judged_after || seems_to_end())
     }
 
     /// Steps of each search in the round to come, at most.
@@ -229,6 +236,43 @@ impl Clock {
         let Budget::Time(limit) = self.budget else { return None };
         Some((self.begun + limit).min(Instant::now() + Duration::from_secs_f64(ROUND_S)))
     }
+}
+
+/// How long a policy takes over a day that it plays.
+struct PlayedDay {
+    begun: Instant,
+    judged_after: Duration,
+    /// What the first decision took, for which much is made ready.
+    first: Option<Duration>,
+    /// When the latest decision was taken, and the longest that one after the first took.
+    latest: Instant,
+    longest: Duration,
+}
+
+impl PlayedDay {
+    fn begin(clock: &Clock) -> Self {
+        let now = Instant::now();
+        let judged_after = clock.left().mul_f64(JUDGED_FROM);
+        Self { begun: now, judged_after, first: None, latest: now, longest: Duration::ZERO }
+    }
+
+    fn has_decided(&mut self) {
+        let now = Instant::now();
+        let took = now - self.latest;
+        self.latest = now;
+        if self.first.is_some() {
+            self.longest = self.longest.max(took);
+        } else {
+            self.first = Some(took);
+        }
+    }
+}
+
+/// Seconds that the rest of a day will take of which a share was played in this time. Policies look ahead to the end of the day, so
+/// a decision takes about as long as what is left of it: the first half of a day takes three quarters of its time.
+fn to_come_s(played: Duration, day_share: f64) -> f64 {
+    let to_come = (1.0 - day_share).powi(2);
+    played.as_secs_f64() * to_come / (1.0 - to_come)
 }
 
 /// The search that stands worst goes on from where the best one stands.
@@ -256,5 +300,19 @@ fn keep_best(scenario: &Arc<Scenario>, searches: &[Search], plan: &mut Plan) {
         if profit_usd > plan.profit_usd {
             (plan.trace, plan.profit_usd) = (trace, profit_usd);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::to_come_s;
+
+    #[test]
+    fn the_first_half_of_a_day_takes_three_quarters_of_its_time() {
+        let played = Duration::from_secs(3);
+        assert!((to_come_s(played, 0.5) - 1.0).abs() < 1e-12);
+        assert_eq!((to_come_s(played, 1.0), to_come_s(played, 0.0)), (0.0, f64::INFINITY));
     }
 }

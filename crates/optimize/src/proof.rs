@@ -160,6 +160,11 @@ const GLANCE: Duration = Duration::from_millis(10);
 const CENT_USD: f64 = 0.01;
 
 impl Bound {
+    /// Whether a profit is at the bound, to the cent: no schedule earns more.
+    pub fn is_reached_by(&self, profit_usd: f64) -> bool {
+        self.upper_bound_usd() <= profit_usd + CENT_USD
+    }
+
     /// [`gap`] of a profit to this bound.
     pub fn gap(&self, profit_usd: f64) -> f64 {
         gap(self.upper_bound_usd(), profit_usd)

@@ -107,6 +107,15 @@ fn a_plan_of_paper_gets_better_with_more_steps_and_keeps_every_rule() {
 }
 
 #[test]
+fn the_plan_of_a_day_on_which_nobody_flies_is_done_without_a_search() {
+    let mut day = paper_day(1).as_ref().clone().into_day();
+    day.demand.iter_mut().flat_map(Matrix::cells_mut).for_each(|cell| *cell = 0);
+    let day = Arc::new(day.check("a day without passengers").expect("a day within the rules"));
+    let plan = planned(&day, 1_000_000_000);
+    assert_eq!((plan.steps, plan.profit_usd), (0, 0.0));
+}
+
+#[test]
 fn the_same_settings_give_the_same_plan_on_any_number_of_threads() {
     let day = paper_day(2);
     let on = |threads| {

@@ -63,9 +63,16 @@ impl Bar {
     }
 }
 
+impl Bar {
+    /// Takes the bar away; it does not come back.
+    pub(crate) fn clear(&self) {
+        self.drawn.finish_and_clear();
+    }
+}
+
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.drawn.finish_and_clear();
+        self.clear();
     }
 }
 

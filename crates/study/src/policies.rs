@@ -265,7 +265,7 @@ impl Recipe {
 
 /// Names of policies that commands take as they are.
 const NAMES: [&str; 9] =
-    ["random", "greedy", "lookahead", "prices", "rolling", "gcaps", "mlp", ANY_SIZE, "plan"];
+    ["random", "greedy", "lookahead", "prices", "rolling", ANY_SIZE, "gcaps", "mlp", "plan"];
 
 /// That no policy has this name.
 fn unknown(name: &str) -> Error {

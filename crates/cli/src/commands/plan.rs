@@ -54,14 +54,16 @@ fn search(
         searches: rayon::current_num_threads(),
         seed: arguments.seed,
     };
-    let mut bar = SearchBar::new("% of the time");
+    let mut bar = SearchBar::new("% of the time", Some(arguments.time_limit));
     let mut learned = shipped_for(scenario);
     plan(scenario, &settings, &mut learned, &mut |now| {
         proof.knows(now.profit_usd);
         let bound = proof.best();
         bar.show(now, bound.as_deref());
-        let gap = bound.map(|bound| bound.gap(now.profit_usd));
-        let good_enough = arguments.gap.zip(gap).is_some_and(|(asked, gap)| gap <= asked);
+        let good_enough = bound.is_some_and(|bound| {
+            let gap = bound.gap(now.profit_usd);
+            bound.is_reached_by(now.profit_usd) || arguments.gap.is_some_and(|asked| gap <= asked)
+        });
         !good_enough && !stop.load(Ordering::Relaxed)
     })
 }

@@ -70,7 +70,7 @@ impl RawDailyDemand {
                 return Err(Error::NotOneOf {
                     origin: origin.to_owned(),
                     member: "daily_demand".to_owned(),
-                    choices: "passengers and gravity",
+                    choices: "exactly one of passengers and gravity",
                     found: usize::from(rows.is_some()) + usize::from(gravity.is_some()),
                 });
             }

@@ -72,7 +72,7 @@ impl RawHourlyDemand {
                 return Err(Error::NotOneOf {
                     origin: origin.to_owned(),
                     member: "hourly_demand".to_owned(),
-                    choices: "pairs and table",
+                    choices: "exactly one of pairs and table",
                     found: usize::from(pairs.is_some()) + usize::from(table.is_some()),
                 });
             }
