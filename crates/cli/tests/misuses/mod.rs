@@ -81,7 +81,11 @@ const SIMULATE: &[Misuse] = &[
     ("simulate w.st --policy greedy", 2, "error[V1"),
     ("simulate day.json --policy plan", 2, "plans a day"),
     ("simulate day.json --policy gcapsx", 2, "did you mean gcaps-x?"),
-    ("simulate day.json --policy greedy --trace dangling.csv", 1, "a link to a file that is not there"),
+    (
+        "simulate day.json --policy greedy --trace dangling.csv",
+        1,
+        "a link to a file that is not there",
+    ),
     ("simulate day.json --policy greeedy", 2, "did you mean greedy?"),
     ("simulate day.json --policy GREEDY", 2, "did you mean greedy?"),
     ("simulate day.json --policy rollling", 2, "did you mean rolling?"),
