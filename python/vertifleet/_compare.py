@@ -101,7 +101,11 @@ class Asked:
     ) -> Asked:
         """What a function of the package was asked for; a single name is a list of letters nobody means."""
         if isinstance(policies, str):
-            raise Error("V451", f"policies must be a list of names, found {policies!r}", f"{[name.strip() for name in policies.split(',')]}")
+            raise Error(
+                "V451",
+                f"policies must be a list of names, found {policies!r}",
+                f"{[name.strip() for name in policies.split(',')]}",
+            )
         seed_of_policies = None if policy_seed is None else index(policy_seed)
         names, given = tuple(name.strip() for name in policies), dict(models or {})
         return cls(function, names, index(days), index(seed), given, bound, index(step), seed_of_policies)
