@@ -7,8 +7,7 @@ use std::sync::{Arc, LazyLock};
 
 use libfuzzer_sys::fuzz_target;
 use vertifleet_core::Scenario;
-use vertifleet_learn::relative::{AnyModel, GcapsX};
-use vertifleet_learn::{Learned, Model};
+use vertifleet_learn::Model;
 use vertifleet_policy::{Policy, play};
 use vertifleet_sim::Simulation;
 
@@ -28,12 +27,7 @@ fuzz_target!(|bytes: &[u8]| {
         let again = Model::from_bytes(&model.to_bytes(), "again").expect("our own bytes");
         assert_eq!((again.header(), again.params()), (model.header(), model.params()));
         if model.check_fits(&DAY).is_ok() {
-            plays(&mut Learned::new(Arc::new(model)));
+            plays(model.policy(1).as_mut());
         }
-    }
-    if let Ok(model) = AnyModel::from_bytes(bytes, "any") {
-        let again = AnyModel::from_bytes(&model.to_bytes(), "again").expect("our own bytes");
-        assert_eq!((again.header(), again.params()), (model.header(), model.params()));
-        plays(&mut GcapsX::new(Arc::new(model)));
     }
 });

@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use vertifleet_core::{self as core, DaySeed};
+use vertifleet_core::{self as core, DaySeed, Stop};
 use vertifleet_learn::Scales;
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
@@ -204,7 +203,7 @@ impl Wish {
         &self,
         drawn: &Drawn,
         days: u32,
-        stopped: &AtomicBool,
+        stopped: &Stop,
     ) -> Result<comparison::Comparison, Error> {
         let Drawn { network, seed, .. } = drawn;
         let asked = self.asked(network.name());
@@ -298,7 +297,7 @@ fn played(
     threads: Option<Whole>,
     command: &str,
     raised: &Raised,
-    made: impl FnOnce(&AtomicBool) -> Result<comparison::Comparison, Error> + Send + 'static,
+    made: impl FnOnce(&Stop) -> Result<comparison::Comparison, Error> + Send + 'static,
 ) -> PyResult<Comparison> {
     let (threads, command) = (interruptible::threads(threads)?, command.to_owned());
     let outcome = interruptible(py, threads, move |stop| {

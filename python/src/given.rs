@@ -26,7 +26,7 @@ pub(crate) enum Weighed<'py> {
 impl Weighed<'_> {
     pub(crate) fn given(self) -> Given {
         match self {
-            Self::Model(model) => Given::Weights(model.weights.clone()),
+            Self::Model(model) => Given::Model(Arc::clone(&model.model)),
             Self::Path(path) => Given::File(path),
         }
     }
@@ -34,7 +34,7 @@ impl Weighed<'_> {
 
 /// What a function of the caller's raised, to be raised again once all threads have stopped.
 #[derive(Clone, Default)]
-pub(crate) struct Raised(Arc<Mutex<Option<PyErr>>>);
+pub(crate) struct Raised(pub(crate) Arc<Mutex<Option<PyErr>>>);
 
 impl Raised {
     pub(crate) fn take(&self) -> Option<PyErr> {

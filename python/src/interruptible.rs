@@ -1,13 +1,12 @@
 //! Long calls: Python's other threads go on meanwhile, and Ctrl-C is heard at once.
 
 use std::ops::RangeInclusive;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use pyo3::prelude::{PyResult, Python};
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use vertifleet_core::Stop;
 
 use crate::failure::Failure;
 use crate::whole::Whole;
@@ -45,11 +44,11 @@ pub(crate) fn pool(threads: usize) -> ThreadPool {
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     threads: usize,
-    work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
+    work: impl FnOnce(&Stop) -> T + Send + 'static,
 ) -> PyResult<T> {
-    let stop = Arc::new(AtomicBool::new(false));
+    let stop = Stop::default();
     let (to, mut from) = channel();
-    let raised = Arc::clone(&stop);
+    let raised = stop.clone();
     std::thread::spawn(move || {
         let outcome = pool(threads).install(|| work(&raised));
         // Nobody listens any more after a second Ctrl-C.
@@ -68,7 +67,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
             if interrupt.is_some() {
                 return Err(signal);
             }
-            stop.store(true, Ordering::Relaxed);
+            stop.request();
             interrupt = Some(signal);
         }
     }

@@ -25,6 +25,7 @@ mod scenario;
 mod shown;
 mod threads;
 mod trace;
+mod training;
 mod whole;
 
 use pyo3::prelude::pymodule;
@@ -49,6 +50,8 @@ mod _native {
     use crate::scenario::Scenario;
     #[pymodule_export]
     use crate::trace::{Trace, check};
+    #[pymodule_export]
+    use crate::training::{Training, train};
     /// Days that there are for training.
     #[pymodule_export]
     const TRAINING_DAYS: u64 = vertifleet_core::DaySeed::TRAINING_DAYS;

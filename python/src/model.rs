@@ -2,13 +2,14 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{PyBytes, PyDict, PyMapping};
 use vertifleet_core::check_output;
-use vertifleet_learn::nn::{self, Inputs};
-use vertifleet_learn::{Settings, Weights, kinds, shipped, shipped_any};
+use vertifleet_learn::nn::{self, Architecture, Inputs};
+use vertifleet_learn::{TrainingSettings, kinds, shipped};
 
 use crate::failure::Failure;
 use crate::frames::{members, plain, table};
@@ -17,7 +18,7 @@ use crate::pickle::{Reduced, reduced};
 /// The weights of a learned policy: `gcaps` or `mlp` of one network, or `gcaps-x` for any. Never changes.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Model {
-    pub(crate) weights: Weights,
+    pub(crate) model: Arc<vertifleet_learn::Model>,
 }
 
 #[pymethods]
@@ -25,74 +26,54 @@ impl Model {
     /// Reads a weight file, a safetensors file of any of the kinds.
     #[staticmethod]
     fn read(path: PathBuf) -> Result<Self, Failure> {
-        Ok(Self { weights: Weights::read(&path)? })
+        Ok(Self { model: Arc::new(vertifleet_learn::Model::read(&path)?) })
     }
 
     /// The weights in the bytes of a weight file; `origin` stands for the file in messages.
     #[staticmethod]
     #[pyo3(signature = (bytes, origin = "<bytes>"))]
     fn from_bytes(bytes: &[u8], origin: &str) -> Result<Self, Failure> {
-        Ok(Self { weights: Weights::from_bytes(bytes, origin)? })
+        Ok(Self { model: Arc::new(vertifleet_learn::Model::from_bytes(bytes, origin)?) })
     }
 
     /// The shipped weights of a policy for a network.
     #[staticmethod]
     #[pyo3(signature = (policy = "gcaps-x", network = "paper"))]
     fn shipped(policy: &str, network: &str) -> Result<Self, Failure> {
-        let weights = if policy == "gcaps-x" {
-            Weights::OfAnySize(Box::new(shipped_any()?.model))
-        } else {
-            Weights::OfOneSize(Box::new(shipped(network, policy)?.model))
-        };
-        Ok(Self { weights })
+        Ok(Self { model: Arc::new(shipped(policy, network)?.model) })
     }
 
     /// Writes the weights as a weight file. A file that is there and is none of the same kind, or is read-only, is replaced only with
     /// `force`.
     #[pyo3(signature = (path, *, force = false))]
     fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
-        let kind = match &self.weights {
-            Weights::OfOneSize(_) => kinds::WEIGHTS,
-            Weights::OfAnySize(_) => kinds::WEIGHTS_ANY,
-        };
-        check_output(&path, &kind, force)?;
-        match &self.weights {
-            Weights::OfOneSize(model) => model.write(&path)?,
-            Weights::OfAnySize(model) => model.write(&path)?,
-        }
-        Ok(())
+        check_output(&path, &kinds::WEIGHTS, force)?;
+        Ok(self.model.write(&path)?)
     }
 
     /// The bytes of its weight file.
     fn to_bytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        PyBytes::new(py, &self.bytes())
+        PyBytes::new(py, &self.model.to_bytes())
     }
 
     /// The policy's name: gcaps, mlp or gcaps-x.
     #[getter]
     fn kind(&self) -> &'static str {
-        self.weights.kind()
+        self.model.kind()
     }
 
     /// What the weights are of and where they came from: the header of the file, as a dict.
     #[getter]
     fn header<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        match &self.weights {
-            Weights::OfOneSize(model) => plain(py, model.header()),
-            Weights::OfAnySize(model) => plain(py, model.header()),
-        }
+        plain(py, self.model.header())
     }
 
     /// Copies of the tensors by name.
     #[getter]
     fn tensors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (layout, params) = match &self.weights {
-            Weights::OfOneSize(model) => (model.net().layout().clone(), model.params()),
-            Weights::OfAnySize(model) => (model.net(2).layout().clone(), model.params()),
-        };
         let tensors = PyDict::new(py);
-        for tensor in layout.tensors() {
-            let entries = &params[tensor.offset..][..tensor.len()];
+        for tensor in self.model.layout().tensors() {
+            let entries = &self.model.params()[tensor.offset..][..tensor.len()];
             let array = PyArray1::from_slice(py, entries);
             tensors.set_item(&tensor.name, array.reshape(tensor.shape.clone())?)?;
         }
@@ -111,11 +92,8 @@ impl Model {
     ) -> Reduced<'py, Bound<'py, PyAny>> {
         let py = nodes.py();
         let [batch, vertiports] = sizes(mask)?;
-        let (net, params) = match &self.weights {
-            Weights::OfOneSize(model) => (model.net().clone(), model.params()),
-            // No network has more vertiports.
-            Weights::OfAnySize(model) => (model.net(vertiports.clamp(1, 256)), model.params()),
-        };
+        // No network has more vertiports.
+        let net = self.model.net(vertiports.clamp(1, 256));
         let shape = net.shape();
         let (size, features) = (shape.vertiports, shape.node_features);
         let nodes = entries("nodes", nodes, [batch, size * features])?;
@@ -125,36 +103,27 @@ impl Model {
         let mask: Vec<u8> = mask.iter().map(|&feasible| u8::from(feasible != 0.0)).collect();
         let inputs =
             Inputs { batch, nodes: &nodes, aircraft: &aircraft, mask: &mask, clock: &clock };
-        let space = py.detach(|| pass(&net, params, inputs));
+        let space = py.detach(|| pass(&net, &self.model.weights(), inputs));
         let logits = table(py, space.logits().iter().copied(), [batch, size])?;
         Ok((logits, PyArray1::from_slice(py, space.values()).into_any()))
     }
 
     fn __repr__(&self) -> String {
-        format!("<Model {}>", self.weights.kind())
+        format!("<Model {}>", self.model.kind())
     }
 
     fn __eq__(&self, other: &Self) -> bool {
-        self.bytes() == other.bytes()
+        self.model.to_bytes() == other.model.to_bytes()
     }
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        self.bytes().hash(&mut hasher);
+        self.model.to_bytes().hash(&mut hasher);
         hasher.finish()
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (Bound<'py, PyBytes>,)> {
         reduced::<Self, _>(py, "from_bytes", (self.to_bytes(py),))
-    }
-}
-
-impl Model {
-    fn bytes(&self) -> Vec<u8> {
-        match &self.weights {
-            Weights::OfOneSize(model) => model.to_bytes(),
-            Weights::OfAnySize(model) => model.to_bytes(),
-        }
     }
 }
 
@@ -184,11 +153,9 @@ fn entries(
     Ok(flat.extract::<PyReadonlyArray1<'_, f32>>()?.as_slice()?.to_vec())
 }
 
-fn pass(net: &nn::Network, params: &[f32], inputs: Inputs<'_>) -> nn::Workspace {
-    let mut prepared = net.prepared();
-    net.prepare(params, &mut prepared);
+fn pass(net: &nn::Network, weights: &nn::Weights, inputs: Inputs<'_>) -> nn::Workspace {
     let mut space = net.workspace(inputs.batch);
-    net.forward(params, &prepared, inputs, &mut space);
+    net.forward(weights, inputs, &mut space);
     space
 }
 
@@ -201,15 +168,24 @@ pub(crate) fn settings<'py>(
     preset: &str,
     changes: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let mut settings = Settings::preset(preset).map_err(Failure::from)?;
+    let policy = Architecture::named("gcaps").expect("a policy with sizes");
+    let mut settings = TrainingSettings::preset(&policy, preset).map_err(Failure::from)?;
     if let Some(changes) = changes {
-        let members = members("settings", changes.as_mapping())?;
-        let pairs: Vec<_> =
-            members.into_iter().map(|(name, value)| (name, whole(value).to_string())).collect();
-        let pairs = pairs.iter().map(|(name, value)| (name.as_str(), value.as_str()));
-        settings.set(pairs).map_err(Failure::from)?;
+        change(&mut settings, changes.as_mapping())?;
     }
     plain(py, &settings)
+}
+
+/// Changes settings as `vertifleet train --set` does.
+pub(crate) fn change(
+    settings: &mut TrainingSettings,
+    changes: &Bound<'_, PyMapping>,
+) -> PyResult<()> {
+    let members = members("settings", changes)?;
+    let pairs: Vec<_> =
+        members.into_iter().map(|(name, value)| (name, whole(value).to_string())).collect();
+    let pairs = pairs.iter().map(|(name, value)| (name.as_str(), value.as_str()));
+    Ok(settings.set(pairs).map_err(Failure::from)?)
 }
 
 /// A whole number as one: Python's users write `1e6` for a million.

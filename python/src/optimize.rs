@@ -1,7 +1,6 @@
 //! `bound` and `plan`: what a known day can earn at most, and a schedule that comes close to it.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use numpy::PyArray1;
@@ -280,12 +279,12 @@ pub(crate) fn plan(
                 let gap = bound.gap(now.profit_usd);
                 bound.is_reached_by(now.profit_usd) || asked.is_some_and(|asked| gap <= asked)
             });
-            !good_enough && !stop.load(Ordering::Relaxed)
+            !good_enough && !stop.is_requested()
         })?;
         let bound = match budget {
             Budget::Time(limit) => proof.best_in_time(begun, limit),
             Budget::Steps(_) => {
-                while !proof.wait(GLANCE) && !stop.load(Ordering::Relaxed) {}
+                while !proof.wait(GLANCE) && !stop.is_requested() {}
                 proof.outcome()
             }
         };

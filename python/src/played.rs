@@ -102,8 +102,8 @@ pub(crate) fn simulate(
             played(py, day, "replay".to_owned(), recipe)
         }
         (Player::Model(model), None, None) => {
-            let given = Given::Weights(model.weights.clone());
-            by_name(py, day, &Choice { name: model.weights.kind(), seed, model: Some(&given) })
+            let given = Given::Model(Arc::clone(&model.model));
+            by_name(py, day, &Choice { name: model.model.kind(), seed, model: Some(&given) })
         }
         (Player::Named(name), model, None) => {
             let given = model.map(Weighed::given);

@@ -2,9 +2,9 @@
 
 Everything here is the Rust program's own work on the same rules. `Network` draws days, `simulate` plays
 one, `compare` many with many policies, `sweep` does so on variations of a network, `bound` proves what a day
-can earn at most, `plan` looks for the best schedule, `check` judges one. Importing the package registers
+can earn at most, `plan` looks for the best schedule, `check` judges one, `train` trains the learned policies. Importing the package registers
 the Gymnasium environment ``vertifleet/Fleet-v0``. `vertifleet.torch` has the learned policies as PyTorch
-modules; `vertifleet.sb3` and `vertifleet.ray` train them.
+modules; `vertifleet.sb3` and `vertifleet.ray` train them with those libraries.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from vertifleet._native import (
     Played,
     Scenario,
     Trace,
+    Training,
     bound,
     check,
     plan,
@@ -29,6 +30,7 @@ from vertifleet._native import (
     simulate,
 )
 from vertifleet._sweep import Sweep, sweep
+from vertifleet._train import train
 from vertifleet.envs import register as _register
 
 __all__ = [
@@ -42,6 +44,7 @@ __all__ = [
     "Scenario",
     "Sweep",
     "Trace",
+    "Training",
     "__version__",
     "bound",
     "check",
@@ -50,6 +53,7 @@ __all__ = [
     "settings",
     "simulate",
     "sweep",
+    "train",
 ]
 
 __version__ = version("vertifleet")

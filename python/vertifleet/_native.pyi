@@ -27,6 +27,7 @@ __all__ = [
     "Played",
     "Scenario",
     "Trace",
+    "Training",
     "bound",
     "check",
     "check_comparison",
@@ -36,6 +37,7 @@ __all__ = [
     "read_days",
     "settings",
     "simulate",
+    "train",
 ]
 
 TRAINING_DAYS: int
@@ -130,6 +132,17 @@ class Trace:
     def __len__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
+
+@final
+class Training:
+    @property
+    def model(self) -> Model: ...
+    @property
+    def is_done(self) -> bool: ...
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]: ...
+    def to_pandas(self) -> pd.DataFrame: ...
+    def to_polars(self) -> pl.DataFrame: ...
 
 @final
 class Played:
@@ -299,3 +312,16 @@ def compare_own(
     command: str = "",
 ) -> Comparison: ...
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]: ...
+def train(
+    network: Network,
+    policy: str,
+    *,
+    out: _Path,
+    preset: str = "default",
+    settings: Mapping[str, Any] | None = None,
+    seed: SupportsIndex | None = None,
+    resume: bool = False,
+    force: bool = False,
+    threads: SupportsIndex | None = None,
+    watch: Callable[[dict[str, Any]], object] | None = None,
+) -> Training: ...

@@ -8,7 +8,6 @@ pub(crate) mod plan;
 pub(crate) mod scenario;
 pub(crate) mod simulate;
 pub(crate) mod train;
-mod train_any;
 
 use std::path::{Path, PathBuf};
 

@@ -6,22 +6,21 @@
 //! say that the program is to go on.
 
 use std::process::exit;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::eprintln;
+use vertifleet_core::Stop;
 
 use crate::failure::Failure;
 
 /// Exit code of a program that Ctrl-C ended, as shells give it: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
 
-/// A flag that the first Ctrl-C raises. Of the functions of this file, one may be called, once.
-pub(crate) fn stop_on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&stop);
+/// What the first Ctrl-C requests. Of the functions of this file, one may be called, once.
+pub(crate) fn stop_on_interrupt() -> Result<Stop, Failure> {
+    let stop = Stop::default();
+    let raised = stop.clone();
     on_interrupt(move || {
-        if raised.swap(true, Ordering::Relaxed) {
+        if raised.request() {
             end();
         }
         eprintln!("\nstopping; press Ctrl-C again to stop at once");

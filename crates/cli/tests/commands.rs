@@ -338,7 +338,7 @@ fn what_users_get_wrong_has_a_code_and_a_way_out() {
         ),
         ("compare --network paper --policies greedy --days 1 --seed 1 --model greedy=x", "V407"),
         ("simulate day.json --policy mlp --model gcaps.safetensors", "V407"),
-        ("train --network paper --policy gcaps --out .", "V450"),
+        ("train --network paper --policy gcaps --out .", "V311"),
     ];
     for (arguments, code) in cases {
         let said = failure(at, arguments, 2);

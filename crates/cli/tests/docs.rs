@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
 use serde_json::Value;
-use vertifleet_learn::Settings;
-use vertifleet_learn::relative::Course;
+use vertifleet_learn::nn::Architecture;
+use vertifleet_learn::{ImitationSettings, TrainingSettings};
 
 type Names = BTreeSet<String>;
 
@@ -231,8 +231,11 @@ fn says(cell: &str, value: &Value) -> bool {
 
 #[test]
 fn the_training_page_lists_every_setting_of_both_presets() {
-    let preset =
-        |name| serde_json::to_value(Settings::preset(name).expect("a preset")).expect("plain data");
+    let policy = Architecture::named("gcaps").expect("a policy with sizes");
+    let preset = |name| {
+        let settings = TrainingSettings::preset(&policy, name).expect("a preset");
+        serde_json::to_value(settings).expect("plain data")
+    };
     let (paper, default) = (preset("paper"), preset("default"));
     let page = text("docs/src/concepts/training.md");
     for (name, value) in paper.as_object().expect("settings have names") {
@@ -246,10 +249,10 @@ fn the_training_page_lists_every_setting_of_both_presets() {
 
 #[test]
 fn the_training_page_lists_every_setting_of_gcaps_x() {
-    let course = serde_json::to_value(Course::default()).expect("plain data");
+    let settings = serde_json::to_value(ImitationSettings::default()).expect("plain data");
     let page = text("docs/src/concepts/training.md");
     let (_, section) = page.split_once("\n## gcaps-x\n").expect("a section on gcaps-x");
-    for (name, value) in course.as_object().expect("settings have names") {
+    for (name, value) in settings.as_object().expect("settings have names") {
         let row = section.lines().find(|line| line.starts_with(&format!("| `{name}` | ")));
         let cells: Vec<&str> =
             row.unwrap_or_else(|| panic!("{name} is not listed")).split('|').collect();

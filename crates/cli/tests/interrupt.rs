@@ -12,7 +12,6 @@ use std::time::{Duration, Instant};
 
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
-use vertifleet_learn::Checkpoint;
 
 /// A run of many short updates, so that a signal never finds it at its end.
 const TRAIN: &str = "train --network paper --policy mlp --seed 5 --steps 6000 --set n_envs=4 --set n_steps=25 \
@@ -98,7 +97,6 @@ fn a_training_ended_by_ctrl_c_goes_on_to_the_same_weights() {
     let said = String::from_utf8_lossy(&cut.stderr);
     assert_eq!(cut.status.code(), Some(0), "{said}");
     assert!(said.contains("stopping") && said.contains("stopped early"), "{said}");
-    Checkpoint::read(&at.join("cut/mlp-checkpoint.safetensors")).expect("a whole checkpoint");
     let file = |name: &str| fs::read(at.join(name)).expect("a file of the run");
     let curve = |name: &str| fs::read_to_string(at.join(name)).expect("a learning curve");
     let (all, some) = (curve("whole/mlp-curve.csv"), curve("cut/mlp-curve.csv"));
@@ -116,7 +114,7 @@ fn a_training_of_gcaps_x_ended_by_ctrl_c_goes_on_to_the_same_weights() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
     let train = |more: &str| {
-        let course = "--set rounds=2 --set days=3 --set random_share=0 --set passes=1 --set validation_days=1 --set courses=1 --set horizon_s=600";
+        let course = "--set rounds=2 --set days=3 --set random_share=0 --set passes=1 --set validation_days=1 --set rollouts=1 --set horizon_s=600";
         vertifleet(at, &format!("train --network paper --policy gcaps-x --seed 5 {course} {more}"))
     };
     let whole = train("--out whole").output().expect("the program runs");

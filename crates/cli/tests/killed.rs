@@ -7,12 +7,14 @@ mod common;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::sync::Arc;
 use std::thread::sleep;
 use std::time::Instant;
 
 use common::{folder, run, small_network, vertifleet};
-use vertifleet_core::Scenario;
-use vertifleet_learn::{Checkpoint, Model, read_curves};
+use vertifleet_core::{Network, Scenario};
+use vertifleet_learn::nn::Architecture;
+use vertifleet_learn::{Curve, Model, TrainingPlan, TrainingSettings};
 use vertifleet_sim::Trace;
 
 /// Kills of each command: 25 in all.
@@ -107,12 +109,35 @@ fn a_report_is_whole_whenever_the_program_is_killed() {
     run(folder.path(), compare);
 }
 
+/// Settings of a short training.
+const SETTINGS: [(&str, &str); 6] = [
+    ("n_envs", "4"),
+    ("n_steps", "25"),
+    ("batch_size", "100"),
+    ("n_epochs", "1"),
+    ("eval_days", "1"),
+    ("eval_every", "2"),
+];
+
+/// The training of which `--steps 800` asks with these settings.
+fn small_training(at: &Path) -> TrainingPlan {
+    let policy = Architecture::named("mlp").expect("a policy with sizes");
+    let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
+    settings.set(SETTINGS.into_iter().chain([("total_steps", "800")])).expect("good settings");
+    let network = Arc::new(Network::read(at.join("small.toml")).expect("our network"));
+    TrainingPlan { network, policy, settings, seed: 1, commit: String::new() }
+}
+
 #[test]
 fn a_training_is_whole_whenever_the_program_is_killed() {
     let folder = folder();
     small_network(folder.path());
-    let train = "train --network small.toml --policy mlp --steps 800 --set n_envs=4 --set n_steps=25 --set batch_size=100 \
-                 --set n_epochs=1 --set eval_days=1 --set eval_every=2 --threads 1";
+    let set: Vec<String> =
+        SETTINGS.iter().map(|(name, value)| format!("--set {name}={value}")).collect();
+    let train = format!(
+        "train --network small.toml --policy mlp --steps 800 {} --threads 1",
+        set.join(" ")
+    );
     let first = "--steps 400";
     run(folder.path(), &format!("{} --out run", train.replace("--steps 800", first)));
     // Each run is a new one whose files take the place of those of the run before, but for the checkpoint, which people remove.
@@ -121,11 +146,12 @@ fn a_training_is_whole_whenever_the_program_is_killed() {
     kill_on_the_way(folder.path(), &train, |at| {
         let weights = at.join("run/mlp.safetensors");
         Model::read(&weights).expect("whole weights");
-        let curves = read_curves::<vertifleet_learn::CurveRow>(&weights).expect("a whole curve");
+        let curves = Curve::read_beside(&weights).expect("a whole curve");
         assert!(!curves[0].is_empty());
         let checkpoint = at.join("run/mlp-checkpoint.safetensors");
         if checkpoint.exists() {
-            Checkpoint::read(&checkpoint).expect("a whole checkpoint");
+            let resumed = small_training(at).resume(&checkpoint);
+            assert!(resumed.is_ok(), "{}", resumed.err().expect("an error"));
             fs::remove_file(&checkpoint).expect("our own file");
         }
         assert_eq!(finished(&at.join("run")), ["mlp-curve.csv", "mlp.safetensors", "tensorboard"]);

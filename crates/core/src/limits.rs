@@ -178,3 +178,77 @@ pub(crate) const LONGITUDE: Limits =
 pub(crate) const MOST_PASSENGERS: f64 = 1_000_000.0;
 pub(crate) const UNIFORM_DEMAND: Limits = Limits::whole(0, 100_000);
 pub(crate) const PASSENGERS: Limits = Limits::whole(0, 1_000_000);
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        BATTERY_KWH, CHARGE_KW, CHARGERS, DISTANCE_MI, ENERGY_KWH_PER_MI, ENERGY_PRICE_USD, HOLD_S,
+        LATITUDE, LONGITUDE, Limits, MONEY_USD, PASSENGERS, PHASE_S, SEATS, SELF_DISCHARGE_PER_H,
+        SLOT_S, SPEED_MPH, STANDS, entries,
+    };
+
+    /// A number as the book writes it: `1,000,000`.
+    fn grouped(value: f64) -> String {
+        let digits = format!("{}", value.abs());
+        let groups: Vec<&[u8]> = digits.as_bytes().rchunks(3).rev().collect();
+        let groups: Vec<&str> =
+            groups.iter().map(|group| str::from_utf8(group).expect("digits")).collect();
+        format!("{}{}", if value < 0.0 { "-" } else { "" }, groups.join(","))
+    }
+
+    /// Limits as the book states them.
+    fn stated(Limits { least, most, above, whole, .. }: Limits) -> String {
+        let most = grouped(most);
+        match (above, whole) {
+            (true, _) => format!("above {}, to {most}", grouped(least)),
+            (false, true) => format!("whole, {} to {most}", grouped(least)),
+            (false, false) => format!("{} to {most}", grouped(least)),
+        }
+    }
+
+    #[test]
+    fn the_page_of_the_scenario_file_states_these_limits() {
+        let page = include_str!("../../../docs/src/reference/files.md");
+        let (_, page) = page.split_once("\n## The scenario file\n").expect("a section");
+        let row = |member: &str| {
+            let begin = format!("| {member} |");
+            let row = page.lines().find(|line| line.starts_with(&begin));
+            row.unwrap_or_else(|| panic!("{member} has no row"))
+        };
+        for (member, limits) in [
+            ("`operations` `takeoff_s`, `landing_s`", PHASE_S),
+            ("`operations` `hold_s`", HOLD_S),
+            ("`vertiports` `stands`", STANDS),
+            ("`vertiports` `chargers`", CHARGERS),
+            ("`vertiports` `latitude`, `longitude`", LATITUDE),
+            ("`vertiports` `latitude`, `longitude`", LONGITUDE),
+            ("`aircraft_types` `seats`", SEATS),
+            ("`aircraft_types` `speed_mph`", SPEED_MPH),
+            ("`aircraft_types` `battery_kwh`", BATTERY_KWH),
+            ("`aircraft_types` `energy_kwh_per_mi`", ENERGY_KWH_PER_MI),
+            ("`aircraft_types` `charge_kw`", CHARGE_KW),
+            ("`aircraft_types` `self_discharge_per_h`", SELF_DISCHARGE_PER_H),
+            ("`distance_mi`", DISTANCE_MI),
+            ("`fare`", MONEY_USD),
+            ("`passenger_cost`", MONEY_USD),
+            ("`flight_cost`", MONEY_USD),
+            ("`aircraft_cost`", MONEY_USD),
+            ("`demand`", PASSENGERS),
+            ("`energy_price`", ENERGY_PRICE_USD),
+        ] {
+            let stated = stated(limits);
+            assert!(row(member).contains(&stated), "{member}: {stated} is not in {}", row(member));
+        }
+        assert!(row("`takeoff_delays`").contains(&format!("`slot_s` {}", &stated(SLOT_S)[7..])));
+        for (member, most) in [
+            ("`vertiports` `id`", entries::VERTIPORTS),
+            ("`aircraft_types` `id`", entries::AIRCRAFT_TYPES),
+            ("`aircraft` `id`, `type`, `at`", entries::AIRCRAFT),
+            ("`periods`", entries::PERIODS),
+            ("`corridors`", entries::CORRIDORS),
+        ] {
+            let stated = format!("1 to {}", grouped(most as f64));
+            assert!(row(member).contains(&stated), "{member}: {stated}");
+        }
+    }
+}

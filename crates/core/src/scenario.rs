@@ -73,12 +73,11 @@ pub struct AircraftType {
 }
 
 impl AircraftType {
-    /// Whether a full battery lasts for a flight of this energy (Eq. 12).
-    ///
-    /// A pair exactly at the end of the range can be flown: the slack is far above the rounding of `e d_ij` and far
-    /// below anyone's numbers.
+    /// Whether a full battery lasts for a flight of this energy (Eq. 12). Both are compared in whole milliwatt-hours, to the
+    /// nearest, so that a pair exactly at the end of the range can be flown whichever way a product rounds.
     pub fn lasts_for(&self, energy_kwh: f64) -> bool {
-        energy_kwh <= self.battery_kwh * (1.0 + 1e-9)
+        let whole_mwh = |kwh: f64| (1e6 * kwh).round();
+        whole_mwh(energy_kwh) <= whole_mwh(self.battery_kwh)
     }
 }
 

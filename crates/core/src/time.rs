@@ -1,4 +1,4 @@
-//! Time of day in whole seconds since midnight (design: no fractions anywhere in the world's clock).
+//! Time of day in whole seconds since midnight (no fractions anywhere in the world's clock).
 
 use std::fmt;
 use std::ops::Add;

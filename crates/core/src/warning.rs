@@ -167,8 +167,8 @@ impl Scenario {
         self.is_corridor(from, to) && self.reaches(kind, self.distance_mi[(from, to)])
     }
 
-    /// Whether a full battery lasts for a flight: e d_ij and the self-discharge of the journey, in whole seconds
-    /// (design §2).
+    /// Whether a full battery lasts for a flight: e d_ij and the self-discharge of the journey, in whole
+    /// seconds.
     fn reaches(&self, kind: &AircraftType, distance_mi: f64) -> bool {
         let cruise_s = (3600.0 * distance_mi / kind.speed_mph).round();
         let windows_s = self.operations.takeoff_s + self.operations.landing_s;

@@ -1,4 +1,4 @@
-//! Days drawn from networks: Eq. 1 holds, seeds mean what they say, the `paper` network is what the design says.
+//! Days drawn from networks: Eq. 1 holds, seeds mean what they say, the `paper` network is what the model page says.
 
 #![expect(
     clippy::float_cmp,

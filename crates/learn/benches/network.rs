@@ -12,16 +12,14 @@ fn decisions(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("decisions");
     for name in ["gcaps", "mlp"] {
         let network = network(name);
-        let params = network.init(1);
-        let mut prepared = network.prepared();
-        network.prepare(&params, &mut prepared);
+        let weights = network.weights(network.init(1));
         for batch in [1, 16, 256] {
             let decisions = Decisions::new(network.shape(), batch);
             let mut workspace = network.workspace(batch);
             group.throughput(Throughput::Elements(batch as u64));
             group.bench_function(BenchmarkId::new(name, batch), |bencher| {
                 bencher.iter(|| {
-                    network.forward(&params, &prepared, decisions.inputs(0, batch), &mut workspace);
+                    network.forward(&weights, decisions.inputs(0, batch), &mut workspace);
                     black_box(workspace.logits());
                 });
             });

@@ -1,15 +1,17 @@
 //! What can go wrong with settings, weights and checkpoints: codes V301 and on.
 
-use vertifleet_core::Code;
+use vertifleet_core::{Code, Stopped};
 
 /// An expected failure of training or of loading what training left.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// V301: there is no preset of that name.
-    #[error("there is no preset {name:?}: presets are \"default\" and \"paper\"")]
+    /// V301: there is no preset of that name for the policy.
+    #[error("there is no preset {name:?}: presets of this policy are {known}")]
     UnknownPreset {
         /// The name asked for.
         name: String,
+        /// All names.
+        known: &'static str,
     },
     /// V302: there is no setting of that name.
     #[error("there is no setting {name:?}: settings are {known}")]
@@ -82,9 +84,25 @@ pub enum Error {
         /// The update, from 1.
         update: u64,
     },
+    /// V311: a run is to begin in a folder where an earlier one of the same policy was set aside. Fix: go on with it by `--resume` (in
+    /// Python `resume=True`), name another folder, or remove the checkpoint.
+    #[error("{checkpoint} is there already, of an earlier run")]
+    EarlierRun {
+        /// The earlier run's checkpoint.
+        checkpoint: String,
+    },
+    /// V408: the work was asked to stop before it was done.
+    #[error("{Stopped}")]
+    Stopped,
     /// A file, a network or a seed.
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
+}
+
+impl From<Stopped> for Error {
+    fn from(_: Stopped) -> Self {
+        Self::Stopped
+    }
 }
 
 impl Error {
@@ -100,6 +118,8 @@ impl Error {
             Self::NotShipped { .. } => Code(307),
             Self::BadCurve { .. } => Code(308),
             Self::Diverged { .. } => Code(309),
+            Self::EarlierRun { .. } => Code(311),
+            Self::Stopped => Code(408),
             Self::Core(error) => error.code(),
         }
     }
@@ -107,8 +127,12 @@ impl Error {
     /// What to do about it.
     pub fn hint(&self) -> Option<&str> {
         match self {
-            Self::UnknownPreset { .. } | Self::UnknownSetting { .. } | Self::BadSetting { .. } => {
-                None
+            Self::UnknownPreset { .. }
+            | Self::UnknownSetting { .. }
+            | Self::BadSetting { .. }
+            | Self::Stopped => None,
+            Self::EarlierRun { .. } => {
+                Some("go on with it by --resume, name another folder, or remove the file")
             }
             Self::BadWeights { .. } => Some(
                 "`vertifleet train` writes weights that load; a file of another policy needs that policy's name",

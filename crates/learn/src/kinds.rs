@@ -2,11 +2,13 @@
 
 use vertifleet_core::OutputKind;
 
-/// The beginning of a safetensors file whose header says first that it has this format. A macro, since texts are put together
-/// while the program is compiled.
+use crate::nn::Architecture;
+
+/// The beginning of a safetensors file whose header says first that it has a format of this name, of any version. A macro, since
+/// texts are put together while the program is compiled.
 macro_rules! opening {
     ($format:literal) => {
-        concat!(r#"{"__metadata__":{"vertifleet":"{\"format\":\""#, $format, "/")
+        concat!(r#"{"__metadata__":{"vertifleet":"{\"format\":\""#, $format)
     };
 }
 
@@ -15,75 +17,50 @@ const fn tensors(name: &'static str, opening: &'static str) -> OutputKind {
     OutputKind { name, skipped: 8, opening }
 }
 
-/// Weights for networks of one size.
+/// The weights of a policy.
 pub const WEIGHTS: OutputKind = tensors("weight file", opening!("vertifleet-weights"));
-/// Weights for networks of any size.
-pub const WEIGHTS_ANY: OutputKind = tensors("weight file", opening!("vertifleet-weights-any"));
-/// What a training for networks of one size goes on from.
-pub const CHECKPOINT: OutputKind = tensors("checkpoint", opening!("vertifleet-checkpoint"));
-/// What a training for networks of any size goes on from.
-pub const CHECKPOINT_ANY: OutputKind = tensors("checkpoint", opening!("vertifleet-checkpoint-any"));
-/// The learning curve of a training for networks of one size.
-pub const CURVE: OutputKind =
+/// What a run goes on from.
+pub(crate) const CHECKPOINT: OutputKind = tensors("checkpoint", opening!("vertifleet-checkpoint"));
+/// The learning curve of a run by PPO, and of one by imitation.
+const PPO_CURVE: OutputKind =
     OutputKind { name: "learning curve", skipped: 0, opening: "update,steps,days,mean_reward," };
-/// The learning curve of a training for networks of any size.
-pub const CURVE_ANY: OutputKind =
+const IMITATION_CURVE: OutputKind =
     OutputKind { name: "learning curve", skipped: 0, opening: "round,decisions,agreement,lift," };
+
+/// The learning curve of a policy's run.
+pub(crate) fn curve(policy: &Architecture) -> &'static OutputKind {
+    match policy {
+        Architecture::GcapsX(_) => &IMITATION_CURVE,
+        Architecture::Gcaps(_) | Architecture::Mlp(_) => &PPO_CURVE,
+    }
+}
 
 #[cfg(test)]
 mod tests {
-    use std::path::{Path, PathBuf};
-    use std::sync::Arc;
+    use std::path::Path;
 
-    use vertifleet_core::{Network, OutputKind};
+    use vertifleet_core::OutputKind;
 
-    use super::{CHECKPOINT, CHECKPOINT_ANY, CURVE, CURVE_ANY, WEIGHTS, WEIGHTS_ANY};
-    use crate::nn::Architecture;
-    use crate::relative::{Course, Plan, Study};
-    use crate::{Settings, Training, train};
+    use super::{CHECKPOINT, IMITATION_CURVE, PPO_CURVE, WEIGHTS};
 
-    const ALL: [OutputKind; 6] =
-        [WEIGHTS, WEIGHTS_ANY, CHECKPOINT, CHECKPOINT_ANY, CURVE, CURVE_ANY];
-
-    /// The kinds that a file is taken for.
-    fn kinds(path: &Path) -> Vec<OutputKind> {
-        let is_of = |kind: &OutputKind| kind.is_of(path).expect("a file of the project");
-        ALL.into_iter().filter(is_of).collect()
+    /// The kinds that a file of the project is taken for.
+    fn kinds(file: &str) -> Vec<OutputKind> {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+        let is_of = |kind: &OutputKind| kind.is_of(&path).expect("a file of the project");
+        [WEIGHTS, CHECKPOINT, PPO_CURVE, IMITATION_CURVE].into_iter().filter(is_of).collect()
     }
 
     #[test]
-    fn the_shipped_files_are_of_the_kinds_that_a_training_leaves() {
-        let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
+    fn files_of_runs_of_any_version_are_known_by_their_beginning() {
         for (file, kind) in [
-            ("paper/gcaps.safetensors", WEIGHTS),
-            ("paper/mlp-curve.csv", CURVE),
-            ("any/gcaps-x.safetensors", WEIGHTS_ANY),
-            ("any/gcaps-x-seed-2-curve.csv", CURVE_ANY),
+            ("../../models/paper/gcaps.safetensors", WEIGHTS),
+            ("../../models/paper/mlp-curve.csv", PPO_CURVE),
+            ("../../models/any/gcaps-x.safetensors", WEIGHTS),
+            ("../../models/any/gcaps-x-seed-2-curve.csv", IMITATION_CURVE),
+            ("tests/former/checkpoint-1.safetensors", CHECKPOINT),
+            ("tests/former/checkpoint-any-1.safetensors", CHECKPOINT),
         ] {
-            assert_eq!(kinds(&models.join(file)), [kind], "{file}");
+            assert_eq!(kinds(file), [kind], "{file}");
         }
-    }
-
-    #[test]
-    fn written_checkpoints_are_known_again() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = |name: &str| -> PathBuf { folder.path().join(name) };
-        let network = Arc::new(Network::shipped("paper").expect("a shipped network"));
-        let policy = |name| Architecture::named(name).expect("a policy with sizes");
-        let commit = String::new();
-        let plan = train::Plan {
-            network: Arc::clone(&network),
-            policy: policy("mlp"),
-            settings: Settings::preset("default").expect("a preset"),
-            seed: 1,
-            commit: commit.clone(),
-        };
-        let training = Training::start(plan).expect("a training");
-        training.checkpoint().write(&path("one")).expect("a free name");
-        let course = Course::default();
-        let plan = Plan { network, policy: policy("gcaps-x"), course, seed: 1, commit };
-        Study::start(plan).expect("a training").write_checkpoint(&path("any")).expect("a name");
-        assert_eq!(kinds(&path("one")), [CHECKPOINT]);
-        assert_eq!(kinds(&path("any")), [CHECKPOINT_ANY]);
     }
 }

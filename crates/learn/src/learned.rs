@@ -1,47 +1,49 @@
 //! A trained network as a policy: the feasible vertiport with the highest logit (§IV.B, greedy decoding).
 
-use std::sync::Arc;
-
 use vertifleet_core::VertiportIx;
 use vertifleet_policy::{Policy, PolicyError};
 use vertifleet_sim::{Decision, View};
 
 use crate::features::{Observations, Scales};
-use crate::nn::{Prepared, Workspace};
-use crate::weights::Model;
+use crate::model::Model;
+use crate::nn::{self, Weights, Workspace};
 
 /// Decisions per inference; larger batches gain nothing.
 const BATCH: usize = 256;
 
 /// Decides by a trained network. Deterministic; among equal logits the vertiport listed first wins.
 pub struct Learned {
-    model: Arc<Model>,
+    net: nn::Network,
     scales: Scales,
-    prepared: Prepared,
+    weights: Weights,
     workspace: Workspace,
     observations: Observations,
 }
 
 impl Learned {
     /// The policy of a model.
-    pub fn new(model: Arc<Model>) -> Self {
-        let mut prepared = model.net().prepared();
-        model.net().prepare(model.params(), &mut prepared);
+    ///
+    /// # Panics
+    /// If the model fits any number of vertiports: then it is not this policy that decides by it.
+    pub fn new(model: &Model) -> Self {
+        let header = model.header();
+        let vertiports = header.shape.vertiports.expect("weights of one number of vertiports");
+        let scales = header.feature_scales.expect("a header is checked when it is read");
+        let net = model.net(vertiports);
         Self {
-            scales: Scales::from(model.header().feature_scales),
-            prepared,
-            workspace: model.net().workspace(BATCH),
-            observations: Observations::new(model.net().shape(), BATCH),
-            model,
+            scales: Scales::from(scales),
+            weights: model.weights(),
+            workspace: net.workspace(BATCH),
+            observations: Observations::new(net.shape(), BATCH),
+            net,
         }
     }
 
     /// Chooses for the first `batch` rows of the observations.
     fn infer(&mut self, batch: usize) -> impl Iterator<Item = VertiportIx> {
         let inputs = self.observations.inputs(batch);
-        let net = self.model.net();
-        net.forward(self.model.params(), &self.prepared, inputs, &mut self.workspace);
-        self.workspace.logits().chunks_exact(net.shape().vertiports).map(highest)
+        self.net.forward(&self.weights, inputs, &mut self.workspace);
+        self.workspace.logits().chunks_exact(self.net.shape().vertiports).map(highest)
     }
 }
 

@@ -6,33 +6,29 @@
 )]
 
 mod adam;
-mod advantage;
-mod any_weights;
-mod checkpoint;
-mod curve;
-mod curve_files;
 mod error;
 mod features;
+mod gcaps_x;
+mod header;
+mod imitation;
 pub mod kinds;
 mod learned;
+mod model;
 pub mod nn;
 mod ppo;
-pub mod relative;
-mod rollout;
+mod run;
 mod settings;
 mod shipped;
 mod tensor_file;
-mod train;
-mod weights;
 
-pub use any_weights::Weights;
-pub use checkpoint::Checkpoint;
-pub use curve::{CurveRow, EventFile, to_csv};
-pub use curve_files::{curve_beside, read_curves};
 pub use error::Error;
 pub use features::{Observations, Scales, shape};
+pub use gcaps_x::GcapsX;
+pub use header::{FeatureShape, Header};
+pub use imitation::{ImitationRow, ImitationSettings};
 pub use learned::Learned;
-pub use settings::{Reward, Schedule, Settings};
-pub use shipped::{Trained, TrainedAny, shipped, shipped_any};
-pub use train::{Plan, Training};
-pub use weights::{Header, Model, Origin};
+pub use model::Model;
+pub use ppo::{PpoRow, PpoSettings, Reward, Schedule};
+pub use run::{Curve, RunFolder, TrainingPlan, TrainingRun, TrainingWatch, Work};
+pub use settings::TrainingSettings;
+pub use shipped::{Shipped, shipped};

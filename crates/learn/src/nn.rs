@@ -7,6 +7,7 @@
 //! [`Gradient`] each, and add the gradients up in a fixed order.
 
 mod architecture;
+mod batch;
 mod gcaps;
 mod init;
 mod layer_norm;
@@ -21,5 +22,6 @@ mod slope_tests;
 mod value_head;
 
 pub use architecture::{Architecture, GcapsSettings, MlpSettings, Shape};
+pub use batch::{Inputs, Slopes};
 pub use layout::{Layout, Tensor};
-pub use network::{Gradient, Inputs, Network, Prepared, Workspace};
+pub use network::{Gradient, Network, Weights, Workspace};

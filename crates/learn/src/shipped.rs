@@ -1,130 +1,103 @@
 //! The trained policies that come with the program, inside it, so that it runs from any folder.
 
-use crate::curve::{self, CurveRow};
 use crate::error::Error;
-use crate::relative::{AnyModel, Round};
-use crate::weights::Model;
+use crate::model::Model;
+use crate::run::Curve;
 
 /// A trained policy and how its training went.
 #[derive(Debug, Clone)]
-pub struct Trained {
+pub struct Shipped {
     /// The policy.
     pub model: Model,
-    /// Its learning curve; empty if none was kept beside the weights.
-    pub curve: Vec<CurveRow>,
+    /// Its learning curve, then those of runs with other seeds.
+    pub curves: Vec<Curve>,
 }
 
 struct Files {
-    network: &'static str,
+    /// None where the policy decides on every network.
+    network: Option<&'static str>,
     policy: &'static str,
     weights: &'static [u8],
-    curve: &'static str,
+    curves: &'static [&'static str],
 }
 
-macro_rules! files {
-    ($network:literal, $policy:literal) => {
-        Files {
-            network: $network,
-            policy: $policy,
-            weights: include_bytes!(concat!(
-                "../../../models/",
-                $network,
-                "/",
-                $policy,
-                ".safetensors"
-            )),
-            curve: include_str!(concat!("../../../models/", $network, "/", $policy, "-curve.csv")),
-        }
-    };
-}
+const FILES: [Files; 3] = [
+    Files {
+        network: Some("paper"),
+        policy: "gcaps",
+        weights: include_bytes!("../../../models/paper/gcaps.safetensors"),
+        curves: &[include_str!("../../../models/paper/gcaps-curve.csv")],
+    },
+    Files {
+        network: Some("paper"),
+        policy: "mlp",
+        weights: include_bytes!("../../../models/paper/mlp.safetensors"),
+        curves: &[include_str!("../../../models/paper/mlp-curve.csv")],
+    },
+    Files {
+        network: None,
+        policy: "gcaps-x",
+        weights: include_bytes!("../../../models/any/gcaps-x.safetensors"),
+        curves: &[
+            include_str!("../../../models/any/gcaps-x-curve.csv"),
+            include_str!("../../../models/any/gcaps-x-seed-2-curve.csv"),
+            include_str!("../../../models/any/gcaps-x-seed-3-curve.csv"),
+        ],
+    },
+];
 
-const SHIPPED: &[Files] = &[files!("paper", "gcaps"), files!("paper", "mlp")];
-
-/// The shipped policy of that name for a network.
+/// The shipped policy of that name for a network; `gcaps-x` is for all of them.
 ///
 /// # Errors
 /// [`Error::NotShipped`] if there is none.
-pub fn shipped(network: &str, policy: &str) -> Result<Trained, Error> {
-    let files = SHIPPED.iter().find(|files| files.network == network && files.policy == policy);
-    let Some(files) = files else {
-        let names: Vec<String> =
-            SHIPPED.iter().map(|files| format!("{} on {}", files.policy, files.network)).collect();
-        return Err(Error::NotShipped {
-            policy: policy.to_owned(),
-            network: network.to_owned(),
-            known: names.join(", "),
-        });
-    };
-    let origin = format!("shipped {policy} of {network}");
-    Ok(Trained {
+pub fn shipped(policy: &str, network: &str) -> Result<Shipped, Error> {
+    let is_meant =
+        |files: &&Files| files.policy == policy && files.network.is_none_or(|only| only == network);
+    let files = FILES.iter().find(is_meant).ok_or_else(|| not_shipped(policy, network))?;
+    let origin = format!("shipped {policy}");
+    let curves = files.curves.iter().map(|text| Curve::from_csv(text, &origin));
+    Ok(Shipped {
         model: Model::from_bytes(files.weights, &origin)?,
-        curve: curve::from_csv(files.curve, &origin)?,
-    })
-}
-
-/// The shipped `gcaps-x`, which decides on every network.
-#[derive(Debug, Clone)]
-pub struct TrainedAny {
-    /// The policy.
-    pub model: AnyModel,
-    /// Its learning curve, then those of runs with other seeds.
-    pub curves: Vec<Vec<Round>>,
-}
-
-const ANY: &[u8] = include_bytes!("../../../models/any/gcaps-x.safetensors");
-const ANY_CURVES: [&str; 3] = [
-    include_str!("../../../models/any/gcaps-x-curve.csv"),
-    include_str!("../../../models/any/gcaps-x-seed-2-curve.csv"),
-    include_str!("../../../models/any/gcaps-x-seed-3-curve.csv"),
-];
-
-/// The shipped policy for networks of any size.
-///
-/// # Errors
-/// None, unless the files inside the program are not what they should be.
-pub fn shipped_any() -> Result<TrainedAny, Error> {
-    let origin = "shipped gcaps-x";
-    let curves = ANY_CURVES.iter().map(|text| curve::from_csv(text, origin));
-    Ok(TrainedAny {
-        model: AnyModel::from_bytes(ANY, origin)?,
         curves: curves.collect::<Result<_, _>>()?,
     })
 }
 
+fn not_shipped(policy: &str, network: &str) -> Error {
+    let names: Vec<String> = FILES
+        .iter()
+        .map(|files| format!("{} on {}", files.policy, files.network.unwrap_or("any")))
+        .collect();
+    let (policy, network) = (policy.to_owned(), network.to_owned());
+    Error::NotShipped { policy, network, known: names.join(", ") }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{SHIPPED, shipped, shipped_any};
+    use super::{FILES, shipped};
 
     #[test]
-    fn the_shipped_policy_for_any_network_lies_on_its_curve() {
-        let trained = shipped_any().expect("a shipped policy");
-        let header = trained.model.header();
-        let ends = trained.curves.iter().map(|rounds| rounds.last().expect("rounds").decisions);
-        let ends: Vec<u64> = ends.collect();
-        assert_eq!(ends[0], header.decisions);
-        assert!(ends[1] != ends[0] && ends[2] != ends[1], "each curve is of a run of its own");
-    }
-
-    #[test]
-    fn every_shipped_policy_loads_and_is_what_it_is_called() {
-        for files in SHIPPED {
-            let trained = shipped(files.network, files.policy).expect("a shipped policy");
+    fn every_shipped_policy_loads_is_what_it_is_called_and_lies_on_its_curve() {
+        for files in &FILES {
+            let network = files.network.unwrap_or("new-york");
+            let trained = shipped(files.policy, network).expect("a shipped policy");
             let header = trained.model.header();
-            assert_eq!(
-                (header.network.as_str(), header.policy.name()),
-                (files.network, files.policy)
-            );
-            assert!(
-                trained.curve.iter().any(|row| row.steps == header.steps),
-                "weights lie on their curve"
-            );
+            assert_eq!(trained.model.kind(), files.policy);
+            assert!(files.network.is_none_or(|network| network == header.network));
+            let curve = trained.curves[0].validation_rewards();
+            assert!(curve.iter().any(|&(steps, _)| steps == header.steps), "{}", files.policy);
         }
     }
 
     #[test]
+    fn curves_of_other_seeds_are_of_runs_of_their_own() {
+        let curves = shipped("gcaps-x", "paper").expect("a shipped policy").curves;
+        assert!(curves.len() == 3 && curves[0] != curves[1] && curves[1] != curves[2]);
+    }
+
+    #[test]
     fn what_is_not_shipped_is_named_with_what_is() {
-        let error = shipped("paper", "fastest").expect_err("no such policy");
+        let error = shipped("fastest", "paper").expect_err("no such policy");
         assert_eq!(error.code().to_string(), "V307");
-        assert!(error.to_string().contains("gcaps on paper, mlp on paper"));
+        assert!(error.to_string().contains("gcaps on paper, mlp on paper, gcaps-x on any"));
     }
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::Serialize;
-use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
 
 /// The header's name among the file's metadata.
 const HEADER: &str = "vertifleet";
@@ -24,29 +24,12 @@ pub(crate) fn to_bytes<'a>(
     safetensors::serialize(tensors, Some(info)).expect("named tensors of numbers are valid")
 }
 
-/// The format that a file's header states, if it has a header that states any.
-pub(crate) fn format(bytes: &[u8]) -> Option<String> {
-    let (_, metadata) = SafeTensors::read_metadata(bytes).ok()?;
-    let text = metadata.metadata().as_ref()?.get(HEADER)?;
-    let header: serde_json::Value = serde_json::from_str(text).ok()?;
-    Some(header.get("format")?.as_str()?.to_owned())
-}
-
-/// The header of a file's bytes, which must be of `format`; `format_of` says what a header states.
-pub(crate) fn header<H: DeserializeOwned>(
-    bytes: &[u8],
-    format: &str,
-    format_of: impl Fn(&H) -> &str,
-) -> Result<H, String> {
+/// The header of a file's bytes.
+pub(crate) fn header(bytes: &[u8]) -> Result<Map<String, Value>, String> {
     let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|error| error.to_string())?;
     let text = metadata.metadata().as_ref().and_then(|info| info.get(HEADER));
     let text = text.ok_or_else(|| format!("the file has no {HEADER:?} header"))?;
-    let header: H = serde_json::from_str(text).map_err(|error| format!("header: {error}"))?;
-    let found = format_of(&header);
-    if found != format {
-        return Err(format!("format must be {format:?}, found {found:?}"));
-    }
-    Ok(header)
+    serde_json::from_str(text).map_err(|error| format!("header: {error}"))
 }
 
 /// The entries of a tensor of 32-bit numbers.

@@ -1,7 +1,9 @@
 //! What the networks promise whatever their weights: batches do not mix, masks hold, vertiports are no more than their
 //! features, gradients of chunks add up.
 
-use vertifleet_learn::nn::{Architecture, GcapsSettings, Inputs, MlpSettings, Network, Shape};
+use vertifleet_learn::nn::{
+    Architecture, GcapsSettings, Inputs, MlpSettings, Network, Shape, Slopes,
+};
 
 const SHAPE: Shape = Shape { vertiports: 8, node_features: 20, aircraft_features: 18 };
 
@@ -61,9 +63,8 @@ fn weights(net: &Network) -> Vec<f32> {
 
 /// Logits and values.
 fn answers(net: &Network, params: &[f32], inputs: Inputs<'_>) -> (Vec<f32>, Vec<f32>) {
-    let (mut prepared, mut workspace) = (net.prepared(), net.workspace(inputs.batch));
-    net.prepare(params, &mut prepared);
-    net.forward(params, &prepared, inputs, &mut workspace);
+    let mut workspace = net.workspace(inputs.batch);
+    net.forward(&net.weights(params.to_vec()), inputs, &mut workspace);
     (workspace.logits().to_vec(), workspace.values().to_vec())
 }
 
@@ -153,19 +154,18 @@ fn gradient(
 ) -> Vec<f32> {
     let count = logit_slopes.len() / 8;
     let value_slopes = spread(count, 0.236_068);
-    let (mut prepared, mut workspace) = (net.prepared(), net.workspace(12));
-    net.prepare(params, &mut prepared);
+    let (weights, mut workspace) = (net.weights(params.to_vec()), net.workspace(12));
     let mut gradient = net.gradient();
     gradient.sums_mut().fill(7.0);
     gradient.clear();
     for first in (0..count).step_by(chunk) {
         let inputs = decisions.inputs(first, chunk.min(count - first));
-        net.forward(params, &prepared, inputs, &mut workspace);
+        net.forward(&weights, inputs, &mut workspace);
         let of_logits = &logit_slopes[first * 8..][..inputs.batch * 8];
-        let slopes = (of_logits, &value_slopes[first..][..inputs.batch]);
-        net.backward((params, &prepared), inputs, slopes, &mut workspace, &mut gradient);
+        let slopes = Slopes { logits: of_logits, values: &value_slopes[first..][..inputs.batch] };
+        net.backward(&weights, inputs, slopes, &mut workspace, &mut gradient);
     }
-    net.finish(params, &prepared, &mut gradient).to_vec()
+    net.finish(&weights, &mut gradient).to_vec()
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! numbers that is written down there and here.
 
 use serde_json::Value;
-use vertifleet_learn::nn::{Architecture, Inputs, Network, Shape, Tensor};
+use vertifleet_learn::nn::{Architecture, Inputs, Network, Shape, Slopes, Tensor};
 
 /// Numbers in [-1, 1) that the name and their index decide.
 fn noise(name: &str, len: usize) -> Vec<f32> {
@@ -79,10 +79,9 @@ fn check_case(net: &Network, case: &Value) {
         clock: &noise("clock", batch),
     };
     let params: Vec<f32> = net.layout().tensors().iter().flat_map(weight).collect();
-    let mut prepared = net.prepared();
-    net.prepare(&params, &mut prepared);
+    let weights = net.weights(params);
     let mut workspace = net.workspace(batch);
-    net.forward(&params, &prepared, inputs, &mut workspace);
+    net.forward(&weights, inputs, &mut workspace);
     for (found, expected) in workspace.logits().iter().zip(&logits) {
         match expected {
             Some(expected) => assert_close("logit", f64::from(*found), *expected, 2e-5),
@@ -96,9 +95,9 @@ fn check_case(net: &Network, case: &Value) {
     let logit_slopes = noise("logit_slopes", batch * vertiports);
     let value_slopes = noise("value_slopes", batch);
     let mut gradient = net.gradient();
-    let slopes = (logit_slopes.as_slice(), value_slopes.as_slice());
-    net.backward((&params, &prepared), inputs, slopes, &mut workspace, &mut gradient);
-    let gradient = net.finish(&params, &prepared, &mut gradient);
+    let slopes = Slopes { logits: &logit_slopes, values: &value_slopes };
+    net.backward(&weights, inputs, slopes, &mut workspace, &mut gradient);
+    let gradient = net.finish(&weights, &mut gradient);
     let stored = case["slopes"].as_object().expect("slopes by tensor");
     assert_eq!(stored.len(), net.layout().tensors().len(), "the same tensors");
     for tensor in net.layout().tensors() {

@@ -1,29 +1,15 @@
-//! What a training run promises: the same weights on any number of threads, and after any interruption.
+//! What a training run promises, whichever way it learns: the same weights on any number of threads, and after any interruption.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
-use vertifleet_core::{DaySeed, Network, Purpose};
+use vertifleet_core::{DaySeed, Network, Purpose, Stop};
 use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
-use vertifleet_learn::{Checkpoint, Model, Plan, Reward, Settings, Training};
+use vertifleet_learn::{Curve, Error, Model, TrainingPlan, TrainingRun, TrainingSettings};
 
-fn plan(policy: Architecture, reward: Reward) -> Plan {
-    let mut settings = Settings::tuned();
-    settings.total_steps = 4 * 40 * 30;
-    settings.n_envs = 40;
-    settings.n_steps = 30;
-    settings.batch_size = 500;
-    settings.n_epochs = 2;
-    settings.eval_every = 2;
-    settings.eval_days = 3;
-    settings.reward = reward;
-    Plan {
-        network: Arc::new(Network::shipped("paper").expect("a shipped network")),
-        policy,
-        settings,
-        seed: 3,
-        commit: "test".to_owned(),
-    }
+fn paper() -> Arc<Network> {
+    Arc::new(Network::shipped("paper").expect("a shipped network"))
 }
 
 fn small_gcaps() -> Architecture {
@@ -34,28 +20,69 @@ fn small_mlp() -> Architecture {
     Architecture::Mlp(MlpSettings { width: 16, layers: 2, value_width: 8 })
 }
 
-fn finish(mut training: Training) -> Training {
-    while !training.is_done() {
-        training.update(&|_| true).expect("training days are left");
-    }
-    training
+fn small_gcaps_x() -> Architecture {
+    Architecture::GcapsX(GcapsSettings { width: 8, heads: 2 })
 }
 
-/// Everything a run leaves, to the bit.
-fn remains(training: &Training) -> (Checkpoint, Vec<u8>) {
-    (training.checkpoint(), training.best_model().to_bytes())
+/// A short run of a policy, with these settings changed.
+fn plan_with(policy: Architecture, changes: &[(&str, &str)]) -> TrainingPlan {
+    let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
+    let short: &[(&str, &str)] = match policy {
+        Architecture::GcapsX(_) => &[
+            ("rounds", "2"),
+            ("days", "2"),
+            ("passes", "2"),
+            ("rollouts", "2"),
+            ("horizon_s", "900"),
+            ("random_share", "0.5"),
+            ("validation_days", "1"),
+        ],
+        _ => &[
+            ("total_steps", "4800"),
+            ("n_envs", "40"),
+            ("n_steps", "30"),
+            ("batch_size", "500"),
+            ("n_epochs", "2"),
+            ("eval_every", "2"),
+            ("eval_days", "3"),
+        ],
+    };
+    settings.set(short.iter().chain(changes).copied()).expect("settings within their bounds");
+    TrainingPlan { network: paper(), policy, settings, seed: 3, commit: "test".to_owned() }
+}
+
+fn plan(policy: Architecture) -> TrainingPlan {
+    plan_with(policy, &[])
+}
+
+fn advance(run: &mut dyn TrainingRun) {
+    run.advance(&Stop::default(), &|_| ()).expect("training days are left");
+}
+
+fn finished(mut run: Box<dyn TrainingRun>) -> Box<dyn TrainingRun> {
+    while !run.is_done() {
+        advance(run.as_mut());
+    }
+    run
+}
+
+/// Everything that a run leaves, to the bit.
+fn remains(run: &dyn TrainingRun) -> (Vec<u8>, Vec<u8>, Curve) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("checkpoint");
+    run.write_checkpoint(&path).expect("a folder to write to");
+    (std::fs::read(path).expect("the checkpoint"), run.model().to_bytes(), run.curve())
 }
 
 #[test]
 fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
-    for policy in [small_gcaps(), small_mlp()] {
+    for policy in [small_gcaps(), small_mlp(), small_gcaps_x()] {
         let on = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            let plan = plan(policy.clone(), Reward::Dense);
-            pool.install(|| remains(&finish(Training::start(plan).expect("a plan"))))
+            let plan = plan(policy.clone());
+            pool.install(|| remains(finished(plan.start().expect("a plan")).as_ref()))
         };
-        let one = on(1);
-        assert!(one == on(2) && one == on(3));
+        assert!(on(1) == on(3), "{policy:?}");
     }
 }
 
@@ -63,83 +90,196 @@ fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
 fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("checkpoint.safetensors");
-    let plan = plan(small_gcaps(), Reward::Terminal);
-    let whole = finish(Training::start(plan.clone()).expect("a plan"));
-
-    let mut first = Training::start(plan.clone()).expect("a plan");
-    first.update(&|_| true).expect("an update");
-    first.checkpoint().write(&path).expect("a folder to write to");
-    drop(first);
-    let rest =
-        Training::resume(plan, Checkpoint::read(&path).expect("a checkpoint")).expect("its run");
-    assert!(remains(&finish(rest)) == remains(&whole));
+    for plan in [plan_with(small_gcaps(), &[("reward", "terminal")]), plan(small_gcaps_x())] {
+        let whole = finished(plan.clone().start().expect("a plan"));
+        let mut first = plan.clone().start().expect("a plan");
+        advance(first.as_mut());
+        first.write_checkpoint(&path).expect("a folder to write to");
+        let rest = plan.clone().resume(&path).expect("its run");
+        assert_eq!((rest.curve(), rest.work()), (first.curve(), first.work()));
+        assert!(remains(finished(rest).as_ref()) == remains(whole.as_ref()), "{plan:?}");
+    }
 }
 
 #[test]
-fn an_update_that_is_abandoned_leaves_the_checkpoint_before_it_good() {
-    let plan = plan(small_gcaps(), Reward::Dense);
-    let whole = finish(Training::start(plan.clone()).expect("a plan"));
+fn a_run_that_is_stopped_stands_as_before_and_goes_on() {
+    for plan in [plan(small_gcaps()), plan(small_gcaps_x())] {
+        let whole = finished(plan.clone().start().expect("a plan"));
+        let mut run = plan.clone().start().expect("a plan");
+        advance(run.as_mut());
+        let before = remains(run.as_ref());
+        let stop = Stop::default();
+        let stopped = run.advance(&stop, &|_| {
+            stop.request();
+        });
+        assert!(matches!(stopped, Err(Error::Stopped)), "{plan:?}");
+        assert!(remains(run.as_ref()) == before, "{plan:?}");
+        assert!(remains(finished(run).as_ref()) == remains(whole.as_ref()), "{plan:?}");
+    }
+}
 
-    let mut first = Training::start(plan.clone()).expect("a plan");
-    first.update(&|_| true).expect("an update");
-    let before = first.checkpoint();
-    let abandoned = first.update(&|done| done < 0.4).expect("an update");
-    assert!(abandoned.is_none());
-    let rest = Training::resume(plan, before).expect("its run");
-    assert!(remains(&finish(rest)) == remains(&whole));
+/// The run of the files in `tests/former`, which an earlier version left after so many of its rows.
+fn former(policy: Architecture) -> TrainingPlan {
+    let (network, settings) = if matches!(policy, Architecture::GcapsX(_)) {
+        let end = ("operations.end".to_owned(), "06:30:00".into());
+        let short = paper().changed([(&end.0, &end.1)]).expect("a network");
+        let settings: &[(&str, &str)] = &[
+            ("rounds", "2"),
+            ("days", "1"),
+            ("passes", "1"),
+            ("rollouts", "1"),
+            ("horizon_s", "600"),
+            ("validation_days", "1"),
+            ("random_share", "0"),
+        ];
+        (Arc::new(short), settings)
+    } else {
+        let settings: &[(&str, &str)] = &[
+            ("total_steps", "192"),
+            ("n_envs", "2"),
+            ("n_steps", "32"),
+            ("batch_size", "32"),
+            ("n_epochs", "1"),
+            ("eval_every", "1"),
+            ("eval_days", "1"),
+        ];
+        (paper(), settings)
+    };
+    let mut all = TrainingSettings::preset(&policy, "default").expect("a preset");
+    all.set(settings.iter().copied()).expect("settings within their bounds");
+    TrainingPlan { network, policy, settings: all, seed: 3, commit: "v0".to_owned() }
+}
+
+fn former_file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/former").join(name)
 }
 
 #[test]
-fn a_network_that_has_changed_does_not_go_on() {
-    let run = plan(small_gcaps(), Reward::Dense);
-    let checkpoint = Training::start(run.clone()).expect("a plan").checkpoint();
-    let text = include_str!("../../../networks/paper.toml")
-        .replace("stands = 6\nbusy = true", "stands = 7\nbusy = true");
-    let mut changed = run;
-    changed.network = Arc::new(Network::from_toml(&text, "changed").expect("a network"));
-    let error = Training::resume(changed, checkpoint).err().expect("another network");
-    assert!(error.to_string().contains("has changed"), "{error}");
+fn a_run_that_an_earlier_version_set_aside_goes_on_to_the_weights_that_it_would_have_left() {
+    let mlp = Architecture::Mlp(MlpSettings { width: 4, layers: 1, value_width: 2 });
+    let gcaps_x = Architecture::GcapsX(GcapsSettings { width: 4, heads: 2 });
+    for (policy, checkpoint, weights) in [
+        (mlp, "checkpoint-1.safetensors", "weights-1-end.safetensors"),
+        (gcaps_x, "checkpoint-any-1.safetensors", "weights-any-1-end.safetensors"),
+    ] {
+        let run = former(policy).resume(&former_file(checkpoint)).expect("its run");
+        assert!(!run.is_done() && !run.curve().is_empty());
+        let model = finished(run).model();
+        let left = Model::read(&former_file(weights)).expect("weights");
+        assert_eq!((model.header(), model.params()), (left.header(), left.params()), "{weights}");
+    }
 }
 
-#[test]
-fn another_seed_gives_other_weights() {
-    let mut other = plan(small_gcaps(), Reward::Dense);
-    other.seed = 4;
-    let one = Training::start(plan(small_gcaps(), Reward::Dense)).expect("a plan");
-    let two = Training::start(other).expect("a plan");
-    assert_ne!(one.best_model().params(), two.best_model().params());
+fn refused(plan: TrainingPlan, checkpoint: &Path) -> String {
+    let error = plan.resume(checkpoint).err().expect("another run");
+    assert_eq!(error.code().to_string(), "V306", "{error}");
+    error.to_string()
 }
 
 #[test]
 fn a_checkpoint_of_another_run_is_refused() {
-    let run = plan(small_gcaps(), Reward::Dense);
-    let checkpoint = || Training::start(run.clone()).expect("a plan").checkpoint();
-    let refused = |change: fn(&mut Plan)| {
-        let mut other = run.clone();
-        change(&mut other);
-        let error = Training::resume(other, checkpoint()).err().expect("another run");
-        assert_eq!(error.code().to_string(), "V306");
-        error.to_string()
-    };
-    assert!(refused(|plan| plan.seed = 9).contains("seed"));
-    assert!(refused(|plan| plan.settings.gamma = 0.5).contains("setting gamma"));
-    assert!(refused(|plan| plan.policy = small_mlp()).contains("policy"));
-    assert!(Training::resume(run.clone(), checkpoint()).is_ok());
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("checkpoint.safetensors");
+    for (policy, other, setting) in [
+        (small_gcaps(), small_mlp(), ("gamma", "0.5")),
+        (
+            small_gcaps_x(),
+            Architecture::GcapsX(GcapsSettings { width: 16, heads: 2 }),
+            ("passes", "3"),
+        ),
+    ] {
+        let asked = plan(policy.clone());
+        asked.clone().start().expect("a plan").write_checkpoint(&path).expect("a file");
+        assert!(
+            refused(TrainingPlan { seed: 9, ..asked.clone() }, &path).contains("seed 3, but 9")
+        );
+        assert!(refused(plan_with(policy, &[setting]), &path).contains(setting.0));
+        assert!(refused(TrainingPlan { policy: other, ..asked.clone() }, &path).contains("policy"));
+        let text = include_str!("../../../networks/paper.toml")
+            .replace("stands = 6\nbusy = true", "stands = 7\nbusy = true");
+        let network = Arc::new(Network::from_toml(&text, "changed").expect("a network"));
+        assert!(refused(TrainingPlan { network, ..asked.clone() }, &path).contains("has changed"));
+        let network = Arc::new(Network::shipped("new-york").expect("a shipped network"));
+        assert!(
+            refused(TrainingPlan { network, ..asked.clone() }, &path).contains("network paper")
+        );
+        assert!(asked.resume(&path).is_ok());
+    }
+}
+
+/// A file with a part of its text replaced by another of the same length.
+fn replaced(bytes: &[u8], from: &str, to: &str) -> Vec<u8> {
+    let at = bytes.windows(from.len()).position(|window| window == from.as_bytes());
+    let mut bytes = bytes.to_vec();
+    bytes[at.expect("a part of it")..][..to.len()].copy_from_slice(to.as_bytes());
+    bytes
+}
+
+#[test]
+fn what_a_run_leaves_says_first_what_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("checkpoint");
+    for policy in [small_mlp(), small_gcaps_x()] {
+        let run = plan(policy).start().expect("a plan");
+        run.write_checkpoint(&path).expect("a file");
+        let checkpoint = std::fs::read(&path).expect("the checkpoint");
+        for (file, format) in [(checkpoint, "checkpoint/2"), (run.model().to_bytes(), "weights/2")]
+        {
+            let opening =
+                format!(r#"{{"__metadata__":{{"vertifleet":"{{\"format\":\"vertifleet-{format}"#);
+            assert!(file[8..].starts_with(opening.as_bytes()), "{format}");
+        }
+    }
+}
+
+#[test]
+fn a_damaged_checkpoint_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("checkpoint");
+    let asked = plan(small_gcaps_x());
+    let mut run = asked.clone().start().expect("a plan");
+    advance(run.as_mut());
+    run.write_checkpoint(&path).expect("a file");
+    let whole = std::fs::read(&path).expect("the checkpoint");
+    let not_finite = [&whole[..whole.len() - 4], &f32::NAN.to_le_bytes()].concat();
+    for (bytes, rule) in [
+        (whole[..whole.len() / 2].to_vec(), ""),
+        (replaced(&whole, "lessons.8.nodes", "lessons.8.modes"), "lessons.8.nodes"),
+        (replaced(&whole, "\\\"vertiports\\\":[8", "\\\"vertiports\\\":[0"), "1 to 256 vertiports"),
+        (replaced(&whole, "vertifleet-checkpoint/2", "vertifleet-checkpoint/9"), "format must be"),
+        (not_finite, "not finite"),
+    ] {
+        std::fs::write(&path, bytes).expect("a file");
+        assert!(refused(asked.clone(), &path).contains(rule), "{rule}");
+    }
+}
+
+#[test]
+fn another_seed_gives_other_weights() {
+    let other = TrainingPlan { seed: 4, ..plan(small_gcaps()) };
+    let [one, two] = [plan(small_gcaps()), other].map(|plan| plan.start().expect("a plan").model());
+    assert_ne!(one.params(), two.params());
+}
+
+#[test]
+fn settings_of_another_way_to_learn_are_refused() {
+    let settings = plan(small_gcaps_x()).settings;
+    let error = TrainingPlan { settings, ..plan(small_mlp()) }.start().err().expect("no such run");
+    assert_eq!(error.code().to_string(), "V303");
 }
 
 #[test]
 fn weights_read_as_they_were_written() {
-    let training = Training::start(plan(small_mlp(), Reward::Dense)).expect("a plan");
-    let model = training.best_model();
-    let again = Model::from_bytes(&model.to_bytes(), "again").expect("weights");
-    assert_eq!(again.header(), model.header());
-    assert_eq!(again.params(), model.params());
+    for policy in [small_mlp(), small_gcaps_x()] {
+        let model = plan(policy).start().expect("a plan").model();
+        let again = Model::from_bytes(&model.to_bytes(), "again").expect("weights");
+        assert_eq!((again.header(), again.params()), (model.header(), model.params()));
+    }
 }
 
 #[test]
 fn damaged_weights_are_refused_and_never_a_panic() {
-    let training = Training::start(plan(small_mlp(), Reward::Dense)).expect("a plan");
-    let bytes = training.best_model().to_bytes();
+    let bytes = plan(small_mlp()).start().expect("a plan").model().to_bytes();
     for len in [0, 7, 8, 100, bytes.len() / 2, bytes.len() - 1] {
         let error = Model::from_bytes(&bytes[..len], "cut").expect_err("cut weights");
         assert_eq!(error.code().to_string(), "V304", "{error}");
@@ -154,13 +294,12 @@ fn damaged_weights_are_refused_and_never_a_panic() {
 
 #[test]
 fn a_shape_that_no_network_has_is_refused() {
-    let training = Training::start(plan(small_mlp(), Reward::Dense)).expect("a plan");
-    let bytes = training.best_model().to_bytes();
+    let bytes = plan(small_mlp()).start().expect("a plan").model().to_bytes();
     let (length, rest) = bytes.split_at(8);
     let length = u64::from_le_bytes(length.try_into().expect("eight bytes"));
     let (header, tensors) = rest.split_at(usize::try_from(length).expect("small"));
     let header = str::from_utf8(header).expect("JSON");
-    for vertiports in [0, 3, 4_097, u64::MAX] {
+    for vertiports in ["0", "3", "4097", "18446744073709551615", "null"] {
         let changed = header.replace(r#"vertiports\":8"#, &format!(r#"vertiports\":{vertiports}"#));
         assert_ne!(changed, header);
         let length = u64::try_from(changed.len()).expect("small").to_le_bytes();
@@ -172,15 +311,15 @@ fn a_shape_that_no_network_has_is_refused() {
 
 #[test]
 fn learning_raises_the_reward() {
-    let mut plan = plan(small_gcaps(), Reward::Dense);
-    plan.settings.total_steps = 60 * 40 * 30;
-    plan.settings.eval_every = 10;
-    plan.settings.n_epochs = 4;
-    plan.settings.learning_rate = 3e-3;
-    let training = finish(Training::start(plan).expect("a plan"));
-    let curve = training.curve();
-    let reward_at = |row: usize| curve[row].mean_reward.expect("days are over by then");
-    let (first, last) = (reward_at(15), reward_at(curve.len() - 1));
+    let longer = [
+        ("total_steps", "72000"),
+        ("eval_every", "10"),
+        ("n_epochs", "4"),
+        ("learning_rate", "0.003"),
+    ];
+    let run = finished(plan_with(small_gcaps(), &longer).start().expect("a plan"));
+    let curve = run.curve().training_rewards();
+    let (first, last) = (curve[15].1, curve[curve.len() - 1].1);
     assert!(last > 1.03 * first, "mean reward went from {first} to {last}");
 }
 

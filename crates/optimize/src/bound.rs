@@ -18,9 +18,7 @@ mod proof_tests;
 mod slices;
 mod ways;
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use vertifleet_core::{Scenario, Time, VertiportIx};
+use vertifleet_core::{Scenario, Stop, Time, VertiportIx};
 
 use crate::Error;
 use descent::Found;
@@ -83,7 +81,7 @@ pub struct Bound {
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step.
 pub fn upper_bound(scenario: &Scenario, step: Step) -> Result<Bound, Error> {
-    let never = AtomicBool::new(false);
+    let never = Stop::default();
     Ok(upper_bound_unless(&never, scenario, step)?.expect("nobody stops it"))
 }
 
@@ -92,12 +90,12 @@ pub fn upper_bound(scenario: &Scenario, step: Step) -> Result<Bound, Error> {
 /// # Errors
 /// Those of [`upper_bound`].
 pub fn upper_bound_unless(
-    stopped: &AtomicBool,
+    stopped: &Stop,
     scenario: &Scenario,
     step: Step,
 ) -> Result<Option<Bound>, Error> {
     let bound = search(scenario, step, &Unless { stopped })?;
-    Ok(bound.filter(|_| !stopped.load(Ordering::Relaxed)))
+    Ok(bound.filter(|_| !stopped.is_requested()))
 }
 
 /// As [`upper_bound`], while `watch` follows it: the best bound by the time that it wants no more, none if that is before the first.
@@ -122,11 +120,11 @@ pub(crate) fn fits(scenario: &Scenario, step: Step) -> Result<(), Error> {
 
 /// Follows nothing.
 struct Unless<'a> {
-    stopped: &'a AtomicBool,
+    stopped: &'a Stop,
 }
 
 impl Watch for Unless<'_> {
-    fn stopped(&self) -> &AtomicBool {
+    fn stopped(&self) -> &Stop {
         self.stopped
     }
 

@@ -1,10 +1,10 @@
 //! A bound that is being proven while something else goes on, such as the search for a plan.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use vertifleet_core::Scenario;
+use vertifleet_core::{Scenario, Stop};
 
 use crate::bound::{Watch, fits, search};
 use crate::{Bound, Step};
@@ -20,7 +20,7 @@ pub struct Proof {
 
 /// What the thread and its owner share.
 struct Shared {
-    stopped: AtomicBool,
+    stopped: Stop,
     /// The bits of a share.
     has_come: AtomicU64,
     /// The bits of the most that is known to be earned, dollars.
@@ -40,7 +40,7 @@ impl Proof {
     /// Begins to prove.
     pub fn begin(scenario: &Arc<Scenario>) -> Self {
         let shared = Arc::new(Shared {
-            stopped: AtomicBool::new(false),
+            stopped: Stop::default(),
             has_come: AtomicU64::new(0.0_f64.to_bits()),
             known_usd: AtomicU64::new(f64::NEG_INFINITY.to_bits()),
             state: Mutex::default(),
@@ -93,7 +93,7 @@ impl Proof {
 
     /// Asks the search to end, within about a tenth of a second; the best bound so far stays.
     pub fn stop(&self) {
-        self.shared.stopped.store(true, Ordering::Relaxed);
+        self.shared.stopped.request();
     }
 
     /// The best bound that a search for a plan may report that began at `begun` and had `limit` to take: the best by now. Where
@@ -135,7 +135,7 @@ impl Drop for Ending {
 }
 
 impl Watch for Shared {
-    fn stopped(&self) -> &AtomicBool {
+    fn stopped(&self) -> &Stop {
         &self.stopped
     }
 

@@ -8,25 +8,28 @@
 //! everywhere.
 
 use vertifleet_core::VertiportIx;
-use vertifleet_policy::{DayMemory, DayPrices, Policy, PolicyError, Shortlist, Trial, TryOut};
+use vertifleet_policy::{
+    DayMemory, DayPrices, Policy, PolicyError, RolloutEvaluator, RolloutSettings, Shortlist,
+};
 use vertifleet_sim::{Decision, View};
 
 /// How choices are tried out, tuned on validation days. To the end of the day chance would decide, and days earn less than
 /// without trying.
-const TRY_OUT: TryOut = TryOut { horizon_s: 7_200, courses: 16, noise: 0.05, own: 1.0 };
+const ROLLOUTS: RolloutSettings =
+    RolloutSettings { horizon_s: 7_200, rollouts: 16, noise: 0.05, price_weight: 1.0 };
 
 /// Prices the rest of the day and tries its choices out. Remembers one day at a time.
 #[derive(Debug, Clone)]
 pub struct Rolling {
     day: DayMemory<DayPrices>,
     shortlist: Shortlist,
-    trial: Trial,
+    evaluator: RolloutEvaluator,
 }
 
 impl Default for Rolling {
     fn default() -> Self {
         let (day, shortlist) = (DayMemory::default(), Shortlist::default());
-        Self { day, shortlist, trial: Trial::new(TRY_OUT) }
+        Self { day, shortlist, evaluator: RolloutEvaluator::new(ROLLOUTS) }
     }
 }
 
@@ -35,6 +38,6 @@ impl Policy for Rolling {
         let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
         prices.keep_up(*view, decision.time);
         let listed = self.shortlist.rank_with_empty_flights(prices, *view, decision);
-        Ok(self.trial.best_choice(prices, (*view, decision), listed))
+        Ok(self.evaluator.best_choice(prices, (*view, decision), listed))
     }
 }

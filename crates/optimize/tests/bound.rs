@@ -5,13 +5,12 @@ mod exhaustive;
 
 use std::fs;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use common::{Size, any_day, any_extended_day};
 use exhaustive::best_of_all;
 use rayon::prelude::*;
 use vertifleet_core::{
-    DaySeed, Matrix, Network, Scenario, TakeoffDelays, Time, TypeIx, VertiportIx,
+    DaySeed, Matrix, Network, Scenario, Stop, TakeoffDelays, Time, TypeIx, VertiportIx,
 };
 use vertifleet_optimize::{Error, Rolling, Step, cached_upper_bound, upper_bound};
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, play};
@@ -238,7 +237,7 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
         entries.map(|entry| entry.expect("an entry").path()).collect()
     };
     let cached = |day: &Scenario, step| {
-        let bound = cached_upper_bound(&AtomicBool::new(false), day, minutes(step), &folder);
+        let bound = cached_upper_bound(&Stop::default(), day, minutes(step), &folder);
         bound.expect("a folder of ours").expect("nobody stops it").upper_bound_usd()
     };
     let found = bound_usd(&day, 30);
@@ -268,7 +267,8 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
 fn a_proof_that_is_stopped_leaves_nothing() {
     let day = any_day(7, Size { vertiports: 5, fleet: 9, hours: 4 });
     let folder = tempfile::tempdir().expect("a folder");
-    let stopped = AtomicBool::new(true);
+    let stopped = Stop::default();
+    stopped.request();
     let bound =
         cached_upper_bound(&stopped, &day, minutes(30), folder.path()).expect("a small day");
     assert!(bound.is_none());

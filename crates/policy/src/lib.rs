@@ -10,8 +10,9 @@ mod priced;
 mod prices;
 mod random;
 mod replay;
+mod rollouts;
+mod shortlist;
 mod stoppable;
-mod try_out;
 
 pub use day_memory::DayMemory;
 pub use draw::draw;
@@ -23,5 +24,6 @@ pub use priced::Priced;
 pub use prices::DayPrices;
 pub use random::Random;
 pub use replay::Replay;
+pub use rollouts::{RolloutEvaluator, RolloutSettings, fleet_worth_usd, noise};
+pub use shortlist::Shortlist;
 pub use stoppable::Stoppable;
-pub use try_out::{Shortlist, Trial, TryOut, fleet_worth_usd, noise};

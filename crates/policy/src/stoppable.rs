@@ -1,8 +1,6 @@
 //! A policy that answers until somebody wants no more answers: how a day that is being played is stopped.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use vertifleet_core::VertiportIx;
+use vertifleet_core::{Stop, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 use crate::{Policy, PolicyError};
@@ -12,13 +10,13 @@ pub struct Stoppable<'a, P: ?Sized> {
     /// Who answers.
     pub policy: &'a mut P,
     /// Raised, from any thread, to stop.
-    pub stop: &'a AtomicBool,
+    pub stop: &'a Stop,
 }
 
 impl<P: Policy + ?Sized> Policy for Stoppable<'_, P> {
     #[inline]
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
-        if self.stop.load(Ordering::Relaxed) {
+        if self.stop.is_requested() {
             return Err(PolicyError::Stopped);
         }
         self.policy.choose(decision, view)

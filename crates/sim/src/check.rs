@@ -1,6 +1,6 @@
 //! The schedule checker: an independent verdict on a complete schedule, every broken rule named.
 //!
-//! Written from the rules alone (design §2; paper §III, Eq. 2-17). It shares no code with the simulator, not even how
+//! Written from the rules alone (paper §III, Eq. 2-16). It shares no code with the simulator, not even how
 //! a duration is rounded, so that a mistake in one of the two shows as a disagreement. A schedule is judged row by row
 //! against what the rules make of the *stated* row before it, so that one mistake is one finding and not a hundred.
 //!

@@ -1,4 +1,4 @@
-//! The world in motion (design §2): events, stands, feasible decisions, the ledger, and the trace a day leaves.
+//! The world in motion: events, stands, feasible decisions, the ledger, and the trace a day leaves.
 //!
 //! Everything passes through two calls: [`Simulation::next_decision`] says which aircraft must decide now, and
 //! [`Simulation::apply`] carries its decision out or refuses it. [`View`] is what a policy may look at meanwhile.

@@ -1,4 +1,4 @@
-//! One day in motion: asks for decisions in their order and carries them out (design §2).
+//! One day in motion: asks for decisions in their order and carries them out.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The trace: every decision of a day, one CSV row each, in the order they were taken (design §3).
+//! The trace: every decision of a day, one CSV row each, in the order they were taken.
 //!
 //! A trace is a complete schedule: it can be replayed and judged without the program that made it. Numbers are written
 //! in the fewest digits that read back as the same `f64`, so that what is read sums up bit for bit.

@@ -47,6 +47,19 @@ fn in_round_numbers(day: &Arc<Scenario>) -> Arc<Scenario> {
     Arc::new(day.check("day in round numbers").expect("a day within the rules"))
 }
 
+/// The day with every distance so far from the end of its type's range, in millionths of a mile, and little more demand than that.
+fn at_the_end_of_the_range(day: &Arc<Scenario>, off: &[f64]) -> Arc<Scenario> {
+    let mut day = Scenario::clone(day).into_day();
+    let kind = &day.aircraft_types[0];
+    let range_mi = kind.battery_kwh / kind.energy_kwh_per_mi;
+    for (cell, off) in day.distance_mi.cells_mut().iter_mut().zip(off.iter().cycle()) {
+        if *cell > 0.0 {
+            *cell = range_mi + off * 1e-6;
+        }
+    }
+    Arc::new(day.check("day at the end of the range").expect("a day within the rules"))
+}
+
 /// One thing done to one row of a schedule.
 #[derive(Debug, Clone, Copy)]
 enum Edit {
@@ -146,6 +159,18 @@ proptest! {
     fn round_numbers_put_nobody_in_doubt(day in small_day(), draws in draws()) {
         let (_, trace) = play(&in_round_numbers(&day), &draws);
         let report = check(&in_round_numbers(&day), &trace);
+        prop_assert!(report.is_valid(), "{report}");
+    }
+
+    #[test]
+    fn both_agree_on_what_is_within_range(
+        day in small_day(),
+        draws in draws(),
+        off in prop::collection::vec(-1.0_f64..1.0, 1..12),
+    ) {
+        let day = at_the_end_of_the_range(&day, &off);
+        let (_, trace) = play(&day, &draws);
+        let report = check(&day, &trace);
         prop_assert!(report.is_valid(), "{report}");
     }
 

@@ -24,7 +24,7 @@ fn refused(csv: impl AsRef<[u8]>) -> String {
 }
 
 #[test]
-fn a_trace_reads_as_design_says() {
+fn a_trace_reads_as_the_files_page_says() {
     insta::assert_snapshot!(schedule().to_csv(&scenario()), @r#"
     time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready
     06:00:00,A1,V1,V3,4,200,104,45,9,06:50:00,07:35:00

@@ -1,4 +1,4 @@
-//! What holds on every day under any decisions (design §2).
+//! What holds on every day under any decisions.
 
 mod common;
 

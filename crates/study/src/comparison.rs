@@ -1,10 +1,9 @@
 //! A comparison from what is asked for to its records: who takes part, on which days, measured against what.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
-use vertifleet_core::{DaySeed, Network, Scenario};
+use vertifleet_core::{DaySeed, Network, Scenario, Stop};
 use vertifleet_optimize::Step;
 
 use crate::entrants::{Asked, Entrant, contenders};
@@ -47,7 +46,7 @@ impl Comparison {
         asked: &Asked<'_>,
         (first_seed, days): (u64, u32),
         step: Option<Step>,
-        stopped: &AtomicBool,
+        stopped: &Stop,
     ) -> Result<Self, Error> {
         let entrants = entrants(asked, days as usize)?;
         let scenarios = draw(network, first_seed, days, stopped)?;
@@ -103,12 +102,7 @@ impl Comparison {
     /// # Errors
     /// [`Error::Stopped`] soon after `stopped` is raised; else if a day is too large for its bound, or a policy cannot play
     /// one to its end.
-    pub fn run(
-        self,
-        command: String,
-        stopped: &AtomicBool,
-        watch: &impl Watch,
-    ) -> Result<Study, Error> {
+    pub fn run(self, command: String, stopped: &Stop, watch: &impl Watch) -> Result<Study, Error> {
         let Self { network, origin, entrants, scenarios, first_seed, days_from, step } = self;
         let number = scenarios.len();
         let days = match step {
@@ -152,7 +146,7 @@ fn entrants(asked: &Asked<'_>, days: usize) -> Result<Vec<Entrant>, Error> {
 pub fn play(
     days: &[Day],
     entrants: &[Entrant],
-    stopped: &AtomicBool,
+    stopped: &Stop,
     watch: &impl Watch,
 ) -> Result<Vec<PolicyRecord>, Error> {
     let mut begun = 0;
@@ -166,13 +160,13 @@ fn draw(
     network: &Network,
     first: u64,
     days: u32,
-    stopped: &AtomicBool,
+    stopped: &Stop,
 ) -> Result<Vec<Arc<Scenario>>, Error> {
     let seed = |day: u32| DaySeed::comparison(first.saturating_add(u64::from(day)));
     // The last seed first, so that nothing is drawn where not everything can be.
     seed(days.saturating_sub(1))?;
     let draw = |day: u32| {
-        if stopped.load(Ordering::Relaxed) {
+        if stopped.is_requested() {
             return Err(Error::Stopped);
         }
         Ok(Arc::new(network.draw(seed(day)?)))

@@ -1,7 +1,5 @@
 //! Who enters a comparison: policies by their names, and the planner as a reference that knows the days.
 
-use std::sync::atomic::Ordering;
-
 use vertifleet_core::Scenario;
 use vertifleet_optimize::{Budget, Settings, can_plan, plan, steps_of_equal_work};
 
@@ -142,7 +140,7 @@ fn planned(seed: u64) -> Way<'static> {
         let budget = Budget::Steps(steps_of_equal_work(day, PLAN_STEPS));
         let settings = Settings { budget, searches: 1, seed };
         let mut learned = policies::shipped_for(day);
-        let plan = plan(day, &settings, &mut learned, &mut |_| !stop.load(Ordering::Relaxed));
+        let plan = plan(day, &settings, &mut learned, &mut |_| !stop.is_requested());
         plan.expect("the days were found to be fit for it").trace
     }))
 }

@@ -63,9 +63,8 @@ fn slower(one: Option<LatencySummary>, other: Option<LatencySummary>) -> Option<
 
 #[cfg(test)]
 mod tests {
-    use std::sync::atomic::AtomicBool;
 
-    use vertifleet_core::Network;
+    use vertifleet_core::{Network, Stop};
 
     use crate::comparison::{Comparison, Watch};
     use crate::entrants::Asked;
@@ -89,7 +88,7 @@ mod tests {
         let network = Network::shipped("paper").expect("a shipped network");
         let policies: Vec<String> = policies.iter().map(|&name| name.to_owned()).collect();
         let asked = Asked { policies: &policies, models: &[], seed: 0, network: "paper" };
-        let never = AtomicBool::new(false);
+        let never = Stop::default();
         let comparison =
             Comparison::new(&network, &asked, (seed, days), None, &never).expect("days");
         comparison.run(String::new(), &never, &Nobody).expect("played days")

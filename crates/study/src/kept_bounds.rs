@@ -4,10 +4,9 @@
 use std::env;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
-use vertifleet_core::Scenario;
+use vertifleet_core::{Scenario, Stop};
 use vertifleet_optimize::{Step, cached_upper_bound, upper_bound_unless};
 
 use crate::error::Error;
@@ -37,12 +36,12 @@ impl KeptBounds {
         &self,
         scenarios: Vec<Arc<Scenario>>,
         step: Step,
-        stopped: &AtomicBool,
+        stopped: &Stop,
         bounded: &(impl Fn() + Sync),
     ) -> Result<Vec<Day>, Error> {
         let bound = |scenario: Arc<Scenario>| {
             // A bound that is kept is not stopped, but there may be many of them.
-            if stopped.load(Ordering::Relaxed) {
+            if stopped.is_requested() {
                 return Err(Error::Stopped);
             }
             let upper_bound_usd =
@@ -58,7 +57,7 @@ impl KeptBounds {
         &self,
         scenario: &Scenario,
         step: Step,
-        stopped: &AtomicBool,
+        stopped: &Stop,
     ) -> Result<Option<f64>, Error> {
         let kept = |folder| cached_upper_bound(stopped, scenario, step, folder);
         let bound = match self.folder.as_deref().map(kept) {

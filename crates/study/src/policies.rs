@@ -6,10 +6,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{Scenario, nearest};
 use vertifleet_learn::nn::Architecture;
-use vertifleet_learn::relative::{AnyModel, GcapsX, Round};
-use vertifleet_learn::{
-    CurveRow, Learned, Model, Trained, TrainedAny, Weights, read_curves, shipped, shipped_any,
-};
+use vertifleet_learn::{Curve, GcapsX, Model, Shipped, shipped};
 use vertifleet_optimize::Rolling;
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, Replay};
 use vertifleet_sim::Trace;
@@ -27,7 +24,7 @@ pub enum Given {
     /// In a weight file, with the learning curves that may lie beside it.
     File(PathBuf),
     /// Read already.
-    Weights(Weights),
+    Model(Arc<Model>),
     /// No weights, but whoever decides: a policy of the caller's own.
     Policy(Maker),
 }
@@ -70,23 +67,16 @@ pub enum Recipe {
     Own(Maker),
     /// [`Replay`] of a trace.
     Replay(Arc<Trace>),
-    /// [`Learned`].
+    /// A policy that has learned.
     Learned {
         /// Its weights.
         model: Arc<Model>,
+        /// How many choices `gcaps-x` rolls out; 1 decides at once, as the others do.
+        most_rolled_out: usize,
         /// Of the run that these weights are of, then of runs with other seeds.
-        curves: Vec<Vec<CurveRow>>,
+        curves: Vec<Curve>,
         /// Whether the program ships them.
         shipped: bool,
-    },
-    /// [`GcapsX`].
-    AnySize {
-        /// Its weights.
-        model: Arc<AnyModel>,
-        /// How many choices are tried out; 1 decides at once.
-        tried: usize,
-        /// As above.
-        curves: Vec<Vec<Round>>,
     },
 }
 
@@ -101,11 +91,7 @@ impl Recipe {
             Self::Rolling => Box::new(Rolling::default()),
             Self::Own(Maker(make)) => make(),
             Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
-            Self::Learned { model, .. } => Box::new(Learned::new(Arc::clone(model))),
-            Self::AnySize { model, tried: 1, .. } => Box::new(GcapsX::new(Arc::clone(model))),
-            Self::AnySize { model, tried, .. } => {
-                Box::new(GcapsX::with_rollouts(Arc::clone(model), *tried))
-            }
+            Self::Learned { model, most_rolled_out, .. } => model.policy(*most_rolled_out),
         }
     }
 
@@ -119,21 +105,18 @@ impl Recipe {
             Self::Rolling => "tries out what is worth most at the day's prices".to_owned(),
             Self::Own(_) => "decides in a way of its own".to_owned(),
             Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
-            Self::Learned { model, .. } => {
+            Self::Learned { model, most_rolled_out, .. } => {
                 let header = model.header();
-                format!(
-                    "learned on {} from {} decisions",
-                    header.network,
-                    grouped(header.steps as f64, 0)
-                )
-            }
-            Self::AnySize { model, tried, .. } => {
-                let decisions = grouped(model.header().decisions as f64, 0);
-                let tries = match tried {
-                    1 => String::new(),
-                    tried => format!("; tries its {tried} best choices out"),
-                };
-                format!("learned what prices miss from {decisions} decisions{tries}")
+                let decisions = grouped(header.steps as f64, 0);
+                match (header.shape.vertiports, most_rolled_out) {
+                    (Some(_), _) => {
+                        format!("learned on {} from {decisions} decisions", header.network)
+                    }
+                    (None, 1) => format!("learned what prices miss from {decisions} decisions"),
+                    (None, most) => format!(
+                        "learned what prices miss from {decisions} decisions; rolls its {most} best choices out"
+                    ),
+                }
             }
         }
     }
@@ -152,62 +135,46 @@ impl Recipe {
 
     /// The policy of given weights. Where `name` is that of a kind of policy, the weights must be of that kind.
     fn of(name: &str, given: &Given) -> Result<Self, Error> {
-        let (weights, origin) = match given {
-            Given::File(path) => (Weights::read(path)?, path.display().to_string()),
-            Given::Weights(weights) => (weights.clone(), "the model".to_owned()),
+        let (model, origin) = match given {
+            Given::File(path) => (Arc::new(Model::read(path)?), path.display().to_string()),
+            Given::Model(model) => (Arc::clone(model), "the model".to_owned()),
             Given::Policy(maker) => return Ok(Self::Own(maker.clone())),
         };
-        let (kind, asked) = (weights.kind(), kind_of(name));
+        let (kind, asked) = (model.kind(), kind_of(name));
         if Architecture::named(asked).is_some() && asked != kind {
             return Err(Error::Asked {
                 rule: format!("{origin} has weights of {kind:?}, but {asked:?} is asked for"),
                 hint: "name the policy as its weights do",
             });
         }
-        Ok(match weights {
-            Weights::OfOneSize(model) => {
-                Self::Learned { model: Arc::new(*model), curves: Vec::new(), shipped: false }
-            }
-            Weights::OfAnySize(model) => Self::AnySize {
-                model: Arc::new(*model),
-                tried: tried_by(name)?.unwrap_or(1),
-                curves: Vec::new(),
-            },
-        })
+        let most_rolled_out = rolled_out_by(name)?.unwrap_or(1);
+        Ok(Self::Learned { model, most_rolled_out, curves: Vec::new(), shipped: false })
     }
 
     /// The policy of given weights, with the learning curve that `train` left beside a file, and those of runs with other seeds
     /// that were put there.
     pub(crate) fn with_curves(name: &str, given: &Given) -> Result<Self, Error> {
         let mut recipe = Self::of(name, given)?;
-        if let Given::File(path) = given {
-            match &mut recipe {
-                Self::Learned { curves, .. } => *curves = read_curves(path)?,
-                Self::AnySize { curves, .. } => *curves = read_curves(path)?,
-                _ => {}
-            }
+        if let (Given::File(path), Self::Learned { curves, .. }) = (given, &mut recipe) {
+            *curves = Curve::read_beside(path)?;
         }
         Ok(recipe)
     }
 
     /// The shipped policy of a network, or for all of them.
     pub(crate) fn shipped(name: &str, network: &str) -> Result<Self, Error> {
-        if let Some(tried) = tried_by(name)? {
-            let TrainedAny { model, curves } = shipped_any()?;
-            return Ok(Self::AnySize { model: Arc::new(model), tried, curves });
-        }
-        if Architecture::named(name).is_none() {
+        let most_rolled_out = rolled_out_by(name)?.unwrap_or(1);
+        if Architecture::named(kind_of(name)).is_none() {
             return Err(unknown(name));
         }
-        let Trained { model, curve } = shipped(network, name)?;
-        Ok(Self::Learned { model: Arc::new(model), curves: vec![curve], shipped: true })
+        let Shipped { model, curves } = shipped(kind_of(name), network)?;
+        Ok(Self::Learned { model: Arc::new(model), most_rolled_out, curves, shipped: true })
     }
 
     /// Name of the network whose days it was trained on, if it was.
     pub(crate) fn trained_on(&self) -> Option<&str> {
         match self {
             Self::Learned { model, .. } => Some(&model.header().network),
-            Self::AnySize { model, .. } => Some(&model.header().network),
             _ => None,
         }
     }
@@ -223,8 +190,12 @@ impl Recipe {
     /// V310: what to say where shipped weights decide on a network that only bears the name of theirs. Cause: the network
     /// was copied and changed, or the scenario was. Fix: train weights on it, or take it that these know the other one.
     pub fn warning(&self, name: &str, network: &str, origin: NetworkOrigin) -> Option<String> {
-        let for_another =
-            origin == NetworkOrigin::Changed && matches!(self, Self::Learned { shipped: true, .. });
+        let for_another = match self {
+            Self::Learned { shipped: true, model, .. } => {
+                origin == NetworkOrigin::Changed && model.header().shape.vertiports.is_some()
+            }
+            _ => false,
+        };
         for_another.then(|| {
             format!(
                 "policy {name:?} was trained on network {network:?} as it is shipped, but this is a changed copy of it; `vertifleet train` makes weights for the copy"
@@ -236,8 +207,7 @@ impl Recipe {
     pub(crate) fn curve(&self) -> Vec<(u64, f64)> {
         match self {
             Self::Learned { curves, .. } => {
-                let rows = curves.iter().take(1).flatten();
-                rows.filter_map(|row| Some((row.steps, row.mean_reward?))).collect()
+                curves.first().map(Curve::training_rewards).unwrap_or_default()
             }
             _ => Vec::new(),
         }
@@ -247,14 +217,9 @@ impl Recipe {
     /// while it was.
     pub(crate) fn validation_runs(&self) -> Vec<Vec<(u64, f64)>> {
         let mut runs: Vec<Vec<(u64, f64)>> = match self {
-            Self::Learned { curves, .. } => {
-                let looked = |row: &CurveRow| Some((row.steps, row.validation_reward?));
-                curves.iter().map(|rows| rows.iter().filter_map(looked).collect()).collect()
-            }
             // With roll-outs it decides in another way than in its training.
-            Self::AnySize { curves, tried: 1, .. } => {
-                let point = |round: &Round| (round.decisions, round.validation_reward);
-                curves.iter().map(|rounds| rounds.iter().map(point).collect()).collect()
+            Self::Learned { curves, most_rolled_out: 1, .. } => {
+                curves.iter().map(Curve::validation_rewards).collect()
             }
             _ => Vec::new(),
         };
@@ -288,17 +253,17 @@ pub(crate) fn kind_of(name: &str) -> &str {
     name.strip_prefix(ANY_SIZE).filter(|rest| rest.starts_with(':')).map_or(name, |_| ANY_SIZE)
 }
 
-/// How many choices a name of `gcaps-x` asks to be tried out, 1 for none; nothing for other names.
-fn tried_by(name: &str) -> Result<Option<usize>, Error> {
+/// How many choices a name of `gcaps-x` asks to be rolled out, 1 for none; nothing for other names.
+fn rolled_out_by(name: &str) -> Result<Option<usize>, Error> {
     match name.strip_prefix(ANY_SIZE) {
         Some("") => Ok(Some(1)),
         Some(rest) if rest.starts_with(':') => {
             let most = rest.strip_prefix(":rollouts=").and_then(|most| most.parse().ok());
             match most {
-                Some(most @ 2..=GcapsX::MOST_TRIED) => Ok(Some(most)),
+                Some(most @ 2..=GcapsX::MOST_ROLLED_OUT) => Ok(Some(most)),
                 _ => Err(Error::Asked {
                     rule: format!("policy {name:?} is not understood"),
-                    hint: "gcaps-x:rollouts=3 tries the 3 best choices out; from 2 to 5 can be",
+                    hint: "gcaps-x:rollouts=3 rolls the 3 best choices out; from 2 to 5 can be",
                 }),
             }
         }

@@ -1,4 +1,4 @@
-//! The figures that §V.B of the paper publishes, and why they stand beside ours without being a target (design §6).
+//! The figures that §V.B of the paper publishes, and why they stand beside ours without being a target.
 
 use serde::Serialize;
 

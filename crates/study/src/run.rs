@@ -4,11 +4,10 @@
 //! Only the times per decision are measurements of this machine, taken while its other threads play too.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
-use vertifleet_core::{Scenario, VertiportIx};
+use vertifleet_core::{Scenario, Stop, VertiportIx};
 use vertifleet_policy::{Policy, PolicyError, Replay, Stoppable, play};
 use vertifleet_sim::{Decision, Simulation, Trace, View};
 
@@ -49,7 +48,7 @@ pub enum Way<'a> {
 }
 
 /// The whole schedule of a day that is known; some schedule soon once the flag is raised.
-pub type Planner<'a> = Box<dyn Fn(&Arc<Scenario>, &AtomicBool) -> Trace + Sync + 'a>;
+pub type Planner<'a> = Box<dyn Fn(&Arc<Scenario>, &Stop) -> Trace + Sync + 'a>;
 
 /// Those who take part, no two of the same name: everything after this tells them apart by it.
 pub struct Contenders<'a>(Vec<Contender<'a>>);
@@ -77,7 +76,7 @@ impl<'a> Contenders<'a> {
 pub fn run<Played: Fn() + Sync>(
     days: &[Day],
     contenders: &Contenders<'_>,
-    stop: &AtomicBool,
+    stop: &Stop,
     mut begin: impl FnMut(&str) -> Played,
 ) -> Result<Vec<PolicyRecord>, Error> {
     let mut play = |(position, contender): (usize, &Contender<'_>)| {
@@ -89,7 +88,7 @@ pub fn run<Played: Fn() + Sync>(
 fn play_days(
     position: usize,
     contender: &Contender<'_>,
-    (days, stop): (&[Day], &AtomicBool),
+    (days, stop): (&[Day], &Stop),
     played: &(impl Fn() + Sync),
 ) -> Result<PolicyRecord, Error> {
     let (records, decision_ns) = match &contender.way {
@@ -113,7 +112,7 @@ fn play_days(
                 .par_iter()
                 .map(|day| {
                     let mut planned = Replay::new(Arc::new(plan(&day.scenario, stop)));
-                    if stop.load(Ordering::Relaxed) {
+                    if stop.is_requested() {
                         return Err(Error::Stopped);
                     }
                     let record = play_day(position, contender, &mut planned, day)?;
@@ -197,9 +196,8 @@ fn latency(mut nanoseconds: Vec<u64>) -> LatencySummary {
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
-    use std::sync::atomic::AtomicBool;
 
-    use vertifleet_core::{DaySeed, Network};
+    use vertifleet_core::{DaySeed, Network, Stop};
     use vertifleet_policy::{Greedy, Random, play};
     use vertifleet_sim::{Simulation, Trace};
 
@@ -250,7 +248,7 @@ mod tests {
             |seed| Day { scenario: Arc::new(network.draw(seed)), upper_bound_usd: Some(50_000.0) };
         let days: Vec<Day> = seeds.map(day).collect();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| run(&days, &contenders(), &AtomicBool::new(false), |_| || ()))
+        pool.install(|| run(&days, &contenders(), &Stop::default(), |_| || ()))
             .expect("every day is played")
     }
 
@@ -267,8 +265,10 @@ mod tests {
         let network = Network::shipped("paper").expect("a shipped network");
         let day = network.draw(DaySeed::comparison(1).expect("a seed for comparison"));
         let days = [Day::unbounded(Arc::new(day))];
-        let error = run(&days, &contenders(), &AtomicBool::new(true), |_| || ())
-            .expect_err("nothing was to be played");
+        let stop = Stop::default();
+        stop.request();
+        let error =
+            run(&days, &contenders(), &stop, |_| || ()).expect_err("nothing was to be played");
         assert_eq!(error.code().to_string(), "V408");
     }
 

@@ -62,10 +62,13 @@ class Twin(nn.Module, ABC):
         return {"kind": self.kind} | self.sizes
 
     @property
-    def shape(self) -> dict[str, int]:
+    def shape(self) -> dict[str, int | None]:
         """The sizes of the features, as a weight file's header has them."""
-        shape = {"node_features": self.node_features, "aircraft_features": self.aircraft_features}
-        return shape if self.vertiports is None else {"vertiports": self.vertiports} | shape
+        return {
+            "vertiports": self.vertiports,
+            "node_features": self.node_features,
+            "aircraft_features": self.aircraft_features,
+        }
 
     def by_node(self, nodes: Tensor) -> Tensor:
         """Node features as [B, N, F], whether they come flat or not.

@@ -25,10 +25,7 @@ if TYPE_CHECKING:
 
     from vertifleet.torch.twin import Twin
 
-FORMAT = "vertifleet-weights/1"
-"""Of policies that fit one number of vertiports."""
-FORMAT_ANY = "vertifleet-weights-any/1"
-"""Of gcaps-x, which fits any."""
+FORMAT = "vertifleet-weights/2"
 
 
 def load(source: str | os.PathLike[str] | bytes) -> Twin:
@@ -62,15 +59,14 @@ def save(
     """Writes a weight file, whole or not at all.
 
     What is not given stays as in the file that the weights were loaded from. Weights from no file need the
-    network and the steps; of settings and seed, the new file says that they are not known. A ``gcaps-x`` from
-    no file needs all.
+    network and the steps; of settings and seed, the new file says that they are not known.
 
     Args:
         twin: the network.
         path: the file.
         network: what the weights were trained on: the network, its name or its path.
         settings: the settings of the training run, with the members of ``vertifleet.settings("paper")``; of a
-            ``gcaps-x``, with those of ``course`` in its header.
+            ``gcaps-x``, with those in the header of its shipped weights.
         seed: seed of the training run.
         steps: decisions learned from.
 
@@ -124,23 +120,23 @@ def _said(
     steps: int | None,
 ) -> dict[str, Any]:
     """The members of a header that the arguments of `save` say anew; None where they are silent."""
-    fits_any = twin.vertiports is None
-    course = None if settings is None else dict(settings) if fits_any else _all_settings(settings)
     said: dict[str, Any] = {
         "network": None if network is None else network.name,
-        "course" if fits_any else "settings": course,
+        "settings": None if settings is None else _all_settings(twin, settings),
         "seed": None if seed is None else whole("seed", seed, MOST_SEED),
-        "decisions" if fits_any else "steps": None if steps is None else whole("steps", steps, MOST_STEPS),
+        "steps": None if steps is None else whole("steps", steps, MOST_STEPS),
     }
     if any(value is not None for value in said.values()):
         said["commit"] = f"python {version('vertifleet')}"
-    if network is not None and not fits_any:
+    if network is not None:
         said["feature_scales"] = _scales(twin, network)
     return said
 
 
-def _all_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Checked settings, none of them made up."""
+def _all_settings(twin: Twin, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Checked settings, none of them made up; those of imitation are checked when they are written."""
+    if twin.kind == "gcaps-x":
+        return dict(settings)
     checked = checked_settings(settings)
     missing = [name for name in checked if name not in settings]
     if missing:
@@ -150,8 +146,10 @@ def _all_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
     return checked
 
 
-def _scales(twin: Twin, network: Network) -> dict[str, float]:
-    """The scales of the network's features, if the weights fit it."""
+def _scales(twin: Twin, network: Network) -> dict[str, float] | None:
+    """The scales of the network's features, if the weights fit it; None where features need no scales."""
+    if twin.vertiports is None:
+        return None
     if len(network.vertiports) != twin.vertiports:
         found = len(network.vertiports)
         rule = f"the weights are for {twin.vertiports} vertiports, but network {network.name!r} has {found}"
@@ -161,9 +159,8 @@ def _scales(twin: Twin, network: Network) -> dict[str, float]:
 
 def _new_header(twin: Twin, said: dict[str, Any]) -> dict[str, Any]:
     """The header of weights that come from no file."""
-    fits_any = twin.vertiports is None
-    needed = ["network", "course", "seed", "decisions"] if fits_any else ["network", "steps"]
-    if any(said[member] is None for member in needed):
-        names = "network, settings, seed and steps" if fits_any else "network and steps"
-        raise Error("V451", f"weights of {twin.kind} that come from no file are saved with {names}")
-    return {"format": FORMAT_ANY if fits_any else FORMAT, "policy": twin.policy, "shape": twin.shape} | said
+    if said["network"] is None or said["steps"] is None:
+        raise Error(
+            "V451", f"weights of {twin.kind} that come from no file are saved with network and steps"
+        )
+    return {"format": FORMAT, "policy": twin.policy, "shape": twin.shape} | said

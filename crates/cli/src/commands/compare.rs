@@ -1,10 +1,9 @@
 //! `vertifleet compare`: many days, many policies, one table and one report.
 
 use std::process::ExitCode;
-use std::sync::atomic::AtomicBool;
 
 use anstream::eprintln;
-use vertifleet_core::{Code, Network, Outputs};
+use vertifleet_core::{Code, Network, Outputs, Stop};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::comparison::Comparison;
@@ -24,7 +23,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
     let mut outputs = Outputs::new(arguments.force);
     // Ctrl-C ends the program itself.
-    let never = AtomicBool::new(false);
+    let never = Stop::default();
     let comparison = comparison(arguments, &mut outputs, &never)?;
     reads_models(arguments.models.iter().map(|(_, model)| model), &mut outputs);
     if let Some(folder) = &arguments.report {
@@ -54,7 +53,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
 fn comparison(
     arguments: &CompareArguments,
     outputs: &mut Outputs,
-    stopped: &AtomicBool,
+    stopped: &Stop,
 ) -> Result<Comparison, Failure> {
     let step = arguments.bound.then(|| Step::from_minutes(arguments.step)).transpose()?;
     let (policies, models) = (&arguments.policies, &arguments.models);

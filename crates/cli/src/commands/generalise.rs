@@ -2,10 +2,9 @@
 
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use anstream::eprintln;
-use vertifleet_core::{DaySeed, Network, Outputs, Purpose, Scenario, random_network};
+use vertifleet_core::{DaySeed, Network, Outputs, Purpose, Scenario, Stop, random_network};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::comparison::{Watch as _, play};
@@ -53,7 +52,7 @@ pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> 
     };
     let networks = numbers().zip(&scenarios).map(record).collect();
     // Ctrl-C ends the program itself.
-    let never = AtomicBool::new(false);
+    let never = Stop::default();
     let bar = Bars.bounds(scenarios.len());
     let days = KeptBounds::of_this_user().days(scenarios, step, &never, &bar)?;
     let policies = play(&days, &entrants, &never, &Bars)?;

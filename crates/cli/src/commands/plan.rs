@@ -2,12 +2,11 @@
 
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use serde::Serialize;
 use serde_json::{Map, Value};
-use vertifleet_core::{Outputs, Scenario};
+use vertifleet_core::{Outputs, Scenario, Stop};
 use vertifleet_optimize::{Bound, Budget, Error, Plan, Proof, Settings, plan};
 use vertifleet_progress::SearchBar;
 use vertifleet_sim::Trace;
@@ -46,7 +45,7 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
 fn search(
     arguments: &PlanArguments,
     scenario: &Arc<Scenario>,
-    stop: &AtomicBool,
+    stop: &Stop,
     proof: &Proof,
 ) -> Result<Plan, Error> {
     let settings = Settings {
@@ -64,7 +63,7 @@ fn search(
             let gap = bound.gap(now.profit_usd);
             bound.is_reached_by(now.profit_usd) || arguments.gap.is_some_and(|asked| gap <= asked)
         });
-        !good_enough && !stop.load(Ordering::Relaxed)
+        !good_enough && !stop.is_requested()
     })
 }
 

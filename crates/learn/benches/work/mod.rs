@@ -4,7 +4,9 @@
 use rayon::prelude::{
     IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator, ParallelSliceMut,
 };
-use vertifleet_learn::nn::{Architecture, Gradient, Inputs, Network, Prepared, Shape, Workspace};
+use vertifleet_learn::nn::{
+    Architecture, Gradient, Inputs, Network, Shape, Slopes, Weights, Workspace,
+};
 
 /// Gradients that are filled side by side.
 const LANES: usize = 8;
@@ -75,18 +77,19 @@ impl Decisions {
         }
     }
 
-    fn slopes(&self, first: usize, batch: usize) -> (&[f32], &[f32]) {
+    fn slopes(&self, first: usize, batch: usize) -> Slopes<'_> {
         let vertiports = self.shape.vertiports;
-        let of_logits = &self.logit_slopes[first * vertiports..][..batch * vertiports];
-        (of_logits, &self.value_slopes[first..][..batch])
+        Slopes {
+            logits: &self.logit_slopes[first * vertiports..][..batch * vertiports],
+            values: &self.value_slopes[first..][..batch],
+        }
     }
 }
 
 /// A learner: weights, Adam's moments, and lanes to work in.
 pub(crate) struct Learner {
     network: Network,
-    params: Vec<f32>,
-    prepared: Prepared,
+    weights: Weights,
     moments: Vec<[f32; 2]>,
     lanes: Vec<(Workspace, Gradient)>,
     chunk: usize,
@@ -94,38 +97,34 @@ pub(crate) struct Learner {
 
 impl Learner {
     pub(crate) fn new(network: Network, chunk: usize) -> Self {
-        let params = network.init(1);
-        let mut prepared = network.prepared();
-        network.prepare(&params, &mut prepared);
+        let weights = network.weights(network.init(1));
         Self {
-            moments: vec![[0.0; 2]; params.len()],
+            moments: vec![[0.0; 2]; weights.params().len()],
             lanes: (0..LANES).map(|_| (network.workspace(chunk), network.gradient())).collect(),
             network,
-            params,
-            prepared,
+            weights,
             chunk,
         }
     }
 
     /// One gradient step: chunks forward and backward on all of rayon's threads, gradients added up, Adam.
     pub(crate) fn step(&mut self, decisions: &Decisions) {
-        let Self { network, params, prepared, moments, lanes, chunk } = self;
+        let Self { network, weights, moments, lanes, chunk } = self;
         let chunk = *chunk;
         let used = decisions.len().div_ceil(chunk).min(LANES);
         lanes[..used].par_iter_mut().enumerate().for_each(|(lane, (workspace, gradient))| {
             gradient.clear();
             for first in (lane * chunk..decisions.len()).step_by(LANES * chunk) {
                 let inputs = decisions.inputs(first, chunk);
-                network.forward(params, prepared, inputs, workspace);
+                network.forward(weights, inputs, workspace);
                 let slopes = decisions.slopes(first, inputs.batch);
-                network.backward((params, prepared), inputs, slopes, workspace, gradient);
+                network.backward(weights, inputs, slopes, workspace, gradient);
             }
         });
         let (total, rest) = lanes[..used].split_first_mut().expect("at least one lane");
         add_up(total.1.sums_mut(), rest);
-        let gradient = network.finish(params, prepared, &mut total.1);
-        adam(params, gradient, moments);
-        network.prepare(params, prepared);
+        let gradient = network.finish(weights, &mut total.1);
+        network.update(weights, |params| adam(params, gradient, moments));
     }
 }
 

@@ -13,11 +13,11 @@ use products::Products;
 use reads::Reads;
 
 use crate::nn::architecture::{GcapsSettings, Shape, check_size};
+use crate::nn::batch::{Inputs, Outputs, Slopes};
 use crate::nn::init::{self, Init};
 use crate::nn::layer_norm::LayerNorm;
 use crate::nn::layout::{Layout, Slot, Tensors};
 use crate::nn::linear::Linear;
-use crate::nn::network::{Inputs, Outputs};
 use crate::nn::value_head::ValueHead;
 
 /// Where the weights lie that products are taken of. But for the first and the last, nothing else is done with them.
@@ -152,7 +152,7 @@ impl Gcaps {
         &self,
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
-        slopes: (&[f32], &[f32]),
+        slopes: Slopes<'_>,
         space: &mut GcapsSpace,
         gradient: &mut [f32],
     ) {

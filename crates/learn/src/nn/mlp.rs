@@ -1,10 +1,10 @@
 //! The paper's baseline (§V.B): plain layers on the flattened features, the same mask and value head.
 
 use crate::nn::architecture::{MlpSettings, Shape, check_size};
+use crate::nn::batch::{Inputs, Outputs, Slopes};
 use crate::nn::init::{BEFORE_RELU, LOGITS};
 use crate::nn::layout::{Layout, Tensors};
 use crate::nn::linear::{Linear, add_rows, add_weight_slopes, repeat};
-use crate::nn::network::{Inputs, Outputs};
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 use crate::nn::relu;
 use crate::nn::value_head::ValueHead;
@@ -115,7 +115,7 @@ impl Mlp {
         &self,
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
-        (logit_slopes, value_slopes): (&[f32], &[f32]),
+        loss: Slopes<'_>,
         space: &mut MlpSpace,
         gradient: &mut [f32],
     ) {
@@ -125,7 +125,7 @@ impl Mlp {
         let kept = (inputs.clock, &space.hidden[..batch * value_width]);
         let last = space.outputs.last().expect("at least one layer");
         let last = &last[..batch * width];
-        self.head.backward(tensors, kept, value_slopes, hidden_slopes, gradient);
+        self.head.backward(tensors, kept, loss.values, hidden_slopes, gradient);
         add_rows(hidden_slopes, self.head.hidden_bias.part_mut(gradient));
         add_weight_slopes(self.head.features(), last, hidden_slopes, gradient);
         let slopes = &mut space.slopes[..batch * width];
@@ -134,7 +134,7 @@ impl Mlp {
         multiply(MatrixMut::new(slopes, batch, width), Write::Set, hidden_slopes, features);
 
         let masked = &mut space.logit_slopes[..batch * self.shape.vertiports];
-        for ((masked, slope), &open) in masked.iter_mut().zip(logit_slopes).zip(inputs.mask) {
+        for ((masked, slope), &open) in masked.iter_mut().zip(loss.logits).zip(inputs.mask) {
             *masked = if open == 0 { 0.0 } else { *slope };
         }
         self.logits.backward(last, masked, gradient);

@@ -1,6 +1,7 @@
 //! A network of either kind behind one interface: forward, backward, and the weights between.
 
 use crate::nn::architecture::{Architecture, Shape, check_size};
+use crate::nn::batch::{Inputs, Outputs, Slopes};
 use crate::nn::gcaps::{Gcaps, GcapsSpace};
 use crate::nn::init;
 use crate::nn::layout::{Layout, Tensors};
@@ -25,24 +26,10 @@ enum Body {
     Mlp(Mlp),
 }
 
-/// A batch of observations, rows side by side. F are a node's features, G the aircraft's.
-#[derive(Debug, Clone, Copy)]
-pub struct Inputs<'a> {
-    /// B, the number of decisions.
-    pub batch: usize,
-    /// Node features [B x N x F].
-    pub nodes: &'a [f32],
-    /// Aircraft features [B x G].
-    pub aircraft: &'a [f32],
-    /// [B x N]: 0 where the vertiport may not be chosen. At least one of each row may.
-    pub mask: &'a [u8],
-    /// Share of the day left [B]; the value head alone sees it.
-    pub clock: &'a [f32],
-}
-
-/// What is derived from the weights once per change of them.
+/// The weights of a network, with what the passes derive from them. Both change together, through [`Network::update`].
 #[derive(Debug, Clone)]
-pub struct Prepared {
+pub struct Weights {
+    params: Vec<f32>,
     products: Vec<f32>,
 }
 
@@ -60,12 +47,6 @@ pub struct Workspace {
 enum BodySpace {
     Gcaps(Box<GcapsSpace>),
     Mlp(MlpSpace),
-}
-
-#[derive(Debug)]
-pub(crate) struct Outputs {
-    pub(crate) logits: Vec<f32>,
-    pub(crate) values: Vec<f32>,
 }
 
 /// A gradient, summed over as many batches as one likes.
@@ -113,14 +94,32 @@ impl Network {
         &self.layout
     }
 
-    /// First weights, a function of the seed alone.
+    /// First parameters, a function of the seed alone.
     pub fn init(&self, seed: u64) -> Vec<f32> {
         init::draw(&self.layout, seed)
     }
 
-    /// Room for what [`prepare`](Self::prepare) derives.
-    pub fn prepared(&self) -> Prepared {
-        Prepared { products: vec![0.0; self.derived] }
+    /// The weights of these parameters, which are in the order of the layout.
+    ///
+    /// # Panics
+    /// If there are more or fewer parameters than the layout has.
+    pub fn weights(&self, params: Vec<f32>) -> Weights {
+        let mut weights = Weights { params, products: vec![0.0; self.derived] };
+        self.update(&mut weights, |_| ());
+        weights
+    }
+
+    /// Changes the parameters of weights, and what is derived from them.
+    ///
+    /// # Panics
+    /// If the weights are another network's.
+    pub fn update(&self, weights: &mut Weights, change: impl FnOnce(&mut [f32])) {
+        self.tensors(weights);
+        change(&mut weights.params);
+        match &self.body {
+            Body::Gcaps(body) => body.prepare(&weights.params, &mut weights.products),
+            Body::Mlp(_) => {}
+        }
     }
 
     /// Room for passes of up to `most` decisions.
@@ -143,31 +142,13 @@ impl Network {
         Gradient { slopes: vec![0.0; self.layout.len() + self.derived], folded: self.folded }
     }
 
-    /// Derives what the passes need of the weights. To be called after each change of them.
-    ///
-    /// # Panics
-    /// If `params` or `prepared` are another network's.
-    pub fn prepare(&self, params: &[f32], prepared: &mut Prepared) {
-        self.tensors(params, prepared);
-        match &self.body {
-            Body::Gcaps(body) => body.prepare(params, &mut prepared.products),
-            Body::Mlp(_) => {}
-        }
-    }
-
     /// Logits and values of a batch, left in the workspace.
     ///
     /// # Panics
     /// If the batch is larger than the workspace, or anything is of another network's shape.
-    pub fn forward(
-        &self,
-        params: &[f32],
-        prepared: &Prepared,
-        inputs: Inputs<'_>,
-        workspace: &mut Workspace,
-    ) {
+    pub fn forward(&self, weights: &Weights, inputs: Inputs<'_>, workspace: &mut Workspace) {
         self.check(inputs, workspace);
-        let tensors = self.tensors(params, prepared);
+        let tensors = self.tensors(weights);
         workspace.batch = inputs.batch;
         let outputs = &mut workspace.outputs;
         match (&self.body, &mut workspace.body) {
@@ -181,25 +162,23 @@ impl Network {
         }
     }
 
-    /// Adds the gradient of a loss whose slopes in logits [B x N] and values [B] are given, for the batch of the latest
-    /// [`forward`](Self::forward). Slopes at masked vertiports are ignored.
+    /// Adds the gradient of a loss with these slopes, for the batch of the latest [`forward`](Self::forward).
     ///
     /// # Panics
     /// If anything is of another network's shape, or the batch of another size than the latest.
     pub fn backward(
         &self,
-        (params, prepared): (&[f32], &Prepared),
+        weights: &Weights,
         inputs: Inputs<'_>,
-        (logit_slopes, value_slopes): (&[f32], &[f32]),
+        slopes: Slopes<'_>,
         workspace: &mut Workspace,
         gradient: &mut Gradient,
     ) {
         self.check(inputs, workspace);
-        let tensors = self.tensors(params, prepared);
+        let tensors = self.tensors(weights);
         assert_eq!(inputs.batch, workspace.batch, "the latest forward pass was of this batch");
-        assert_eq!(logit_slopes.len(), inputs.mask.len(), "a slope for every logit");
-        assert_eq!(value_slopes.len(), inputs.batch, "a slope for every value");
-        let slopes = (logit_slopes, value_slopes);
+        assert_eq!(slopes.logits.len(), inputs.mask.len(), "a slope for every logit");
+        assert_eq!(slopes.values.len(), inputs.batch, "a slope for every value");
         let gradient = &mut gradient.slopes;
         match (&self.body, &mut workspace.body) {
             (Body::Gcaps(body), BodySpace::Gcaps(space)) => {
@@ -217,24 +196,20 @@ impl Network {
     ///
     /// # Panics
     /// If anything is another network's.
-    pub fn finish<'a>(
-        &self,
-        params: &[f32],
-        prepared: &Prepared,
-        gradient: &'a mut Gradient,
-    ) -> &'a mut [f32] {
-        self.tensors(params, prepared);
+    pub fn finish<'a>(&self, weights: &Weights, gradient: &'a mut Gradient) -> &'a mut [f32] {
+        self.tensors(weights);
         match &self.body {
-            Body::Gcaps(body) => body.finish(params, &mut gradient.slopes),
+            Body::Gcaps(body) => body.finish(&weights.params, &mut gradient.slopes),
             Body::Mlp(_) => {}
         }
         &mut gradient.slopes[..self.layout.len()]
     }
 
-    fn tensors<'a>(&self, params: &'a [f32], prepared: &'a Prepared) -> Tensors<'a> {
+    fn tensors<'a>(&self, weights: &'a Weights) -> Tensors<'a> {
+        let Weights { params, products } = weights;
         assert_eq!(params.len(), self.layout.len(), "weights of this network");
-        assert_eq!(prepared.products.len(), self.derived, "products of this network");
-        Tensors { params, derived: &prepared.products }
+        assert_eq!(products.len(), self.derived, "products of this network");
+        Tensors { params, derived: products }
     }
 
     fn check(&self, inputs: Inputs<'_>, workspace: &Workspace) {
@@ -258,6 +233,13 @@ impl Network {
         );
         assert_eq!(inputs.mask.len(), batch * vertiports, "mask of the batch");
         assert_eq!(inputs.clock.len(), batch, "clocks of the batch");
+    }
+}
+
+impl Weights {
+    /// The parameters, in the order of the layout.
+    pub fn params(&self) -> &[f32] {
+        &self.params
     }
 }
 

@@ -4,12 +4,13 @@
 //! precision leaves about three digits, which is enough: an error in a derivative is seldom that small, and the stored
 //! PyTorch values hold the whole to five.
 
+use crate::nn::batch::{Inputs, Slopes};
 use crate::nn::gcaps::reads::Reads;
 use crate::nn::init::{Init, draw};
 use crate::nn::layer_norm::{LayerNorm, Normalised};
 use crate::nn::layout::{Layout, Tensors};
 use crate::nn::linear::Linear;
-use crate::nn::network::{Inputs, Network};
+use crate::nn::network::Network;
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 use crate::nn::value_head::ValueHead;
 use crate::nn::{Architecture, GcapsSettings, MlpSettings, Shape, relu};
@@ -253,20 +254,18 @@ fn check_network(architecture: Architecture, seed: u64) {
     let (of_logits, of_values) = (numbers(batch * 5, seed + 6), numbers(batch, seed + 7));
 
     let loss = |params: &[f32]| {
-        let (mut prepared, mut workspace) = (net.prepared(), net.workspace(batch));
-        net.prepare(params, &mut prepared);
-        net.forward(params, &prepared, inputs, &mut workspace);
+        let mut workspace = net.workspace(batch);
+        net.forward(&net.weights(params.to_vec()), inputs, &mut workspace);
         let open = |(logit, &open): (&f32, &u8)| if open == 0 { 0.0 } else { *logit };
         let logits: Vec<f32> = workspace.logits().iter().zip(&mask).map(open).collect();
         weighted(&logits, &of_logits) + weighted(workspace.values(), &of_values)
     };
-    let (mut prepared, mut workspace) = (net.prepared(), net.workspace(batch));
-    net.prepare(&params, &mut prepared);
-    net.forward(&params, &prepared, inputs, &mut workspace);
+    let (weights, mut workspace) = (net.weights(params.clone()), net.workspace(batch));
+    net.forward(&weights, inputs, &mut workspace);
     let mut gradient = net.gradient();
-    let slopes = (of_logits.as_slice(), of_values.as_slice());
-    net.backward((&params, &prepared), inputs, slopes, &mut workspace, &mut gradient);
-    let gradient = net.finish(&params, &prepared, &mut gradient);
+    let slopes = Slopes { logits: &of_logits, values: &of_values };
+    net.backward(&weights, inputs, slopes, &mut workspace, &mut gradient);
+    let gradient = net.finish(&weights, &mut gradient);
     for tensor in net.layout().tensors() {
         let span = tensor.offset..tensor.offset + tensor.len();
         check(

@@ -7,11 +7,10 @@
 use std::fmt::Write;
 use std::hash::Hasher;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 use siphasher::sip128::{Hasher128, SipHasher24};
-use vertifleet_core::{Scenario, create_folder, read_at_most, write_atomically};
+use vertifleet_core::{Scenario, Stop, create_folder, read_at_most, write_atomically};
 
 use super::certificate::Certificate;
 use super::descent::Found;
@@ -39,7 +38,7 @@ struct Kept {
 /// # Errors
 /// Those of [`upper_bound_unless`], and [`Error::Core`] if the folder or the file cannot be written.
 pub fn cached_upper_bound(
-    stopped: &AtomicBool,
+    stopped: &Stop,
     scenario: &Scenario,
     step: Step,
     folder: &Path,
@@ -58,7 +57,7 @@ pub fn cached_upper_bound(
 
 /// The bound of the prices in a file; `None` if there is no such file, or no prices for this day in it, or if `stopped` is
 /// raised meanwhile.
-fn kept(scenario: &Scenario, stopped: &AtomicBool, path: &Path) -> Result<Option<Bound>, Error> {
+fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound>, Error> {
     let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
     let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
     let Ok(step) = Step::from_minutes(kept.minutes) else { return Ok(None) };

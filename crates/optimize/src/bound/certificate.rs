@@ -7,12 +7,11 @@
 //! vertiports and whole seconds, found from the end of the day back to its start; flights and holds last exactly as long
 //! there as in the simulator.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use pulp::{Arch, Simd, WithSimd};
 
 use super::network::{Flight, Network};
 use super::prices::Prices;
+use vertifleet_core::Stop;
 
 /// Seconds that are worked out side by side: their worths so far stay in the fastest memory.
 const SIDE_BY_SIDE: usize = 256;
@@ -52,7 +51,7 @@ impl Certificate {
         &mut self,
         network: &Network,
         prices: &Prices,
-        stopped: &AtomicBool,
+        stopped: &Stop,
     ) -> Option<i128> {
         self.pay(network, prices);
         let layers = self.worth_less_paid.chunks_exact_mut(self.stride * network.size());
@@ -110,7 +109,7 @@ struct LayerPass<'a> {
     layer: usize,
     stride: usize,
     worths: &'a mut [i64],
-    stopped: &'a AtomicBool,
+    stopped: &'a Stop,
 }
 
 impl WithSimd for LayerPass<'_> {
@@ -132,7 +131,7 @@ impl WithSimd for LayerPass<'_> {
         for slice in (0..slices.len()).rev() {
             let (first, mut past) = (second(slice), second(slice + 1));
             while past > first {
-                if self.stopped.load(Ordering::Relaxed) {
+                if self.stopped.is_requested() {
                     return false;
                 }
                 let begin = first.max(past.saturating_sub(longest));

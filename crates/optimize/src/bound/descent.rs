@@ -7,13 +7,12 @@
 //! *Decomposition principle for linear programs*, Operations Research 8, 1960; K. Kiwiel, *Proximity control in bundle
 //! methods for convex nondifferentiable minimization*, Mathematical Programming 46, 1990).
 
-use std::sync::atomic::AtomicBool;
-
 use super::certificate::Certificate;
 use super::master::{Master, Way};
 use super::network::Network;
 use super::prices::{Pace, Prices};
 use super::ways::Ways;
+use vertifleet_core::Stop;
 
 /// How often each group may shift its aircraft before prices are evaluated. To go on until no shift is left takes longer than
 /// it is worth.
@@ -69,7 +68,7 @@ impl Descent {
         network: &Network,
         pace: &Pace,
         start: Prices,
-        stopped: &AtomicBool,
+        stopped: &Stop,
         watch: &mut dyn FnMut(&Found) -> bool,
     ) -> Option<Found> {
         let mut certificate = Certificate::new(network);

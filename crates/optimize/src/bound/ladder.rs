@@ -5,9 +5,7 @@
 //! looked for on a clock that ticks once a minute, where a step takes a fraction of the time and proves nothing, and then to
 //! the second, where every step proves a bound.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use vertifleet_core::Scenario;
+use vertifleet_core::{Scenario, Stop};
 
 use super::descent::Descent;
 use super::network::Network;
@@ -64,7 +62,7 @@ pub(super) fn cut_within(minutes: u32) -> u32 {
 /// Somebody who follows a search.
 pub(crate) trait Watch: Sync {
     /// Raised when the search shall end, soon.
-    fn stopped(&self) -> &AtomicBool;
+    fn stopped(&self) -> &Stop;
     /// The search has come so far, as a share of its work.
     fn has_come(&self, share: f64);
     /// This is the best bound so far.
@@ -175,7 +173,7 @@ impl Climb<'_> {
             steps += 1.0;
             true
         })?;
-        (!watch.stopped().load(Ordering::Relaxed)).then_some(found.prices)
+        (!watch.stopped().is_requested()).then_some(found.prices)
     }
 
     /// Looks for better prices to the second. Each proves a bound, and the best is kept. The prices to go on from, unless
@@ -201,7 +199,7 @@ impl Climb<'_> {
             }
             !best.as_ref().is_some_and(|best| watch.is_lowest(best.upper_bound_usd()))
         })?;
-        let ends = watch.stopped().load(Ordering::Relaxed)
+        let ends = watch.stopped().is_requested()
             || self.best.as_ref().is_some_and(|best| watch.is_lowest(best.upper_bound_usd()));
         (!ends).then_some(found.prices)
     }

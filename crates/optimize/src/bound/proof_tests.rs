@@ -5,10 +5,9 @@
 mod days;
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use proptest::prelude::{ProptestConfig, any, proptest};
-use vertifleet_core::{AircraftIx, DaySeed, Network as Days, Scenario, TakeoffDelays, Time};
+use vertifleet_core::{AircraftIx, DaySeed, Network as Days, Scenario, Stop, TakeoffDelays, Time};
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, draw, play};
 use vertifleet_sim::{Simulation, Trace};
 
@@ -85,7 +84,7 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
     let network = Network::of(day, step_s).expect("a small day");
     let prices = any_prices(&network, mix);
     let mut certificate = Certificate::new(&network);
-    let never = AtomicBool::new(false);
+    let never = Stop::default();
     let bound = certificate.evaluate(&network, &prices, &never).expect("nobody stops it");
     for trace in traces(day) {
         let mut taken = vec![0; prices.stand.len()];
@@ -159,7 +158,7 @@ proptest! {
 fn proven(day: &Scenario, step_s: u32, mix: u64) -> (i128, Prices) {
     let network = Network::of(day, step_s).expect("a small day");
     let prices = any_prices(&network, mix);
-    let never = AtomicBool::new(false);
+    let never = Stop::default();
     let micro_usd = Certificate::new(&network).evaluate(&network, &prices, &never);
     (micro_usd.expect("nobody stops it"), prices)
 }
@@ -198,7 +197,7 @@ proptest! {
             let size = longer.size();
             same.stand[last * size..][..size].copy_from_slice(&prices.stand[slice * size..][..size]);
         }
-        let never = AtomicBool::new(false);
+        let never = Stop::default();
         let shorter_proves = Certificate::new(&shorter).evaluate(&shorter, &same, &never);
         assert!(shorter_proves.expect("nobody stops it") <= longer_proves);
     }

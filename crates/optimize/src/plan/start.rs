@@ -1,9 +1,8 @@
 //! Schedules to start from: days that policies have played, as traces.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
-use vertifleet_core::Scenario;
+use vertifleet_core::{Scenario, Stop};
 use vertifleet_policy::{
     Greedy, Lookahead, PlayError, Policy, PolicyError, Priced, Random, Stoppable, play,
 };
@@ -32,10 +31,12 @@ impl Begun {
     ) -> Self {
         let mut simulation = Simulation::new(Arc::clone(scenario));
         let mut trace = Trace::default();
-        let stop = AtomicBool::new(false);
+        let stop = Stop::default();
         let outcome = play(&mut simulation, &mut Stoppable { policy, stop: &stop }, |row| {
             trace.rows.push(*row);
-            stop.store(!go_on(trace.rows.len()), Ordering::Relaxed);
+            if !go_on(trace.rows.len()) {
+                stop.request();
+            }
         });
         let is_over = match outcome {
             Ok(()) => true,

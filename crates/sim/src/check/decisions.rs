@@ -1,4 +1,4 @@
-//! Who decides when and where (design §2, Decision; Eq. 6, 9, 10): a complete schedule misses no decision.
+//! Who decides when and where (Eq. 6, 9, 10): a complete schedule misses no decision.
 
 use vertifleet_core::Scenario;
 

@@ -1,4 +1,4 @@
-//! What the rules make of one flight: when it arrives, what it takes, earns and costs (design §2; Eq. 2-4, 7, 9,
+//! What the rules make of one flight: when it arrives, what it takes, earns and costs (Eq. 2-4, 7, 9,
 //! 13-15).
 
 use vertifleet_core::Scenario;
@@ -65,9 +65,10 @@ impl Expected {
         }
     }
 
-    /// Whether a battery of that capacity lasts for the flight.
+    /// Whether a battery of that capacity lasts for the flight: so many whole milliwatt-hours, to the nearest, are no more than
+    /// it holds.
     pub(super) fn fits(&self, battery_kwh: f64) -> bool {
-        self.energy_kwh <= battery_kwh * (1.0 + ROUNDING)
+        (self.energy_kwh * 1e6).round() <= (battery_kwh * 1e6).round()
     }
 }
 

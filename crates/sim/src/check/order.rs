@@ -1,4 +1,4 @@
-//! Order: events are totally ordered by time, then by aircraft (design §2, Time).
+//! Order: events are totally ordered by time, then by aircraft (docs/src/design/world.md).
 
 use vertifleet_core::Scenario;
 

@@ -1,4 +1,4 @@
-//! Passengers (design §2; Eq. 11): a flight takes as many as want to fly and have a seat, and the demand drops by them
+//! Passengers (Eq. 11): a flight takes as many as want to fly and have a seat, and the demand drops by them
 //! at once.
 
 use vertifleet_core::Scenario;

@@ -1,4 +1,4 @@
-//! Where flights may go: corridors and closures (design §2, beyond the paper).
+//! Where flights may go: corridors and closures (docs/src/concepts/model.md, beyond the paper).
 
 use vertifleet_core::Scenario;
 

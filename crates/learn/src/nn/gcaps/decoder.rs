@@ -12,12 +12,12 @@
 //! the product of W_f and that matrix, taken once per change of the weights
 //! ([`Products`]), reads the capsules. b_f is a shift of what is read.
 
+use crate::nn::batch::{Inputs, Outputs, Slopes};
 use crate::nn::gcaps::products::Products;
 use crate::nn::gcaps::reads::{Reads, ReadsSpace};
 use crate::nn::layer_norm::{LayerNorm, Normalised};
 use crate::nn::layout::{Slot, Tensors};
 use crate::nn::linear::{Linear, add, add_rows, add_weight_slopes, repeat};
-use crate::nn::network::{Inputs, Outputs};
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 use crate::nn::relu;
 use crate::nn::value_head::ValueHead;
@@ -202,20 +202,13 @@ impl Decoder {
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
         capsules: &[f32],
-        (logit_slopes, value_slopes): (&[f32], &[f32]),
+        slopes: Slopes<'_>,
         space: &mut DecoderSpace,
         (capsule_slopes, gradient): (&mut [f32], &mut [f32]),
     ) {
         let (batch, width) = (inputs.batch, self.width());
         let rows = &mut space.rows(batch * width);
-        self.read_out_backward(
-            tensors,
-            inputs,
-            capsules,
-            (logit_slopes, value_slopes),
-            rows,
-            gradient,
-        );
+        self.read_out_backward(tensors, inputs, capsules, slopes, rows, gradient);
 
         self.second_norm.backward(tensors, rows.second_norm, rows.slopes, gradient);
         rows.branch_slopes.copy_from_slice(rows.slopes);
@@ -239,14 +232,14 @@ impl Decoder {
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
         capsules: &[f32],
-        (logit_slopes, value_slopes): (&[f32], &[f32]),
+        slopes: Slopes<'_>,
         rows: &mut Rows<'_>,
         gradient: &mut [f32],
     ) {
         let (batch, width) = (inputs.batch, self.width());
         let hidden_slopes = &mut *rows.branch_slopes;
         let kept = (inputs.clock, &*rows.hidden);
-        self.head.backward(tensors, kept, value_slopes, hidden_slopes, gradient);
+        self.head.backward(tensors, kept, slopes.values, hidden_slopes, gradient);
         add_rows(hidden_slopes, self.products.hidden_shift.part_mut(gradient));
         add_weight_slopes(self.head.features(), rows.y, hidden_slopes, gradient);
         let hidden_slopes = Matrix::new(hidden_slopes, batch, width);
@@ -258,7 +251,7 @@ impl Decoder {
         let to = MatrixMut::new(rows.slopes, batch, width);
         multiply(to, Write::Set, hidden_slopes, tensors.matrix(self.head.features()).transposed());
 
-        self.reads.point_backward(capsules, inputs.mask, logit_slopes, rows.reads);
+        self.reads.point_backward(capsules, inputs.mask, slopes.logits, rows.reads);
         let pointer_slopes = self.reads.query_slopes(rows.reads, batch, self.reads.heads);
         let y = Matrix::new(rows.y, batch, width);
         multiply(

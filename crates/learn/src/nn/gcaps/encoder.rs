@@ -12,10 +12,10 @@
 //! branch reads the features themselves: X (W_0 S) - mean(X) (W_0 T) + b_0 V_10. The products of weights are
 //! in [`Products`](super::products::Products).
 
+use crate::nn::batch::Inputs;
 use crate::nn::gcaps::products::Products;
 use crate::nn::layout::Tensors;
 use crate::nn::linear::{Linear, add, add_rows, repeat, sum_groups};
-use crate::nn::network::Inputs;
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 use crate::nn::relu;
 

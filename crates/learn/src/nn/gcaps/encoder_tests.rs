@@ -3,9 +3,9 @@
 
 use crate::nn::GcapsSettings;
 use crate::nn::architecture::Shape;
+use crate::nn::batch::Inputs;
 use crate::nn::gcaps::Gcaps;
 use crate::nn::layout::{Layout, Slot, Tensors};
-use crate::nn::network::Inputs;
 use crate::nn::slope_tests::{check, numbers, weighted};
 
 const VERTIPORTS: usize = 5;

@@ -1,0 +1,367 @@
+//! What `gcaps-x` sees: every vertiport as it looks from the aircraft that decides, in numbers that mean the same on every
+//! network.
+//!
+//! Dollars are counted in the profit of a typical full flight of the network, times in hours, passengers in flights, and
+//! everything is bounded. A row takes one pass over the vertiports and one over the fleet, and of those who are ready soon up to
+//! 48 are asked where they want to go.
+
+use vertifleet_core::{AircraftIx, Time, VertiportIx};
+use vertifleet_policy::DayPrices;
+use vertifleet_sim::{Decision, View};
+
+use crate::nn::{Inputs, Shape};
+
+/// F: numbers that a node shows.
+pub(crate) const NODE_FEATURES: usize = 24;
+/// G: numbers that the aircraft shows.
+pub(crate) const AIRCRAFT_FEATURES: usize = 10;
+/// The numbers that a node shows, in their order; docs/src/concepts/policies.md says what each means.
+#[cfg(test)]
+pub(crate) const NODE_FEATURE_NAMES: [&str; NODE_FEATURES] = [
+    "listed",
+    "regret",
+    "regret_sharp",
+    "is_own",
+    "is_possible",
+    "block_h",
+    "profit",
+    "profit_per_h",
+    "seats_filled",
+    "next_seats_filled",
+    "demand_left",
+    "demand_next",
+    "passenger_price",
+    "rent",
+    "rent_after",
+    "worth_beside_staying",
+    "worth_falling",
+    "stands_free",
+    "stands_taken",
+    "ready_before",
+    "ready_about",
+    "competitors",
+    "contention",
+    "day_left",
+];
+/// The numbers that the aircraft shows, in their order.
+#[cfg(test)]
+pub(crate) const AIRCRAFT_FEATURE_NAMES: [&str; AIRCRAFT_FEATURES] = [
+    "day_left",
+    "period_left",
+    "queue_15",
+    "queue_30",
+    "queue_60",
+    "rent",
+    "lead",
+    "choices",
+    "aircraft_a_vertiport",
+    "aircraft_a_stand",
+];
+/// What differences in worth that matter are multiplied by, to be seen.
+const SHARPER: f64 = 8.0;
+/// Others who are ready this long before or after the aircraft want the same flights, seconds.
+const NEAR_S: u32 = 900;
+/// Others who are ready within this time are asked where they want to go, seconds; no more than so many, and fewer where there
+/// are more than 30 vertiports to choose from.
+const COMPETITORS_S: u32 = 1_800;
+const MOST_COMPETITORS: usize = 48;
+const MOST_ASKED: usize = 30 * MOST_COMPETITORS;
+/// How soon others at the same vertiport are ready, seconds; the aircraft shows how many in each time.
+const QUEUE_S: [u32; 3] = [900, 1_800, 3_600];
+
+/// The shape of the features with so many vertiports.
+pub(crate) fn shape(vertiports: usize) -> Shape {
+    Shape { vertiports, node_features: NODE_FEATURES, aircraft_features: AIRCRAFT_FEATURES }
+}
+
+/// A decision, and what its choices are judged by: the day as it stands and its prices.
+#[derive(Clone, Copy)]
+pub(crate) struct Scene<'a> {
+    pub(crate) view: View<'a>,
+    pub(crate) decision: &'a Decision,
+    pub(crate) prices: &'a DayPrices,
+    /// The profit of a typical full flight, dollars.
+    pub(crate) unit_usd: f64,
+}
+
+impl<'a> Scene<'a> {
+    pub(crate) fn of(view: View<'a>, decision: &'a Decision, prices: &'a DayPrices) -> Self {
+        Self { view, decision, prices, unit_usd: prices.unit_usd(view.kind(decision.aircraft)) }
+    }
+
+    /// What the network's additions are counted in, dollars: a typical full flight, but less where less than that is at stake in a
+    /// decision. It learns where most flights are full; where most seats stay empty, the prices are the better judge, and a share
+    /// of a full flight would drown what they say.
+    pub(crate) fn addition_usd(&self) -> f64 {
+        let fullness = (self.prices.stake_usd() / self.unit_usd).min(1.0);
+        self.unit_usd * fullness * fullness
+    }
+}
+
+/// Rows of features, side by side; room grows with the rows and stays.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    vertiports: usize,
+    nodes: Vec<f32>,
+    aircraft: Vec<f32>,
+    mask: Vec<u8>,
+    clock: Vec<f32>,
+    /// Of the row being written, by vertiport.
+    seen: Vec<Seen>,
+}
+
+/// The others at a vertiport, or on their way there.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seen {
+    /// When the deciding aircraft would be ready there.
+    ready: Time,
+    /// Ready before it, and about when it is.
+    before: u16,
+    near: u16,
+    /// Ready soon and best off if they come here, and by how much, units.
+    competitors: u16,
+    contention: f64,
+}
+
+impl Rows {
+    pub(crate) fn new(vertiports: usize) -> Self {
+        Self {
+            vertiports,
+            nodes: Vec::new(),
+            aircraft: Vec::new(),
+            mask: Vec::new(),
+            clock: Vec::new(),
+            seen: vec![Seen::default(); vertiports],
+        }
+    }
+
+    /// Rows of what the [`inputs`](Self::inputs) of others were.
+    pub(crate) fn of(vertiports: usize, nodes: Vec<f32>, aircraft: Vec<f32>) -> Self {
+        let clock = vec![0.0; aircraft.len() / AIRCRAFT_FEATURES];
+        // A node's first number says whether it is on the list.
+        let listed = nodes.iter().step_by(NODE_FEATURES);
+        let mask = listed.map(|&listed| u8::from(listed == 1.0)).collect();
+        Self { nodes, aircraft, mask, clock, ..Self::new(vertiports) }
+    }
+
+    pub(crate) fn vertiports(&self) -> usize {
+        self.vertiports
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.clock.len()
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.truncate(0);
+    }
+
+    /// Drops all rows but the first so many.
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.nodes.truncate(len * self.vertiports * NODE_FEATURES);
+        self.aircraft.truncate(len * AIRCRAFT_FEATURES);
+        self.mask.truncate(len * self.vertiports);
+        self.clock.truncate(len);
+    }
+
+    /// All rows, as the networks take them.
+    pub(crate) fn inputs(&self) -> Inputs<'_> {
+        Inputs {
+            batch: self.len(),
+            nodes: &self.nodes,
+            aircraft: &self.aircraft,
+            mask: &self.mask,
+            clock: &self.clock,
+        }
+    }
+
+    /// Adds a copy of another's row.
+    pub(crate) fn push_copy(&mut self, from: &Self, row: usize) {
+        let nodes = self.vertiports * NODE_FEATURES;
+        self.nodes.extend(&from.nodes[row * nodes..][..nodes]);
+        self.aircraft.extend(&from.aircraft[row * AIRCRAFT_FEATURES..][..AIRCRAFT_FEATURES]);
+        self.mask.extend(&from.mask[row * self.vertiports..][..self.vertiports]);
+        self.clock.push(from.clock[row]);
+    }
+
+    /// Adds the row of a decision between the choices of a list, the best first with its worth at the prices.
+    pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[(f64, VertiportIx)]) {
+        let count = self.vertiports;
+        let first = self.mask.len();
+        self.mask.resize(first + count, 0);
+        for &(_, to) in listed {
+            self.mask[first + to.at()] = 1;
+        }
+        // The value head alone reads the clock, and nobody reads the value head.
+        self.clock.push(0.0);
+        let queue = self.look_around(scene);
+        let best_usd = listed[0].0;
+        let second_usd = listed.get(1).map_or(f64::NEG_INFINITY, |second| second.0);
+        let lead = (best_usd - second_usd) / scene.unit_usd;
+        self.aircraft
+            .extend(aircraft(scene, queue, (lead, listed.len())).map(|value| value as f32));
+        let from = self.nodes.len();
+        self.nodes.resize(from + count * NODE_FEATURES, 0.0);
+        for to in VertiportIx::all(count) {
+            let node = node(scene, to, best_usd, self.seen[to.at()]);
+            let listed = f32::from(self.mask[first + to.at()]);
+            let row = &mut self.nodes[from + to.at() * NODE_FEATURES..][..NODE_FEATURES];
+            row[0] = listed;
+            for (feature, value) in row[1..].iter_mut().zip(node) {
+                *feature = value as f32;
+            }
+        }
+    }
+
+    /// Counts the others, vertiport by vertiport; returns how many more are ready at the aircraft's own vertiport within
+    /// [`QUEUE_S`].
+    fn look_around(&mut self, scene: Scene<'_>) -> [u16; 3] {
+        let Scene { view, decision, .. } = scene;
+        let kind = view.kind(decision.aircraft);
+        let legs = view.legs_from(kind, decision.at);
+        for (to, (seen, leg)) in self.seen.iter_mut().zip(legs).enumerate() {
+            let stays = to == decision.at.at();
+            let block_s = if stays { view.hold_s() } else { leg.block_s() };
+            *seen = Seen { ready: decision.time + block_s, ..Seen::default() };
+        }
+        let most_competitors = (MOST_ASKED / self.vertiports).min(MOST_COMPETITORS);
+        let (mut queue, mut competitors) = ([0; 3], 0);
+        for (other, place) in AircraftIx::all(view.places().len()).zip(view.places()) {
+            if other == decision.aircraft {
+                continue;
+            }
+            let ready = view.ready_at(other);
+            let seen = &mut self.seen[place.at()];
+            seen.before += u16::from(ready < seen.ready);
+            let apart_s = ready.since(seen.ready).max(seen.ready.since(ready));
+            seen.near += u16::from(apart_s <= NEAR_S);
+            if ready <= decision.time + COMPETITORS_S && competitors < most_competitors {
+                competitors += 1;
+                self.count_competitor(
+                    scene,
+                    &Decision { time: ready, aircraft: other, at: *place, ..*decision },
+                );
+            }
+            if *place == decision.at {
+                for (queue, within_s) in queue.iter_mut().zip(QUEUE_S) {
+                    *queue += u16::from(ready <= decision.time + within_s);
+                }
+            }
+        }
+        queue
+    }
+
+    /// Notes where another aircraft wants to go, of what is open now and not known to be closed by then.
+    fn count_competitor(
+        &mut self,
+        Scene { view, prices, unit_usd, .. }: Scene<'_>,
+        other: &Decision,
+    ) {
+        let mut best = (f64::NEG_INFINITY, other.at);
+        let mut second_usd = f64::NEG_INFINITY;
+        let known = view.known_closures();
+        let is_open = |to: &VertiportIx| !known.is_closed(other.at, *to, other.time);
+        for to in view.feasible(other).iter().filter(is_open) {
+            let usd = prices.choice_usd(view, other, to);
+            if usd > best.0 {
+                second_usd = best.0;
+                best = (usd, to);
+            } else {
+                second_usd = second_usd.max(usd);
+            }
+        }
+        let seen = &mut self.seen[best.1.at()];
+        if best.1 != other.at {
+            seen.competitors += 1;
+            seen.contention += ((best.0 - second_usd) / unit_usd).min(0.5);
+        }
+    }
+}
+
+/// What the aircraft shows; `lead` is by how much the best choice is worth more than the second, in units.
+fn aircraft(
+    scene: Scene<'_>,
+    queue: [u16; 3],
+    (lead, listed): (f64, usize),
+) -> [f64; AIRCRAFT_FEATURES] {
+    let Scene { view, decision, prices, unit_usd } = scene;
+    let Decision { time, at, .. } = *decision;
+    let day_s = view.day_end().since(view.day_start()).max(1);
+    let next_period = view.period_starts().get(view.period() + 1).copied();
+    let period_left_s = next_period.map_or(3_600, |next| next.since(time));
+    let stands: u32 =
+        VertiportIx::all(view.vertiports()).map(|at| u32::from(view.stands(at))).sum();
+    let fleet = view.places().len() as f64;
+    let per_vertiport = fleet / view.vertiports() as f64;
+    [
+        f64::from(view.day_end().since(time)) / f64::from(day_s),
+        (f64::from(period_left_s) / 3_600.0).min(1.0),
+        few(queue[0], 4.0),
+        few(queue[1], 4.0),
+        few(queue[2], 4.0),
+        (prices.rent_usd(at, time, time + 900) / unit_usd).min(2.0),
+        (SHARPER * lead).min(1.0),
+        listed as f64 / 4.0,
+        (per_vertiport / 8.0).min(2.0),
+        fleet / f64::from(stands),
+    ]
+}
+
+/// What a vertiport shows beside whether it is on the list.
+fn node(scene: Scene<'_>, to: VertiportIx, best_usd: f64, seen: Seen) -> [f64; NODE_FEATURES - 1] {
+    let Scene { view, decision, prices, unit_usd } = scene;
+    let Decision { time, at: from, .. } = *decision;
+    let kind = view.kind(decision.aircraft);
+    let stays = to == from;
+    let possible = stays || view.within_range(kind, from).contains(to);
+    let units = |usd: f64| usd / unit_usd;
+    let ready = seen.ready;
+    let regret =
+        if possible { units(best_usd - prices.choice_usd(view, decision, to)) } else { 1.0 };
+    let (profit, waiting, passenger_usd) = if stays || !possible {
+        (0.0, 0, 0.0)
+    } else {
+        let waiting = view.demand_left(view.period(), from, to);
+        let profit_usd = view.flight_profit_usd(time, kind, (from, to), waiting);
+        (units(profit_usd), waiting, prices.passenger_usd(view.period(), from, to))
+    };
+    let seats = u32::from(view.aircraft_type(kind).seats);
+    let flights = |passengers: u32| (f64::from(passengers) / f64::from(seats)).ln_1p() / 3.0;
+    let next_period = (view.period() + 1).min(view.period_starts().len() - 1);
+    let later = if stays { 0 } else { view.demand_left(next_period, from, to) };
+    let block_h = f64::from(ready.since(time)) / 3_600.0;
+    let worth_usd = prices.worth_usd(kind, to, ready);
+    let stands = view.stands(to);
+    let taken = view.stands_taken()[to.at()];
+    let day_s = view.day_end().since(view.day_start()).max(1);
+    [
+        -regret.clamp(0.0, 1.0),
+        -(SHARPER * regret).clamp(0.0, 1.0),
+        f64::from(u8::from(stays)),
+        f64::from(u8::from(possible)),
+        block_h.min(3.0),
+        profit.clamp(-1.0, 3.0),
+        (profit / block_h.max(0.1)).clamp(-1.0, 3.0),
+        f64::from(waiting.min(seats)) / f64::from(seats),
+        f64::from(waiting.saturating_sub(seats).min(seats)) / f64::from(seats),
+        flights(waiting).min(1.5),
+        flights(later).min(1.5),
+        units(f64::from(waiting.min(seats)) * passenger_usd).min(2.0),
+        units(prices.rent_usd(to, time, ready)).min(2.0),
+        units(prices.rent_usd(to, ready, ready + 3_600)).min(2.0),
+        units(worth_usd - prices.worth_usd(kind, from, ready)).clamp(-2.0, 2.0),
+        units(worth_usd - prices.worth_usd(kind, to, ready + 900)).clamp(-1.0, 1.0),
+        few(stands.saturating_sub(taken), 4.0),
+        f64::from(taken) / f64::from(stands),
+        few(seen.before, 4.0),
+        few(seen.near, 4.0),
+        few(seen.competitors, 4.0),
+        (2.0 * seen.contention).min(2.0),
+        f64::from(view.day_end().since(ready)) / f64::from(day_s),
+    ]
+}
+
+/// A small number, in parts of what is usual and bounded at twice as much.
+fn few(count: u16, usual: f64) -> f64 {
+    (f64::from(count) / usual).min(2.0)
+}

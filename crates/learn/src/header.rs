@@ -1,0 +1,177 @@
+//! The header of a weight file: what the weights are of and where they came from. Headers of earlier versions are read too.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use vertifleet_core::FeatureScales;
+
+use crate::nn::{self, Architecture, Shape};
+use crate::run::TrainingPlan;
+use crate::settings::TrainingSettings;
+use crate::{features, gcaps_x};
+
+/// The format that is written.
+pub(crate) const FORMAT: &str = "vertifleet-weights/2";
+/// Earlier formats: of weights that fit one number of vertiports, and of weights that fit any.
+const FORMER: [&str; 2] = ["vertifleet-weights/1", "vertifleet-weights-any/1"];
+
+/// What is in every header beside the format.
+const MEMBERS: [&str; 8] =
+    ["network", "policy", "shape", "feature_scales", "settings", "seed", "commit", "steps"];
+
+/// What weights are of and where they came from.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Header {
+    format: &'static str,
+    /// Network that the weights were trained on; of `gcaps-x`, the network that the run was for, beside random ones.
+    pub network: String,
+    /// The policy's kind and sizes.
+    pub policy: Architecture,
+    /// Numbers of vertiports and features.
+    pub shape: FeatureShape,
+    /// What features are divided by; none where they are relative to the day, as those of `gcaps-x` are.
+    pub feature_scales: Option<FeatureScales>,
+    /// Training settings; none where the weights were trained by another program in a way that these have no words for.
+    pub settings: Option<TrainingSettings>,
+    /// Seed of the training run, where it is known.
+    pub seed: Option<u32>,
+    /// Commit of the program that trained them.
+    pub commit: String,
+    /// Decisions learned from when these weights were kept.
+    pub steps: u64,
+}
+
+/// Sizes of what a policy sees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FeatureShape {
+    /// N, the number of vertiports that the weights fit; none where they fit any.
+    pub vertiports: Option<usize>,
+    /// F, features of a node.
+    pub node_features: usize,
+    /// G, features of the aircraft.
+    pub aircraft_features: usize,
+}
+
+impl From<Shape> for FeatureShape {
+    /// Of weights that fit one number of vertiports.
+    fn from(Shape { vertiports, node_features, aircraft_features }: Shape) -> Self {
+        Self { vertiports: Some(vertiports), node_features, aircraft_features }
+    }
+}
+
+/// A header as the file holds it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawHeader {
+    network: String,
+    policy: Architecture,
+    shape: FeatureShape,
+    feature_scales: Option<FeatureScales>,
+    settings: Option<Value>,
+    seed: Option<u32>,
+    commit: String,
+    steps: u64,
+}
+
+impl Header {
+    /// The header of a run's models before its first step.
+    pub(crate) fn of_run(
+        plan: &TrainingPlan,
+        feature_scales: Option<FeatureScales>,
+        shape: FeatureShape,
+    ) -> Self {
+        Self {
+            format: FORMAT,
+            network: plan.network.name().to_owned(),
+            policy: plan.policy.clone(),
+            shape,
+            feature_scales,
+            settings: Some(plan.settings.clone()),
+            seed: Some(plan.seed),
+            commit: plan.commit.clone(),
+            steps: 0,
+        }
+    }
+
+    /// The same when so many decisions were learned from.
+    pub(crate) fn after(&self, steps: u64) -> Self {
+        Self { steps, ..self.clone() }
+    }
+
+    /// The header in a file.
+    pub(crate) fn read(mut header: Map<String, Value>) -> Result<Self, String> {
+        let format = header.remove("format").unwrap_or_default();
+        let format = format.as_str().unwrap_or_default();
+        if FORMER.contains(&format) {
+            modernise(&mut header);
+        } else if format != FORMAT {
+            return Err(format!("format must be {FORMAT:?}, found {format:?}"));
+        }
+        // What is not known is null, and not left out.
+        if let Some(missing) = MEMBERS.iter().find(|&&member| !header.contains_key(member)) {
+            return Err(format!("header: missing member {missing:?}"));
+        }
+        let raw: RawHeader =
+            serde_json::from_value(header.into()).map_err(|error| format!("header: {error}"))?;
+        let settings = raw.settings.map(|value| TrainingSettings::read(&raw.policy, value));
+        let header = Self {
+            format: FORMAT,
+            network: raw.network,
+            settings: settings.transpose()?,
+            policy: raw.policy,
+            shape: raw.shape,
+            feature_scales: raw.feature_scales,
+            seed: raw.seed,
+            commit: raw.commit,
+            steps: raw.steps,
+        };
+        header.check()?;
+        Ok(header)
+    }
+
+    /// Shape and scales are those of the policy's kind.
+    fn check(&self) -> Result<(), String> {
+        // Sizes beyond all reason are refused before anything is reckoned with them.
+        self.network_of_layers(1)?;
+        let fits_any = matches!(self.policy, Architecture::GcapsX(_));
+        if fits_any == self.shape.vertiports.is_some() {
+            let kind = self.policy.name();
+            return Err(format!(
+                "{kind} and {:?} vertiports do not go together",
+                self.shape.vertiports
+            ));
+        }
+        let ours = match self.shape.vertiports {
+            Some(vertiports) => features::shape(vertiports),
+            None => gcaps_x::features::shape(0),
+        };
+        let sizes = (self.shape.node_features, self.shape.aircraft_features);
+        if sizes != (ours.node_features, ours.aircraft_features) {
+            return Err(format!("{:?} is not the shape of our features", self.shape));
+        }
+        if fits_any == self.feature_scales.is_some() {
+            return Err(
+                "feature_scales are of policies that fit one number of vertiports".to_owned()
+            );
+        }
+        Ok(())
+    }
+
+    /// The layers; for so many vertiports where the weights fit any number.
+    pub(crate) fn network_of_layers(&self, vertiports: usize) -> Result<nn::Network, String> {
+        let FeatureShape { vertiports: fits, node_features, aircraft_features } = self.shape;
+        let vertiports = fits.unwrap_or(vertiports);
+        let shape = Shape { vertiports, node_features, aircraft_features };
+        nn::Network::new(self.policy.clone(), shape)
+    }
+}
+
+/// Renames the members that earlier formats had other names for. Weights that fit any number of vertiports had no scales.
+fn modernise(header: &mut Map<String, Value>) {
+    header.entry("feature_scales").or_insert(Value::Null);
+    for (former, name) in [("course", "settings"), ("decisions", "steps")] {
+        if let Some(value) = header.remove(former) {
+            header.insert(name.to_owned(), value);
+        }
+    }
+}

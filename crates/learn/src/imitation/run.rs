@@ -1,0 +1,310 @@
+//! A training run by imitation: play days, roll out what is decided there, learn from all decisions so far; round by round.
+//!
+//! The days of a round are played by what the rounds before it learned, those of the first round by bid prices alone. A share of
+//! the days are each of a random network of its own ([`random_network`]), the rest of the network that the run is for.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
+use serde::{Deserialize, Serialize};
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, Stop, random_network};
+use vertifleet_policy::{DayPrices, Policy, Priced, RolloutEvaluator, Shortlist, draw, play};
+use vertifleet_sim::{Simulation, Summary};
+
+use crate::adam::Adam;
+use crate::error::Error;
+use crate::gcaps_x::GcapsX;
+use crate::gcaps_x::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Scene, shape};
+use crate::gcaps_x::scorer::Scorer;
+use crate::header::{FeatureShape, Header};
+use crate::imitation::dataset::{Dataset, Samples};
+use crate::imitation::update::{Fit, Learner, Pace};
+use crate::imitation::{ImitationRow, ImitationSettings};
+use crate::model::Model;
+use crate::nn::{self, Weights};
+use crate::run::{Curve, RunIdentity, TrainingPlan, TrainingRun, Work, check_finite, checkpoint};
+
+/// About how many decisions of a day are rolled out; of days with more, a share is.
+const SAMPLES_A_DAY: f64 = 400.0;
+/// About how many decisions an aircraft takes a day.
+const DECISIONS_AN_AIRCRAFT: f64 = 11.0;
+
+/// A run under way.
+pub(crate) struct ImitationRun {
+    identity: RunIdentity,
+    settings: ImitationSettings,
+    /// The header of the run's models, but for the steps.
+    header: Header,
+    network: Arc<Network>,
+    learner: Learner,
+    dataset: Dataset,
+    curve: Vec<ImitationRow>,
+    /// Validation days of the network, then of random networks; with what `prices` earns on each.
+    validation: [Vec<(Arc<Scenario>, f64)>; 2],
+}
+
+/// How far a run has come, in a checkpoint.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Progress {
+    curve: Vec<ImitationRow>,
+    /// Numbers of vertiports that there are samples of.
+    vertiports: Vec<usize>,
+}
+
+impl ImitationRun {
+    /// A run before its first round, or one that goes on from a checkpoint.
+    pub(crate) fn new(
+        plan: &TrainingPlan,
+        identity: RunIdentity,
+        settings: ImitationSettings,
+        from: Option<&Path>,
+    ) -> Result<Self, Error> {
+        let net = nn::Network::new(plan.policy.clone(), shape(1))
+            .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
+        let (params, adam, dataset, curve) = if let Some(path) = from {
+            set_aside(path, &identity, &settings, net.layout().len())?
+        } else {
+            let params = net.init(u64::from(plan.seed));
+            let adam = Adam::new(params.len());
+            (params, adam, Dataset::default(), Vec::new())
+        };
+        let days = 0..u64::from(settings.validation_days);
+        let own = days.clone().map(|day| Ok(plan.network.draw(DaySeed::validation(day)?)));
+        let random = days.map(|day| {
+            Ok(random_network(Purpose::Validation, day).draw(DaySeed::validation(day)?))
+        });
+        let validation = [
+            with_priced_profit(own.collect::<Result<_, Error>>()?),
+            with_priced_profit(random.collect::<Result<_, Error>>()?),
+        ];
+        let shape = FeatureShape {
+            vertiports: None,
+            node_features: NODE_FEATURES,
+            aircraft_features: AIRCRAFT_FEATURES,
+        };
+        Ok(Self {
+            header: Header::of_run(plan, None, shape),
+            network: Arc::clone(&plan.network),
+            learner: Learner::new(plan.policy.clone(), params, adam),
+            identity,
+            settings,
+            dataset,
+            curve,
+            validation,
+        })
+    }
+
+    /// Plays, learns, and looks at the validation days; [`Error::Stopped`] leaves everything wherever it was.
+    fn round(&mut self, stop: &Stop, worked: &(dyn Fn(u64) + Sync)) -> Result<ImitationRow, Error> {
+        let days = self.days()?;
+        let actor = (self.rounds_done() > 0).then(|| Arc::new(self.learner.weights.clone()));
+        let samples: Vec<Samples> = days
+            .par_iter()
+            .map(|day| {
+                stop.check()?;
+                let samples = self.samples(day, actor.as_ref());
+                worked(1);
+                Ok(samples)
+            })
+            .collect::<Result<_, Error>>()?;
+        for samples in &samples {
+            self.dataset.add(samples);
+        }
+        let fit = self.fit(stop, worked)?;
+        check_finite(self.learner.weights.params(), u64::from(self.rounds_done()) + 1)?;
+        let [own, random] = [0, 1].map(|which| self.look(&self.validation[which]));
+        Ok(ImitationRow {
+            round: self.rounds_done() + 1,
+            decisions: self.dataset.len() as u64,
+            agreement: fit.agreement,
+            lift: fit.lift,
+            most_lift: fit.most,
+            validation_reward: own.reward,
+            gain: own.gain,
+            random_gain: random.gain,
+        })
+    }
+
+    /// The round's passes over all samples so far. Returns how well the last one decided.
+    fn fit(&mut self, stop: &Stop, worked: &dyn Fn(u64)) -> Result<Fit, Error> {
+        let mut fit = Fit::default();
+        let (settings, done) = (&self.settings, self.rounds_done());
+        let all = f64::from(settings.rounds * settings.passes);
+        for pass in 0..settings.passes {
+            stop.check()?;
+            let number = done * settings.passes + pass;
+            let pace = |share: f64| Pace {
+                learning_rate: settings.learning_rate
+                    * (1.0 - 0.9 * (f64::from(number) + share) / all) as f32,
+                entropy_weight: settings.entropy_weight,
+            };
+            let seed = u64::from(self.identity.seed) << 32 | u64::from(number);
+            fit = self.learner.pass(&self.dataset, seed, pace);
+            worked(1);
+        }
+        stop.check()?;
+        Ok(fit)
+    }
+
+    fn rounds_done(&self) -> u32 {
+        u32::try_from(self.curve.len()).expect("a run has few rounds")
+    }
+
+    /// The days of the round to come.
+    fn days(&self) -> Result<Vec<Arc<Scenario>>, Error> {
+        let first = u64::from(self.rounds_done()) * u64::from(self.settings.days);
+        let random = |day: u64| {
+            let share = self.settings.random_share;
+            (day as f64 * share).floor() < ((day + 1) as f64 * share).floor()
+        };
+        (first..first + u64::from(self.settings.days))
+            .map(|day| {
+                let seed = DaySeed::training(self.identity.seed, day)?;
+                let drawn = if random(day) {
+                    // Seeds of days are all different, so no two runs share their networks.
+                    random_network(Purpose::Training, seed.get()).draw(seed)
+                } else {
+                    self.network.draw(seed)
+                };
+                Ok(Arc::new(drawn))
+            })
+            .collect()
+    }
+
+    /// Plays a day and rolls out what is decided.
+    fn samples(&self, day: &Arc<Scenario>, actor: Option<&Arc<Weights>>) -> Samples {
+        let vertiports = day.vertiports.len();
+        let policy = &self.identity.policy;
+        let mut scorer = actor.map(|weights| Scorer::new(policy, Arc::clone(weights), vertiports));
+        let share = SAMPLES_A_DAY / (DECISIONS_AN_AIRCRAFT * day.aircraft.len() as f64);
+        let mut samples = Samples::new(vertiports);
+        let mut shortlist = Shortlist::default();
+        let mut evaluator = RolloutEvaluator::new(self.settings.expert.clone());
+        let mut simulation = Simulation::new(Arc::clone(day));
+        let mut prices: Option<DayPrices> = None;
+        while let Some(decision) = simulation.next_decision() {
+            let view = simulation.view();
+            let prices = prices.get_or_insert_with(|| DayPrices::of(view, decision.time));
+            prices.keep_up(view, decision.time);
+            let listed = shortlist.rank(prices, view, &decision);
+            let scene = Scene::of(view, &decision, prices);
+            let bits = |what: u64| draw(what, day.seed, decision.index) >> 11;
+            let chance = |what: u64| bits(what) as f64 / (1_u64 << 53) as f64;
+            if listed.len() > 1 && chance(1) < share {
+                let values_usd = evaluator.values_usd(prices, (view, &decision), listed);
+                samples.push(scene, listed, values_usd);
+            }
+            let choice = if chance(2) < self.settings.exploration {
+                listed[((u128::from(bits(3)) * listed.len() as u128) >> 53) as usize].1
+            } else if let Some(scorer) = &mut scorer {
+                scorer.best(scene, listed)
+            } else {
+                listed[0].1
+            };
+            simulation.apply(choice).expect("lists are of feasible choices");
+        }
+        samples
+    }
+
+    /// How the policy does on validation days.
+    fn look(&self, days: &[(Arc<Scenario>, f64)]) -> Look {
+        let model = self.model();
+        let looks: Vec<Look> = days
+            .par_iter()
+            .map(|(day, priced_usd)| {
+                let played = played(&mut GcapsX::new(&model, 1), day);
+                Look { reward: played.reward, gain: played.profit / priced_usd - 1.0 }
+            })
+            .collect();
+        let mean = |of: fn(&Look) -> f64| looks.iter().map(of).sum::<f64>() / looks.len() as f64;
+        Look { reward: mean(|look| look.reward), gain: mean(|look| look.gain) }
+    }
+}
+
+impl TrainingRun for ImitationRun {
+    fn is_done(&self) -> bool {
+        self.rounds_done() >= self.settings.rounds
+    }
+
+    fn work(&self) -> Work {
+        // Days played and passes made take about as long.
+        let a_round = u64::from(self.settings.days) + u64::from(self.settings.passes);
+        let rounds = u64::from(self.settings.rounds);
+        Work { done: a_round * self.curve.len() as u64, total: a_round * rounds, units: "days" }
+    }
+
+    fn advance(&mut self, stop: &Stop, worked: &(dyn Fn(u64) + Sync)) -> Result<(), Error> {
+        let before = (self.learner.weights.clone(), self.learner.adam.clone());
+        let lengths = self.dataset.lengths();
+        match self.round(stop, worked) {
+            Ok(row) => self.curve.push(row),
+            Err(error) => {
+                (self.learner.weights, self.learner.adam) = before;
+                self.dataset.truncate(&lengths);
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    fn curve(&self) -> Curve {
+        Curve::Imitation(self.curve.clone())
+    }
+
+    fn model(&self) -> Model {
+        let header = self.header.after(self.dataset.len() as u64);
+        let params = self.learner.weights.params().to_vec();
+        Model::new(header, params).expect("a run has checked all of this")
+    }
+
+    fn write_checkpoint(&self, path: &Path) -> Result<(), Error> {
+        let vertiports = self.dataset.lengths().into_keys().collect();
+        let progress = Progress { curve: self.curve.clone(), vertiports };
+        let Learner { weights, adam, .. } = &self.learner;
+        let samples = self.dataset.tensors();
+        checkpoint::write(path, &self.identity, weights.params(), adam, &progress, samples)
+    }
+}
+
+/// Parameters, moments, samples and curve of a run that was set aside. Which days a round plays, and the order in which it meets its
+/// samples, follow from the seed and the round's number, so there is nothing else to keep.
+fn set_aside(
+    path: &Path,
+    identity: &RunIdentity,
+    settings: &ImitationSettings,
+    parameters: usize,
+) -> Result<(Vec<f32>, Adam, Dataset, Vec<ImitationRow>), Error> {
+    let checkpoint = checkpoint::read::<Progress>(path, identity, parameters)?;
+    let Progress { curve, vertiports } = &checkpoint.progress;
+    let broken = |rule| Err(Error::BadCheckpoint { rule });
+    if curve.len() > settings.rounds as usize {
+        return broken(format!("{} rounds are more than the run has", curve.len()));
+    }
+    if curve.iter().zip(1..).any(|(row, number)| row.round != number) {
+        return broken("rounds must be numbered from 1 on".to_owned());
+    }
+    let dataset = checkpoint.others(|file| Dataset::read(file, vertiports))?;
+    Ok((checkpoint.params, checkpoint.adam, dataset, checkpoint.progress.curve))
+}
+
+/// Means over validation days.
+struct Look {
+    reward: f64,
+    /// Profit over that of `prices`, as a share of it.
+    gain: f64,
+}
+
+fn with_priced_profit(days: Vec<Scenario>) -> Vec<(Arc<Scenario>, f64)> {
+    let days: Vec<Arc<Scenario>> = days.into_iter().map(Arc::new).collect();
+    days.par_iter()
+        .map(|day| (Arc::clone(day), played(&mut Priced::default(), day).profit))
+        .collect()
+}
+
+fn played(policy: &mut dyn Policy, day: &Arc<Scenario>) -> Summary {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    play(&mut simulation, policy, |_| ()).expect("the policy has an answer for every decision");
+    simulation.summary()
+}

@@ -1,0 +1,70 @@
+//! The settings of a training by imitation.
+
+use serde::{Deserialize, Serialize};
+use vertifleet_policy::RolloutSettings;
+
+use crate::error::Error;
+use crate::settings::within;
+
+/// What a run learns from, and how.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ImitationSettings {
+    /// Rounds of playing and learning.
+    pub rounds: u32,
+    /// Days played a round.
+    pub days: u32,
+    /// Share of the days that are of random networks.
+    pub random_share: f64,
+    /// Passes over all samples so far, a round.
+    pub passes: u32,
+    /// Adam's step size; falls in a straight line to a tenth over the run.
+    pub learning_rate: f32,
+    /// Weight of the entropy in the loss.
+    pub entropy_weight: f32,
+    /// Share of decisions that are drawn from the list at random while samples are collected.
+    pub exploration: f64,
+    /// How the expert rolls choices out.
+    #[serde(flatten)]
+    pub expert: RolloutSettings,
+    /// Validation days of the network, and as many of random networks.
+    pub validation_days: u32,
+}
+
+impl Default for ImitationSettings {
+    /// Tuned on validation days.
+    fn default() -> Self {
+        Self {
+            rounds: 4,
+            days: 120,
+            random_share: 0.4,
+            passes: 12,
+            learning_rate: 1e-3,
+            entropy_weight: 1.0,
+            exploration: 0.05,
+            expert: RolloutSettings {
+                horizon_s: 7_200,
+                rollouts: 8,
+                noise: 0.06,
+                price_weight: 0.5,
+            },
+            validation_days: 12,
+        }
+    }
+}
+
+impl ImitationSettings {
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        within("rounds", f64::from(self.rounds), 1.0, 10_000.0)?;
+        within("days", f64::from(self.days), 1.0, 100_000.0)?;
+        within("random_share", self.random_share, 0.0, 1.0)?;
+        within("passes", f64::from(self.passes), 1.0, 10_000.0)?;
+        within("learning_rate", f64::from(self.learning_rate), 0.0, 1.0)?;
+        within("entropy_weight", f64::from(self.entropy_weight), 0.0, 100.0)?;
+        within("exploration", self.exploration, 0.0, 1.0)?;
+        within("horizon_s", f64::from(self.expert.horizon_s), 0.0, 86_400.0)?;
+        within("rollouts", f64::from(self.expert.rollouts), 1.0, 10_000.0)?;
+        within("noise", self.expert.noise, 0.0, 100.0)?;
+        within("price_weight", self.expert.price_weight, 0.0, 100.0)?;
+        within("validation_days", f64::from(self.validation_days), 1.0, 100_000.0)
+    }
+}

@@ -1,0 +1,306 @@
+//! One pass of imitation over the dataset: the probabilities of choices are moved to where the mean worth is highest.
+//!
+//! With p the softmax of worth over logits, and A what roll-outs say of each choice, the loss of a decision is
+//!
+//! ```text
+//! L = -sum over j of p_j A_j  -  entropy_weight H(p)
+//! ```
+//!
+//! which a noise in A leaves where it is in the mean, and which weighs a decision by what hangs on it. A minibatch is cut
+//! into chunks of one number of vertiports each, which lanes of fixed number work through; so the weights that come out do
+//! not depend on how many threads there are.
+
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
+
+use crate::adam::{Adam, clip_norm};
+use crate::gcaps_x::features::Rows;
+use crate::gcaps_x::scorer::{LOGITS_A_UNIT, network};
+use crate::imitation::dataset::{Dataset, Samples};
+use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
+
+/// Nodes per forward and backward pass: what the second-level cache holds.
+const CHUNK_NODES: usize = 1_024;
+/// Chunks per step of Adam.
+const CHUNKS_A_STEP: usize = 8;
+/// Gradients that are filled side by side and then added up.
+const LANES: usize = 4;
+/// Largest Euclidean norm of a step's gradient.
+const MAX_NORM: f32 = 0.5;
+
+/// What the parameters are learned with.
+pub(crate) struct Learner {
+    architecture: Architecture,
+    /// For preparing and finishing, which do not depend on the number of vertiports.
+    net: nn::Network,
+    pub(crate) weights: Weights,
+    pub(crate) adam: Adam,
+    lanes: Vec<Lane>,
+}
+
+/// Means over decisions.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Fit {
+    /// Sum of p A, in units: what the draws from p are better than the mean of the list.
+    pub(crate) gain: f64,
+    /// What the highest p is better than the best at the prices, in units.
+    pub(crate) lift: f64,
+    /// What the best of the list is better than the best at the prices.
+    pub(crate) most: f64,
+    /// Share of decisions whose highest p is at the highest A.
+    pub(crate) agreement: f64,
+}
+
+struct Lane {
+    vertiports: usize,
+    net: Option<(nn::Network, Workspace)>,
+    rows: Rows,
+    gradient: Gradient,
+    slopes: Vec<f32>,
+    no_slopes: Vec<f32>,
+    fit: Fit,
+}
+
+/// Rows of samples with one number of vertiports.
+struct Chunk {
+    vertiports: usize,
+    rows: Vec<usize>,
+}
+
+/// How the parameters move.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pace {
+    pub(crate) learning_rate: f32,
+    /// Against A counted in logits.
+    pub(crate) entropy_weight: f32,
+}
+
+impl Learner {
+    pub(crate) fn new(architecture: Architecture, params: Vec<f32>, adam: Adam) -> Self {
+        let net = network(&architecture, 2);
+        let lane = || Lane {
+            vertiports: 0,
+            net: None,
+            rows: Rows::new(0),
+            gradient: net.gradient(),
+            slopes: Vec::new(),
+            no_slopes: Vec::new(),
+            fit: Fit::default(),
+        };
+        let lanes = (0..LANES).map(|_| lane()).collect();
+        Self { adam, weights: net.weights(params), architecture, net, lanes }
+    }
+
+    /// One pass over the dataset, in an order that the seed says. Returns the means, each decision as it was met.
+    pub(crate) fn pass(
+        &mut self,
+        dataset: &Dataset,
+        seed: u64,
+        mut pace: impl FnMut(f64) -> Pace,
+    ) -> Fit {
+        let mut chunks = chunks(dataset);
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        for chunk in &mut chunks {
+            chunk.rows.shuffle(&mut random);
+        }
+        let mut chunks = cut(&chunks);
+        chunks.shuffle(&mut random);
+        let mut all = Fit::default();
+        let steps = chunks.len().div_ceil(CHUNKS_A_STEP);
+        for (step, chunks) in chunks.chunks(CHUNKS_A_STEP).enumerate() {
+            let pace = pace(step as f64 / steps as f64);
+            all.add(&self.step(dataset, chunks, pace));
+        }
+        all.over(dataset.len().max(1) as f64)
+    }
+
+    fn step(&mut self, dataset: &Dataset, chunks: &[Chunk], pace: Pace) -> Fit {
+        let decisions: usize = chunks.iter().map(|chunk| chunk.rows.len()).sum();
+        let weight = 1.0 / decisions as f32;
+        let (architecture, weights) = (&self.architecture, &self.weights);
+        self.lanes.par_iter_mut().enumerate().for_each(|(at, lane)| {
+            lane.gradient.clear();
+            lane.fit = Fit::default();
+            for chunk in chunks.iter().skip(at).step_by(LANES) {
+                let samples = &dataset.0[&chunk.vertiports];
+                lane.work(architecture, weights, samples, &chunk.rows, pace.entropy_weight, weight);
+            }
+        });
+        let (first, rest) = self.lanes.split_first_mut().expect("there are lanes");
+        let mut fit = first.fit;
+        for lane in rest {
+            fit.add(&lane.fit);
+            let sums = first.gradient.sums_mut().iter_mut();
+            sums.zip(lane.gradient.sums()).for_each(|(sum, slope)| *sum += slope);
+        }
+        let gradient = self.net.finish(&self.weights, &mut first.gradient);
+        clip_norm(gradient, MAX_NORM);
+        let adam = &mut self.adam;
+        let step = |params: &mut [f32]| adam.step(params, gradient, pace.learning_rate);
+        self.net.update(&mut self.weights, step);
+        fit
+    }
+}
+
+impl Lane {
+    fn work(
+        &mut self,
+        architecture: &Architecture,
+        model_weights: &Weights,
+        samples: &Samples,
+        rows: &[usize],
+        entropy_weight: f32,
+        weight: f32,
+    ) {
+        let vertiports = samples.rows.vertiports();
+        if self.vertiports != vertiports {
+            let net = network(architecture, vertiports);
+            let workspace = net.workspace(chunk_rows(vertiports));
+            self.net = Some((net, workspace));
+            self.rows = Rows::new(vertiports);
+            self.vertiports = vertiports;
+        }
+        let (net, workspace) = self.net.as_mut().expect("made above");
+        self.rows.clear();
+        for &row in rows {
+            self.rows.push_copy(&samples.rows, row);
+        }
+        let inputs = self.rows.inputs();
+        net.forward(model_weights, inputs, workspace);
+        self.slopes.clear();
+        self.slopes.resize(rows.len() * vertiports, 0.0);
+        self.no_slopes.clear();
+        self.no_slopes.resize(rows.len(), 0.0);
+        let logits = workspace.logits().chunks_exact(vertiports);
+        for ((logits, slopes), &row) in
+            logits.zip(self.slopes.chunks_exact_mut(vertiports)).zip(rows)
+        {
+            let span = row * vertiports..(row + 1) * vertiports;
+            let sample = (&samples.priced[span.clone()], &samples.values[span]);
+            self.fit.add(&decision_loss(logits, sample, slopes, entropy_weight, weight));
+        }
+        let slopes = Slopes { logits: &self.slopes, values: &self.no_slopes };
+        net.backward(model_weights, inputs, slopes, workspace, &mut self.gradient);
+    }
+}
+
+/// Sets the slopes of a decision's loss, times a weight; says how well it was decided.
+fn decision_loss(
+    logits: &[f32],
+    (priced, values): (&[f32], &[f32]),
+    slopes: &mut [f32],
+    entropy_weight: f32,
+    weight: f32,
+) -> Fit {
+    let unit = LOGITS_A_UNIT as f32;
+    // Minus infinity for what is not on the list.
+    let whole = |at: usize| logits[at] + unit * priced[at];
+    let highest = (0..logits.len()).map(whole).fold(f32::NEG_INFINITY, f32::max);
+    let total: f32 = (0..logits.len()).map(|at| (whole(at) - highest).exp()).sum();
+    let log_total = highest + total.ln();
+    let listed = || (0..logits.len()).filter(|&at| logits[at] > f32::NEG_INFINITY);
+    let probability = |at: usize| (whole(at) - log_total).exp();
+    let gain: f32 = listed().map(|at| probability(at) * values[at]).sum();
+    let entropy: f32 = -listed().map(|at| probability(at) * (whole(at) - log_total)).sum::<f32>();
+    for at in listed() {
+        let advantage = unit * (values[at] - gain);
+        let information = log_total - whole(at) - entropy;
+        slopes[at] = -weight * probability(at) * (advantage + entropy_weight * information);
+    }
+    let pick = |score: &dyn Fn(usize) -> f32| {
+        listed().fold((f32::NEG_INFINITY, 0), |best, at| {
+            if score(at) > best.0 { (score(at), at) } else { best }
+        })
+    };
+    let chosen = pick(&whole).1;
+    let first = pick(&|at| priced[at]).1;
+    let best = pick(&|at| values[at]).1;
+    Fit {
+        gain: f64::from(gain),
+        lift: f64::from(values[chosen] - values[first]),
+        most: f64::from(values[best] - values[first]),
+        agreement: f64::from(u8::from(chosen == best)),
+    }
+}
+
+fn chunk_rows(vertiports: usize) -> usize {
+    (CHUNK_NODES / vertiports).max(1)
+}
+
+/// All rows of each number of vertiports.
+fn chunks(dataset: &Dataset) -> Vec<Chunk> {
+    let all = dataset.0.iter();
+    all.map(|(&vertiports, samples)| Chunk { vertiports, rows: (0..samples.rows.len()).collect() })
+        .collect()
+}
+
+/// Chunks small enough for a pass.
+fn cut(chunks: &[Chunk]) -> Vec<Chunk> {
+    let cut = chunks.iter().flat_map(|chunk| {
+        let rows = chunk.rows.chunks(chunk_rows(chunk.vertiports));
+        rows.map(|rows| Chunk { vertiports: chunk.vertiports, rows: rows.to_vec() })
+    });
+    cut.collect()
+}
+
+impl Fit {
+    fn add(&mut self, other: &Self) {
+        self.gain += other.gain;
+        self.lift += other.lift;
+        self.most += other.most;
+        self.agreement += other.agreement;
+    }
+
+    fn over(self, count: f64) -> Self {
+        Self {
+            gain: self.gain / count,
+            lift: self.lift / count,
+            most: self.most / count,
+            agreement: self.agreement / count,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LOGITS_A_UNIT, decision_loss};
+
+    const ENTROPY_WEIGHT: f32 = 0.7;
+    const PRICED: [f32; 4] = [0.0, -0.05, 0.0, -0.2];
+    const VALUES: [f32; 4] = [0.04, -0.03, 0.0, -0.01];
+
+    /// The loss as the head of the file has it, A counted in logits, in double precision; the third is not on the list.
+    fn loss(logits: &[f32; 4]) -> f64 {
+        let whole =
+            [0, 1, 3].map(|at| f64::from(logits[at]) + LOGITS_A_UNIT * f64::from(PRICED[at]));
+        let total: f64 = whole.iter().map(|whole| whole.exp()).sum();
+        let terms = whole.iter().zip([0, 1, 3]).map(|(whole, at)| {
+            let p = whole.exp() / total;
+            -p * LOGITS_A_UNIT * f64::from(VALUES[at]) + f64::from(ENTROPY_WEIGHT) * p * p.ln()
+        });
+        terms.sum()
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_loss() {
+        let logits = [0.3, -0.2, f32::NEG_INFINITY, 1.1];
+        let mut slopes = [0.0; 4];
+        let fit = decision_loss(&logits, (&PRICED, &VALUES), &mut slopes, ENTROPY_WEIGHT, 1.0);
+        assert_eq!(slopes[2], 0.0, "what is not on the list moves nothing");
+        for at in [0, 1, 3] {
+            let moved = |by: f32| {
+                let mut logits = logits;
+                logits[at] += by;
+                loss(&logits)
+            };
+            let slope = (moved(0.01) - moved(-0.01)) / 0.02;
+            assert!((slope - f64::from(slopes[at])).abs() < 1e-4, "{at}: {slope}, {slopes:?}");
+        }
+        assert!(
+            fit.agreement == 1.0 && fit.lift == 0.0,
+            "the first is best by prices and by worth"
+        );
+    }
+}

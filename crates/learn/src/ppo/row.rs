@@ -1,0 +1,47 @@
+//! A row of PPO's learning curve.
+
+use serde::{Deserialize, Serialize};
+
+/// One update.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PpoRow {
+    /// Updates done.
+    pub update: u64,
+    /// Decisions learned from.
+    pub steps: u64,
+    /// Days finished.
+    pub days: u64,
+    /// Mean reward of the last 100 days finished, choices drawn from the policy; none before the first day is over.
+    pub mean_reward: Option<f64>,
+    /// Mean reward on the validation days, best choices only, where it was measured after this update.
+    pub validation_reward: Option<f64>,
+    /// Mean clipped surrogate loss of the last epoch.
+    pub policy_loss: f64,
+    /// Mean squared error of the values in the last epoch, in scaled rewards.
+    pub value_loss: f64,
+    /// Mean entropy of the policy in the last epoch, nats.
+    pub entropy: f64,
+    /// Mean of the divergence estimate in the last epoch.
+    pub approx_kl: f64,
+    /// Share of clipped decisions in the last epoch.
+    pub clip_fraction: f64,
+    /// Adam's step size.
+    pub learning_rate: f64,
+}
+
+impl PpoRow {
+    /// What was measured, by the names that stable-baselines3 gives it.
+    pub(crate) fn scalars(&self) -> Vec<(&'static str, f64)> {
+        let scalars = [
+            ("rollout/ep_rew_mean", self.mean_reward),
+            ("eval/mean_reward", self.validation_reward),
+            ("train/policy_gradient_loss", Some(self.policy_loss)),
+            ("train/value_loss", Some(self.value_loss)),
+            ("train/entropy", Some(self.entropy)),
+            ("train/approx_kl", Some(self.approx_kl)),
+            ("train/clip_fraction", Some(self.clip_fraction)),
+            ("train/learning_rate", Some(self.learning_rate)),
+        ];
+        scalars.into_iter().filter_map(|(tag, value)| Some((tag, value?))).collect()
+    }
+}

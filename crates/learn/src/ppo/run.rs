@@ -1,0 +1,296 @@
+//! A training run by PPO: collect decisions, update, look at the validation days, keep the weights that did best there.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
+use serde::{Deserialize, Serialize};
+use vertifleet_core::{DaySeed, Scenario, Stop};
+use vertifleet_policy::Policy;
+use vertifleet_sim::Simulation;
+
+use crate::adam::Adam;
+use crate::error::Error;
+use crate::features::shape;
+use crate::header::Header;
+use crate::learned::Learned;
+use crate::model::Model;
+use crate::nn::{self, Weights};
+use crate::ppo::buffer::{Buffer, DayInProgress, Source};
+use crate::ppo::update::{Ppo, Update};
+use crate::ppo::{PpoRow, PpoSettings};
+use crate::run::checkpoint::{self, tensor};
+use crate::run::{Curve, RunIdentity, TrainingPlan, TrainingRun, Work, check_finite};
+
+/// Days whose rewards the curve averages, as in stable-baselines3.
+const RECENT_DAYS: usize = 100;
+/// Validation days that share one inference.
+const VALIDATION_BLOCK: usize = 16;
+/// The weights that did best, in a checkpoint.
+const BEST_PARAMS: &str = "best_params";
+
+/// A run under way.
+pub(crate) struct PpoRun {
+    identity: RunIdentity,
+    settings: PpoSettings,
+    /// The header of the run's models, but for the steps.
+    header: Header,
+    net: nn::Network,
+    weights: Weights,
+    adam: Adam,
+    ppo: Ppo,
+    source: Source,
+    buffer: Buffer,
+    validation: Vec<Arc<Scenario>>,
+    progress: Progress,
+}
+
+/// How far a run has come.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Progress {
+    updates: u64,
+    days_finished: u64,
+    recent_rewards: Vec<f64>,
+    /// Filled in when a checkpoint is taken; while a run is under way the buffer knows.
+    days: Vec<DayInProgress>,
+    best_reward: Option<f64>,
+    best_steps: u64,
+    #[serde(skip)]
+    best_params: Vec<f32>,
+    curve: Vec<PpoRow>,
+}
+
+impl PpoRun {
+    /// A run before its first update, or one that goes on from a checkpoint.
+    pub(crate) fn new(
+        plan: &TrainingPlan,
+        identity: RunIdentity,
+        settings: PpoSettings,
+        from: Option<&Path>,
+    ) -> Result<Self, Error> {
+        let shape = shape(plan.network.vertiports().len());
+        let net = nn::Network::new(plan.policy.clone(), shape)
+            .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
+        let (params, adam, mut progress) = if let Some(path) = from {
+            set_aside(path, &identity, &settings, net.layout().len())?
+        } else {
+            let params = net.init(u64::from(plan.seed));
+            (params.clone(), Adam::new(params.len()), Progress::new(params))
+        };
+        let source = Source { network: Arc::clone(&plan.network), run_seed: plan.seed };
+        let days = from.map(|_| std::mem::take(&mut progress.days));
+        let validation = (0..u64::from(settings.eval_days))
+            .map(|day| Ok(Arc::new(plan.network.draw(DaySeed::validation(day)?))))
+            .collect::<Result<_, Error>>()?;
+        Ok(Self {
+            buffer: Buffer::new(&source, &net, &settings, days)?,
+            ppo: Ppo::new(&net, shape.vertiports, &settings),
+            weights: net.weights(params),
+            header: Header::of_run(plan, Some(plan.network.feature_scales()), shape.into()),
+            identity,
+            settings,
+            net,
+            adam,
+            source,
+            validation,
+            progress,
+        })
+    }
+
+    /// Collects decisions and learns from them; [`Error::Stopped`] leaves everything wherever it was.
+    fn update(&mut self, stop: &Stop, worked: &dyn Fn(u64)) -> Result<PpoRow, Error> {
+        let finished = self.buffer.collect(&self.source, &self.net, &self.weights)?;
+        self.progress.remember_days(&finished);
+        let update = self.progress.updates;
+        let learning_rate = self.settings.learning_rate_at(update);
+        let buffer_size = self.settings.buffer_size() as u64;
+        let mut shown = 0;
+        let losses = self.ppo.update(
+            &self.net,
+            &self.buffer,
+            Update {
+                weights: &mut self.weights,
+                adam: &mut self.adam,
+                // Distinct for every update of every seed.
+                seed: u64::from(self.identity.seed) << 32 | update,
+                learning_rate,
+            },
+            &mut |share| {
+                #[expect(clippy::cast_sign_loss, reason = "a share of the steps")]
+                let steps = (share * buffer_size as f64) as u64;
+                worked(steps.saturating_sub(shown));
+                shown = steps;
+                stop.check()
+            },
+        )?;
+        check_finite(self.weights.params(), update + 1)?;
+        self.progress.updates += 1;
+        let steps = self.steps();
+        let looks = self.progress.updates.is_multiple_of(u64::from(self.settings.eval_every));
+        let validation_reward = (looks || self.is_done()).then(|| self.validation_reward());
+        if let Some(reward) = validation_reward {
+            self.progress.keep_if_best(reward, self.weights.params(), steps);
+        }
+        Ok(PpoRow {
+            update: self.progress.updates,
+            steps,
+            days: self.progress.days_finished,
+            mean_reward: self.progress.mean_recent_reward(),
+            validation_reward,
+            policy_loss: losses.policy_loss,
+            value_loss: losses.value_loss,
+            entropy: losses.entropy,
+            approx_kl: losses.approx_kl,
+            clip_fraction: losses.clip_fraction,
+            learning_rate: f64::from(learning_rate),
+        })
+    }
+
+    /// Decisions learned from.
+    fn steps(&self) -> u64 {
+        self.progress.updates * self.settings.buffer_size() as u64
+    }
+
+    /// Mean reward on the validation days, best choices only.
+    fn validation_reward(&self) -> f64 {
+        let model = self.model_of(self.weights.params(), 0);
+        let blocks: Vec<&[Arc<Scenario>]> = self.validation.chunks(VALIDATION_BLOCK).collect();
+        let rewards = blocks
+            .par_iter()
+            .map(|block| play_block(&mut Learned::new(&model), block))
+            .collect::<Vec<_>>();
+        rewards.iter().flatten().sum::<f64>() / self.validation.len() as f64
+    }
+
+    fn model_of(&self, params: &[f32], steps: u64) -> Model {
+        Model::new(self.header.after(steps), params.to_vec())
+            .expect("a run has checked all of this")
+    }
+}
+
+impl TrainingRun for PpoRun {
+    fn is_done(&self) -> bool {
+        self.progress.updates >= self.settings.updates()
+    }
+
+    fn work(&self) -> Work {
+        let total = self.settings.updates() * self.settings.buffer_size() as u64;
+        Work { done: self.steps(), total, units: "steps" }
+    }
+
+    fn advance(&mut self, stop: &Stop, worked: &(dyn Fn(u64) + Sync)) -> Result<(), Error> {
+        let before = (self.weights.params().to_vec(), self.adam.clone());
+        let progress = Progress { days: self.buffer.days(), ..self.progress.clone() };
+        match self.update(stop, worked) {
+            Ok(row) => self.progress.curve.push(row),
+            Err(Error::Stopped) => {
+                let (params, adam) = before;
+                let Self { net, source, settings, .. } = self;
+                self.buffer = Buffer::new(source, net, settings, Some(progress.days.clone()))?;
+                (self.weights, self.adam) = (self.net.weights(params), adam);
+                self.progress = progress;
+                return Err(Error::Stopped);
+            }
+            Err(error) => return Err(error),
+        }
+        Ok(())
+    }
+
+    fn curve(&self) -> Curve {
+        Curve::Ppo(self.progress.curve.clone())
+    }
+
+    fn model(&self) -> Model {
+        match self.progress.best_reward {
+            // Before the first look at the validation days, the latest weights.
+            None => self.model_of(self.weights.params(), self.steps()),
+            Some(_) => self.model_of(&self.progress.best_params, self.progress.best_steps),
+        }
+    }
+
+    fn write_checkpoint(&self, path: &Path) -> Result<(), Error> {
+        let progress = Progress { days: self.buffer.days(), ..self.progress.clone() };
+        let best = [(BEST_PARAMS.to_owned(), self.progress.best_params.as_slice())];
+        checkpoint::write(path, &self.identity, self.weights.params(), &self.adam, &progress, best)
+    }
+}
+
+/// Parameters, moments and progress of a run that was set aside.
+fn set_aside(
+    path: &Path,
+    identity: &RunIdentity,
+    settings: &PpoSettings,
+    parameters: usize,
+) -> Result<(Vec<f32>, Adam, Progress), Error> {
+    let mut checkpoint = checkpoint::read::<Progress>(path, identity, parameters)?;
+    let best = checkpoint.others(|file| tensor(file, BEST_PARAMS, parameters))?;
+    checkpoint.progress.best_params = best;
+    if checkpoint.progress.updates > settings.updates() {
+        let rule = format!("{} updates are more than the run has", checkpoint.progress.updates);
+        return Err(Error::BadCheckpoint { rule });
+    }
+    Ok((checkpoint.params, checkpoint.adam, checkpoint.progress))
+}
+
+impl Progress {
+    fn new(params: Vec<f32>) -> Self {
+        Self {
+            updates: 0,
+            days_finished: 0,
+            recent_rewards: Vec::new(),
+            days: Vec::new(),
+            best_reward: None,
+            best_steps: 0,
+            best_params: params,
+            curve: Vec::new(),
+        }
+    }
+
+    fn remember_days(&mut self, rewards: &[f64]) {
+        self.days_finished += rewards.len() as u64;
+        self.recent_rewards.extend(rewards);
+        let surplus = self.recent_rewards.len().saturating_sub(RECENT_DAYS);
+        self.recent_rewards.drain(..surplus);
+    }
+
+    fn mean_recent_reward(&self) -> Option<f64> {
+        let days = self.recent_rewards.len();
+        (days > 0).then(|| self.recent_rewards.iter().sum::<f64>() / days as f64)
+    }
+
+    fn keep_if_best(&mut self, reward: f64, params: &[f32], steps: u64) {
+        if self.best_reward.is_none_or(|best| reward > best) {
+            self.best_reward = Some(reward);
+            self.best_steps = steps;
+            self.best_params.copy_from_slice(params);
+        }
+    }
+}
+
+/// Plays days in lockstep, one inference for all of them; rewards in the order of the days.
+fn play_block(policy: &mut Learned, days: &[Arc<Scenario>]) -> Vec<f64> {
+    let mut simulations: Vec<Simulation> =
+        days.iter().map(|day| Simulation::new(Arc::clone(day))).collect();
+    let mut open = Vec::with_capacity(days.len());
+    let mut choices = Vec::with_capacity(days.len());
+    loop {
+        open.clear();
+        open.extend(
+            simulations
+                .iter_mut()
+                .enumerate()
+                .filter_map(|(at, day)| day.next_decision().map(|decision| (at, decision))),
+        );
+        if open.is_empty() {
+            return simulations.iter().map(|day| day.summary().reward).collect();
+        }
+        choices.clear();
+        let mut asked = open.iter().map(|&(at, decision)| (decision, simulations[at].view()));
+        policy
+            .choose_batch(&mut asked, &mut choices)
+            .expect("a trained network always has an answer");
+        for (&(at, _), &choice) in open.iter().zip(&choices) {
+            simulations[at].apply(choice).expect("a trained network chooses from the mask");
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Checkpoints: everything that a run needs to go on bit for bit, in one safetensors file.
+//!
+//! Randomness is a function of seed, day and decision, so there is no generator to store. What both ways to learn have is here:
+//! whose checkpoint it is, the parameters and Adam's moments. What else a way needs is its own [progress](Checkpoint::progress) and
+//! tensors. Checkpoints of earlier versions are read too.
+
+use std::fmt::Display;
+use std::path::Path;
+
+use safetensors::tensor::{Dtype, SafeTensors};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+use crate::adam::Adam;
+use crate::error::Error;
+use crate::run::RunIdentity;
+use crate::settings::{TrainingSettings, first_difference};
+use crate::tensor_file;
+
+/// The format that is written.
+const FORMAT: &str = "vertifleet-checkpoint/2";
+/// Earlier formats, of PPO and of imitation.
+const FORMER_PPO: &str = "vertifleet-checkpoint/1";
+const FORMER_IMITATION: &str = "vertifleet-checkpoint-any/1";
+/// No checkpoint of ours comes near; larger files are not read.
+const LIMIT_BYTES: u64 = 16 << 30;
+/// Parameters and Adam's moments.
+const LEARNER: [&str; 3] = ["params", "adam_first", "adam_second"];
+
+/// A checkpoint that was read and is of the run that is asked for.
+pub(crate) struct Checkpoint<Progress> {
+    pub(crate) params: Vec<f32>,
+    pub(crate) adam: Adam,
+    /// How far the run has come, in the words of its way to learn.
+    pub(crate) progress: Progress,
+    bytes: Vec<u8>,
+}
+
+/// What a checkpoint begins with; its kind is known by the first member.
+#[derive(Serialize)]
+struct Header<'a, Progress> {
+    format: &'static str,
+    run: &'a RunIdentity,
+    adam_steps: u64,
+    progress: &'a Progress,
+}
+
+/// Writes a checkpoint, whole or not at all; `others` are the tensors of the way to learn.
+pub(crate) fn write<'a>(
+    path: &Path,
+    run: &RunIdentity,
+    params: &'a [f32],
+    adam: &'a Adam,
+    progress: &impl Serialize,
+    others: impl IntoIterator<Item = (String, &'a [f32])>,
+) -> Result<(), Error> {
+    let header = Header { format: FORMAT, run, adam_steps: adam.steps, progress };
+    let learner = LEARNER.map(str::to_owned).into_iter().zip([params, &adam.first, &adam.second]);
+    let tensors: Vec<(String, &[f32])> = learner.chain(others).collect();
+    let tensors =
+        tensors.iter().map(|(name, entries)| (name.as_str(), vec![entries.len()], *entries));
+    let bytes = tensor_file::to_bytes(&header, tensors);
+    Ok(vertifleet_core::write_atomically(path, &bytes)?)
+}
+
+/// Reads the checkpoint of this run, whose network has so many parameters.
+pub(crate) fn read<Progress: DeserializeOwned>(
+    path: &Path,
+    asked: &RunIdentity,
+    parameters: usize,
+) -> Result<Checkpoint<Progress>, Error> {
+    let bytes = vertifleet_core::read_at_most(path, LIMIT_BYTES)?;
+    parse(bytes, asked, parameters).map_err(|rule| Error::BadCheckpoint { rule })
+}
+
+fn parse<Progress: DeserializeOwned>(
+    bytes: Vec<u8>,
+    asked: &RunIdentity,
+    parameters: usize,
+) -> Result<Checkpoint<Progress>, String> {
+    let mut header = tensor_file::header(&bytes)?;
+    let format = header.get("format").and_then(Value::as_str).unwrap_or_default().to_owned();
+    match format.as_str() {
+        FORMAT => {}
+        FORMER_PPO => modernise_ppo(&mut header),
+        FORMER_IMITATION => modernise_imitation(&mut header),
+        found => return Err(format!("format must be {FORMAT:?}, found {found:?}")),
+    }
+    check_same(&mut header, asked)?;
+    let adam_steps = member(&mut header, "adam_steps")?;
+    let progress = member(&mut header, "progress")?;
+    let file = SafeTensors::deserialize(&bytes).map_err(|error| error.to_string())?;
+    let [params, first, second] = LEARNER.map(|name| tensor(&file, name, parameters));
+    let adam = Adam { first: first?, second: second?, steps: adam_steps };
+    let params = params?;
+    Ok(Checkpoint { params, adam, progress, bytes })
+}
+
+impl<Progress> Checkpoint<Progress> {
+    /// The tensors of the way to learn, as `read` takes them from the file.
+    pub(crate) fn others<T>(
+        &self,
+        read: impl FnOnce(&SafeTensors<'_>) -> Result<T, String>,
+    ) -> Result<T, Error> {
+        let file = SafeTensors::deserialize(&self.bytes).map_err(|error| error.to_string());
+        file.and_then(|file| read(&file)).map_err(|rule| Error::BadCheckpoint { rule })
+    }
+}
+
+/// The entries of a tensor that must have so many, all finite.
+pub(crate) fn tensor(
+    file: &SafeTensors<'_>,
+    name: &str,
+    entries: usize,
+) -> Result<Vec<f32>, String> {
+    let view = file.tensor(name).map_err(|error| error.to_string())?;
+    if view.dtype() != Dtype::F32 || view.shape() != [entries] {
+        return Err(format!("tensor {name:?} must be {entries} numbers of F32"));
+    }
+    let values: Vec<f32> = tensor_file::entries(&view).collect();
+    if values.iter().any(|value| !value.is_finite()) {
+        return Err(format!("tensor {name:?}: a number is not finite"));
+    }
+    Ok(values)
+}
+
+/// A member of a header, which is taken out of it.
+fn member<T: DeserializeOwned>(header: &mut Map<String, Value>, name: &str) -> Result<T, String> {
+    let value = header.remove(name).unwrap_or_default();
+    serde_json::from_value(value).map_err(|error| format!("header: {name}: {error}"))
+}
+
+/// The checkpoint is of the run that is asked for.
+fn check_same(header: &mut Map<String, Value>, asked: &RunIdentity) -> Result<(), String> {
+    let mut run: Map<String, Value> = member(header, "run")?;
+    let settings = run.remove("settings").unwrap_or_default();
+    let different = |what: &str, found: &dyn Display, asked: &dyn Display| {
+        Err(format!("it is of a run with {what} {found}, but {asked} is asked for"))
+    };
+    let network: String = member(&mut run, "network")?;
+    if network != asked.network {
+        return different("network", &network, &asked.network);
+    }
+    if member::<u32>(&mut run, "network_fingerprint")? != asked.network_fingerprint {
+        return Err(format!("network {network:?} has changed since the run was started"));
+    }
+    let policy = member(&mut run, "policy")?;
+    if policy != asked.policy {
+        return different("policy", &format!("{policy:?}"), &format!("{:?}", asked.policy));
+    }
+    let seed: u32 = member(&mut run, "seed")?;
+    if seed != asked.seed {
+        return different("seed", &seed, &asked.seed);
+    }
+    let settings = TrainingSettings::read(&policy, settings)?;
+    match first_difference(&settings, &asked.settings) {
+        Some((name, found, asked)) => different(&format!("setting {name}"), &found, &asked),
+        None => Ok(()),
+    }
+}
+
+/// Gathers under `run` what PPO's former header had beside each other.
+fn modernise_ppo(header: &mut Map<String, Value>) {
+    let mut run = Map::new();
+    for (former, name) in [
+        ("network", "network"),
+        ("network_print", "network_fingerprint"),
+        ("policy", "policy"),
+        ("settings", "settings"),
+        ("seed", "seed"),
+    ] {
+        run.extend(header.remove(former).map(|value| (name.to_owned(), value)));
+    }
+    header.insert("run".to_owned(), run.into());
+}
+
+/// Renames what imitation's former header had other names for, and gathers its progress.
+fn modernise_imitation(header: &mut Map<String, Value>) {
+    if let Some(Value::Object(run)) = header.get_mut("run") {
+        for (former, name) in [("network_print", "network_fingerprint"), ("course", "settings")] {
+            let value = run.remove(former);
+            run.extend(value.map(|value| (name.to_owned(), value)));
+        }
+    }
+    let mut progress = Map::new();
+    for (former, name) in [("rounds", "curve"), ("vertiports", "vertiports")] {
+        progress.extend(header.remove(former).map(|value| (name.to_owned(), value)));
+    }
+    header.insert("progress".to_owned(), progress.into());
+}

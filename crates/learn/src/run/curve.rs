@@ -1,0 +1,213 @@
+//! Learning curves: a row an update of PPO or a round of imitation, as CSV beside the weights of their run. Curves of runs with other
+//! seeds may lie there too.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::error::Error;
+use crate::imitation::ImitationRow;
+use crate::ppo::PpoRow;
+
+/// No learning curve of ours comes near; longer files are not read.
+const LONGEST: u64 = 64 << 20;
+
+/// How a run went, from its beginning.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Curve {
+    /// A row an update.
+    Ppo(Vec<PpoRow>),
+    /// A row a round.
+    Imitation(Vec<ImitationRow>),
+}
+
+impl Curve {
+    /// Where `train` leaves the learning curve of these weights: `gcaps-curve.csv` beside `gcaps.safetensors`.
+    pub fn beside(weights: &Path) -> PathBuf {
+        weights.with_file_name(format!("{}-curve.csv", name(weights)))
+    }
+
+    /// The curve beside weights, if there is one, and then those of runs with other seeds, `gcaps-seed-2-curve.csv` and so on, in
+    /// the order of the seeds.
+    ///
+    /// # Errors
+    /// If one of them cannot be read or is no curve.
+    pub fn read_beside(weights: &Path) -> Result<Vec<Self>, Error> {
+        let own = Self::beside(weights);
+        if !own.exists() {
+            return Ok(Vec::new());
+        }
+        let others = others(weights).into_iter().map(|(_, path)| path);
+        std::iter::once(own).chain(others).map(|path| Self::read(&path)).collect()
+    }
+
+    /// Reads a curve.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is no curve.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let bytes = vertifleet_core::read_at_most(path, LONGEST)?;
+        Self::from_csv(&String::from_utf8_lossy(&bytes), &path.display().to_string())
+    }
+
+    /// Reads a curve's CSV text; `origin` names it in errors.
+    ///
+    /// # Errors
+    /// [`Error::BadCurve`] for the first row that is not one.
+    pub(crate) fn from_csv(text: &str, origin: &str) -> Result<Self, Error> {
+        if text.starts_with("round,") {
+            return Ok(Self::Imitation(rows(text, origin)?));
+        }
+        Ok(Self::Ppo(rows(text, origin)?))
+    }
+
+    /// The curve as a CSV text, one column a member of its rows.
+    pub fn to_csv(&self) -> String {
+        match self {
+            Self::Ppo(rows) => csv_of(rows),
+            Self::Imitation(rows) => csv_of(rows),
+        }
+    }
+
+    /// Decisions learned from by the last row; 0 before the first.
+    pub fn steps(&self) -> u64 {
+        match self {
+            Self::Ppo(rows) => rows.last().map_or(0, |row| row.steps),
+            Self::Imitation(rows) => rows.last().map_or(0, |row| row.decisions),
+        }
+    }
+
+    /// Whether the run has learned nothing yet.
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Self::Ppo(rows) => rows.is_empty(),
+            Self::Imitation(rows) => rows.is_empty(),
+        }
+    }
+
+    /// Decisions learned from, and the mean reward of the last training days; nothing where learning is from no rewards.
+    pub fn training_rewards(&self) -> Vec<(u64, f64)> {
+        match self {
+            Self::Ppo(rows) => {
+                rows.iter().filter_map(|row| Some((row.steps, row.mean_reward?))).collect()
+            }
+            Self::Imitation(_) => Vec::new(),
+        }
+    }
+
+    /// Decisions learned from, and the mean reward on the validation days where it was measured.
+    pub fn validation_rewards(&self) -> Vec<(u64, f64)> {
+        match self {
+            Self::Ppo(rows) => {
+                rows.iter().filter_map(|row| Some((row.steps, row.validation_reward?))).collect()
+            }
+            Self::Imitation(rows) => {
+                rows.iter().map(|row| (row.decisions, row.validation_reward)).collect()
+            }
+        }
+    }
+
+    /// What TensorBoard is told, row by row: decisions learned from, and what was measured by then.
+    pub(crate) fn scalars(&self) -> Vec<(u64, Vec<(&'static str, f64)>)> {
+        match self {
+            Self::Ppo(rows) => rows.iter().map(|row| (row.steps, row.scalars())).collect(),
+            Self::Imitation(rows) => {
+                rows.iter().map(|row| (row.decisions, row.scalars())).collect()
+            }
+        }
+    }
+}
+
+fn csv_of(rows: &[impl Serialize]) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row).expect("rows of numbers go into memory");
+    }
+    let bytes = writer.into_inner().expect("memory takes everything");
+    String::from_utf8(bytes).expect("numbers are text")
+}
+
+fn rows<Row: DeserializeOwned>(text: &str, origin: &str) -> Result<Vec<Row>, Error> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let rows = reader.deserialize().collect::<Result<_, csv::Error>>();
+    rows.map_err(|error| Error::BadCurve {
+        origin: origin.to_owned(),
+        line: error.position().map_or(1, csv::Position::line),
+        rule: error.to_string(),
+    })
+}
+
+/// Curves of runs with other seeds, each with its seed, in their order.
+fn others(weights: &Path) -> Vec<(u32, PathBuf)> {
+    let begin = format!("{}-seed-", name(weights));
+    let seed = |path: &Path| -> Option<u32> {
+        let name = path.file_name()?.to_str()?;
+        name.strip_prefix(&begin)?.strip_suffix("-curve.csv")?.parse().ok()
+    };
+    let folder = weights.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter().flatten().flatten();
+    let paths = entries.map(|entry| entry.path());
+    let mut others: Vec<(u32, PathBuf)> =
+        paths.filter_map(|path| Some((seed(&path)?, path))).collect();
+    others.sort();
+    others
+}
+
+/// `gcaps` of `gcaps.safetensors`.
+fn name(weights: &Path) -> String {
+    weights.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::Curve;
+    use crate::imitation::ImitationRow;
+    use crate::ppo::PpoRow;
+
+    #[test]
+    fn curves_of_other_seeds_follow_that_of_the_weights_in_order() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, update| {
+            let curve = Curve::Ppo(vec![PpoRow { update, ..PpoRow::default() }]);
+            fs::write(folder.path().join(name), curve.to_csv()).expect("a file");
+        };
+        let weights = folder.path().join("mine.safetensors");
+        let updates = || -> Vec<u64> {
+            let rows = |curve| match curve {
+                Curve::Ppo(rows) => rows,
+                Curve::Imitation(_) => panic!("no rounds were written"),
+            };
+            let curves = Curve::read_beside(&weights).expect("curves").into_iter();
+            curves.flat_map(rows).map(|row| row.update).collect()
+        };
+        write("mine-seed-10-curve.csv", 10);
+        assert!(updates().is_empty(), "nothing to compare them with");
+        for (name, update) in [
+            ("mine-curve.csv", 1),
+            ("mine-seed-2-curve.csv", 2),
+            ("mine-seed-x-curve.csv", 3),
+            ("yours-seed-4-curve.csv", 4),
+        ] {
+            write(name, update);
+        }
+        assert_eq!(updates(), [1, 2, 10]);
+    }
+
+    #[test]
+    fn a_curve_reads_as_it_was_written() {
+        let row = PpoRow { update: 3, mean_reward: Some(0.03125), ..PpoRow::default() };
+        let round = ImitationRow { round: 1, gain: 0.5, ..ImitationRow::default() };
+        for curve in [
+            Curve::Ppo(vec![PpoRow::default(), row]),
+            Curve::Imitation(vec![ImitationRow::default(), round]),
+        ] {
+            assert_eq!(Curve::from_csv(&curve.to_csv(), "curve").expect("a curve"), curve);
+        }
+        let error = Curve::from_csv("update,steps\n1,x\n", "curve").expect_err("no curve");
+        assert_eq!(error.code().to_string(), "V308");
+    }
+}

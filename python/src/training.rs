@@ -1,0 +1,179 @@
+//! `train`: a run of the program's own trainer, at its speed.
+
+use std::path::PathBuf;
+use std::sync::{Arc, PoisonError};
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyMapping};
+use serde_json::{Map, Value};
+use vertifleet_core::{Outputs, Stop};
+use vertifleet_learn::nn::Architecture;
+use vertifleet_learn::{
+    Curve, Error, RunFolder, TrainingPlan, TrainingRun, TrainingSettings, TrainingWatch,
+};
+use vertifleet_progress::Bar;
+
+use crate::failure::{Failure, warn};
+use crate::frames::{Columns, frame, plain};
+use crate::given::Raised;
+use crate::interruptible::{self, interruptible};
+use crate::model::{Model, change};
+use crate::network::Network;
+use crate::whole::Whole;
+
+/// What a training run has left: the model, the learning curve, and whether there is more to learn.
+#[pyclass(frozen, module = "vertifleet")]
+pub(crate) struct Training {
+    model: Arc<vertifleet_learn::Model>,
+    curve: Curve,
+    is_done: bool,
+}
+
+#[pymethods]
+impl Training {
+    /// The weights: by PPO those that did best on the validation days, by imitation the last ones.
+    #[getter]
+    fn model(&self) -> Model {
+        Model { model: Arc::clone(&self.model) }
+    }
+
+    /// Whether all that was asked for has been learned.
+    #[getter]
+    fn is_done(&self) -> bool {
+        self.is_done
+    }
+
+    /// The learning curve as numpy arrays, named as in its CSV file; NaN where nothing was measured.
+    #[getter]
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let rows = rows(&self.curve);
+        let columns = Columns::new(py);
+        for name in rows.first().into_iter().flat_map(Map::keys) {
+            let values = || rows.iter().map(|row| &row[name]);
+            if values().all(Value::is_u64) {
+                columns.counts(name, values().filter_map(Value::as_u64))?;
+            } else {
+                let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+                columns.numbers(name, values().map(number))?;
+            }
+        }
+        Ok(columns.into_dict())
+    }
+
+    /// The learning curve as a pandas frame.
+    fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        frame(&self.columns(py)?, "pandas")
+    }
+
+    /// The learning curve as a polars frame.
+    fn to_polars<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        frame(&self.columns(py)?, "polars")
+    }
+
+    fn __repr__(&self) -> String {
+        let (kind, steps) = (self.model.kind(), self.curve.steps());
+        let state = if self.is_done { "done" } else { "not done" };
+        format!("<Training {kind}: {steps} decisions, {state}>")
+    }
+}
+
+/// The rows of a curve, by column.
+fn rows(curve: &Curve) -> Vec<Map<String, Value>> {
+    let rows = match curve {
+        Curve::Ppo(rows) => serde_json::to_value(rows),
+        Curve::Imitation(rows) => serde_json::to_value(rows),
+    };
+    serde_json::from_value(rows.expect("rows are plain data")).expect("rows have columns")
+}
+
+/// Trains a policy on a network. Ctrl-C sets the run aside; `resume` goes on with it.
+#[pyfunction]
+#[pyo3(signature = (
+    network, policy, *, out, preset = "default", settings = None, seed = None, resume = false, force = false,
+    threads = None, watch = None
+))]
+#[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
+pub(crate) fn train(
+    py: Python<'_>,
+    network: &Network,
+    policy: &str,
+    out: PathBuf,
+    preset: &str,
+    settings: Option<&Bound<'_, PyMapping>>,
+    seed: Option<Whole>,
+    resume: bool,
+    force: bool,
+    threads: Option<Whole>,
+    watch: Option<Py<PyAny>>,
+) -> PyResult<Training> {
+    let policy = Architecture::named(policy).ok_or_else(|| {
+        let rule = format!("policy must be gcaps, mlp or gcaps-x, found {policy:?}");
+        Failure::argument(rule)
+    })?;
+    let mut of_run = TrainingSettings::preset(&policy, preset).map_err(Failure::from)?;
+    if let Some(settings) = settings {
+        change(&mut of_run, settings)?;
+    }
+    let plan = TrainingPlan {
+        network: Arc::clone(&network.network),
+        policy,
+        settings: of_run,
+        seed: seed.map_or(Ok(1), |seed| seed.of("seed"))?,
+        commit: format!("python {}", env!("CARGO_PKG_VERSION")),
+    };
+    let threads = interruptible::threads(threads)?;
+    let raised = Raised::default();
+    let told = raised.clone();
+    let outcome = interruptible(py, threads, move |stop| {
+        let mut outputs = Outputs::new(force);
+        let folder = RunFolder::of(&plan.policy, &out);
+        let mut run = folder.begin(plan, resume, &mut outputs)?;
+        let work = run.work();
+        let bar = Bar::new(work.total, work.units);
+        bar.already_done(work.done);
+        folder.train(
+            run.as_mut(),
+            stop,
+            &Shown { bar, watch, raised: told, stop: stop.clone() },
+        )?;
+        Ok::<_, Error>(training_of(run.as_ref()))
+    })?;
+    match raised.take() {
+        Some(error) => Err(error),
+        None => Ok(outcome.map_err(Failure::from)?),
+    }
+}
+
+fn training_of(run: &dyn TrainingRun) -> Training {
+    Training { model: Arc::new(run.model()), curve: run.curve(), is_done: run.is_done() }
+}
+
+/// Shows a run: as a bar where there is a terminal, and to a function of the caller's.
+struct Shown {
+    bar: Bar,
+    watch: Option<Py<PyAny>>,
+    raised: Raised,
+    stop: Stop,
+}
+
+impl TrainingWatch for Shown {
+    fn has_worked(&self, units: u64) {
+        self.bar.advance(units);
+    }
+
+    fn has_learned(&self, curve: &Curve, steps_per_second: f64) {
+        self.bar.say(format!("{steps_per_second:.0} decisions/s"));
+        let (Some(watch), Some(row)) = (&self.watch, rows(curve).pop()) else { return };
+        let called = Python::attach(|py| watch.call1(py, (plain(py, &row)?,)).map(|_| ()));
+        if let Err(error) = called {
+            self.raised.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+            self.stop.request();
+        }
+    }
+
+    fn could_not_write(&self, error: &Error) {
+        let warning = format!("{error}; the training goes on");
+        // Where even this cannot be said, the training goes on all the same.
+        let _ = Python::attach(|py| warn(py, &warning));
+    }
+}
