@@ -3,7 +3,7 @@
 use pyo3::prelude::{PyAnyMethods, PyErr, Python};
 use pyo3::sync::PyOnceLock;
 use pyo3::{Py, types::PyType};
-use vertifleet_core::Code;
+use vertifleet_core::{Code, Coded};
 
 /// What went wrong, before Python hears of it: made without Python's lock, on any thread.
 #[derive(Debug)]
@@ -42,27 +42,12 @@ fn class(py: Python<'_>) -> Result<&pyo3::Bound<'_, PyType>, PyErr> {
     Ok(class.bind(py))
 }
 
-macro_rules! from_coded {
-    ($($error:ty),*) => {
-        $(impl From<$error> for Failure {
-            fn from(error: $error) -> Self {
-                Self {
-                    code: error.code(),
-                    message: error.to_string(),
-                    hint: error.hint().map(str::to_owned),
-                }
-            }
-        })*
-    };
+impl<E: Coded> From<E> for Failure {
+    fn from(error: E) -> Self {
+        let hint = error.hint().map(str::to_owned);
+        Self { code: error.code(), message: error.to_string(), hint }
+    }
 }
-
-from_coded!(
-    vertifleet_core::Error,
-    vertifleet_sim::TraceError,
-    vertifleet_optimize::Error,
-    vertifleet_learn::Error,
-    vertifleet_study::Error
-);
 
 /// Says what is allowed but hardly meant, as Python's `UserWarning`.
 pub(crate) fn warn(py: Python<'_>, warning: &str) -> pyo3::PyResult<()> {

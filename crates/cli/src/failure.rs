@@ -7,33 +7,28 @@ use std::fmt;
 use std::process::ExitCode;
 
 use anstream::eprintln;
-use vertifleet_core::Code;
+use vertifleet_core::{Code, Coded, Exit};
 
-/// Codes of failures that no other input would have avoided.
-const NOT_THE_INPUT: [u16; 4] = [102, 309, 401, 405];
-
-/// An outcome that is none.
+/// Why a command did not do what it was asked for.
 #[derive(Debug)]
 pub(crate) struct Failure {
+    /// None where the failure is not expected.
     code: Option<Code>,
+    exit: Exit,
     message: String,
     hint: Option<String>,
 }
 
 impl Failure {
-    /// Something that the user can put right.
-    pub(crate) fn expected(code: Code, message: String, hint: Option<&str>) -> Self {
-        Self { code: Some(code), message, hint: hint.map(str::to_owned) }
-    }
-
     /// V450: arguments that do not go together. Cause and fix are in the message and its hint.
     pub(crate) fn usage(message: String, hint: &str) -> Self {
-        Self::expected(Code(450), message, Some(hint))
+        let hint = Some(hint.to_owned());
+        Self { code: Some(Code(450)), exit: Exit::Input, message, hint }
     }
 
     /// Something that the user cannot put right.
     pub(crate) fn internal(cause: &dyn fmt::Display) -> Self {
-        Self { code: None, message: cause.to_string(), hint: None }
+        Self { code: None, exit: Exit::Failed, message: cause.to_string(), hint: None }
     }
 
     /// Tells the user; gives the exit code.
@@ -46,25 +41,17 @@ impl Failure {
         if let Some(hint) = &self.hint {
             eprintln!("{bold}hint{reset}: {hint}");
         }
-        let input = self.code.is_some_and(|code| !NOT_THE_INPUT.contains(&code.0));
-        ExitCode::from(if input { 2 } else { 1 })
+        ExitCode::from(self.exit as u8)
     }
 }
 
-macro_rules! from_coded {
-    ($($error:ty),*) => {
-        $(impl From<$error> for Failure {
-            fn from(error: $error) -> Self {
-                Self::expected(error.code(), error.to_string(), error.hint())
-            }
-        })*
-    };
+impl<E: Coded> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self {
+            code: Some(error.code()),
+            exit: error.exit(),
+            message: error.to_string(),
+            hint: error.hint().map(str::to_owned),
+        }
+    }
 }
-
-from_coded!(
-    vertifleet_core::Error,
-    vertifleet_sim::TraceError,
-    vertifleet_optimize::Error,
-    vertifleet_learn::Error,
-    vertifleet_study::Error
-);

@@ -77,7 +77,7 @@ fn position(entries: &[toml::Value], part: &str) -> Option<usize> {
 mod tests {
     use serde_json::{Value, json};
 
-    use crate::{DaySeed, Error, Network};
+    use crate::{Coded, DaySeed, Error, Network};
 
     fn changed(changes: &Value) -> Result<Network, Error> {
         let paper = Network::shipped("paper").expect("a shipped network");

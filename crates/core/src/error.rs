@@ -5,6 +5,7 @@
 
 use std::io;
 
+use crate::code::{Coded, Exit};
 use crate::limits::SEED_LIMIT;
 use crate::output_error::OutputError;
 use crate::{Code, FileKind};
@@ -403,9 +404,8 @@ pub const ALL: &[(Code, &str)] = &[
     (Code(135), "vertiport out of reach (warning)"),
 ];
 
-impl Error {
-    /// The stable number, printed as `V104`.
-    pub fn code(&self) -> Code {
+impl Coded for Error {
+    fn code(&self) -> Code {
         Code(match self {
             Self::CannotRead { .. } => 101,
             Self::CannotWrite { .. } => 102,
@@ -438,8 +438,7 @@ impl Error {
         })
     }
 
-    /// What helps beside the message, where there is more to say.
-    pub fn hint(&self) -> Option<&str> {
+    fn hint(&self) -> Option<&str> {
         match self {
             Self::OutOfRange { hint, .. } => *hint,
             Self::CannotWrite { .. } => {
@@ -463,7 +462,7 @@ impl Error {
             }
             Self::UnknownNetwork { meant: Some(meant), .. } => Some(meant),
             Self::UnknownNetwork { .. } => Some("a network file is TOML, see networks/paper.toml"),
-            Self::Output(refusal) => Some(refusal.hint()),
+            Self::Output(refusal) => refusal.hint(),
             Self::NoSuchMember { .. } => Some(
                 "members are named as in the network file, entries of a list by id, position or *",
             ),
@@ -477,6 +476,14 @@ impl Error {
                 "a table has the columns period,from,to,passengers, with commas between them and a decimal point in numbers",
             ),
             _ => None,
+        }
+    }
+
+    fn exit(&self) -> Exit {
+        match self {
+            Self::CannotWrite { .. } => Exit::Failed,
+            Self::Output(refusal) => refusal.exit(),
+            _ => Exit::Input,
         }
     }
 }

@@ -43,7 +43,7 @@ mod warning;
 mod write;
 
 pub use closed_times::{ClosedSpan, ClosedTimes};
-pub use code::Code;
+pub use code::{Code, Coded, Exit};
 pub use disturbances::{Closure, Disturbances, Outage, Route, TakeoffDelays};
 pub use error::Error;
 pub use fares::Fares;

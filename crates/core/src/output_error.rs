@@ -1,6 +1,7 @@
 //! Refusals to write over what would be lost.
 
 use crate::Code;
+use crate::code::{Coded, Exit};
 
 /// Why a command does not write to a file or folder. Nothing was done then.
 #[derive(Debug, thiserror::Error)]
@@ -43,9 +44,8 @@ pub enum OutputError {
     },
 }
 
-impl OutputError {
-    /// The stable number, printed as `V141`.
-    pub fn code(&self) -> Code {
+impl Coded for OutputError {
+    fn code(&self) -> Code {
         Code(match self {
             Self::IsInput { .. } => 141,
             Self::Twice { .. } => 142,
@@ -54,14 +54,17 @@ impl OutputError {
         })
     }
 
-    /// What helps.
-    pub fn hint(&self) -> &'static str {
-        match self {
+    fn hint(&self) -> Option<&str> {
+        Some(match self {
             Self::IsInput { .. } => "name another file to write to; nothing was changed",
             Self::Twice { .. } => "name two files",
             Self::NotOurs { .. } | Self::ReadOnly { .. } => {
                 "name another one, or give --force (in Python force=True) to replace this one"
             }
-        }
+        })
+    }
+
+    fn exit(&self) -> Exit {
+        Exit::Input
     }
 }

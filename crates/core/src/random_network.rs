@@ -139,7 +139,7 @@ fn word(purpose: Purpose) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::{random_network, text};
-    use crate::{DaySeed, Network, Purpose};
+    use crate::{Coded, DaySeed, Network, Purpose};
 
     #[test]
     fn every_number_gives_a_network_within_what_is_promised() {

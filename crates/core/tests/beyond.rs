@@ -1,8 +1,8 @@
 //! What goes beyond the paper: files hold it, networks draw it, and it leaves everything else as it was.
 
 use vertifleet_core::{
-    AircraftIx, ClosedTimes, Closure, Day, DaySeed, Disturbances, Fares, Network, Outage, Route,
-    Scenario, TakeoffDelays, Time, VertiportIx,
+    AircraftIx, ClosedTimes, Closure, Coded, Day, DaySeed, Disturbances, Fares, Network, Outage,
+    Route, Scenario, TakeoffDelays, Time, VertiportIx,
 };
 
 const SCENARIO: &str = include_str!("data/small.json");

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use vertifleet_core::{Code, Day, DaySeed, Error, Network, Scenario, error};
+use vertifleet_core::{Code, Coded, Day, DaySeed, Error, Network, Scenario, error};
 
 const SCENARIO: &str = include_str!("data/small.json");
 const NETWORK: &str = include_str!("data/small.toml");

@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use vertifleet_core::{Code, DaySeed, Degrees, Network, Scenario, Warning, write_atomically};
+use vertifleet_core::{
+    Code, Coded, DaySeed, Degrees, Network, Scenario, Warning, write_atomically,
+};
 
 const SMALL: &str = include_str!("data/small.json");
 const NETWORK: &str = include_str!("data/small.toml");

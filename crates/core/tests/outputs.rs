@@ -5,7 +5,7 @@ use std::path::Path;
 use std::thread;
 use std::time::Duration;
 
-use vertifleet_core::{Error, FolderKind, OutputKind, Outputs, Scenario, check_output};
+use vertifleet_core::{Coded, Error, FolderKind, OutputKind, Outputs, Scenario, check_output};
 use vertifleet_core::{check_folder, replace_folder};
 
 const SMALL: &str = include_str!("data/small.json");

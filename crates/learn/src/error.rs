@@ -1,6 +1,6 @@
 //! What can go wrong with settings, weights and checkpoints: codes V301 and on.
 
-use vertifleet_core::{Code, Stopped};
+use vertifleet_core::{Code, Coded, Exit, Stopped};
 
 /// An expected failure of training or of loading what training left.
 #[derive(Debug, thiserror::Error)]
@@ -105,9 +105,8 @@ impl From<Stopped> for Error {
     }
 }
 
-impl Error {
-    /// The stable code.
-    pub fn code(&self) -> Code {
+impl Coded for Error {
+    fn code(&self) -> Code {
         match self {
             Self::UnknownPreset { .. } => Code(301),
             Self::UnknownSetting { .. } => Code(302),
@@ -124,8 +123,7 @@ impl Error {
         }
     }
 
-    /// What to do about it.
-    pub fn hint(&self) -> Option<&str> {
+    fn hint(&self) -> Option<&str> {
         match self {
             Self::UnknownPreset { .. }
             | Self::UnknownSetting { .. }
@@ -151,6 +149,14 @@ impl Error {
             ),
             Self::Diverged { .. } => Some("lower learning_rate; the last checkpoint is as it was"),
             Self::Core(error) => error.hint(),
+        }
+    }
+
+    fn exit(&self) -> Exit {
+        match self {
+            Self::Core(error) => error.exit(),
+            Self::Diverged { .. } | Self::Stopped => Exit::Failed,
+            _ => Exit::Input,
         }
     }
 }

@@ -154,6 +154,7 @@ pub(crate) fn check_finite(params: &[f32], update: u64) -> Result<(), Error> {
 #[cfg(test)]
 mod tests {
     use super::check_finite;
+    use vertifleet_core::Coded;
 
     #[test]
     fn a_run_that_diverges_says_so() {

@@ -127,6 +127,7 @@ pub(crate) fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), 
 mod tests {
     use super::TrainingSettings;
     use crate::nn::Architecture;
+    use vertifleet_core::Coded;
 
     fn default_of(policy: &str) -> TrainingSettings {
         let policy = Architecture::named(policy).expect("a policy with sizes");

@@ -74,6 +74,7 @@ fn not_shipped(policy: &str, network: &str) -> Error {
 #[cfg(test)]
 mod tests {
     use super::{FILES, shipped};
+    use vertifleet_core::Coded;
 
     #[test]
     fn every_shipped_policy_loads_is_what_it_is_called_and_lies_on_its_curve() {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
-use vertifleet_core::{DaySeed, Network, Purpose, Stop};
+use vertifleet_core::{Coded, DaySeed, Network, Purpose, Stop};
 use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
 use vertifleet_learn::{Curve, Error, Model, TrainingPlan, TrainingRun, TrainingSettings};
 

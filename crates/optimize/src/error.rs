@@ -1,6 +1,6 @@
 //! What can go wrong on the exact side, with stable codes (V5xx).
 
-use vertifleet_core::Code;
+use vertifleet_core::{Code, Coded, Exit};
 
 /// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for machines and the error index.
 #[derive(Debug, thiserror::Error)]
@@ -48,9 +48,8 @@ pub enum Error {
     },
 }
 
-impl Error {
-    /// The stable number of this error, as in `V501`.
-    pub fn code(&self) -> Code {
+impl Coded for Error {
+    fn code(&self) -> Code {
         Code(match self {
             Self::Core(error) => return error.code(),
             Self::Step { .. } => 501,
@@ -59,8 +58,7 @@ impl Error {
         })
     }
 
-    /// What helps beside the message, where there is more to say.
-    pub fn hint(&self) -> Option<&str> {
+    fn hint(&self) -> Option<&str> {
         match self {
             Self::Core(error) => error.hint(),
             Self::TooManyFlights { .. } => Some("a longer step gives fewer possible flights"),
@@ -68,6 +66,15 @@ impl Error {
                 Some("the bound and every policy, rolling included, take such days")
             }
             Self::Step { .. } => None,
+        }
+    }
+
+    fn exit(&self) -> Exit {
+        match self {
+            Self::Core(error) => error.exit(),
+            Self::Step { .. } | Self::TooManyFlights { .. } | Self::SeparateChargers { .. } => {
+                Exit::Input
+            }
         }
     }
 }

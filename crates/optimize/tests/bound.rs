@@ -10,7 +10,7 @@ use common::{Size, any_day, any_extended_day};
 use exhaustive::best_of_all;
 use rayon::prelude::*;
 use vertifleet_core::{
-    DaySeed, Matrix, Network, Scenario, Stop, TakeoffDelays, Time, TypeIx, VertiportIx,
+    Coded, DaySeed, Matrix, Network, Scenario, Stop, TakeoffDelays, Time, TypeIx, VertiportIx,
 };
 use vertifleet_optimize::{Error, Rolling, Step, cached_upper_bound, upper_bound};
 use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, play};

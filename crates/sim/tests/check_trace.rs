@@ -4,7 +4,7 @@ mod check_day;
 
 use proptest::prelude::{Strategy, any, prop, prop_assert_eq, proptest};
 use proptest::sample::Index;
-use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Coded, Scenario, Time, VertiportIx};
 use vertifleet_sim::check::check;
 use vertifleet_sim::{Trace, TraceError, TraceRow};
 

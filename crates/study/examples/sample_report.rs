@@ -4,6 +4,7 @@
 
 use std::path::Path;
 use std::process::ExitCode;
+use vertifleet_core::Coded;
 
 #[path = "../tests/made_up/mod.rs"]
 mod made_up;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use vertifleet_core::Code;
+use vertifleet_core::{Code, Coded, Exit};
 use vertifleet_policy::{PlayError, PolicyError};
 
 /// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for machines and the error index.
@@ -141,9 +141,10 @@ impl Error {
             cause => Self::Stuck { policy: policy.to_owned(), day: day.to_owned(), cause },
         }
     }
+}
 
-    /// The stable number of this error, as in `V401`.
-    pub fn code(&self) -> Code {
+impl Coded for Error {
+    fn code(&self) -> Code {
         Code(match self {
             Self::Core(error) => return error.code(),
             Self::Learn(error) => return error.code(),
@@ -163,8 +164,7 @@ impl Error {
         })
     }
 
-    /// What helps beside the message, where there is more to say.
-    pub fn hint(&self) -> Option<&str> {
+    fn hint(&self) -> Option<&str> {
         match self {
             Self::Core(error) => error.hint(),
             Self::Learn(error) => error.hint(),
@@ -192,6 +192,17 @@ impl Error {
                 Some(meant.as_deref().unwrap_or("for weights of your own, name them with --model"))
             }
             Self::NotFinite { .. } | Self::Stopped => None,
+        }
+    }
+
+    fn exit(&self) -> Exit {
+        match self {
+            Self::Core(error) => error.exit(),
+            Self::Learn(error) => error.exit(),
+            Self::Optimize(error) => error.exit(),
+            Self::Trace(error) => error.exit(),
+            Self::CannotMakeFolder { .. } | Self::NotFinite { .. } | Self::Stopped => Exit::Failed,
+            _ => Exit::Input,
         }
     }
 }

@@ -64,7 +64,7 @@ fn slower(one: Option<LatencySummary>, other: Option<LatencySummary>) -> Option<
 #[cfg(test)]
 mod tests {
 
-    use vertifleet_core::{Network, Stop};
+    use vertifleet_core::{Coded, Network, Stop};
 
     use crate::comparison::{Comparison, Watch};
     use crate::entrants::Asked;

@@ -144,7 +144,7 @@ mod tests {
     use std::path::PathBuf;
     use std::sync::Arc;
 
-    use vertifleet_core::{DaySeed, Network, Scenario};
+    use vertifleet_core::{Coded, DaySeed, Network, Scenario};
 
     use super::OwnDays;
     use crate::origin::NetworkOrigin;

@@ -197,7 +197,7 @@ fn latency(mut nanoseconds: Vec<u64>) -> LatencySummary {
 mod tests {
     use std::sync::Arc;
 
-    use vertifleet_core::{DaySeed, Network, Stop};
+    use vertifleet_core::{Coded, DaySeed, Network, Stop};
     use vertifleet_policy::{Greedy, Random, play};
     use vertifleet_sim::{Simulation, Trace};
 

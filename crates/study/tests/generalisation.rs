@@ -4,6 +4,7 @@ mod made_up;
 
 use std::fs;
 
+use vertifleet_core::Coded;
 use vertifleet_study::generalisation::{self, NetworkRecord, Study, Summary};
 
 /// Random, greedy and gcaps, and somebody who knows the days, on networks of all sizes. Greedy is named first.

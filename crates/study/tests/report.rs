@@ -4,6 +4,7 @@ mod made_up;
 
 use std::path::Path;
 
+use vertifleet_core::Coded;
 use vertifleet_study::{Error, NetworkOrigin, PolicyRecord, Study, Summary, report, table};
 
 fn read(path: &Path) -> String {

@@ -163,6 +163,7 @@ fn name(weights: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use std::fs;
+    use vertifleet_core::Coded;
 
     use super::Curve;
     use crate::imitation::ImitationRow;

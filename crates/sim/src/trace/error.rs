@@ -1,6 +1,6 @@
 //! Expected errors of reading and writing traces, V204 to V208; the error index is written from the comments here.
 
-use vertifleet_core::Code;
+use vertifleet_core::{Code, Coded, Exit};
 
 /// What is wrong with a trace file. Lines are counted from 1, the header being the first.
 #[derive(Debug, thiserror::Error)]
@@ -89,9 +89,10 @@ impl TraceError {
         (Code(207), "aircraft or vertiport unknown to the scenario"),
         (Code(208), "value that its column cannot hold"),
     ];
+}
 
-    /// The stable number, printed as `V205`.
-    pub fn code(&self) -> Code {
+impl Coded for TraceError {
+    fn code(&self) -> Code {
         Code(match self {
             Self::Core(error) => return error.code(),
             Self::TooManyRows { .. } => 204,
@@ -102,8 +103,7 @@ impl TraceError {
         })
     }
 
-    /// What helps beside the message, where there is more to say.
-    pub fn hint(&self) -> Option<&str> {
+    fn hint(&self) -> Option<&str> {
         match self {
             Self::Core(error) => error.hint(),
             Self::UnknownId { .. } => Some("a trace belongs to the scenario that it was made from"),
@@ -119,6 +119,13 @@ impl TraceError {
                 "an id with a comma or a quote in it stands in quotes, with its own quotes doubled",
             ),
             _ => None,
+        }
+    }
+
+    fn exit(&self) -> Exit {
+        match self {
+            Self::Core(error) => error.exit(),
+            _ => Exit::Input,
         }
     }
 }
