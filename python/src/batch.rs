@@ -9,7 +9,7 @@ use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use vertifleet_core::DaySeed;
-use vertifleet_sim::Summary;
+use vertifleet_sim::DayTotals;
 
 use crate::buffers::{Observations, Outcomes, Paying, Showing};
 use crate::environment::{Day, Outcome, World};
@@ -40,7 +40,7 @@ enum Autoreset {
 struct Seat {
     day: Option<Day>,
     /// The numbers of the day that the latest step ended.
-    summary: Option<Summary>,
+    summary: Option<DayTotals>,
 }
 
 /// Many days side by side.

@@ -13,7 +13,9 @@ use vertifleet_progress::Bars;
 use vertifleet_study::comparison;
 use vertifleet_study::entrants::Asked;
 use vertifleet_study::policies::Given;
-use vertifleet_study::{DayRecord, Error, OwnDays, Study, Summary, report, table};
+use vertifleet_study::{
+    ComparisonRecords, ComparisonReport, DayRecord, Error, OwnDays, report, table,
+};
 
 use crate::failure::{Failure, warn};
 use crate::frames::{Columns, frame, loads};
@@ -28,7 +30,7 @@ use crate::whole::Whole;
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Comparison {
-    study: Study,
+    study: ComparisonRecords,
     warnings: Vec<String>,
 }
 
@@ -89,7 +91,7 @@ impl Comparison {
     /// The statistics, as `vertifleet compare --json` prints them: means with confidence intervals, paired tests, times per decision.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        loads(py, &Summary::of(&self.study).map_err(Failure::from)?.to_json())
+        loads(py, &ComparisonReport::of(&self.study).map_err(Failure::from)?.to_json())
     }
 
     /// Writes table, figures and a report page into a folder, in place of an earlier report; returns the path of the page. A folder that
@@ -115,7 +117,7 @@ impl Comparison {
                 warnings.push(warning.clone());
             }
         }
-        Ok(Self { study: Study::join(studies)?, warnings })
+        Ok(Self { study: ComparisonRecords::join(studies)?, warnings })
     }
 
     /// What `pickle` keeps, read back.
@@ -125,12 +127,12 @@ impl Comparison {
         let study = serde_json::from_str(text);
         let study = study.map_err(|error| Failure::argument(format!("no comparison: {error}")))?;
         // Whatever is shown of it rests on what statistics check.
-        Summary::of(&study)?;
+        ComparisonReport::of(&study)?;
         Ok(Self { study, warnings })
     }
 
     fn __str__(&self) -> Result<String, Failure> {
-        Ok(table::text(&Summary::of(&self.study)?))
+        Ok(table::text(&ComparisonReport::of(&self.study)?))
     }
 
     fn __repr__(&self) -> String {

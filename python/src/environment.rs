@@ -6,7 +6,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use vertifleet_core::{self as core, AircraftIx, DaySeed, VertiportIx};
 use vertifleet_learn::{Reward, Scales};
-use vertifleet_sim::{Decision, Simulation, Summary};
+use vertifleet_sim::{DayTotals, Decision, Simulation};
 
 use crate::failure::Failure;
 use crate::frames::plain;
@@ -79,7 +79,7 @@ impl Day {
         self.over
     }
 
-    pub(crate) fn summary(&self) -> Summary {
+    pub(crate) fn summary(&self) -> DayTotals {
         self.simulation.summary()
     }
 

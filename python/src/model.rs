@@ -153,7 +153,7 @@ fn entries(
     Ok(flat.extract::<PyReadonlyArray1<'_, f32>>()?.as_slice()?.to_vec())
 }
 
-fn pass(net: &nn::Network, weights: &nn::Weights, inputs: Inputs<'_>) -> nn::Workspace {
+fn pass(net: &nn::NeuralNetwork, weights: &nn::Weights, inputs: Inputs<'_>) -> nn::Workspace {
     let mut space = net.workspace(inputs.batch);
     net.forward(weights, inputs, &mut space);
     space

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use vertifleet_core::{self as core, VertiportIx};
-use vertifleet_optimize::{self as exact, Budget, Proof, Settings, Step};
+use vertifleet_optimize::{self as exact, Budget, Proof, SearchSettings, Step};
 use vertifleet_progress::SearchBar;
 use vertifleet_study::policies::shipped_for;
 
@@ -263,7 +263,7 @@ pub(crate) fn plan(
     let day = Arc::clone(&scenario.scenario);
     let outcome = interruptible(py, threads, move |stop| {
         let proof = Proof::begin(&day);
-        let settings = Settings { budget, searches: threads, seed };
+        let settings = SearchSettings { budget, searches: threads, seed };
         let limit = match budget {
             Budget::Time(limit) => Some(limit),
             Budget::Steps(_) => None,

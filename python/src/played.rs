@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use vertifleet_core as core;
 use vertifleet_learn::Scales;
 use vertifleet_policy::{Replay, Stoppable, play};
-use vertifleet_sim::{self as sim, Simulation, Summary};
+use vertifleet_sim::{self as sim, DayTotals, Simulation};
 use vertifleet_study::Error;
 use vertifleet_study::policies::{Choice, Given, Recipe, for_scenario};
 
@@ -25,7 +25,7 @@ use crate::whole::Whole;
 /// A day that was played to its end.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Played {
-    summary: Summary,
+    summary: DayTotals,
     trace: Trace,
 }
 
@@ -63,7 +63,7 @@ impl Played {
     }
 
     fn __repr__(&self) -> String {
-        let Summary { profit, flights, holds, .. } = self.summary;
+        let DayTotals { profit, flights, holds, .. } = self.summary;
         let day = &self.trace.scenario.name;
         format!("<Played {day}: profit ${profit:.2}, {flights} flights, {holds} holds>")
     }

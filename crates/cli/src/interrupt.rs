@@ -64,6 +64,6 @@ fn on_interrupt(handler: impl FnMut() + Send + 'static) -> Result<(), Failure> {
 }
 
 fn end() -> ! {
-    let _no_file_is_begun = vertifleet_core::between_files();
+    let _no_file_is_begun = vertifleet_core::block_writes();
     exit(INTERRUPTED)
 }

@@ -76,7 +76,7 @@ pub fn write_atomically(path: &Path, contents: &[u8]) -> Result<(), Error> {
 
 /// Waits for the files that are being written by [`write_atomically`]; as long as the result lives, no other is begun. For
 /// whoever ends the process while its threads are at work, so that no file in between is left behind.
-pub fn between_files() -> RwLockWriteGuard<'static, ()> {
+pub fn block_writes() -> RwLockWriteGuard<'static, ()> {
     WRITING.write().unwrap_or_else(PoisonError::into_inner)
 }
 

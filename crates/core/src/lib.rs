@@ -49,7 +49,7 @@ pub use error::Error;
 pub use fares::Fares;
 pub use feature_scales::FeatureScales;
 pub use file_kind::FileKind;
-pub use files::{between_files, create_folder, read_at_most, write_atomically};
+pub use files::{block_writes, create_folder, read_at_most, write_atomically};
 pub use folders::{FolderKind, check_folder, replace_folder};
 pub use ix::{AircraftIx, TypeIx, VertiportIx};
 pub use matrix::Matrix;

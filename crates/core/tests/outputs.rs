@@ -153,7 +153,7 @@ fn a_folder_that_cannot_be_written_is_as_it_was_before() {
 fn whoever_ends_the_process_waits_for_a_folder_to_be_whole() {
     let folder = folder();
     let target = folder.path().join("book");
-    let end = vertifleet_core::between_files();
+    let end = vertifleet_core::block_writes();
     let at = target.clone();
     let writer = thread::spawn(move || replace_folder(&at, &NOTEBOOK, false, &files("one")));
     thread::sleep(Duration::from_millis(50));

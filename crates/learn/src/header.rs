@@ -158,11 +158,11 @@ impl Header {
     }
 
     /// The layers; for so many vertiports where the weights fit any number.
-    pub(crate) fn network_of_layers(&self, vertiports: usize) -> Result<nn::Network, String> {
+    pub(crate) fn network_of_layers(&self, vertiports: usize) -> Result<nn::NeuralNetwork, String> {
         let FeatureShape { vertiports: fits, node_features, aircraft_features } = self.shape;
         let vertiports = fits.unwrap_or(vertiports);
         let shape = Shape { vertiports, node_features, aircraft_features };
-        nn::Network::new(self.policy.clone(), shape)
+        nn::NeuralNetwork::new(self.policy.clone(), shape)
     }
 }
 

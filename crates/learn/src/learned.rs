@@ -13,7 +13,7 @@ const BATCH: usize = 256;
 
 /// Decides by a trained network. Deterministic; among equal logits the vertiport listed first wins.
 pub struct Learned {
-    net: nn::Network,
+    net: nn::NeuralNetwork,
     scales: Scales,
     weights: Weights,
     workspace: Workspace,

@@ -27,7 +27,7 @@ const SOME_VERTIPORTS: usize = 2;
 #[derive(Debug, Clone)]
 pub struct Model {
     header: Header,
-    net: nn::Network,
+    net: nn::NeuralNetwork,
     params: Vec<f32>,
 }
 
@@ -76,7 +76,7 @@ impl Model {
     ///
     /// # Panics
     /// If weights that fit any number are asked for none, or for more than 4,096.
-    pub fn net(&self, vertiports: usize) -> nn::Network {
+    pub fn net(&self, vertiports: usize) -> nn::NeuralNetwork {
         match self.header.shape.vertiports {
             Some(_) => self.net.clone(),
             None => self.header.network_of_layers(vertiports).expect("a number of vertiports"),

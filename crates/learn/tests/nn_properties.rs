@@ -2,15 +2,15 @@
 //! features, gradients of chunks add up.
 
 use vertifleet_learn::nn::{
-    Architecture, GcapsSettings, Inputs, MlpSettings, Network, Shape, Slopes,
+    Architecture, GcapsSettings, Inputs, MlpSettings, NeuralNetwork, Shape, Slopes,
 };
 
 const SHAPE: Shape = Shape { vertiports: 8, node_features: 20, aircraft_features: 18 };
 
-fn networks() -> [Network; 2] {
+fn networks() -> [NeuralNetwork; 2] {
     ["gcaps", "mlp"].map(|name| {
         let architecture = Architecture::named(name).expect("a policy");
-        Network::new(architecture, SHAPE).expect("default sizes fit")
+        NeuralNetwork::new(architecture, SHAPE).expect("default sizes fit")
     })
 }
 
@@ -51,7 +51,7 @@ impl Decisions {
 }
 
 /// First weights; those of the logits enlarged, so that differences between vertiports would show.
-fn weights(net: &Network) -> Vec<f32> {
+fn weights(net: &NeuralNetwork) -> Vec<f32> {
     let mut params = net.init(3);
     for tensor in net.layout().tensors() {
         if ["decoder.pointer.weight", "logits.weight"].contains(&tensor.name.as_str()) {
@@ -62,7 +62,7 @@ fn weights(net: &Network) -> Vec<f32> {
 }
 
 /// Logits and values.
-fn answers(net: &Network, params: &[f32], inputs: Inputs<'_>) -> (Vec<f32>, Vec<f32>) {
+fn answers(net: &NeuralNetwork, params: &[f32], inputs: Inputs<'_>) -> (Vec<f32>, Vec<f32>) {
     let mut workspace = net.workspace(inputs.batch);
     net.forward(&net.weights(params.to_vec()), inputs, &mut workspace);
     (workspace.logits().to_vec(), workspace.values().to_vec())
@@ -146,7 +146,7 @@ fn relabelled_vertiports_have_relabelled_logits_in_gcaps() {
 
 /// The gradient of 12 or fewer decisions, `chunk` at a time.
 fn gradient(
-    net: &Network,
+    net: &NeuralNetwork,
     params: &[f32],
     decisions: &Decisions,
     chunk: usize,
@@ -237,7 +237,7 @@ fn sizes_that_do_not_fit_are_refused() {
         (gcaps(16, 4), Shape { vertiports: 0, ..SHAPE }, "vertiports"),
         (mlp(16, 2), Shape { node_features: 1 << 40, ..SHAPE }, "node_features"),
     ] {
-        let rule = Network::new(architecture, shape).expect_err("sizes that do not fit");
+        let rule = NeuralNetwork::new(architecture, shape).expect_err("sizes that do not fit");
         assert!(rule.contains(word), "{rule:?} does not name {word}");
     }
 }

@@ -4,7 +4,7 @@
 //! numbers that is written down there and here.
 
 use serde_json::Value;
-use vertifleet_learn::nn::{Architecture, Inputs, Network, Shape, Slopes, Tensor};
+use vertifleet_learn::nn::{Architecture, Inputs, NeuralNetwork, Shape, Slopes, Tensor};
 
 /// Numbers in [-1, 1) that the name and their index decide.
 fn noise(name: &str, len: usize) -> Vec<f32> {
@@ -60,11 +60,11 @@ fn check(kind: &str, stored: &str) {
             node_features: 2 * vertiports + 4,
             aircraft_features: 2 * vertiports + 2,
         };
-        check_case(&Network::new(architecture, shape).expect("sizes that fit"), case);
+        check_case(&NeuralNetwork::new(architecture, shape).expect("sizes that fit"), case);
     }
 }
 
-fn check_case(net: &Network, case: &Value) {
+fn check_case(net: &NeuralNetwork, case: &Value) {
     let Shape { vertiports, node_features, aircraft_features } = net.shape();
     let batch =
         case["batch"].as_u64().and_then(|batch| usize::try_from(batch).ok()).expect("a number");

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vertifleet_core::{DaySeed, Network};
-use vertifleet_optimize::{Budget, Rolling, Settings, plan};
+use vertifleet_optimize::{Budget, Rolling, SearchSettings, plan};
 use vertifleet_policy::play;
 use vertifleet_sim::Simulation;
 
@@ -16,7 +16,7 @@ fn plans(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("plan");
     group.sample_size(10);
     for steps in [0, 1_000] {
-        let settings = Settings { budget: Budget::Steps(steps), searches: 1, seed: 1 };
+        let settings = SearchSettings { budget: Budget::Steps(steps), searches: 1, seed: 1 };
         group.bench_function(format!("{steps} steps of a search"), |bencher| {
             bencher.iter(|| plan(black_box(&day), &settings, &mut [], &mut |_| true));
         });

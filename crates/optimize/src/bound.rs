@@ -11,20 +11,20 @@ mod descent;
 mod ladder;
 mod master;
 mod money;
-mod network;
 mod prices;
 #[cfg(test)]
 mod proof_tests;
 mod slices;
+mod time_expanded_day;
 mod ways;
 
 use vertifleet_core::{Scenario, Stop, Time, VertiportIx};
 
 use crate::Error;
 use descent::Found;
-use network::Network;
 use prices::Prices;
 use slices::Slices;
+use time_expanded_day::TimeExpandedDay;
 
 pub use cache::cached_upper_bound;
 pub(crate) use ladder::Watch;
@@ -115,7 +115,7 @@ pub(crate) fn search(
 /// # Errors
 /// [`Error::TooManyFlights`] if it is.
 pub(crate) fn fits(scenario: &Scenario, step: Step) -> Result<(), Error> {
-    Network::fits(scenario, step.seconds())
+    TimeExpandedDay::fits(scenario, step.seconds())
 }
 
 /// Follows nothing.
@@ -139,7 +139,7 @@ impl Watch for Unless<'_> {
 
 impl Bound {
     /// What prices have been found to prove.
-    fn of(step: Step, network: &Network, found: &Found) -> Self {
+    fn of(step: Step, network: &TimeExpandedDay, found: &Found) -> Self {
         Self {
             step,
             slices: network.slices.clone(),

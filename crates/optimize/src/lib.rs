@@ -11,6 +11,6 @@ mod rolling;
 
 pub use bound::{Bound, Step, cached_upper_bound, upper_bound, upper_bound_unless};
 pub use error::Error;
-pub use plan::{Budget, Plan, Progress, Settings, can_plan, plan, steps_of_equal_work};
+pub use plan::{Budget, Plan, SearchProgress, SearchSettings, can_plan, plan, steps_of_equal_work};
 pub use proof::{Proof, gap};
 pub use rolling::Rolling;

@@ -49,9 +49,9 @@ pub enum Budget {
     Steps(u64),
 }
 
-/// Settings of a plan.
+/// SearchSettings of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct SearchSettings {
     /// How long to search.
     pub budget: Budget,
     /// Searches side by side, which share what they find now and then. At least 1.
@@ -62,7 +62,7 @@ pub struct Settings {
 
 /// How far a plan is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Progress {
+pub struct SearchProgress {
     /// Share of the budget that is gone.
     pub share: f64,
     /// Steps of each search.
@@ -116,9 +116,9 @@ pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
 /// As [`can_plan`].
 pub fn plan(
     scenario: &Arc<Scenario>,
-    settings: &Settings,
+    settings: &SearchSettings,
     more: &mut [Box<dyn Policy>],
-    watch: &mut dyn FnMut(&Progress) -> bool,
+    watch: &mut dyn FnMut(&SearchProgress) -> bool,
 ) -> Result<Plan, Error> {
     can_plan(scenario)?;
     let clock = Clock { budget: settings.budget, begun: Instant::now() };
@@ -129,7 +129,7 @@ pub fn plan(
         let mut day = PlayedDay::begin(&clock);
         let (clock, stopped, first, watch) = (&clock, &mut stopped, &mut first, &mut *watch);
         move |profit_usd, day_share: Option<f64>| {
-            *stopped |= !watch(&Progress { share: clock.share(0), steps: 0, profit_usd });
+            *stopped |= !watch(&SearchProgress { share: clock.share(0), steps: 0, profit_usd });
             let Some(day_share) = day_share else {
                 day = PlayedDay::begin(clock);
                 return !*stopped && clock.left() > *first;
@@ -151,9 +151,9 @@ pub fn plan(
 /// Improves a plan until the budget is gone or `watch` says no.
 fn search(
     scenario: &Arc<Scenario>,
-    (settings, clock): (&Settings, &Clock),
+    (settings, clock): (&SearchSettings, &Clock),
     plan: &mut Plan,
-    watch: &mut dyn FnMut(&Progress) -> bool,
+    watch: &mut dyn FnMut(&SearchProgress) -> bool,
 ) {
     let problem = Problem::of(scenario);
     let first = start::schedule_of(&problem, &plan.trace);
@@ -163,7 +163,7 @@ fn search(
         .collect();
     for round in 1.. {
         let share = clock.share(plan.steps);
-        let progress = Progress { share, steps: plan.steps, profit_usd: plan.profit_usd };
+        let progress = SearchProgress { share, steps: plan.steps, profit_usd: plan.profit_usd };
         if !watch(&progress) || share >= 1.0 {
             break;
         }

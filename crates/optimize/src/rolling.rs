@@ -36,7 +36,7 @@ impl Default for Rolling {
 impl Policy for Rolling {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
         let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
-        prices.keep_up(*view, decision.time);
+        prices.refresh(*view, decision.time);
         let listed = self.shortlist.rank_with_empty_flights(prices, *view, decision);
         Ok(self.evaluator.best_choice(prices, (*view, decision), listed))
     }

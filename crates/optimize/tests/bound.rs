@@ -13,7 +13,7 @@ use vertifleet_core::{
     Coded, DaySeed, Matrix, Network, Scenario, Stop, TakeoffDelays, Time, TypeIx, VertiportIx,
 };
 use vertifleet_optimize::{Error, Rolling, Step, cached_upper_bound, upper_bound};
-use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, play};
+use vertifleet_policy::{BidPricePolicy, Greedy, Lookahead, Policy, Random, play};
 use vertifleet_sim::Simulation;
 
 fn paper_day(seed: u64) -> Scenario {
@@ -136,7 +136,7 @@ fn no_policy_earns_more_than_the_bound_on_200_networks() {
             &mut Random::new(1),
             &mut Greedy,
             &mut Lookahead,
-            &mut Priced::default(),
+            &mut BidPricePolicy::default(),
             &mut Rolling::default(),
         ];
         for policy in policies {
@@ -155,7 +155,7 @@ fn no_policy_earns_more_than_the_bound_on_200_disturbed_networks() {
             &mut Random::new(1),
             &mut Greedy,
             &mut Lookahead,
-            &mut Priced::default(),
+            &mut BidPricePolicy::default(),
             &mut Rolling::default(),
         ];
         for policy in policies {
@@ -368,7 +368,7 @@ fn a_day_with_one_more_stand_solved_again_is_bounded_by_the_bound_and_the_worth_
         let most = bound.upper_bound_usd() + bound.stand_worth_usd(at);
         // What the search leaves: it does not come to the very lowest bound.
         assert!(again <= 1.003 * most, "{at:?}: {again} is proven anew, {most} by the worth");
-        let earned = earned_usd(&more, &mut Priced::default());
+        let earned = earned_usd(&more, &mut BidPricePolicy::default());
         assert!(earned <= most, "{at:?}: {earned} is earned, {most} is proven");
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use vertifleet_core::{Closure, DaySeed, Network, Route, Scenario, Time, VertiportIx};
-use vertifleet_optimize::{Budget, Rolling, Settings, Step, plan, upper_bound};
+use vertifleet_optimize::{Budget, Rolling, SearchSettings, Step, plan, upper_bound};
 use vertifleet_policy::play;
 use vertifleet_sim::{Simulation, Trace, check::check};
 
@@ -44,7 +44,7 @@ fn the_bound_is_the_same_whether_others_know_of_a_closure_and_lower_than_without
 fn a_plan_keeps_out_of_closures_of_both_kinds_and_within_the_bound() {
     for known in [false, true] {
         let day = day(2, Some(known));
-        let settings = Settings { budget: Budget::Steps(300), searches: 2, seed: 5 };
+        let settings = SearchSettings { budget: Budget::Steps(300), searches: 2, seed: 5 };
         let plan = plan(&day, &settings, &mut [], &mut |_| true).expect("a day without chargers");
         let report = check(&day, &plan.trace);
         assert!(report.is_valid(), "{report}");

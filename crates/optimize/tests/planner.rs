@@ -9,8 +9,10 @@ use std::time::Duration;
 use common::{Size, any_day, any_extended_day};
 use exhaustive::best_of_all;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario, VertiportIx};
-use vertifleet_optimize::{Budget, Plan, Settings, plan};
-use vertifleet_policy::{Greedy, Lookahead, Policy, PolicyError, Priced, Random, Replay, play};
+use vertifleet_optimize::{Budget, Plan, SearchSettings, plan};
+use vertifleet_policy::{
+    BidPricePolicy, Greedy, Lookahead, Policy, PolicyError, Random, Replay, play,
+};
 use vertifleet_sim::{Decision, Simulation, View, check::check};
 
 fn paper_day(seed: u64) -> Arc<Scenario> {
@@ -19,7 +21,7 @@ fn paper_day(seed: u64) -> Arc<Scenario> {
 }
 
 fn planned(day: &Arc<Scenario>, steps: u64) -> Plan {
-    let settings = Settings { budget: Budget::Steps(steps), searches: 2, seed: 5 };
+    let settings = SearchSettings { budget: Budget::Steps(steps), searches: 2, seed: 5 };
     plan(day, &settings, &mut [], &mut |_| true).expect("a day without chargers beside stands")
 }
 
@@ -48,7 +50,7 @@ fn a_plan_keeps_every_rule_and_earns_no_less_than_any_simple_one() {
         assert!(report.is_valid(), "day {number}: {report}");
         assert!((report.totals.profit - plan.profit_usd).abs() < 1e-6, "day {number}");
         let rules: [&mut dyn Policy; 4] =
-            [&mut Random::new(0), &mut Greedy, &mut Lookahead, &mut Priced::default()];
+            [&mut Random::new(0), &mut Greedy, &mut Lookahead, &mut BidPricePolicy::default()];
         for rule in rules {
             let mut simulation = Simulation::new(Arc::clone(&day));
             play(&mut simulation, rule, |_| ()).expect("rules always answer");
@@ -64,7 +66,7 @@ fn a_disturbed_day_is_planned_as_known_and_one_with_chargers_beside_stands_not_a
     let mut better = 0;
     for number in 500..560 {
         let day = any_extended_day(number, small);
-        let settings = Settings { budget: Budget::Steps(60), searches: 2, seed: 5 };
+        let settings = SearchSettings { budget: Budget::Steps(60), searches: 2, seed: 5 };
         let plan = match plan(&day, &settings, &mut [], &mut |_| true) {
             Ok(plan) => plan,
             Err(error) => {
@@ -124,7 +126,7 @@ fn the_same_settings_give_the_same_plan_on_any_number_of_threads() {
     };
     let one = on(1);
     assert_eq!(one, on(2));
-    let other_seed = Settings { budget: Budget::Steps(300), searches: 2, seed: 6 };
+    let other_seed = SearchSettings { budget: Budget::Steps(300), searches: 2, seed: 6 };
     let other = plan(&day, &other_seed, &mut [], &mut |_| true).expect("a day of paper");
     assert_ne!(one, other, "chance follows the seed");
 }
@@ -132,7 +134,8 @@ fn the_same_settings_give_the_same_plan_on_any_number_of_threads() {
 #[test]
 fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
     let day = paper_day(3);
-    let settings = Settings { budget: Budget::Time(Duration::from_mins(10)), searches: 1, seed: 1 };
+    let settings =
+        SearchSettings { budget: Budget::Time(Duration::from_mins(10)), searches: 1, seed: 1 };
     let mut looks = 0;
     let stopped = plan(&day, &settings, &mut [], &mut |progress| {
         looks += 1;
@@ -141,7 +144,7 @@ fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
     })
     .expect("a day of paper");
     assert!(check(&day, &stopped.trace).is_valid());
-    let at_once = Settings { budget: Budget::Time(Duration::ZERO), ..settings };
+    let at_once = SearchSettings { budget: Budget::Time(Duration::ZERO), ..settings };
     let policy = plan(&day, &at_once, &mut [], &mut |_| true).expect("a day of paper");
     assert_eq!((policy.steps, policy.profit_usd), (0, policy.best_policy_usd));
 }
@@ -158,7 +161,7 @@ impl Policy for NotInTime {
 #[test]
 fn without_time_the_plan_is_greedys_day() {
     let day = paper_day(6);
-    let settings = Settings { budget: Budget::Time(Duration::ZERO), searches: 1, seed: 1 };
+    let settings = SearchSettings { budget: Budget::Time(Duration::ZERO), searches: 1, seed: 1 };
     let plan = plan(&day, &settings, &mut [Box::new(NotInTime)], &mut |_| true).expect("a day");
     let mut simulation = Simulation::new(Arc::clone(&day));
     play(&mut simulation, &mut Greedy, |_| ()).expect("greedy always answers");
@@ -169,7 +172,7 @@ fn without_time_the_plan_is_greedys_day() {
 fn a_plan_is_never_below_a_policy_that_it_is_given() {
     let day = paper_day(5);
     let better = planned(&day, 1_000);
-    let settings = Settings { budget: Budget::Steps(0), searches: 1, seed: 1 };
+    let settings = SearchSettings { budget: Budget::Steps(0), searches: 1, seed: 1 };
     let replay = Box::new(Replay::new(Arc::new(better.trace.clone())));
     let given = plan(&day, &settings, &mut [replay], &mut |_| true).expect("a day");
     assert_eq!(given.profit_usd, better.profit_usd);

@@ -8,7 +8,7 @@ use common::{Size, any_day, any_extended_day};
 use rayon::prelude::*;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario};
 use vertifleet_optimize::Rolling;
-use vertifleet_policy::{Greedy, Policy, Priced, play};
+use vertifleet_policy::{BidPricePolicy, Greedy, Policy, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
 const SMALL: Size = Size { vertiports: 5, fleet: 8, hours: 5 };
@@ -140,7 +140,7 @@ fn where_demand_is_thin_it_earns_as_much_as_the_rule_that_it_looks_ahead_with() 
     for number in 0..6 {
         let day = thin_day(number);
         rolling_usd += played(&day, &mut Rolling::default()).1;
-        prices_usd += played(&day, &mut Priced::default()).1;
+        prices_usd += played(&day, &mut BidPricePolicy::default()).1;
         greedy_usd += played(&day, &mut Greedy).1;
     }
     assert!(greedy_usd > 0.0, "some want to fly");

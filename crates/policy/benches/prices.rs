@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use vertifleet_core::{DaySeed, Network};
-use vertifleet_policy::{DayPrices, Priced, play};
+use vertifleet_policy::{BidPricePolicy, DayPrices, play};
 use vertifleet_sim::Simulation;
 
 fn prices(criterion: &mut Criterion) {
@@ -23,7 +23,7 @@ fn prices(criterion: &mut Criterion) {
     group.bench_function("paper, found anew after a quarter of an hour", |bencher| {
         bencher.iter_batched_ref(
             || morning.clone(),
-            |prices| prices.keep_up(black_box(simulation.view()), start + 900),
+            |prices| prices.refresh(black_box(simulation.view()), start + 900),
             BatchSize::SmallInput,
         );
     });
@@ -35,7 +35,8 @@ fn prices(criterion: &mut Criterion) {
     group.bench_function("paper, one day", |bencher| {
         bencher.iter(|| {
             let mut simulation = Simulation::new(Arc::clone(&day));
-            play(&mut simulation, &mut Priced::default(), |_| ()).expect("prices always answer");
+            play(&mut simulation, &mut BidPricePolicy::default(), |_| ())
+                .expect("prices always answer");
             simulation
         });
     });
@@ -79,7 +80,8 @@ fn large(criterion: &mut Criterion) {
     group.bench_function("100 vertiports and 2,000 aircraft, one day", |bencher| {
         bencher.iter(|| {
             let mut simulation = Simulation::new(Arc::clone(&day));
-            play(&mut simulation, &mut Priced::default(), |_| ()).expect("prices always answer");
+            play(&mut simulation, &mut BidPricePolicy::default(), |_| ())
+                .expect("prices always answer");
             simulation
         });
     });

@@ -20,7 +20,7 @@ pub use greedy::Greedy;
 pub use lookahead::Lookahead;
 pub use play::{PlayError, play};
 pub use policy::{Policy, PolicyError};
-pub use priced::Priced;
+pub use priced::BidPricePolicy;
 pub use prices::DayPrices;
 pub use random::Random;
 pub use replay::Replay;

@@ -8,14 +8,14 @@ use crate::{DayMemory, DayPrices, Policy, PolicyError};
 /// Decides by bid prices ([`DayPrices`]): a flight's profit, what it is worth to be ready where and when it ends, less what
 /// its passengers and its stand cost.
 #[derive(Debug, Clone, Default)]
-pub struct Priced {
+pub struct BidPricePolicy {
     day: DayMemory<DayPrices>,
 }
 
-impl Policy for Priced {
+impl Policy for BidPricePolicy {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
         let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
-        prices.keep_up(*view, decision.time);
+        prices.refresh(*view, decision.time);
         Ok(prices.best_choice(*view, decision))
     }
 }

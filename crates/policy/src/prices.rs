@@ -13,8 +13,8 @@ mod hops;
 mod intervals;
 mod relaxation;
 mod units;
+mod values;
 mod volume;
-mod ways_on;
 
 use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
@@ -73,7 +73,7 @@ impl DayPrices {
 
     /// Keeps up with the day: after a quarter of an hour, and at once when a route closes or opens unexpectedly, prices are found
     /// anew from these ones, with the fleet and the demand as they are by then. `now` is the view's moment, later on the same day.
-    pub fn keep_up(&mut self, view: View<'_>, now: Time) {
+    pub fn refresh(&mut self, view: View<'_>, now: Time) {
         let changes = view.route_changes();
         if now >= self.made_at + RENEWAL_S || changes != self.route_changes {
             self.route_changes = changes;
@@ -86,7 +86,7 @@ impl DayPrices {
     }
 
     fn search(&mut self, view: View<'_>, effort: Effort) {
-        self.relaxation.take_up(view);
+        self.relaxation.load(view);
         let rest_usd = self.volume.search(&mut self.relaxation, effort);
         self.stake_usd = rest_usd.max(0.0) / f64::from(self.relaxation.decisions().max(1));
     }
@@ -101,12 +101,12 @@ impl DayPrices {
     /// What an aircraft of a type that is ready at a vertiport at a time may still earn, less what it pays for stands and
     /// passengers, dollars; 0 past the end of operations. `time` is not before the view's moment.
     pub fn worth_usd(&self, kind: TypeIx, vertiport: VertiportIx, time: Time) -> f64 {
-        self.relaxation.ways_on().worth_usd(kind, vertiport, time.seconds())
+        self.relaxation.values().worth_usd(kind, vertiport, time.seconds())
     }
 
     /// What a stand costs from one time to another, dollars.
     pub fn rent_usd(&self, vertiport: VertiportIx, from: Time, until: Time) -> f64 {
-        self.relaxation.ways_on().rent_usd(vertiport, from.seconds(), until.seconds())
+        self.relaxation.values().rent_usd(vertiport, from.seconds(), until.seconds())
     }
 
     /// What the right to carry one more passenger of a demand period costs, dollars.
@@ -131,7 +131,7 @@ impl DayPrices {
     pub fn choice_usd(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
         let Decision { time, aircraft, at: from, .. } = *decision;
         let kind = view.kind(aircraft);
-        let way_on_usd = |ready_s| self.relaxation.ways_on().usd(kind, to, time.seconds(), ready_s);
+        let way_on_usd = |ready_s| self.relaxation.values().usd(kind, to, time.seconds(), ready_s);
         if to == from {
             return way_on_usd((time + view.hold_s()).seconds());
         }

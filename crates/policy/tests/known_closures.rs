@@ -6,7 +6,7 @@ use vertifleet_core::{
     AircraftIx, ClosedTimes, Closure, Day, DaySeed, Network, Route, Scenario, Time, TypeIx,
     VertiportIx,
 };
-use vertifleet_policy::{DayPrices, Priced, play};
+use vertifleet_policy::{BidPricePolicy, DayPrices, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
 /// A day of `paper` with so many aircraft and ample stands.
@@ -33,7 +33,7 @@ fn checked(day: Day) -> Arc<Scenario> {
 fn played(day: &Arc<Scenario>) -> (f64, Vec<VertiportIx>) {
     let mut simulation = Simulation::new(Arc::clone(day));
     let mut trace = Trace::default();
-    play(&mut simulation, &mut Priced::default(), |row| trace.rows.push(*row))
+    play(&mut simulation, &mut BidPricePolicy::default(), |row| trace.rows.push(*row))
         .expect("the policy plays the day");
     let report = check(day, &trace);
     assert!(report.is_valid(), "{report}");

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use vertifleet_core::{
     AircraftIx, Closure, DaySeed, Network, Route, Scenario, TypeIx, VertiportIx,
 };
-use vertifleet_policy::{DayPrices, Greedy, Policy, Priced, play};
+use vertifleet_policy::{BidPricePolicy, DayPrices, Greedy, Policy, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
 fn day(seed: u64) -> Arc<Scenario> {
@@ -74,7 +74,7 @@ fn prices_are_found_anew_at_once_when_routes_open() {
     for wait_s in [0, 300, 600] {
         let decision = simulation.next_decision().expect("the day is young");
         assert_eq!(decision.time.since(simulation.view().day_start()), wait_s);
-        prices.keep_up(simulation.view(), decision.time);
+        prices.refresh(simulation.view(), decision.time);
         worths.push(prices.worth_usd(TypeIx(0), decision.at, decision.time));
         simulation.apply(decision.at).expect("holding is always allowed");
     }
@@ -121,7 +121,7 @@ fn alone_and_with_room_an_aircraft_earns_what_its_prices_say() {
         let start = alone.operations.start;
         let said_usd =
             prices_of(&alone).worth_usd(TypeIx(0), alone.aircraft[AircraftIx(0).at()].at, start);
-        let (_, profit_usd) = played(&alone, &mut Priced::default());
+        let (_, profit_usd) = played(&alone, &mut BidPricePolicy::default());
         // Worth is linear within a slot of three minutes, and no waiting is worth anything here.
         let off = (profit_usd - said_usd).abs() / said_usd;
         assert!(off < 0.01, "day {seed}: {profit_usd} earned, {said_usd} said");
@@ -132,7 +132,7 @@ fn alone_and_with_room_an_aircraft_earns_what_its_prices_say() {
 fn the_rule_keeps_every_rule_of_the_world_and_earns_more_than_greedy() {
     for seed in 3..6 {
         let day = day(seed);
-        let (trace, profit_usd) = played(&day, &mut Priced::default());
+        let (trace, profit_usd) = played(&day, &mut BidPricePolicy::default());
         let report = check(&day, &trace);
         assert!(report.is_valid(), "{report}");
         let (_, greedy_usd) = played(&day, &mut Greedy);
@@ -143,7 +143,7 @@ fn the_rule_keeps_every_rule_of_the_world_and_earns_more_than_greedy() {
 #[test]
 fn a_day_has_one_outcome_whatever_was_played_before() {
     let (one, other) = (day(7), day(8));
-    let mut policy = Priced::default();
+    let mut policy = BidPricePolicy::default();
     let first = played(&one, &mut policy);
     played(&other, &mut policy);
     assert_eq!(played(&one, &mut policy), first);
@@ -155,13 +155,13 @@ fn days_played_by_turns_are_not_mixed_up() {
     // Of the same seed, so that nothing but the days themselves tells them apart.
     let days = [changed(9, 40, 6), changed(9, 40, 7)];
     let mut simulations = days.clone().map(Simulation::new);
-    let mut policy = Priced::default();
+    let mut policy = BidPricePolicy::default();
     for _ in 0..30 {
         for simulation in &mut simulations {
             let decision = simulation.next_decision().expect("the day is young");
             let turn = policy.choose(&decision, &simulation.view());
             // What this policy remembers of the other day does not matter.
-            let fresh = Priced::default().choose(&decision, &simulation.view());
+            let fresh = BidPricePolicy::default().choose(&decision, &simulation.view());
             assert_eq!(turn, fresh);
             simulation.apply(turn.expect("an answer")).expect("a choice from the mask");
         }
@@ -182,7 +182,7 @@ fn where_hardly_anybody_wants_to_fly_prices_earn_as_much_as_greedy() {
     let (mut prices_usd, mut greedy_usd) = (0.0, 0.0);
     for seed in 0..6 {
         let day = thin(seed);
-        prices_usd += played(&day, &mut Priced::default()).1;
+        prices_usd += played(&day, &mut BidPricePolicy::default()).1;
         greedy_usd += played(&day, &mut Greedy).1;
     }
     assert!(greedy_usd > 0.0, "the days have passengers");
@@ -195,7 +195,7 @@ fn nothing_is_at_stake_where_nobody_wants_to_fly() {
     idle.demand.iter_mut().for_each(|table| table.cells_mut().fill(0));
     let idle = Arc::new(idle.check("a day without demand").expect("a day"));
     assert_eq!(prices_of(&idle).stake_usd(), 0.0);
-    let (trace, _) = played(&idle, &mut Priced::default());
+    let (trace, _) = played(&idle, &mut BidPricePolicy::default());
     assert!(trace.rows.iter().all(|row| row.to == row.from), "every aircraft holds");
     assert!(prices_of(&day(1)).stake_usd() > 50.0, "a decision of a busy day is worth a flight");
 }

@@ -7,7 +7,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use vertifleet_optimize::{Bound, Progress};
+use vertifleet_optimize::{Bound, SearchProgress};
 
 use crate::Bar;
 
@@ -37,7 +37,7 @@ impl SearchBar {
     }
 
     /// Says how far the search is, and how far from the bound where that is known.
-    pub fn show(&mut self, now: &Progress, bound: Option<&Bound>) {
+    pub fn show(&mut self, now: &SearchProgress, bound: Option<&Bound>) {
         self.shown.advance_to(now.share);
         self.shown.bar.say(match bound {
             Some(bound) => format!(

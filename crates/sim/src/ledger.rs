@@ -74,7 +74,7 @@ impl Ledger {
 
 /// A finished day in numbers, as `simulate --json` prints it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Summary {
+pub struct DayTotals {
     /// Dollars (Eq. 5).
     pub profit: f64,
     /// Dollars (Eq. 4).
@@ -109,7 +109,7 @@ pub struct Summary {
     pub load_factor: f64,
 }
 
-impl Summary {
+impl DayTotals {
     pub(crate) fn new(ledger: &Ledger, potential_usd: f64, demanded: u64) -> Self {
         let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
         Self {

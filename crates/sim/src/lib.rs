@@ -22,7 +22,7 @@ mod view;
 
 pub use error::Refusal;
 pub use imagined::Imagined;
-pub use ledger::{Ledger, Summary};
+pub use ledger::{DayTotals, Ledger};
 pub use legs::{Leg, Legs};
 pub use simulation::{Decision, Simulation};
 pub use trace::{Trace, TraceError, TraceRow};

@@ -10,7 +10,7 @@ use crate::outages::Outages;
 use crate::queue::ReadyQueue;
 use crate::room::clone_into_room;
 use crate::stands::Stands;
-use crate::{Ledger, Legs, Refusal, Summary, TraceRow, VertiportSet, View};
+use crate::{DayTotals, Ledger, Legs, Refusal, TraceRow, VertiportSet, View};
 
 /// An aircraft that is ready for take-off and needs a vertiport to fly to; its own means *hold*.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -297,8 +297,8 @@ impl Simulation {
     }
 
     /// The day's numbers so far; those of the day once it is over.
-    pub fn summary(&self) -> Summary {
-        Summary::new(&self.ledger, self.potential_usd, self.demand.total())
+    pub fn summary(&self) -> DayTotals {
+        DayTotals::new(&self.ledger, self.potential_usd, self.demand.total())
     }
 
     /// The reward's denominator (§III.H), dollars.

@@ -11,13 +11,13 @@ use proptest::sample::Index;
 use proptest::test_runner::Config;
 use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_sim::check::check;
-use vertifleet_sim::{Simulation, Summary, Trace, TraceRow};
+use vertifleet_sim::{DayTotals, Simulation, Trace, TraceRow};
 
 use common::extended::extended_day;
 use common::small_day;
 
 /// Plays a day at random: each draw picks among the feasible vertiports, round and round.
-fn play(day: &Arc<Scenario>, draws: &[u32]) -> (Summary, Trace) {
+fn play(day: &Arc<Scenario>, draws: &[u32]) -> (DayTotals, Trace) {
     let mut simulation = Simulation::new(Arc::clone(day));
     let mut trace = Trace::default();
     while let Some(decision) = simulation.next_decision() {

@@ -11,8 +11,8 @@ use crate::error::Error;
 use crate::kept_bounds::KeptBounds;
 use crate::origin::NetworkOrigin;
 use crate::own_days::OwnDays;
-use crate::record::{PolicyRecord, Study};
-use crate::run::{Day, run};
+use crate::record::{ComparisonRecords, PolicyRecord};
+use crate::run::{BoundedDay, run};
 
 /// Some days of a network and who will play them; everything that can be found wrong beforehand has been looked for.
 pub struct Comparison {
@@ -102,19 +102,24 @@ impl Comparison {
     /// # Errors
     /// [`Error::Stopped`] soon after `stopped` is raised; else if a day is too large for its bound, or a policy cannot play
     /// one to its end.
-    pub fn run(self, command: String, stopped: &Stop, watch: &impl Watch) -> Result<Study, Error> {
+    pub fn run(
+        self,
+        command: String,
+        stopped: &Stop,
+        watch: &impl Watch,
+    ) -> Result<ComparisonRecords, Error> {
         let Self { network, origin, entrants, scenarios, first_seed, days_from, step } = self;
         let number = scenarios.len();
         let days = match step {
             Some(step) => {
                 KeptBounds::of_this_user().days(scenarios, step, stopped, &watch.bounds(number))?
             }
-            None => scenarios.into_iter().map(Day::unbounded).collect(),
+            None => scenarios.into_iter().map(BoundedDay::unbounded).collect(),
         };
         let policies = play(&days, &entrants, stopped, watch)?;
         // How somebody learned on another network says nothing of these days. Nobody was trained on days of the user's own.
         let here = |entrant: &&Entrant| days_from.is_none() && entrant.was_trained_on(&network);
-        Ok(Study {
+        Ok(ComparisonRecords {
             curves: entrants.iter().filter(here).filter_map(Entrant::curve).collect(),
             trainings: entrants.iter().filter(here).filter_map(Entrant::training).collect(),
             network,
@@ -144,7 +149,7 @@ fn entrants(asked: &Asked<'_>, days: usize) -> Result<Vec<Entrant>, Error> {
 /// # Errors
 /// As [`run`].
 pub fn play(
-    days: &[Day],
+    days: &[BoundedDay],
     entrants: &[Entrant],
     stopped: &Stop,
     watch: &impl Watch,

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::record::{DayRecord, Study};
+use crate::record::{ComparisonRecords, DayRecord};
 
 #[derive(Serialize)]
 struct Row<'a> {
@@ -61,7 +61,7 @@ impl<'a> Row<'a> {
 ///
 /// # Panics
 /// Never: writing rows of numbers and text to memory cannot fail.
-pub(crate) fn text(study: &Study) -> String {
+pub(crate) fn text(study: &ComparisonRecords) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for policy in &study.policies {
         for day in &policy.days {

@@ -1,12 +1,12 @@
 //! Who enters a comparison: policies by their names, and the planner as a reference that knows the days.
 
 use vertifleet_core::Scenario;
-use vertifleet_optimize::{Budget, Settings, can_plan, plan, steps_of_equal_work};
+use vertifleet_optimize::{Budget, SearchSettings, can_plan, plan, steps_of_equal_work};
 
 use crate::error::Error;
 use crate::numbers::grouped;
 use crate::policies::{self, Given, Recipe, kind_of};
-use crate::record::{Curve, Training};
+use crate::record::{LearningCurve, ValidationCurves};
 use crate::run::{Contender, Contenders, Way};
 
 /// Steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; on other days as many as
@@ -108,15 +108,15 @@ impl Entrant {
     }
 
     /// Its learning curve on the training days, where it has one.
-    pub(crate) fn curve(&self) -> Option<Curve> {
+    pub(crate) fn curve(&self) -> Option<LearningCurve> {
         let points = self.recipe()?.curve();
-        (!points.is_empty()).then(|| Curve { name: self.name.clone(), points })
+        (!points.is_empty()).then(|| LearningCurve { name: self.name.clone(), points })
     }
 
     /// How it did on the validation days while it was trained, a run a seed.
-    pub(crate) fn training(&self) -> Option<Training> {
+    pub(crate) fn training(&self) -> Option<ValidationCurves> {
         let runs = self.recipe()?.validation_runs();
-        (!runs.is_empty()).then(|| Training { name: self.name.clone(), runs })
+        (!runs.is_empty()).then(|| ValidationCurves { name: self.name.clone(), runs })
     }
 
     fn contender(&self) -> Contender<'_> {
@@ -138,7 +138,7 @@ impl Entrant {
 fn planned(seed: u64) -> Way<'static> {
     Way::Offline(Box::new(move |day, stop| {
         let budget = Budget::Steps(steps_of_equal_work(day, PLAN_STEPS));
-        let settings = Settings { budget, searches: 1, seed };
+        let settings = SearchSettings { budget, searches: 1, seed };
         let mut learned = policies::shipped_for(day);
         let plan = plan(day, &settings, &mut learned, &mut |_| !stop.is_requested());
         plan.expect("the days were found to be fit for it").trace

@@ -14,7 +14,7 @@ mod palette;
 mod png;
 mod share_by_size;
 
-use crate::summary::Summary;
+use crate::summary::ComparisonReport;
 
 pub(crate) use palette::style_sheet;
 pub(crate) use png::png;
@@ -32,7 +32,7 @@ pub struct Figure {
 }
 
 /// Every figure that the summary has numbers for, in the order in which a reader wants them.
-pub fn all(summary: &Summary) -> Vec<Figure> {
+pub fn all(summary: &ComparisonReport) -> Vec<Figure> {
     let figures = [
         Some(box_plot::daily_profit(summary)),
         box_plot::bound_share(summary),

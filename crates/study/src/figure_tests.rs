@@ -4,27 +4,29 @@ use resvg::usvg::roxmltree::Document;
 
 use super::{Figure, all, png, style_sheet};
 use crate::origin::NetworkOrigin;
-use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study, Training};
-use crate::summary::Summary;
+use crate::record::{
+    ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
+};
+use crate::summary::ComparisonReport;
 
 /// Names that a user could give, none of them friendly to XML.
 const HOSTILE: &str = "a<b>&\"c'\u{0}\u{ffff} with a name much longer than any row";
 
-fn summary(names: &[&str], days: u32) -> Summary {
-    Summary::of(&study(names, days)).expect("a sound study")
+fn summary(names: &[&str], days: u32) -> ComparisonReport {
+    ComparisonReport::of(&study(names, days)).expect("a sound study")
 }
 
 /// The same with an upper bound of every day.
-fn bounded(names: &[&str], days: u32) -> Summary {
+fn bounded(names: &[&str], days: u32) -> ComparisonReport {
     let mut study = study(names, days);
     study.bound_step_s = Some(180);
     for day in study.policies.iter_mut().flat_map(|policy| &mut policy.days) {
         day.upper_bound_usd = Some(3_500.0 + day.profit_usd / 10.0);
     }
-    Summary::of(&study).expect("a sound study")
+    ComparisonReport::of(&study).expect("a sound study")
 }
 
-fn study(names: &[&str], days: u32) -> Study {
+fn study(names: &[&str], days: u32) -> ComparisonRecords {
     let policies = names.iter().zip(0u32..).map(|(&name, policy)| PolicyRecord {
         name: name.to_owned(),
         description: String::new(),
@@ -32,14 +34,14 @@ fn study(names: &[&str], days: u32) -> Study {
         // One that knows the day is among any three.
         decision_ns: (policy % 3 != 2).then(LatencySummary::default),
     });
-    let curves = names.iter().zip(0u32..).map(|(&name, policy)| Curve {
+    let curves = names.iter().zip(0u32..).map(|(&name, policy)| LearningCurve {
         name: name.to_owned(),
         points: (0..4)
             .map(|step| (u64::from(step) * 500, f64::from(step + policy) / 20.0))
             .chain([(9_999, f64::NAN)])
             .collect(),
     });
-    Study {
+    ComparisonRecords {
         network: "small & odd".to_owned(),
         network_origin: NetworkOrigin::Own,
         seed: Some(3),
@@ -49,7 +51,7 @@ fn study(names: &[&str], days: u32) -> Study {
         command: "vertifleet compare".to_owned(),
         trainings: curves
             .clone()
-            .map(|curve: Curve| Training {
+            .map(|curve: LearningCurve| ValidationCurves {
                 name: curve.name,
                 runs: vec![curve.points[..2].to_vec(), curve.points[..3].to_vec()],
             })
@@ -143,9 +145,10 @@ fn a_figure_is_drawn_only_where_there_are_numbers_for_it() {
     assert_eq!(with_bounds[1], "figure-bound-share");
     assert_eq!([&with_bounds[..1], &with_bounds[2..]].concat(), whole);
 
-    let untrained = Summary { curves: Vec::new(), trainings: Vec::new(), ..full };
+    let untrained = ComparisonReport { curves: Vec::new(), trainings: Vec::new(), ..full };
     assert_eq!(slugs(&all(&untrained)), whole[..3]);
-    let alone = Summary { curves: Vec::new(), trainings: Vec::new(), ..summary(&["greedy"], 4) };
+    let alone =
+        ComparisonReport { curves: Vec::new(), trainings: Vec::new(), ..summary(&["greedy"], 4) };
     assert_eq!(slugs(&all(&alone)), whole[..2]);
 }
 

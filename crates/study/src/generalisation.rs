@@ -24,7 +24,7 @@ pub const FORMAT: &str = "vertifleet-generalisation/1";
 
 /// What playing a day each of many networks leaves behind.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Study {
+pub struct GeneralisationRecords {
     /// Length of the steps of the days' upper bounds, in seconds.
     pub bound_step_s: u32,
     /// Command that made the study, as it would be typed.
@@ -49,7 +49,7 @@ pub struct NetworkRecord {
 
 /// A study in numbers: what `summary.json` and `--json` hold, and what table, figure and page show.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Summary {
+pub struct GeneralisationReport {
     /// Always [`FORMAT`].
     pub format: &'static str,
     /// Version of the program.
@@ -59,14 +59,14 @@ pub struct Summary {
     /// Length of the bounds' steps, in seconds.
     pub bound_step_s: u32,
     /// Every policy, in the order in which they were named.
-    pub policies: Vec<PolicySummary>,
+    pub policies: Vec<PolicyShare>,
     /// Every network.
-    pub networks: Vec<NetworkSummary>,
+    pub networks: Vec<NetworkShare>,
 }
 
 /// One policy over all networks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PolicySummary {
+pub struct PolicyShare {
     /// Name as the user gave it.
     pub name: String,
     /// What the policy does.
@@ -83,7 +83,7 @@ pub struct PolicySummary {
 
 /// One network with what everybody earns on its day.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct NetworkSummary {
+pub struct NetworkShare {
     /// Name by which every command finds it.
     pub network: String,
     /// Seed of its day.
@@ -109,7 +109,7 @@ pub struct Outcome {
     pub bound_share: f64,
 }
 
-impl Summary {
+impl GeneralisationReport {
     /// Sums a study up.
     ///
     /// # Errors
@@ -117,12 +117,12 @@ impl Summary {
     ///
     /// # Panics
     /// If a day has no upper bound.
-    pub fn of(study: &Study) -> Result<Self, Error> {
+    pub fn of(study: &GeneralisationRecords) -> Result<Self, Error> {
         summary::check(&study.policies, study.networks.len())?;
         let shares: Vec<Vec<f64>> =
             study.policies.iter().map(|policy| policy.days.iter().map(share).collect()).collect();
         let policies = study.policies.iter().zip(&shares).enumerate();
-        let policies = policies.map(|(position, (policy, own))| PolicySummary {
+        let policies = policies.map(|(position, (policy, own))| PolicyShare {
             name: policy.name.clone(),
             description: policy.description.clone(),
             knows_the_day: policy.decision_ns.is_none(),
@@ -137,7 +137,7 @@ impl Summary {
                 profit_usd: policy.days[position].profit_usd,
                 bound_share: share(&policy.days[position]),
             };
-            NetworkSummary {
+            NetworkShare {
                 network: record.name.clone(),
                 seed: day.seed,
                 vertiports: record.vertiports,
@@ -165,7 +165,7 @@ impl Summary {
     }
 
     /// The policy that the others are measured against.
-    pub(crate) fn first(&self) -> &PolicySummary {
+    pub(crate) fn first(&self) -> &PolicyShare {
         self.policies.first().expect("a summary has at least one policy")
     }
 
@@ -177,7 +177,7 @@ impl Summary {
     }
 
     /// Smallest and largest of a size of the networks.
-    pub(crate) fn range(&self, size: fn(&NetworkSummary) -> usize) -> (usize, usize) {
+    pub(crate) fn range(&self, size: fn(&NetworkShare) -> usize) -> (usize, usize) {
         let sizes = || self.networks.iter().map(size);
         (sizes().min().unwrap_or(0), sizes().max().unwrap_or(0))
     }

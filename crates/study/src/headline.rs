@@ -2,10 +2,10 @@
 
 use crate::numbers::{counted, dollars, grouped, p_statement, signed_dollars};
 use crate::origin::NetworkOrigin;
-use crate::summary::{Comparison, PolicySummary, Summary};
+use crate::summary::{ComparisonReport, PairedDifference, PolicySummary};
 
 /// What the best policy earns, and whether its lead over the reference is more than chance.
-pub(crate) fn text(summary: &Summary) -> String {
+pub(crate) fn text(summary: &ComparisonReport) -> String {
     let best = summary.best();
     let earns = format!(
         "{} earns {} a day on average over {}{}",
@@ -21,7 +21,7 @@ pub(crate) fn text(summary: &Summary) -> String {
 }
 
 /// `100 unseen days of the “paper” network`.
-fn days(summary: &Summary) -> String {
+fn days(summary: &ComparisonReport) -> String {
     let changed = summary.network_origin == NetworkOrigin::Changed;
     let copy = if changed { "a changed copy of " } else { "" };
     let network = &summary.network;
@@ -47,7 +47,7 @@ fn of_bound(policy: &PolicySummary) -> String {
     })
 }
 
-fn lead(summary: &Summary, comparison: &Comparison) -> String {
+fn lead(summary: &ComparisonReport, comparison: &PairedDifference) -> String {
     let test = &comparison.profit_usd;
     let difference = test.difference;
     let other = &summary.policies[comparison.pair.1];

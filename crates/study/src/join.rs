@@ -1,9 +1,9 @@
 //! Parts of a study that were played apart, on other machines perhaps, put together again.
 
 use crate::error::Error;
-use crate::record::{LatencySummary, PolicyRecord, Study};
+use crate::record::{ComparisonRecords, LatencySummary, PolicyRecord};
 
-impl Study {
+impl ComparisonRecords {
     /// The study of all days of some parts, each of which goes on with the day after the last of the part before it.
     ///
     /// The records are those of a study that was never parted. The times per decision cannot be: the parts' percentiles do not
@@ -68,7 +68,7 @@ mod tests {
 
     use crate::comparison::{Comparison, Watch};
     use crate::entrants::Asked;
-    use crate::record::{DayRecord, Study};
+    use crate::record::{ComparisonRecords, DayRecord};
 
     struct Nobody;
 
@@ -84,7 +84,7 @@ mod tests {
         }
     }
 
-    fn study(policies: &[&str], seed: u64, days: u32) -> Study {
+    fn study(policies: &[&str], seed: u64, days: u32) -> ComparisonRecords {
         let network = Network::shipped("paper").expect("a shipped network");
         let policies: Vec<String> = policies.iter().map(|&name| name.to_owned()).collect();
         let asked = Asked { policies: &policies, models: &[], seed: 0, network: "paper" };
@@ -98,8 +98,9 @@ mod tests {
     fn a_study_in_parts_is_the_study_of_all_days() {
         let policies = ["random", "greedy"];
         let parts = vec![study(&policies, 5, 2), study(&policies, 7, 1), study(&policies, 8, 3)];
-        let (joined, whole) = (Study::join(parts).expect("parts"), study(&policies, 5, 6));
-        let days = |study: &Study| -> Vec<Vec<DayRecord>> {
+        let (joined, whole) =
+            (ComparisonRecords::join(parts).expect("parts"), study(&policies, 5, 6));
+        let days = |study: &ComparisonRecords| -> Vec<Vec<DayRecord>> {
             study.policies.iter().map(|policy| policy.days.clone()).collect()
         };
         assert_eq!(days(&joined), days(&whole));
@@ -111,9 +112,13 @@ mod tests {
         let first = || study(&["greedy"], 5, 2);
         for other in [study(&["greedy"], 8, 1), study(&["random"], 7, 1), study(&["greedy"], 6, 1)]
         {
-            let error = Study::join(vec![first(), other]).expect_err("no parts of one study");
+            let error =
+                ComparisonRecords::join(vec![first(), other]).expect_err("no parts of one study");
             assert_eq!(error.code().to_string(), "V409");
         }
-        assert_eq!(Study::join(Vec::new()).expect_err("no parts").code().to_string(), "V402");
+        assert_eq!(
+            ComparisonRecords::join(Vec::new()).expect_err("no parts").code().to_string(),
+            "V402"
+        );
     }
 }

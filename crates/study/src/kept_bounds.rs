@@ -10,7 +10,7 @@ use vertifleet_core::{Scenario, Stop};
 use vertifleet_optimize::{Step, cached_upper_bound, upper_bound_unless};
 
 use crate::error::Error;
-use crate::run::Day;
+use crate::run::BoundedDay;
 
 /// The folder of kept bounds, where there can be one.
 pub struct KeptBounds {
@@ -38,7 +38,7 @@ impl KeptBounds {
         step: Step,
         stopped: &Stop,
         bounded: &(impl Fn() + Sync),
-    ) -> Result<Vec<Day>, Error> {
+    ) -> Result<Vec<BoundedDay>, Error> {
         let bound = |scenario: Arc<Scenario>| {
             // A bound that is kept is not stopped, but there may be many of them.
             if stopped.is_requested() {
@@ -47,7 +47,7 @@ impl KeptBounds {
             let upper_bound_usd =
                 self.upper_bound_usd(&scenario, step, stopped)?.ok_or(Error::Stopped)?;
             bounded();
-            Ok(Day { scenario, upper_bound_usd: Some(upper_bound_usd) })
+            Ok(BoundedDay { scenario, upper_bound_usd: Some(upper_bound_usd) })
         };
         scenarios.into_par_iter().map(bound).collect()
     }

@@ -1,6 +1,6 @@
 //! Many policies on many days: statistics, figures, report.
 //!
-//! [`policies`] and [`entrants`] know who is meant by a name, [`comparison`] goes from what is asked for to its records, [`run`] plays the days, [`record`] holds what they leave behind, [`Summary`] turns it into statistics, and [`table`], [`figure`] and
+//! [`policies`] and [`entrants`] know who is meant by a name, [`comparison`] goes from what is asked for to its records, [`run`] plays the days, [`record`] holds what they leave behind, [`ComparisonReport`] turns it into statistics, and [`table`], [`figure`] and
 //! [`report`] present those; [`generalisation`] does the same for a day each of many networks. Presentation computes nothing; statistics know nothing of pages.
 
 pub mod comparison;
@@ -29,5 +29,7 @@ pub use error::Error;
 pub use kept_bounds::KeptBounds;
 pub use origin::NetworkOrigin;
 pub use own_days::OwnDays;
-pub use record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study, Training};
-pub use summary::Summary;
+pub use record::{
+    ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
+};
+pub use summary::ComparisonReport;

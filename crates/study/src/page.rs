@@ -13,10 +13,10 @@ use crate::numbers::{
 use crate::origin::NetworkOrigin;
 use crate::published::{NOTE, PublishedResult};
 use crate::statistics::Estimate;
-use crate::summary::{PolicySummary, Summary};
+use crate::summary::{ComparisonReport, PolicySummary};
 
 /// The whole page.
-pub(crate) fn text(summary: &Summary, figures: &[Figure]) -> String {
+pub(crate) fn text(summary: &ComparisonReport, figures: &[Figure]) -> String {
     let body = html! {
         (opening(summary))
         (results(summary))
@@ -56,7 +56,7 @@ fn style() -> String {
     )
 }
 
-fn opening(summary: &Summary) -> Markup {
+fn opening(summary: &ComparisonReport) -> Markup {
     let days = match summary.days_from {
         None => counted(summary.days, "unseen day", "unseen days"),
         Some(_) => counted(summary.days, "day", "days"),
@@ -99,7 +99,7 @@ fn origin(origin: NetworkOrigin) -> &'static str {
 }
 
 /// `4 policies and 1 reference`.
-fn contenders(summary: &Summary) -> String {
+fn contenders(summary: &ComparisonReport) -> String {
     let references = summary.policies.iter().filter(|policy| policy.is_offline()).count();
     let policies = summary.policies.len() - references;
     let counts = [
@@ -110,7 +110,7 @@ fn contenders(summary: &Summary) -> String {
     present.collect::<Vec<_>>().join(" and ")
 }
 
-fn results(summary: &Summary) -> Markup {
+fn results(summary: &ComparisonReport) -> Markup {
     html! {
         h2 { "Results" }
         p.lead { "Means a day, highest profit first. ± is the 95 % interval of the mean (Student’s t), sd the standard "
@@ -189,7 +189,7 @@ pub(crate) fn picture(figure: &Figure) -> Markup {
     }
 }
 
-fn tests(summary: &Summary) -> Markup {
+fn tests(summary: &ComparisonReport) -> Markup {
     html! {
         h2 { "Paired t-tests" }
         p.lead { "Mean difference of the daily profit, row minus column, on the same days. Two-sided p, not adjusted for "
@@ -207,7 +207,7 @@ fn tests(summary: &Summary) -> Markup {
     }
 }
 
-fn test_cell(summary: &Summary, row: usize, column: usize) -> Markup {
+fn test_cell(summary: &ComparisonReport, row: usize, column: usize) -> Markup {
     let pair = (row.min(column), row.max(column));
     let Some(comparison) = summary.comparisons.iter().find(|comparison| comparison.pair == pair)
     else {
@@ -222,10 +222,10 @@ fn test_cell(summary: &Summary, row: usize, column: usize) -> Markup {
     }
 }
 
-fn trainings(summary: &Summary) -> Markup {
+fn trainings(summary: &ComparisonReport) -> Markup {
     let reward = |value: f64| format!("{value:.5}");
     html! {
-        h2 { "Training" }
+        h2 { "ValidationCurves" }
         p.lead { "Mean reward on the validation days of the network “" (summary.network) "”, on which these policies were "
             "trained, at the end of training, best choices; they are not the days of this report. Runs differ in their seeds alone; the "
             "first one’s weights play here. sd: standard deviation between runs." }
@@ -252,7 +252,7 @@ fn trainings(summary: &Summary) -> Markup {
     }
 }
 
-fn published(summary: &Summary) -> Markup {
+fn published(summary: &ComparisonReport) -> Markup {
     html! {
         h2 { "Beside the published figures" }
         p.lead { "§V.B of S. Paul and S. Chowdhury, “A Graph-based Reinforcement Learning Framework for Urban Air "
@@ -282,7 +282,7 @@ fn published(summary: &Summary) -> Markup {
     }
 }
 
-fn published_cells(summary: &Summary, result: &PublishedResult) -> Markup {
+fn published_cells(summary: &ComparisonReport, result: &PublishedResult) -> Markup {
     let ours = summary.policies.iter().find(|policy| policy.name == result.policy);
     html! {
         th scope="row" { (result.name) }

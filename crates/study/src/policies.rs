@@ -8,7 +8,7 @@ use vertifleet_core::{Scenario, nearest};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{Curve, GcapsX, Model, Shipped, shipped};
 use vertifleet_optimize::Rolling;
-use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, Replay};
+use vertifleet_policy::{BidPricePolicy, Greedy, Lookahead, Policy, Random, Replay};
 use vertifleet_sim::Trace;
 
 use crate::error::Error;
@@ -59,8 +59,8 @@ pub enum Recipe {
     Greedy,
     /// [`Lookahead`].
     Lookahead,
-    /// [`Priced`].
-    Priced,
+    /// [`BidPricePolicy`].
+    BidPricePolicy,
     /// [`Rolling`].
     Rolling,
     /// Made by the caller.
@@ -87,7 +87,7 @@ impl Recipe {
             Self::Random(seed) => Box::new(Random::new(*seed)),
             Self::Greedy => Box::new(Greedy),
             Self::Lookahead => Box::new(Lookahead),
-            Self::Priced => Box::new(Priced::default()),
+            Self::BidPricePolicy => Box::new(BidPricePolicy::default()),
             Self::Rolling => Box::new(Rolling::default()),
             Self::Own(Maker(make)) => make(),
             Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
@@ -101,7 +101,7 @@ impl Recipe {
             Self::Random(_) => "draws evenly among the feasible vertiports (Feas-RND)".to_owned(),
             Self::Greedy => "takes the flight with the highest profit per hour".to_owned(),
             Self::Lookahead => "takes the first of the best two flights in a row".to_owned(),
-            Self::Priced => "takes what is worth most at the day's prices".to_owned(),
+            Self::BidPricePolicy => "takes what is worth most at the day's prices".to_owned(),
             Self::Rolling => "tries out what is worth most at the day's prices".to_owned(),
             Self::Own(_) => "decides in a way of its own".to_owned(),
             Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
@@ -127,7 +127,7 @@ impl Recipe {
             "random" => Some(Self::Random(seed)),
             "greedy" => Some(Self::Greedy),
             "lookahead" => Some(Self::Lookahead),
-            "prices" => Some(Self::Priced),
+            "prices" => Some(Self::BidPricePolicy),
             "rolling" => Some(Self::Rolling),
             _ => None,
         }

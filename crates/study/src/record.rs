@@ -10,7 +10,7 @@ use crate::origin::NetworkOrigin;
 /// One policy's result on one day.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DayRecord {
-    /// Position of the policy in [`Study::policies`].
+    /// Position of the policy in [`ComparisonRecords::policies`].
     pub policy: usize,
     /// Name of the day's scenario.
     pub day: String,
@@ -96,7 +96,7 @@ pub struct PolicyRecord {
 
 /// How a policy's training went (Fig. 3).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Curve {
+pub struct LearningCurve {
     /// Name of the policy that was trained.
     pub name: String,
     /// Steps of experience and the mean episode reward at that point, in order of steps.
@@ -105,7 +105,7 @@ pub struct Curve {
 
 /// How a policy does on the validation days while it learns, one run a seed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Training {
+pub struct ValidationCurves {
     /// Name of the policy.
     pub name: String,
     /// The runs, the one whose weights play first. Decisions learned from and the mean reward on the validation days then, in
@@ -115,7 +115,7 @@ pub struct Training {
 
 /// Many policies on the same days.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Study {
+pub struct ComparisonRecords {
     /// Name of the network that the days were drawn from, or that the user's own days have in common; where they have none, where they
     /// came from.
     pub network: String,
@@ -134,7 +134,7 @@ pub struct Study {
     /// Every policy's record, no two of the same name: [`Contenders`](crate::run::Contenders) sees to that.
     pub policies: Vec<PolicyRecord>,
     /// Learning curves on the training days of those policies that have one; may be empty.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<LearningCurve>,
     /// Learning curves on the validation days of those policies that were trained; may be empty.
-    pub trainings: Vec<Training>,
+    pub trainings: Vec<ValidationCurves>,
 }

@@ -8,8 +8,8 @@ use vertifleet_core::{FolderKind, OutputKind, replace_folder};
 
 use crate::error::Error;
 use crate::figure::Figure;
-use crate::record::Study;
-use crate::summary::Summary;
+use crate::record::ComparisonRecords;
+use crate::summary::ComparisonReport;
 use crate::{days_csv, figure, page};
 
 /// Where everything was written.
@@ -73,10 +73,10 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
 /// is replaced, and what else may be there is kept beside it, which takes `force`.
 ///
 /// # Errors
-/// As [`check_folder`]; [`Error::Core`] (V102) where it cannot be written, or any error of [`Summary::of`]. Everything is as it was
+/// As [`check_folder`]; [`Error::Core`] (V102) where it cannot be written, or any error of [`ComparisonReport::of`]. Everything is as it was
 /// then.
-pub fn write(study: &Study, folder: &Path, force: bool) -> Result<Paths, Error> {
-    let summary = Summary::of(study)?;
+pub fn write(study: &ComparisonRecords, folder: &Path, force: bool) -> Result<Paths, Error> {
+    let summary = ComparisonReport::of(study)?;
     let figures = figure::all(&summary);
     let mut files = pictures(&figures);
     let drawn: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();

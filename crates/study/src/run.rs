@@ -15,14 +15,14 @@ use crate::error::Error;
 use crate::record::{DayRecord, LatencySummary, PolicyRecord};
 
 /// A day of a comparison.
-pub struct Day {
+pub struct BoundedDay {
     /// What everybody meets.
     pub scenario: Arc<Scenario>,
     /// What no schedule of it earns more than, dollars, where that is asked for.
     pub upper_bound_usd: Option<f64>,
 }
 
-impl Day {
+impl BoundedDay {
     /// A day whose bound nobody asks for.
     pub fn unbounded(scenario: Arc<Scenario>) -> Self {
         Self { scenario, upper_bound_usd: None }
@@ -74,7 +74,7 @@ impl<'a> Contenders<'a> {
 /// # Errors
 /// [`Error::Stuck`] if a policy cannot play a day to its end; [`Error::Stopped`] soon after `stop` is raised.
 pub fn run<Played: Fn() + Sync>(
-    days: &[Day],
+    days: &[BoundedDay],
     contenders: &Contenders<'_>,
     stop: &Stop,
     mut begin: impl FnMut(&str) -> Played,
@@ -88,7 +88,7 @@ pub fn run<Played: Fn() + Sync>(
 fn play_days(
     position: usize,
     contender: &Contender<'_>,
-    (days, stop): (&[Day], &Stop),
+    (days, stop): (&[BoundedDay], &Stop),
     played: &(impl Fn() + Sync),
 ) -> Result<PolicyRecord, Error> {
     let (records, decision_ns) = match &contender.way {
@@ -135,7 +135,7 @@ fn play_day(
     position: usize,
     contender: &Contender<'_>,
     policy: &mut dyn Policy,
-    day: &Day,
+    day: &BoundedDay,
 ) -> Result<DayRecord, Error> {
     let mut simulation = Simulation::new(Arc::clone(&day.scenario));
     play(&mut simulation, policy, |_| ())
@@ -143,7 +143,7 @@ fn play_day(
     Ok(record(position, day, &simulation.summary()))
 }
 
-fn record(policy: usize, day: &Day, summary: &vertifleet_sim::Summary) -> DayRecord {
+fn record(policy: usize, day: &BoundedDay, summary: &vertifleet_sim::DayTotals) -> DayRecord {
     DayRecord {
         policy,
         day: day.scenario.name.clone(),
@@ -201,9 +201,11 @@ mod tests {
     use vertifleet_policy::{Greedy, Random, play};
     use vertifleet_sim::{Simulation, Trace};
 
-    use super::{Contender, Contenders, Day, LatencySummary, PolicyRecord, Way, latency, run};
-    use crate::summary::Summary;
-    use crate::{DayRecord, NetworkOrigin, Study};
+    use super::{
+        BoundedDay, Contender, Contenders, LatencySummary, PolicyRecord, Way, latency, run,
+    };
+    use crate::summary::ComparisonReport;
+    use crate::{ComparisonRecords, DayRecord, NetworkOrigin};
 
     fn greedy(name: &str) -> Contender<'static> {
         Contender {
@@ -244,9 +246,11 @@ mod tests {
     fn played_on(threads: usize) -> Vec<PolicyRecord> {
         let network = Network::shipped("paper").expect("a shipped network");
         let seeds = (11..17).map(|seed| DaySeed::comparison(seed).expect("a seed for comparison"));
-        let day =
-            |seed| Day { scenario: Arc::new(network.draw(seed)), upper_bound_usd: Some(50_000.0) };
-        let days: Vec<Day> = seeds.map(day).collect();
+        let day = |seed| BoundedDay {
+            scenario: Arc::new(network.draw(seed)),
+            upper_bound_usd: Some(50_000.0),
+        };
+        let days: Vec<BoundedDay> = seeds.map(day).collect();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| run(&days, &contenders(), &Stop::default(), |_| || ()))
             .expect("every day is played")
@@ -264,7 +268,7 @@ mod tests {
     fn a_run_that_is_stopped_says_so() {
         let network = Network::shipped("paper").expect("a shipped network");
         let day = network.draw(DaySeed::comparison(1).expect("a seed for comparison"));
-        let days = [Day::unbounded(Arc::new(day))];
+        let days = [BoundedDay::unbounded(Arc::new(day))];
         let stop = Stop::default();
         stop.request();
         let error =
@@ -274,7 +278,7 @@ mod tests {
 
     #[test]
     fn played_days_sum_up_to_a_comparison() {
-        let study = Study {
+        let study = ComparisonRecords {
             network: "paper".to_owned(),
             network_origin: NetworkOrigin::Shipped,
             seed: Some(11),
@@ -286,7 +290,7 @@ mod tests {
             curves: Vec::new(),
             trainings: Vec::new(),
         };
-        let summary = Summary::of(&study).expect("records of one run");
+        let summary = ComparisonReport::of(&study).expect("records of one run");
         assert_eq!(summary.day_seeds, Some((11, 16)));
         let [plan, greedy, random] = &summary.policies[..] else { panic!("three took part") };
         assert_eq!(plan.profit_usd, greedy.profit_usd, "its days are greedy's, flown once more");

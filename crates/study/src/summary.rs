@@ -1,13 +1,15 @@
 //! A study in numbers: what `summary.json` and `--json` hold, and what table, figures and page show.
 //!
-//! The one place where records become statistics. Everything that presents reads a [`Summary`] and computes nothing.
+//! The one place where records become statistics. Everything that presents reads a [`ComparisonReport`] and computes nothing.
 
 use serde::Serialize;
 
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
 use crate::published::{self, PublishedResult};
-use crate::record::{Curve, DayRecord, LatencySummary, PolicyRecord, Study, Training};
+use crate::record::{
+    ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
+};
 use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
 
 /// Name and version of the format of `summary.json`.
@@ -15,7 +17,7 @@ pub const FORMAT: &str = "vertifleet-comparison/1";
 
 /// A comparison of policies, summed up.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Summary {
+pub struct ComparisonReport {
     /// Always [`FORMAT`].
     pub format: &'static str,
     /// Version of the program, which is that of every crate of the workspace.
@@ -39,14 +41,14 @@ pub struct Summary {
     /// Every policy, highest mean profit first.
     pub policies: Vec<PolicySummary>,
     /// Every pair of policies once, in the order of `policies`.
-    pub comparisons: Vec<Comparison>,
+    pub comparisons: Vec<PairedDifference>,
     /// Published results beside which these stand; empty but for days drawn from the network `paper` as it is shipped.
     pub published: &'static [PublishedResult],
     /// Where the trainings of the learned policies came out.
     pub trainings: Vec<TrainingSummary>,
     /// Learning curves on the training days.
     #[serde(skip)]
-    pub curves: Vec<Curve>,
+    pub curves: Vec<LearningCurve>,
 }
 
 /// The trainings of a policy, at their end.
@@ -68,7 +70,7 @@ pub struct TrainingSummary {
 }
 
 impl TrainingSummary {
-    fn of(training: &Training) -> Option<Self> {
+    fn of(training: &ValidationCurves) -> Option<Self> {
         let ends: Vec<(u64, f64)> =
             training.runs.iter().map(|run| run.last().copied()).collect::<Option<_>>()?;
         let rewards: Vec<f64> = ends.iter().map(|end| end.1).collect();
@@ -166,12 +168,12 @@ pub struct Latency {
 
 /// Two policies on the same days, first minus second.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Comparison {
+pub struct PairedDifference {
     /// Name of the first policy: the one with the higher mean profit.
     pub first: String,
     /// Name of the second policy.
     pub second: String,
-    /// Positions of the two in [`Summary::policies`].
+    /// Positions of the two in [`ComparisonReport::policies`].
     #[serde(skip)]
     pub pair: (usize, usize),
     /// Paired t-test of the daily profit, in dollars.
@@ -180,13 +182,13 @@ pub struct Comparison {
     pub reward: PairedTest,
 }
 
-impl Summary {
+impl ComparisonReport {
     /// Sums a study up.
     ///
     /// # Errors
     /// [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies on the
     /// same days.
-    pub fn of(study: &Study) -> Result<Self, Error> {
+    pub fn of(study: &ComparisonRecords) -> Result<Self, Error> {
         check(&study.policies, study.days)?;
         let mut policies: Vec<PolicySummary> = study
             .policies
@@ -255,7 +257,7 @@ impl Summary {
 
     /// The comparison that says most about the best policy: with `greedy`, or with the next best if `greedy` is the best
     /// or was not run. `None` if no policy earns less than the best.
-    pub fn best_against_reference(&self) -> Option<&Comparison> {
+    pub fn best_against_reference(&self) -> Option<&PairedDifference> {
         let best = self.best_position();
         let others =
             || (best + 1..self.policies.len()).filter(|&at| !self.policies[at].is_offline());
@@ -317,12 +319,12 @@ impl PolicySummary {
     }
 }
 
-fn compare_all(policies: &[PolicySummary]) -> Vec<Comparison> {
+fn compare_all(policies: &[PolicySummary]) -> Vec<PairedDifference> {
     let pairs = (0..policies.len()).flat_map(|i| (i + 1..policies.len()).map(move |j| (i, j)));
     pairs
         .map(|(i, j)| {
             let (first, second) = (&policies[i], &policies[j]);
-            Comparison {
+            PairedDifference {
                 first: first.name.clone(),
                 second: second.name.clone(),
                 pair: (i, j),

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::numbers::{counted, duration, grouped, minutes, p_value, signed};
 use crate::origin::NetworkOrigin;
 use crate::statistics::Estimate;
-use crate::summary::{Comparison, PolicySummary, Summary};
+use crate::summary::{ComparisonReport, PairedDifference, PolicySummary};
 
 /// Where the share of the bound stands in a row.
 const SHARE_COLUMN: usize = 3;
@@ -21,7 +21,7 @@ enum Align {
 
 /// The text that `compare` prints: policies by mean profit, then every pair's t-test on the daily profit. No line
 /// end after the last line.
-pub fn text(summary: &Summary) -> String {
+pub fn text(summary: &ComparisonReport) -> String {
     let changed = if summary.network_origin == NetworkOrigin::Changed { " (changed)" } else { "" };
     let mut text =
         format!("network {}{changed}, {}", summary.network, counted(summary.days, "day", "days"));
@@ -104,7 +104,7 @@ fn policy_row(policy: &PolicySummary) -> Vec<String> {
     ]
 }
 
-fn test_row(comparison: &Comparison, days: usize) -> Vec<String> {
+fn test_row(comparison: &PairedDifference, days: usize) -> Vec<String> {
     let test = &comparison.profit_usd;
     let half_width = test.difference.half_width_95.map(|half| format!(" ± {}", grouped(half, 0)));
     vec![

@@ -5,10 +5,12 @@ mod made_up;
 use std::fs;
 
 use vertifleet_core::Coded;
-use vertifleet_study::generalisation::{self, NetworkRecord, Study, Summary};
+use vertifleet_study::generalisation::{
+    self, GeneralisationRecords, GeneralisationReport, NetworkRecord,
+};
 
 /// Random, greedy and gcaps, and somebody who knows the days, on networks of all sizes. Greedy is named first.
-fn study(networks: usize) -> Study {
+fn study(networks: usize) -> GeneralisationRecords {
     let mut policies = made_up::study(networks).policies;
     policies.swap(0, 1);
     let mut plan = policies[4].clone();
@@ -26,7 +28,7 @@ fn study(networks: usize) -> Study {
         vertiports: 5 + number * 5 % 26,
         aircraft: 10 + number * 37 % 141,
     };
-    Study {
+    GeneralisationRecords {
         bound_step_s: 180,
         command: "vertifleet generalise --policies greedy,random".to_owned(),
         networks: (0..networks).map(network).collect(),
@@ -36,14 +38,14 @@ fn study(networks: usize) -> Study {
 
 #[test]
 fn the_table_of_random_networks() {
-    let summary = Summary::of(&study(50)).expect("a sound study");
+    let summary = GeneralisationReport::of(&study(50)).expect("a sound study");
     insta::assert_snapshot!(generalisation::text(&summary));
 }
 
 #[test]
 fn every_policy_is_measured_against_the_first_by_its_shares() {
     let study = study(8);
-    let summary = Summary::of(&study).expect("a sound study");
+    let summary = GeneralisationReport::of(&study).expect("a sound study");
     assert!(summary.policies[0].minus_first.is_none());
     let share = |policy: usize, day: usize| study.policies[policy].days[day].bound_share();
     for (position, policy) in summary.policies.iter().enumerate().skip(1) {
@@ -64,10 +66,12 @@ fn every_policy_is_measured_against_the_first_by_its_shares() {
 
 #[test]
 fn a_study_of_nothing_or_of_other_days_is_refused() {
-    let code = |study: &Study| Summary::of(study).expect_err("no study").code().to_string();
+    let code = |study: &GeneralisationRecords| {
+        GeneralisationReport::of(study).expect_err("no study").code().to_string()
+    };
     let whole = study(3);
-    assert_eq!(code(&Study { policies: Vec::new(), ..whole.clone() }), "V402");
-    assert_eq!(code(&Study { networks: Vec::new(), ..whole.clone() }), "V402");
+    assert_eq!(code(&GeneralisationRecords { policies: Vec::new(), ..whole.clone() }), "V402");
+    assert_eq!(code(&GeneralisationRecords { networks: Vec::new(), ..whole.clone() }), "V402");
     let mut other = whole;
     other.policies[1].days.swap(0, 1);
     assert_eq!(code(&other), "V403");
@@ -103,6 +107,6 @@ fn one_network_and_one_policy_make_a_report_too() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let page = generalisation::write(&study, folder.path(), false).expect("a report").report;
     assert!(fs::read_to_string(page).expect("the page").contains("1 random network"));
-    let summary = Summary::of(&study).expect("a sound study");
+    let summary = GeneralisationReport::of(&study).expect("a sound study");
     assert!(generalisation::text(&summary).contains("greedy"));
 }

@@ -5,13 +5,15 @@ mod made_up;
 use std::path::Path;
 
 use vertifleet_core::Coded;
-use vertifleet_study::{Error, NetworkOrigin, PolicyRecord, Study, Summary, report, table};
+use vertifleet_study::{
+    ComparisonRecords, ComparisonReport, Error, NetworkOrigin, PolicyRecord, report, table,
+};
 
 fn read(path: &Path) -> String {
     std::fs::read_to_string(path).expect("a written file")
 }
 
-fn written(study: &Study) -> (tempfile::TempDir, report::Paths) {
+fn written(study: &ComparisonRecords) -> (tempfile::TempDir, report::Paths) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let paths = report::write(study, &folder.path().join("new/folder"), false).expect("a report");
     (folder, paths)
@@ -19,7 +21,7 @@ fn written(study: &Study) -> (tempfile::TempDir, report::Paths) {
 
 #[test]
 fn the_table_of_five_policies() {
-    let summary = Summary::of(&made_up::study(20)).expect("a sound study");
+    let summary = ComparisonReport::of(&made_up::study(20)).expect("a sound study");
     insta::assert_snapshot!(table::text(&summary));
 }
 
@@ -27,11 +29,11 @@ fn the_table_of_five_policies() {
 fn the_table_of_one_policy_on_one_day_leaves_undefined_numbers_out() {
     let mut study = made_up::study(1);
     study.policies.truncate(1);
-    insta::assert_snapshot!(table::text(&Summary::of(&study).expect("a sound study")));
+    insta::assert_snapshot!(table::text(&ComparisonReport::of(&study).expect("a sound study")));
 }
 
 /// Five policies on days with upper bounds, and a reference that knows the days.
-fn bounded(days: usize) -> Study {
+fn bounded(days: usize) -> ComparisonRecords {
     let mut study = made_up::study(days);
     let best = study.policies[4].clone();
     let mut plan = PolicyRecord { name: "plan".to_owned(), decision_ns: None, ..best };
@@ -52,7 +54,7 @@ fn bounded(days: usize) -> Study {
 
 #[test]
 fn the_table_of_five_policies_a_reference_and_the_bound() {
-    let summary = Summary::of(&bounded(20)).expect("a sound study");
+    let summary = ComparisonReport::of(&bounded(20)).expect("a sound study");
     insta::assert_snapshot!(table::text(&summary));
 }
 
@@ -161,7 +163,8 @@ fn published_figures_stand_in_the_report_of_the_paper_network_only() {
     let (_folder, paths) = written(&study);
     assert!(read(&paths.report).contains("28,747"));
     assert!(read(&paths.report).contains("Corresponds to Fig. 5 of the paper"));
-    let own_days = Study { days_from: Some("my days".to_owned()), seed: None, ..study.clone() };
+    let own_days =
+        ComparisonRecords { days_from: Some("my days".to_owned()), seed: None, ..study.clone() };
     study.network = "new-york".to_owned();
     for elsewhere in [study, own_days] {
         let (_folder, paths) = written(&elsewhere);
@@ -176,7 +179,7 @@ fn published_figures_stand_in_the_report_of_the_paper_network_only() {
 
 #[test]
 fn a_page_says_whose_days_it_shows() {
-    let shown = |study: &Study| {
+    let shown = |study: &ComparisonRecords| {
         let (_folder, paths) = written(study);
         read(&paths.report)
     };
@@ -193,7 +196,8 @@ fn a_page_says_whose_days_it_shows() {
     assert!(page.contains("paper, not shipped") && page.contains("4 days from days/of mine"));
     assert!(!page.contains("unseen") && !page.contains("Days drawn from seeds"));
     let summary: serde_json::Value =
-        serde_json::from_str(&Summary::of(&study).expect("a sound study").to_json()).expect("JSON");
+        serde_json::from_str(&ComparisonReport::of(&study).expect("a sound study").to_json())
+            .expect("JSON");
     assert_eq!(summary["days_from"], "days/of mine");
     assert!(summary["seed"].is_null() && summary["day_seeds"].is_null());
 }
@@ -281,10 +285,10 @@ fn a_folder_is_checked_without_a_trace() {
 }
 
 /// What a change to a sound study of five policies on four days is refused with.
-fn refusal(change: impl FnOnce(&mut Study)) -> (String, String) {
+fn refusal(change: impl FnOnce(&mut ComparisonRecords)) -> (String, String) {
     let mut study = made_up::study(4);
     change(&mut study);
-    let error: Error = Summary::of(&study).expect_err("an unsound study");
+    let error: Error = ComparisonReport::of(&study).expect_err("an unsound study");
     (error.code().to_string(), error.to_string())
 }
 

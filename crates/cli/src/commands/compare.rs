@@ -8,7 +8,7 @@ use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::comparison::Comparison;
 use vertifleet_study::entrants::Asked;
-use vertifleet_study::{OwnDays, Summary, report, table};
+use vertifleet_study::{ComparisonReport, OwnDays, report, table};
 
 use crate::args::CompareArguments;
 use crate::commands::{command, find_network, reads_models, tell_kept, warn_of_days};
@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
         warn(Code(310), &warning);
     }
     let study = comparison.run(command(), &never, &Bars)?;
-    let summary = Summary::of(&study)?;
+    let summary = ComparisonReport::of(&study)?;
     if arguments.json {
         print(&summary.to_json())?;
     } else {

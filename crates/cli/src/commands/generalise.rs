@@ -9,7 +9,9 @@ use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::comparison::{Watch as _, play};
 use vertifleet_study::entrants::{Asked, contenders};
-use vertifleet_study::generalisation::{self, NetworkRecord, Study, Summary};
+use vertifleet_study::generalisation::{
+    self, GeneralisationRecords, GeneralisationReport, NetworkRecord,
+};
 use vertifleet_study::{KeptBounds, report};
 
 use crate::args::GeneraliseArguments;
@@ -56,8 +58,13 @@ pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> 
     let bar = Bars.bounds(scenarios.len());
     let days = KeptBounds::of_this_user().days(scenarios, step, &never, &bar)?;
     let policies = play(&days, &entrants, &never, &Bars)?;
-    let study = Study { bound_step_s: step.seconds(), command: command(), networks, policies };
-    let summary = Summary::of(&study)?;
+    let study = GeneralisationRecords {
+        bound_step_s: step.seconds(),
+        command: command(),
+        networks,
+        policies,
+    };
+    let summary = GeneralisationReport::of(&study)?;
     if arguments.json {
         print(&summary.to_json())?;
     } else {

@@ -7,7 +7,7 @@ use std::time::Instant;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use vertifleet_core::{Outputs, Scenario, Stop};
-use vertifleet_optimize::{Bound, Budget, Error, Plan, Proof, Settings, plan};
+use vertifleet_optimize::{Bound, Budget, Error, Plan, Proof, SearchSettings, plan};
 use vertifleet_progress::SearchBar;
 use vertifleet_sim::Trace;
 use vertifleet_study::policies::shipped_for;
@@ -48,7 +48,7 @@ fn search(
     stop: &Stop,
     proof: &Proof,
 ) -> Result<Plan, Error> {
-    let settings = Settings {
+    let settings = SearchSettings {
         budget: Budget::Time(arguments.time_limit),
         searches: rayon::current_num_threads(),
         seed: arguments.seed,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{Code, Outputs, Scenario};
 use vertifleet_policy::play;
-use vertifleet_sim::{Simulation, Summary, Trace};
+use vertifleet_sim::{DayTotals, Simulation, Trace};
 use vertifleet_study::policies::{self, Choice};
 
 use crate::args::SimulateArguments;
@@ -60,8 +60,8 @@ fn claim(trace: &Path, arguments: &SimulateArguments) -> Result<(), Failure> {
     Ok(outputs.writes(trace, &Trace::FILE)?)
 }
 
-fn text(summary: &Summary, scenario: &Scenario, policy: &str) -> String {
-    let Summary { flights, repositioning_flights, holds, passengers, spilled_passengers, .. } =
+fn text(summary: &DayTotals, scenario: &Scenario, policy: &str) -> String {
+    let DayTotals { flights, repositioning_flights, holds, passengers, spilled_passengers, .. } =
         summary;
     let mut lines = vec![
         format!("{} with {policy}", scenario.name),

@@ -5,7 +5,7 @@ use rayon::prelude::{
     IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator, ParallelSliceMut,
 };
 use vertifleet_learn::nn::{
-    Architecture, Gradient, Inputs, Network, Shape, Slopes, Weights, Workspace,
+    Architecture, Gradient, Inputs, NeuralNetwork, Shape, Slopes, Weights, Workspace,
 };
 
 /// Gradients that are filled side by side.
@@ -13,14 +13,14 @@ const LANES: usize = 8;
 const VERTIPORTS: usize = 8;
 
 /// The default network of that name, for 8 vertiports.
-pub(crate) fn network(name: &str) -> Network {
+pub(crate) fn network(name: &str) -> NeuralNetwork {
     let shape = Shape {
         vertiports: VERTIPORTS,
         node_features: 2 * VERTIPORTS + 4,
         aircraft_features: 2 * VERTIPORTS + 2,
     };
     let architecture = Architecture::named(name).expect("gcaps or mlp");
-    Network::new(architecture, shape).expect("default sizes fit")
+    NeuralNetwork::new(architecture, shape).expect("default sizes fit")
 }
 
 /// Made-up decisions, and the slopes of a made-up loss in what the network answers.
@@ -88,7 +88,7 @@ impl Decisions {
 
 /// A learner: weights, Adam's moments, and lanes to work in.
 pub(crate) struct Learner {
-    network: Network,
+    network: NeuralNetwork,
     weights: Weights,
     moments: Vec<[f32; 2]>,
     lanes: Vec<(Workspace, Gradient)>,
@@ -96,7 +96,7 @@ pub(crate) struct Learner {
 }
 
 impl Learner {
-    pub(crate) fn new(network: Network, chunk: usize) -> Self {
+    pub(crate) fn new(network: NeuralNetwork, chunk: usize) -> Self {
         let weights = network.weights(network.init(1));
         Self {
             moments: vec![[0.0; 2]; weights.params().len()],

@@ -57,7 +57,7 @@ impl GcapsX {
 impl Policy for GcapsX {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
         let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
-        prices.keep_up(*view, decision.time);
+        prices.refresh(*view, decision.time);
         let listed = self.shortlist.rank(prices, *view, decision);
         if let [(_, only)] = *listed {
             return Ok(only);

@@ -23,7 +23,7 @@ const BATCH: usize = Shortlist::MOST * ROLLOUTS.rollouts as usize;
 
 /// The network at one number of vertiports, and what a pass needs.
 pub(crate) struct Scorer {
-    net: nn::Network,
+    net: nn::NeuralNetwork,
     weights: Arc<Weights>,
     workspace: Workspace,
     pub(crate) rows: Rows,
@@ -97,8 +97,8 @@ impl Scorer {
 }
 
 /// The network for a number of vertiports. The weights are the same for all.
-pub(crate) fn network(architecture: &Architecture, vertiports: usize) -> nn::Network {
-    nn::Network::new(architecture.clone(), shape(vertiports)).expect(
+pub(crate) fn network(architecture: &Architecture, vertiports: usize) -> nn::NeuralNetwork {
+    nn::NeuralNetwork::new(architecture.clone(), shape(vertiports)).expect(
         "sizes were checked when the weights were made, and days have at most 256 vertiports",
     )
 }

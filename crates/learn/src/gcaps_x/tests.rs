@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use vertifleet_core::{DaySeed, Matrix, Network, Purpose, Scenario, VertiportIx, random_network};
-use vertifleet_policy::{DayPrices, Policy, Priced, Shortlist, play};
+use vertifleet_policy::{BidPricePolicy, DayPrices, Policy, Shortlist, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
 use crate::GcapsX;
@@ -56,7 +56,7 @@ fn weights_of_zeros_decide_as_prices_do() {
     let zeros = Arc::new(net.weights(vec![0.0; net.layout().len()]));
     let mut policy = GcapsX::of(small(), zeros, 1);
     for day in days() {
-        assert_eq!(played(&day, &mut policy), played(&day, &mut Priced::default()));
+        assert_eq!(played(&day, &mut policy), played(&day, &mut BidPricePolicy::default()));
     }
 }
 
@@ -89,7 +89,7 @@ fn any_weights_keep_every_rule_on_networks_of_any_size() {
         let trace = played(&day, &mut GcapsX::of(small(), Arc::clone(&weights), 1));
         let report = check(&day, &trace);
         assert!(report.is_valid(), "{report}");
-        assert_ne!(trace, played(&day, &mut Priced::default()), "the weights have a say");
+        assert_ne!(trace, played(&day, &mut BidPricePolicy::default()), "the weights have a say");
     }
 }
 

@@ -9,8 +9,10 @@ use std::sync::Arc;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{DaySeed, Network, Purpose, Scenario, Stop, random_network};
-use vertifleet_policy::{DayPrices, Policy, Priced, RolloutEvaluator, Shortlist, draw, play};
-use vertifleet_sim::{Simulation, Summary};
+use vertifleet_policy::{
+    BidPricePolicy, DayPrices, Policy, RolloutEvaluator, Shortlist, draw, play,
+};
+use vertifleet_sim::{DayTotals, Simulation};
 
 use crate::adam::Adam;
 use crate::error::Error;
@@ -61,7 +63,7 @@ impl ImitationRun {
         settings: ImitationSettings,
         from: Option<&Path>,
     ) -> Result<Self, Error> {
-        let net = nn::Network::new(plan.policy.clone(), shape(1))
+        let net = nn::NeuralNetwork::new(plan.policy.clone(), shape(1))
             .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
         let (params, adam, dataset, curve) = if let Some(path) = from {
             set_aside(path, &identity, &settings, net.layout().len())?
@@ -187,7 +189,7 @@ impl ImitationRun {
         while let Some(decision) = simulation.next_decision() {
             let view = simulation.view();
             let prices = prices.get_or_insert_with(|| DayPrices::of(view, decision.time));
-            prices.keep_up(view, decision.time);
+            prices.refresh(view, decision.time);
             let listed = shortlist.rank(prices, view, &decision);
             let scene = Scene::of(view, &decision, prices);
             let bits = |what: u64| draw(what, day.seed, decision.index) >> 11;
@@ -299,11 +301,11 @@ struct Look {
 fn with_priced_profit(days: Vec<Scenario>) -> Vec<(Arc<Scenario>, f64)> {
     let days: Vec<Arc<Scenario>> = days.into_iter().map(Arc::new).collect();
     days.par_iter()
-        .map(|day| (Arc::clone(day), played(&mut Priced::default(), day).profit))
+        .map(|day| (Arc::clone(day), played(&mut BidPricePolicy::default(), day).profit))
         .collect()
 }
 
-fn played(policy: &mut dyn Policy, day: &Arc<Scenario>) -> Summary {
+fn played(policy: &mut dyn Policy, day: &Arc<Scenario>) -> DayTotals {
     let mut simulation = Simulation::new(Arc::clone(day));
     play(&mut simulation, policy, |_| ()).expect("the policy has an answer for every decision");
     simulation.summary()

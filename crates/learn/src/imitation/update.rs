@@ -34,7 +34,7 @@ const MAX_NORM: f32 = 0.5;
 pub(crate) struct Learner {
     architecture: Architecture,
     /// For preparing and finishing, which do not depend on the number of vertiports.
-    net: nn::Network,
+    net: nn::NeuralNetwork,
     pub(crate) weights: Weights,
     pub(crate) adam: Adam,
     lanes: Vec<Lane>,
@@ -55,7 +55,7 @@ pub(crate) struct Fit {
 
 struct Lane {
     vertiports: usize,
-    net: Option<(nn::Network, Workspace)>,
+    net: Option<(nn::NeuralNetwork, Workspace)>,
     rows: Rows,
     gradient: Gradient,
     slopes: Vec<f32>,

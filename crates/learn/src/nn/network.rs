@@ -9,7 +9,7 @@ use crate::nn::mlp::{Mlp, MlpSpace};
 
 /// A policy's network: sizes and the layout of its weights, not the weights themselves.
 #[derive(Debug, Clone)]
-pub struct Network {
+pub struct NeuralNetwork {
     architecture: Architecture,
     shape: Shape,
     layout: Layout,
@@ -26,7 +26,7 @@ enum Body {
     Mlp(Mlp),
 }
 
-/// The weights of a network, with what the passes derive from them. Both change together, through [`Network::update`].
+/// The weights of a network, with what the passes derive from them. Both change together, through [`NeuralNetwork::update`].
 #[derive(Debug, Clone)]
 pub struct Weights {
     params: Vec<f32>,
@@ -57,7 +57,7 @@ pub struct Gradient {
     folded: usize,
 }
 
-impl Network {
+impl NeuralNetwork {
     /// The network of these sizes.
     ///
     /// # Errors
@@ -261,7 +261,7 @@ impl Gradient {
         self.sums_mut().fill(0.0);
     }
 
-    /// What batches add to, for adding gradients up; of use only to [`Network::finish`].
+    /// What batches add to, for adding gradients up; of use only to [`NeuralNetwork::finish`].
     pub fn sums(&self) -> &[f32] {
         &self.slopes[self.folded..]
     }

@@ -10,7 +10,7 @@ use crate::nn::init::{Init, draw};
 use crate::nn::layer_norm::{LayerNorm, Normalised};
 use crate::nn::layout::{Layout, Tensors};
 use crate::nn::linear::Linear;
-use crate::nn::network::Network;
+use crate::nn::network::NeuralNetwork;
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 use crate::nn::value_head::ValueHead;
 use crate::nn::{Architecture, GcapsSettings, MlpSettings, Shape, relu};
@@ -235,7 +235,7 @@ fn identity(size: usize) -> Vec<f32> {
 fn check_network(architecture: Architecture, seed: u64) {
     let shape = Shape { vertiports: 5, node_features: 14, aircraft_features: 12 };
     let batch = 2;
-    let net = Network::new(architecture, shape).expect("sizes that fit");
+    let net = NeuralNetwork::new(architecture, shape).expect("sizes that fit");
     // The first weights of logits and value are small on purpose; here all of them are to count.
     let mut params = net.init(seed);
     for tensor in net.layout().tensors() {

@@ -111,7 +111,7 @@ impl Buffer {
     /// Starts `n_envs` days, or goes on with the ones given.
     pub(crate) fn new(
         source: &Source,
-        net: &nn::Network,
+        net: &nn::NeuralNetwork,
         settings: &PpoSettings,
         days: Option<Vec<DayInProgress>>,
     ) -> Result<Self, Error> {
@@ -140,7 +140,7 @@ impl Buffer {
     pub(crate) fn collect(
         &mut self,
         source: &Source,
-        net: &nn::Network,
+        net: &nn::NeuralNetwork,
         weights: &Weights,
     ) -> Result<Vec<f64>, Error> {
         let Self { scales, settings, groups } = self;
@@ -164,7 +164,12 @@ impl Buffer {
 }
 
 impl Group {
-    fn new(days: Vec<PlayedDay>, network: &Network, net: &nn::Network, n_steps: usize) -> Self {
+    fn new(
+        days: Vec<PlayedDay>,
+        network: &Network,
+        net: &nn::NeuralNetwork,
+        n_steps: usize,
+    ) -> Self {
         let shape = shape(network.vertiports().len());
         let rows = days.len() * n_steps;
         let experience = Experience {
@@ -190,7 +195,7 @@ impl Group {
         source: &Source,
         scales: &Scales,
         settings: &PpoSettings,
-        (net, weights): (&nn::Network, &Weights),
+        (net, weights): (&nn::NeuralNetwork, &Weights),
     ) -> Result<(), Error> {
         self.finished.clear();
         for step in 0..settings.n_steps {
@@ -279,7 +284,7 @@ mod tests {
 
     use super::{DayInProgress, Group, PlayedDay, Source, sample};
     use crate::features::{Scales, shape};
-    use crate::nn::{Architecture, GcapsSettings, Network as Net};
+    use crate::nn::{Architecture, GcapsSettings, NeuralNetwork as Net};
     use crate::ppo::{PpoSettings, Reward};
 
     /// Days of `paper` on which flights and aircraft cost something beside.

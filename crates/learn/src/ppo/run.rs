@@ -35,7 +35,7 @@ pub(crate) struct PpoRun {
     settings: PpoSettings,
     /// The header of the run's models, but for the steps.
     header: Header,
-    net: nn::Network,
+    net: nn::NeuralNetwork,
     weights: Weights,
     adam: Adam,
     ppo: Ppo,
@@ -69,7 +69,7 @@ impl PpoRun {
         from: Option<&Path>,
     ) -> Result<Self, Error> {
         let shape = shape(plan.network.vertiports().len());
-        let net = nn::Network::new(plan.policy.clone(), shape)
+        let net = nn::NeuralNetwork::new(plan.policy.clone(), shape)
             .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
         let (params, adam, mut progress) = if let Some(path) = from {
             set_aside(path, &identity, &settings, net.layout().len())?

@@ -89,7 +89,7 @@ pub(crate) struct Ppo {
 }
 
 impl Ppo {
-    pub(crate) fn new(net: &nn::Network, vertiports: usize, settings: &PpoSettings) -> Self {
+    pub(crate) fn new(net: &nn::NeuralNetwork, vertiports: usize, settings: &PpoSettings) -> Self {
         let lane = || Lane {
             observations: Observations::new(shape(vertiports), CHUNK),
             workspace: net.workspace(CHUNK),
@@ -113,7 +113,7 @@ impl Ppo {
     /// What `watch` answers; the weights are then wherever they were.
     pub(crate) fn update(
         &mut self,
-        net: &nn::Network,
+        net: &nn::NeuralNetwork,
         buffer: &Buffer,
         Update { weights, adam, seed, learning_rate }: Update<'_>,
         watch: &mut dyn FnMut(f64) -> Result<(), Stopped>,
@@ -173,7 +173,7 @@ impl Ppo {
     /// Leaves the gradient of one minibatch in the first lane; returns the minibatch's mean losses.
     fn batch_gradient(
         &mut self,
-        net: &nn::Network,
+        net: &nn::NeuralNetwork,
         buffer: &Buffer,
         weights: &Weights,
         batch: usize,
@@ -226,7 +226,7 @@ impl Lane {
     /// Adds the gradient of one chunk of a minibatch of `batch_len` decisions.
     fn learn(
         &mut self,
-        net: &nn::Network,
+        net: &nn::NeuralNetwork,
         weights: &Weights,
         buffer: &Buffer,
         settings: &PpoSettings,

@@ -14,8 +14,8 @@ use vertifleet_core::{Scenario, Stop, create_folder, read_at_most, write_atomica
 
 use super::certificate::Certificate;
 use super::descent::Found;
-use super::network::Network;
 use super::prices::Prices;
+use super::time_expanded_day::TimeExpandedDay;
 use super::{Bound, Step, upper_bound_unless};
 use crate::Error;
 
@@ -61,7 +61,7 @@ fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound
     let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
     let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
     let Ok(step) = Step::from_minutes(kept.minutes) else { return Ok(None) };
-    let network = Network::of(scenario, step.seconds())?;
+    let network = TimeExpandedDay::of(scenario, step.seconds())?;
     let Some(prices) = Prices::checked(&network, kept.stand, kept.demand) else { return Ok(None) };
     let proven = Certificate::new(&network).evaluate(&network, &prices, stopped);
     Ok(proven.map(|micro_usd| {

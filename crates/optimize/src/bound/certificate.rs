@@ -9,8 +9,8 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::network::{Flight, Network};
 use super::prices::Prices;
+use super::time_expanded_day::{Flight, TimeExpandedDay};
 use vertifleet_core::Stop;
 
 /// Seconds that are worked out side by side: their worths so far stay in the fastest memory.
@@ -35,7 +35,7 @@ pub(super) struct Certificate {
 
 impl Certificate {
     /// Room for the evaluations of a network.
-    pub(super) fn new(network: &Network) -> Self {
+    pub(super) fn new(network: &TimeExpandedDay) -> Self {
         let stride = (network.slices.day_s() + network.shortest_s) as usize;
         Self {
             paid: Vec::with_capacity((network.slices.len() + 1) * network.size()),
@@ -49,7 +49,7 @@ impl Certificate {
     /// None soon after `stopped` is raised.
     pub(super) fn evaluate(
         &mut self,
-        network: &Network,
+        network: &TimeExpandedDay,
         prices: &Prices,
         stopped: &Stop,
     ) -> Option<i128> {
@@ -67,7 +67,7 @@ impl Certificate {
 
     /// What a stand at a vertiport has cost until a slice begins.
     #[inline]
-    pub(super) fn paid(&self, network: &Network, slice: usize, at: usize) -> i64 {
+    pub(super) fn paid(&self, network: &TimeExpandedDay, slice: usize, at: usize) -> i64 {
         self.paid[slice * network.size() + at]
     }
 
@@ -76,7 +76,7 @@ impl Certificate {
     #[inline]
     pub(super) fn worth_less_paid(
         &self,
-        network: &Network,
+        network: &TimeExpandedDay,
         layer: usize,
         at: usize,
         second: usize,
@@ -85,7 +85,7 @@ impl Certificate {
         self.worth_less_paid[(layer * network.size() + at) * self.stride + second]
     }
 
-    fn pay(&mut self, network: &Network, prices: &Prices) {
+    fn pay(&mut self, network: &TimeExpandedDay, prices: &Prices) {
         self.paid.clear();
         self.paid.resize(network.size(), 0);
         for (at, price) in prices.stand.iter().enumerate() {
@@ -94,7 +94,7 @@ impl Certificate {
     }
 
     /// What the whole fleet earns for itself; nothing has been paid when the day begins.
-    fn fleet(&self, network: &Network) -> i128 {
+    fn fleet(&self, network: &TimeExpandedDay) -> i128 {
         let starts = network.layers.iter().flat_map(|layer| &layer.starts);
         let worths = self.worth_less_paid.iter().step_by(self.stride);
         starts.zip(worths).map(|(&count, &worth)| i128::from(count) * i128::from(worth)).sum()
@@ -103,7 +103,7 @@ impl Certificate {
 
 /// One layer's pass over the day, from its end back to its start.
 struct LayerPass<'a> {
-    network: &'a Network,
+    network: &'a TimeExpandedDay,
     prices: &'a Prices,
     paid: &'a [i64],
     layer: usize,
@@ -196,14 +196,14 @@ fn wait_freely(worths: &mut [i64], mut later: i64) {
 
 /// What a flight earns at most after it has paid for its passengers.
 #[inline]
-pub(super) fn earnings(network: &Network, prices: &Prices, flight: &Flight) -> i64 {
+pub(super) fn earnings(network: &TimeExpandedDay, prices: &Prices, flight: &Flight) -> i64 {
     let cell = flight.cell as usize;
     let a_passenger = network.margin[cell] - prices.demand[cell];
     i64::from(flight.passengers) * a_passenger - flight.cost
 }
 
 /// What all stands and all passengers cost together.
-fn given_back(network: &Network, prices: &Prices) -> i128 {
+fn given_back(network: &TimeExpandedDay, prices: &Prices) -> i128 {
     let stands = network.stands.iter().cycle().zip(&prices.stand);
     let all = stands.chain(network.demand.iter().zip(&prices.demand));
     all.map(|(&count, &price)| i128::from(count) * i128::from(price)).sum()

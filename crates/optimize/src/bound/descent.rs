@@ -9,8 +9,8 @@
 
 use super::certificate::Certificate;
 use super::master::{Master, Way};
-use super::network::Network;
 use super::prices::{Pace, Prices};
+use super::time_expanded_day::TimeExpandedDay;
 use super::ways::Ways;
 use vertifleet_core::Stop;
 
@@ -55,7 +55,7 @@ pub(super) struct Found {
 
 impl Found {
     /// No schedule earns more micro-dollars.
-    pub(super) fn bound(&self, network: &Network) -> i128 {
+    pub(super) fn bound(&self, network: &TimeExpandedDay) -> i128 {
         self.micro_usd - i128::from(network.fleet_cost)
     }
 }
@@ -65,7 +65,7 @@ impl Descent {
     /// `stopped` is raised before the first evaluation is done.
     pub(super) fn run(
         self,
-        network: &Network,
+        network: &TimeExpandedDay,
         pace: &Pace,
         start: Prices,
         stopped: &Stop,

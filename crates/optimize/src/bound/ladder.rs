@@ -8,9 +8,9 @@
 use vertifleet_core::{Scenario, Stop};
 
 use super::descent::Descent;
-use super::network::Network;
 use super::prices::{Pace, Prices};
 use super::slices::Slices;
+use super::time_expanded_day::TimeExpandedDay;
 use super::{Bound, Step};
 use crate::Error;
 
@@ -81,7 +81,7 @@ pub(super) fn climb(
     step: Step,
     watch: &dyn Watch,
 ) -> Result<Option<Bound>, Error> {
-    Network::fits(scenario, step.seconds())?;
+    TimeExpandedDay::fits(scenario, step.seconds())?;
     let cuts = || CUTS.iter().filter(|cut| step.minutes <= cut.minutes);
     let in_all = cuts().map(|cut| cut.work(scenario)).sum();
     let mut climb = Climb { scenario, watch, best: None, done: 0.0, in_all };
@@ -138,7 +138,7 @@ impl Climb<'_> {
         before: Option<(Slices, Prices)>,
     ) -> Result<Option<(Slices, Prices)>, Error> {
         let slices = Slices::of(self.scenario, cut.step().seconds());
-        let network = || Network::of(self.scenario, cut.step().seconds());
+        let network = || TimeExpandedDay::of(self.scenario, cut.step().seconds());
         let size = self.scenario.vertiports.len();
         let start = if let Some((coarser, prices)) = before {
             Some(prices.in_slices(&coarser, &slices, size))
@@ -160,7 +160,7 @@ impl Climb<'_> {
     fn look(
         &mut self,
         cut: &Cut,
-        coarse: &Network,
+        coarse: &TimeExpandedDay,
         slices: &Slices,
         start: Prices,
     ) -> Option<Prices> {
@@ -181,7 +181,7 @@ impl Climb<'_> {
     fn prove(
         &mut self,
         cut: &Cut,
-        network: &Network,
+        network: &TimeExpandedDay,
         descent: Descent,
         start: Prices,
     ) -> Option<Prices> {

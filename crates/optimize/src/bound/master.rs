@@ -8,8 +8,8 @@
 
 use std::ops::Range;
 
-use super::network::Network;
 use super::prices::{MOST_FOR_A_STAND, PACE_OF_PASSENGERS, Pace, Prices, whole};
+use super::time_expanded_day::TimeExpandedDay;
 
 /// A way through the day.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,7 +18,7 @@ pub(super) struct Way {
     pub(super) earnings: f64,
     /// Where the aircraft is, or flies to, when slices end: up to which slice at which vertiport, one stay after the other.
     pub(super) stays: Vec<(u32, u32)>,
-    /// Place of the passengers of its flights in [`Network::demand`], and how many they are.
+    /// Place of the passengers of its flights in [`TimeExpandedDay::demand`], and how many they are.
     pub(super) flights: Vec<(u32, u32)>,
 }
 
@@ -85,7 +85,7 @@ const SHIFTS: u32 = 6;
 
 /// The model, around a centre.
 pub(super) struct Master<'a> {
-    network: &'a Network,
+    network: &'a TimeExpandedDay,
     pace: &'a Pace,
     groups: Vec<Group>,
     centre: Prices,
@@ -103,7 +103,7 @@ pub(super) struct Master<'a> {
 impl<'a> Master<'a> {
     /// Each group takes the one way that is known, in the order of layers and vertiports.
     pub(super) fn new(
-        network: &'a Network,
+        network: &'a TimeExpandedDay,
         pace: &'a Pace,
         centre: Prices,
         ways: Vec<(u32, Way)>,

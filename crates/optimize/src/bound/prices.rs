@@ -2,8 +2,8 @@
 //!
 //! Any prices within the limits that this file keeps to prove a bound (`certificate.rs`); good ones prove a tight one.
 
-use super::network::Network;
 use super::slices::Slices;
+use super::time_expanded_day::TimeExpandedDay;
 
 /// The most that a stand may cost in a slice, micro-dollars. It keeps every sum of `certificate.rs` within `i64`.
 pub(super) const MOST_FOR_A_STAND: i64 = 100_000_000_000_000;
@@ -22,7 +22,7 @@ pub(super) struct Prices {
 
 impl Prices {
     /// Everything for nothing.
-    pub(super) fn zero(network: &Network) -> Self {
+    pub(super) fn zero(network: &TimeExpandedDay) -> Self {
         Self {
             stand: vec![0; network.slices.len() * network.size()],
             demand: vec![0; network.demand.len()],
@@ -30,7 +30,11 @@ impl Prices {
     }
 
     /// Prices that somebody kept, if they are prices for this network.
-    pub(super) fn checked(network: &Network, stand: Vec<i64>, demand: Vec<i64>) -> Option<Self> {
+    pub(super) fn checked(
+        network: &TimeExpandedDay,
+        stand: Vec<i64>,
+        demand: Vec<i64>,
+    ) -> Option<Self> {
         let lengths = stand.len() == network.slices.len() * network.size()
             && demand.len() == network.demand.len();
         let within = stand.iter().all(|price| (0..=MOST_FOR_A_STAND).contains(price))

@@ -7,19 +7,19 @@ mod days;
 use std::sync::Arc;
 
 use proptest::prelude::{ProptestConfig, any, proptest};
-use vertifleet_core::{AircraftIx, DaySeed, Network as Days, Scenario, Stop, TakeoffDelays, Time};
-use vertifleet_policy::{Greedy, Lookahead, Policy, Priced, Random, draw, play};
+use vertifleet_core::{AircraftIx, DaySeed, Network, Scenario, Stop, TakeoffDelays, Time};
+use vertifleet_policy::{BidPricePolicy, Greedy, Lookahead, Policy, Random, draw, play};
 use vertifleet_sim::{Simulation, Trace};
 
 use super::certificate::Certificate;
 use super::money;
-use super::network::{Layer, Network};
 use super::prices::Prices;
+use super::time_expanded_day::{Layer, TimeExpandedDay};
 use days::{Size, any_extended_day};
 
 /// A day of a shipped network, cut short to `hours`, with fewer stands free and less demand, so that limits bind.
 fn scarce_day(name: &str, seed: u64, hours: u32) -> Arc<Scenario> {
-    let network = Days::shipped(name).expect("a shipped network");
+    let network = Network::shipped(name).expect("a shipped network");
     let mut day = network.draw(DaySeed::comparison(seed).expect("a seed")).into_day();
     day.operations.end = day.operations.start + hours * 3600 + 1_234;
     for (at, price) in day.energy_price_usd.iter_mut().enumerate() {
@@ -38,7 +38,7 @@ fn scarce_day(name: &str, seed: u64, hours: u32) -> Arc<Scenario> {
 
 fn traces(day: &Arc<Scenario>) -> Vec<Trace> {
     let policies: [&mut dyn Policy; 4] =
-        [&mut Random::new(3), &mut Greedy, &mut Lookahead, &mut Priced::default()];
+        [&mut Random::new(3), &mut Greedy, &mut Lookahead, &mut BidPricePolicy::default()];
     let played = policies.into_iter().map(|policy| {
         let mut trace = Trace::default();
         let mut simulation = Simulation::new(Arc::clone(day));
@@ -49,7 +49,7 @@ fn traces(day: &Arc<Scenario>) -> Vec<Trace> {
 }
 
 /// Prices with no meaning, within their limits.
-fn any_prices(network: &Network, seed: u64) -> Prices {
+fn any_prices(network: &TimeExpandedDay, seed: u64) -> Prices {
     let zero = Prices::zero(network);
     let below = |at: usize, most: i64| {
         let part = draw(seed, 0, u32::try_from(at).expect("few prices")) % 1_000;
@@ -61,7 +61,12 @@ fn any_prices(network: &Network, seed: u64) -> Prices {
 }
 
 /// Where an aircraft stands or flies to at the end of each slice, by what it decided until then.
-fn places(day: &Scenario, network: &Network, trace: &Trace, aircraft: AircraftIx) -> Vec<usize> {
+fn places(
+    day: &Scenario,
+    network: &TimeExpandedDay,
+    trace: &Trace,
+    aircraft: AircraftIx,
+) -> Vec<usize> {
     let at_end = |slice| {
         let end = Time::from_seconds(network.slices.last_s(slice));
         let mut decided =
@@ -72,7 +77,7 @@ fn places(day: &Scenario, network: &Network, trace: &Trace, aircraft: AircraftIx
 }
 
 /// The layer that an aircraft belongs to.
-fn layer_of(day: &Scenario, network: &Network, aircraft: AircraftIx) -> usize {
+fn layer_of(day: &Scenario, network: &TimeExpandedDay, aircraft: AircraftIx) -> usize {
     let waits_freely = day.disturbances.outages.iter().any(|outage| outage.aircraft == aircraft);
     let kind = day.aircraft[aircraft.at()].kind;
     let own = |layer: &Layer| (layer.kind, layer.waits_freely) == (kind, waits_freely);
@@ -81,7 +86,7 @@ fn layer_of(day: &Scenario, network: &Network, aircraft: AircraftIx) -> usize {
 
 /// Plays a day by several rules and holds what each aircraft does, and what all do together, against the proof.
 fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
-    let network = Network::of(day, step_s).expect("a small day");
+    let network = TimeExpandedDay::of(day, step_s).expect("a small day");
     let prices = any_prices(&network, mix);
     let mut certificate = Certificate::new(&network);
     let never = Stop::default();
@@ -156,7 +161,7 @@ proptest! {
 
 /// What prices prove for a day, micro-dollars.
 fn proven(day: &Scenario, step_s: u32, mix: u64) -> (i128, Prices) {
-    let network = Network::of(day, step_s).expect("a small day");
+    let network = TimeExpandedDay::of(day, step_s).expect("a small day");
     let prices = any_prices(&network, mix);
     let never = Stop::default();
     let micro_usd = Certificate::new(&network).evaluate(&network, &prices, &never);
@@ -188,7 +193,7 @@ proptest! {
     ) {
         let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 6 });
         let (longer_proves, prices) = proven(&day, 900, mix);
-        let (longer, shorter) = (Network::of(&day, 900), Network::of(&day, 180));
+        let (longer, shorter) = (TimeExpandedDay::of(&day, 900), TimeExpandedDay::of(&day, 180));
         let (longer, shorter) = (longer.expect("a small day"), shorter.expect("a small day"));
         let mut same = Prices::zero(&shorter);
         same.demand.clone_from(&prices.demand);

@@ -3,12 +3,12 @@
 
 use super::certificate::{Certificate, earnings};
 use super::master::Way;
-use super::network::{Flight, Network};
 use super::prices::Prices;
+use super::time_expanded_day::{Flight, TimeExpandedDay};
 
 /// A day at the prices that its certificate was evaluated with last.
 pub(super) struct Ways<'a> {
-    pub(super) network: &'a Network,
+    pub(super) network: &'a TimeExpandedDay,
     pub(super) prices: &'a Prices,
     pub(super) certificate: &'a Certificate,
 }

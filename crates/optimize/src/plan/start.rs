@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{Scenario, Stop};
 use vertifleet_policy::{
-    Greedy, Lookahead, PlayError, Policy, PolicyError, Priced, Random, Stoppable, play,
+    BidPricePolicy, Greedy, Lookahead, PlayError, Policy, PolicyError, Random, Stoppable, play,
 };
 use vertifleet_sim::{Simulation, Trace};
 
@@ -77,7 +77,8 @@ pub(super) fn best_policy(
     }
     let decisions = best.0.rows.len().max(1) as f64;
     // As if each decision were its last, so that it goes on until there is no time at all.
-    let priced = Begun::by(&mut Priced::default(), scenario, &mut |_| go_on(best.1, Some(1.0)));
+    let priced =
+        Begun::by(&mut BidPricePolicy::default(), scenario, &mut |_| go_on(best.1, Some(1.0)));
     best = better(best, priced.finished());
     let mut others: [Box<dyn Policy>; 3] =
         [Box::new(Lookahead), Box::new(Random::new(0)), Box::<Rolling>::default()];

@@ -103,7 +103,7 @@ impl Hops {
     }
 
     /// Reads what every flight from now on would carry and earn.
-    pub(super) fn take_up(&mut self, view: View<'_>) {
+    pub(super) fn load(&mut self, view: View<'_>) {
         let count = self.all.len();
         let closed_until = view.period() + CLOSED_PERIODS;
         let known = view.known_closures();

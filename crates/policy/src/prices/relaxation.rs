@@ -1,6 +1,6 @@
 //! What the fleet would do at given prices: every aircraft takes the way through the rest of the day that is worth most to it.
 //!
-//! One pass from the end of the day back to now values being ready anywhere at any time (`ways_on.rs`); another, forward,
+//! One pass from the end of the day back to now values being ready anywhere at any time (`values.rs`); another, forward,
 //! follows each aircraft along its best way and counts what is asked for.
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
@@ -8,7 +8,7 @@ use vertifleet_sim::View;
 
 use super::clock::{Clock, SLOT_S};
 use super::hops::Hops;
-use super::ways_on::{HOLD, WaysOn};
+use super::values::{HOLD, ValueTable};
 
 /// An aircraft between two decisions.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +38,7 @@ pub(super) struct Relaxation {
     /// What is asked for beyond what there is, in the same order.
     pub(super) stand_excess: Vec<f64>,
     pub(super) passenger_excess: Vec<f64>,
-    ways_on: WaysOn,
+    values: ValueTable,
     /// Decisions that the fleet takes on its best ways.
     decisions: u32,
 }
@@ -64,14 +64,14 @@ impl Relaxation {
             passenger_usd: vec![0.0; pairs],
             stand_excess: vec![0.0; cells],
             passenger_excess: vec![0.0; pairs],
-            ways_on: WaysOn::of(view, &clock),
+            values: ValueTable::of(view, &clock),
             decisions: 0,
             clock,
         }
     }
 
     /// Sets out anew from the fleet and the demand that a view shows.
-    pub(super) fn take_up(&mut self, view: View<'_>) {
+    pub(super) fn load(&mut self, view: View<'_>) {
         let fleet = AircraftIx::all(view.places().len());
         let ready_s = |aircraft| view.ready_at(aircraft).seconds();
         let now_s = fleet.clone().map(ready_s).min().unwrap_or(self.clock.start_s);
@@ -89,7 +89,7 @@ impl Relaxation {
                 *left = f64::from(waiting);
             }
         }
-        self.hops.take_up(view);
+        self.hops.load(view);
     }
 
     /// Where the prices that still matter begin, in `stand_usd` and in `passenger_usd`.
@@ -106,8 +106,8 @@ impl Relaxation {
     /// What the fleet earns for itself at the prices, and what they give back for all that there is; sets the excess.
     pub(super) fn evaluate(&mut self) -> f64 {
         self.hops.charge(self.first_period, &self.passenger_usd);
-        self.ways_on.pay(&self.stand_usd, self.first_slot);
-        self.ways_on.value(&self.hops, self.first_slot);
+        self.values.pay(&self.stand_usd, self.first_slot);
+        self.values.value(&self.hops, self.first_slot);
         self.offer_usd() + self.send_fleet()
     }
 
@@ -136,7 +136,7 @@ impl Relaxation {
         for at in 0..self.fleet.len() {
             let Ready { kind, place, at_s } = self.fleet[at];
             // Nothing has been paid when the first slot begins.
-            usd += self.ways_on.usd(kind, place, self.clock.begin_s(self.first_slot), at_s);
+            usd += self.values.usd(kind, place, self.clock.begin_s(self.first_slot), at_s);
             self.send(kind, place, at_s);
         }
         self.count_stands();
@@ -151,7 +151,7 @@ impl Relaxation {
             self.decisions += 1;
             // The best choice of the boundary that is nearer.
             let near = ((time_s - self.clock.start_s + SLOT_S / 2) / SLOT_S) as usize;
-            let best = self.ways_on.best(kind, place, near.min(slots - 1));
+            let best = self.values.best(kind, place, near.min(slots - 1));
             if best == HOLD {
                 time_s += self.hold_s;
             } else {
@@ -205,8 +205,8 @@ impl Relaxation {
 
     /// What it is worth to be ready, and what stands cost, anywhere at any time.
     #[inline]
-    pub(super) fn ways_on(&self) -> &WaysOn {
-        &self.ways_on
+    pub(super) fn values(&self) -> &ValueTable {
+        &self.values
     }
 
     #[inline]

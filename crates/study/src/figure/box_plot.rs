@@ -9,7 +9,7 @@ use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened, t
 use super::palette::Paint;
 use crate::numbers::{counted, dollars, grouped, minutes, typeset};
 use crate::statistics::BoxSummary;
-use crate::summary::{PolicySummary, Summary};
+use crate::summary::{ComparisonReport, PolicySummary};
 
 const WIDTH: f64 = 760.0;
 const TOP: f64 = 96.0;
@@ -42,7 +42,7 @@ struct Measure {
 }
 
 /// Fig. 5: profit per day.
-pub(super) fn daily_profit(summary: &Summary) -> Figure {
+pub(super) fn daily_profit(summary: &ComparisonReport) -> Figure {
     draw(
         summary,
         &Measure {
@@ -62,7 +62,7 @@ pub(super) fn daily_profit(summary: &Summary) -> Figure {
 }
 
 /// Fig. 4: episode reward per day.
-pub(super) fn episode_reward(summary: &Summary) -> Figure {
+pub(super) fn episode_reward(summary: &ComparisonReport) -> Figure {
     draw(
         summary,
         &Measure {
@@ -82,7 +82,7 @@ pub(super) fn episode_reward(summary: &Summary) -> Figure {
 }
 
 /// Profit of each day as a share of what it could earn at most; `None` where bounds were not asked for.
-pub(super) fn bound_share(summary: &Summary) -> Option<Figure> {
+pub(super) fn bound_share(summary: &ComparisonReport) -> Option<Figure> {
     let bound = summary.bound?;
     summary.policies.iter().all(|policy| policy.bound_share_box.is_some()).then_some(())?;
     let measure = Measure {
@@ -105,11 +105,11 @@ pub(super) fn bound_share(summary: &Summary) -> Option<Figure> {
 }
 
 /// Which figure of the paper it is, on the network that the paper describes.
-fn corresponds(summary: &Summary, source: &'static str) -> &'static str {
+fn corresponds(summary: &ComparisonReport, source: &'static str) -> &'static str {
     if summary.is_of_the_paper() { source } else { "" }
 }
 
-fn subtitle(summary: &Summary) -> String {
+fn subtitle(summary: &ComparisonReport) -> String {
     let days = counted(summary.days, "day", "days");
     format!(
         "{days} of the “{}” network, the same for every policy",
@@ -117,7 +117,7 @@ fn subtitle(summary: &Summary) -> String {
     )
 }
 
-fn draw(summary: &Summary, measure: &Measure, source: &str) -> Figure {
+fn draw(summary: &ComparisonReport, measure: &Measure, source: &str) -> Figure {
     let policies = &summary.policies;
     let bottom = TOP + ROW * policies.len() as f64;
     let names = policies.iter().map(|policy| shortened(&policy.name, LONGEST_NAME));

@@ -8,7 +8,7 @@ use super::axis::Scale;
 use super::canvas::{Anchor, Canvas, Lettering, Look, Stroke, pixels, shortened};
 use super::palette::Paint;
 use crate::numbers::{counted, dollars, signed_dollars};
-use crate::summary::{Comparison, Summary};
+use crate::summary::{ComparisonReport, PairedDifference};
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;
@@ -24,7 +24,7 @@ struct Bars {
 }
 
 /// The figure; `None` if there is only one policy.
-pub(super) fn figure(summary: &Summary) -> Option<Figure> {
+pub(super) fn figure(summary: &ComparisonReport) -> Option<Figure> {
     let comparison = summary.best_against_reference()?;
     let (first, second) =
         (&summary.policies[comparison.pair.0], &summary.policies[comparison.pair.1]);
@@ -51,7 +51,7 @@ pub(super) fn figure(summary: &Summary) -> Option<Figure> {
     })
 }
 
-fn looks(comparison: &Comparison) -> (Look, Look) {
+fn looks(comparison: &PairedDifference) -> (Look, Look) {
     let behind = Paint::Series(comparison.pair.1);
     let outline = Some(Stroke::solid(behind, 1.0));
     (
@@ -90,7 +90,7 @@ fn draw_axis(canvas: &mut Canvas, scale: &Scale) {
     canvas.text(below, Lettering::SMALL.anchored(Anchor::Middle), "days, largest difference first");
 }
 
-fn draw_mean(canvas: &mut Canvas, scale: &Scale, comparison: &Comparison) {
+fn draw_mean(canvas: &mut Canvas, scale: &Scale, comparison: &PairedDifference) {
     let mean = comparison.profit_usd.difference.mean;
     let y = scale.pixel(mean);
     let stroke = Stroke { paint: Paint::Ink, width: 1.4, dash: Some("6 4") };
@@ -99,7 +99,7 @@ fn draw_mean(canvas: &mut Canvas, scale: &Scale, comparison: &Comparison) {
     canvas.text((WIDTH - RIGHT, y - 7.0), lettering, &format!("mean {}", signed_dollars(mean)));
 }
 
-fn draw_key(canvas: &mut Canvas, comparison: &Comparison) {
+fn draw_key(canvas: &mut Canvas, comparison: &PairedDifference) {
     let (ahead, behind) = looks(comparison);
     let test = &comparison.profit_usd;
     let y = 72.0;
@@ -116,7 +116,7 @@ fn draw_key(canvas: &mut Canvas, comparison: &Comparison) {
     }
 }
 
-fn caption(comparison: &Comparison, days: usize) -> String {
+fn caption(comparison: &PairedDifference, days: usize) -> String {
     format!(
         "On {} of {} {} earns more than {}. Each bar is one day.",
         comparison.profit_usd.first_larger,

@@ -7,8 +7,8 @@ use super::key;
 use super::palette::{Paint, dash};
 use crate::numbers::{grouped, typeset};
 use crate::origin::NetworkOrigin;
-use crate::record::Curve;
-use crate::summary::Summary;
+use crate::record::LearningCurve;
+use crate::summary::ComparisonReport;
 
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 70.0;
@@ -67,15 +67,15 @@ struct Lines {
 }
 
 /// Fig. 3; `None` if no curve has a point.
-pub(super) fn on_training_days(summary: &Summary) -> Option<Figure> {
+pub(super) fn on_training_days(summary: &ComparisonReport) -> Option<Figure> {
     let curves = summary.curves.iter();
-    let lesson = |curve: &'_ Curve| vec![defined(&curve.points)];
+    let lesson = |curve: &'_ LearningCurve| vec![defined(&curve.points)];
     let lessons = curves.map(|curve| Lesson { name: &curve.name, runs: lesson(curve) });
     draw(summary, &ON_TRAINING_DAYS, lessons.collect())
 }
 
 /// The same on the validation days, a line a run; `None` if nobody was trained.
-pub(super) fn on_validation_days(summary: &Summary) -> Option<Figure> {
+pub(super) fn on_validation_days(summary: &ComparisonReport) -> Option<Figure> {
     let lessons = summary.trainings.iter().map(|training| Lesson {
         name: &training.policy,
         runs: training.curves.iter().map(|run| defined(run)).collect(),
@@ -89,7 +89,7 @@ fn defined(points: &[(u64, f64)]) -> Vec<Point> {
     points.map(|&(steps, reward)| (steps as f64, reward)).collect()
 }
 
-fn draw(summary: &Summary, chart: &Chart, mut lessons: Vec<Lesson<'_>>) -> Option<Figure> {
+fn draw(summary: &ComparisonReport, chart: &Chart, mut lessons: Vec<Lesson<'_>>) -> Option<Figure> {
     lessons.retain(|lesson| lesson.runs.iter().any(|run| !run.is_empty()));
     if lessons.is_empty() {
         return None;
@@ -121,7 +121,7 @@ fn draw(summary: &Summary, chart: &Chart, mut lessons: Vec<Lesson<'_>>) -> Optio
 }
 
 /// Says whose days the curves are of: every policy that has one was trained on the network of that name.
-fn caption(summary: &Summary, chart: &Chart) -> String {
+fn caption(summary: &ComparisonReport, chart: &Chart) -> String {
     let fig_3 = match chart.slug {
         FIG_3 if summary.is_of_the_paper() => "Corresponds to Fig. 3 of the paper. ",
         _ => "",
@@ -141,7 +141,7 @@ fn caption(summary: &Summary, chart: &Chart) -> String {
 }
 
 /// A curve looks like the policy of its name; other curves take what no policy has.
-fn series(summary: &Summary, name: &str, position: usize) -> usize {
+fn series(summary: &ComparisonReport, name: &str, position: usize) -> usize {
     let policy = summary.policies.iter().position(|policy| policy.name == name);
     policy.unwrap_or(summary.policies.len() + position)
 }

@@ -9,7 +9,7 @@ use super::axis::Scale;
 use super::canvas::{Anchor, Canvas, Lettering, Stroke, shortened};
 use super::key;
 use super::palette::Paint;
-use crate::generalisation::{NetworkSummary, Summary};
+use crate::generalisation::{GeneralisationReport, NetworkShare};
 use crate::numbers::{counted, grouped, minutes, typeset};
 
 const WIDTH: f64 = 760.0;
@@ -26,7 +26,7 @@ const LONGEST_NAME: usize = 22;
 /// What stands on the horizontal axis of a panel.
 struct Size {
     axis: &'static str,
-    of: fn(&NetworkSummary) -> usize,
+    of: fn(&NetworkShare) -> usize,
 }
 
 const SIZES: [Size; 2] = [
@@ -35,7 +35,7 @@ const SIZES: [Size; 2] = [
 ];
 
 /// The figure with both panels.
-pub(crate) fn share_by_size(summary: &Summary) -> Figure {
+pub(crate) fn share_by_size(summary: &GeneralisationReport) -> Figure {
     let names: Vec<String> =
         summary.policies.iter().map(|policy| shortened(&policy.name, LONGEST_NAME)).collect();
     let (places, last_row) = key::places(&names, KEY_MARK, WIDTH);
@@ -65,7 +65,7 @@ pub(crate) fn share_by_size(summary: &Summary) -> Figure {
     }
 }
 
-fn draw_panel(canvas: &mut Canvas, summary: &Summary, size: &Size, top: f64) {
+fn draw_panel(canvas: &mut Canvas, summary: &GeneralisationReport, size: &Size, top: f64) {
     let floor = top + PANEL_HEIGHT;
     let networks = || summary.networks.iter();
     let shares = networks().flat_map(|network| &network.results).map(|outcome| outcome.bound_share);

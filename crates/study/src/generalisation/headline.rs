@@ -1,10 +1,10 @@
 //! The study in a sentence or two, made from its numbers.
 
-use super::Summary;
+use super::GeneralisationReport;
 use crate::numbers::{counted, grouped, p_statement, signed, typeset};
 
 /// Who does best, and whether its lead over the first-named policy is more than chance.
-pub(super) fn text(summary: &Summary) -> String {
+pub(super) fn text(summary: &GeneralisationReport) -> String {
     let best = &summary.policies[summary.best_position()];
     let count = summary.networks.len();
     let earns = format!(

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Summary;
+use super::GeneralisationReport;
 
 #[derive(Serialize)]
 struct Row<'a> {
@@ -17,7 +17,7 @@ struct Row<'a> {
 }
 
 /// The rows as CSV with a header; networks in order, policies as they were named.
-pub(super) fn text(summary: &Summary) -> String {
+pub(super) fn text(summary: &GeneralisationReport) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for network in &summary.networks {
         for outcome in &network.results {

@@ -2,13 +2,13 @@
 
 use maud::{Markup, html};
 
-use super::{NetworkSummary, PolicySummary, Summary, headline};
+use super::{GeneralisationReport, NetworkShare, PolicyShare, headline};
 use crate::figure::Figure;
 use crate::numbers::{counted, dollars, grouped, minutes, p_value, signed, typeset};
 use crate::page::{self, estimate};
 
 /// The whole page.
-pub(super) fn text(summary: &Summary, figures: &[Figure]) -> String {
+pub(super) fn text(summary: &GeneralisationReport, figures: &[Figure]) -> String {
     let body = html! {
         (opening(summary))
         (results(summary))
@@ -20,7 +20,7 @@ pub(super) fn text(summary: &Summary, figures: &[Figure]) -> String {
     page::document("Vertifleet on random networks", &body)
 }
 
-fn opening(summary: &Summary) -> Markup {
+fn opening(summary: &GeneralisationReport) -> Markup {
     let range = |size| {
         let (least, most) = summary.range(size);
         format!("{least} to {most}")
@@ -40,7 +40,7 @@ fn opening(summary: &Summary) -> Markup {
     }
 }
 
-fn results(summary: &Summary) -> Markup {
+fn results(summary: &GeneralisationReport) -> Markup {
     let first = &summary.first().name;
     html! {
         h2 { "Results" }
@@ -69,7 +69,7 @@ fn results(summary: &Summary) -> Markup {
     }
 }
 
-fn result_cells(policy: &PolicySummary, networks: usize) -> Markup {
+fn result_cells(policy: &PolicyShare, networks: usize) -> Markup {
     let percent = |share: f64| grouped(100.0 * share, 2);
     html! {
         th scope="row" title=(policy.name) {
@@ -91,7 +91,7 @@ fn result_cells(policy: &PolicySummary, networks: usize) -> Markup {
     }
 }
 
-fn networks(summary: &Summary) -> Markup {
+fn networks(summary: &GeneralisationReport) -> Markup {
     html! {
         h2 { "Networks" }
         p.lead { "What each policy earns on each network’s day, as a share of that day’s bound. Every command takes the network by "
@@ -109,7 +109,7 @@ fn networks(summary: &Summary) -> Markup {
     }
 }
 
-fn network_cells(network: &NetworkSummary) -> Markup {
+fn network_cells(network: &NetworkShare) -> Markup {
     html! {
         th scope="row" { (network.network) }
         td { (network.vertiports) }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Study, Summary, networks_csv, page};
+use super::{GeneralisationRecords, GeneralisationReport, networks_csv, page};
 use crate::error::Error;
 use crate::{figure, report};
 
@@ -19,8 +19,8 @@ pub struct Written {
 ///
 /// # Errors
 /// As [`report::write`].
-pub fn write(study: &Study, folder: &Path, force: bool) -> Result<Written, Error> {
-    let summary = Summary::of(study)?;
+pub fn write(study: &GeneralisationRecords, folder: &Path, force: bool) -> Result<Written, Error> {
+    let summary = GeneralisationReport::of(study)?;
     let figures = [figure::share_by_size(&summary)];
     let mut files = report::pictures(&figures);
     files.extend([

@@ -1,6 +1,6 @@
 //! The study as plain text for a terminal: one row a policy.
 
-use super::{PolicySummary, Summary};
+use super::{GeneralisationReport, PolicyShare};
 use crate::numbers::{counted, grouped, minutes, p_value, signed};
 use crate::table::{append_aligned, estimate};
 
@@ -8,7 +8,7 @@ use crate::table::{append_aligned, estimate};
 const OFFLINE_MARK: &str = " *";
 
 /// The text that `generalise` prints. No line end after the last line.
-pub fn text(summary: &Summary) -> String {
+pub fn text(summary: &GeneralisationReport) -> String {
     let first = &summary.first().name;
     let networks = counted(summary.networks.len(), "random network", "random networks");
     let mut text = format!("{networks}, a day of each\n\n");
@@ -33,7 +33,7 @@ pub fn text(summary: &Summary) -> String {
     text
 }
 
-fn row(policy: &PolicySummary, networks: usize) -> Vec<String> {
+fn row(policy: &PolicyShare, networks: usize) -> Vec<String> {
     let mark = if policy.knows_the_day { OFFLINE_MARK } else { "" };
     let percent = |share: f64| grouped(100.0 * share, 2);
     let [above, minus, p] = match &policy.minus_first {

@@ -1,7 +1,8 @@
 //! Made-up results of five policies, the same on every machine: for tests and the sample report.
 
 use vertifleet_study::{
-    Curve, DayRecord, LatencySummary, NetworkOrigin, PolicyRecord, Study, Training,
+    ComparisonRecords, DayRecord, LatencySummary, LearningCurve, NetworkOrigin, PolicyRecord,
+    ValidationCurves,
 };
 
 /// How a made-up policy does.
@@ -62,7 +63,7 @@ const POLICIES: [Outline; 5] = [
 ];
 
 /// A study of five policies on this many days of the network `paper`.
-pub(crate) fn study(days: usize) -> Study {
+pub(crate) fn study(days: usize) -> ComparisonRecords {
     let mut noise = Noise(1);
     let seasons: Vec<f64> = (0..days).map(|_| 1_300.0 * noise.next_normal()).collect();
     let policies = POLICIES.iter().enumerate().map(|(position, outline)| PolicyRecord {
@@ -76,13 +77,13 @@ pub(crate) fn study(days: usize) -> Study {
         decision_ns: Some(outline.decision_ns),
     });
     let policies = policies.collect();
-    let mut runs = |name, end, start, seeds: usize| Training {
+    let mut runs = |name, end, start, seeds: usize| ValidationCurves {
         name,
         runs: (0..seeds).map(|_| curve("", end, start, &mut noise).points).collect(),
     };
     let trainings =
         vec![runs("gcaps".to_owned(), 0.293, 0.255, 3), runs("mlp".to_owned(), 0.272, 0.250, 1)];
-    Study {
+    ComparisonRecords {
         network: "paper".to_owned(),
         network_origin: NetworkOrigin::Shipped,
         seed: Some(1),
@@ -130,13 +131,13 @@ fn record(policy: usize, outline: &Outline, day: u64, season: f64, noise: &mut N
     }
 }
 
-fn curve(name: &str, end: f64, start: f64, noise: &mut Noise) -> Curve {
+fn curve(name: &str, end: f64, start: f64, noise: &mut Noise) -> LearningCurve {
     let points = (1..=100u32).map(|point| {
         let rise = 1.0 - (-f64::from(point) / 22.0).exp();
         let reward = start + (end - start) * rise + 0.0025 * noise.next_normal() * (1.3 - rise);
         (u64::from(point) * 20_000, reward)
     });
-    Curve { name: name.to_owned(), points: points.collect() }
+    LearningCurve { name: name.to_owned(), points: points.collect() }
 }
 
 /// SplitMix64: a few lines that never change, unlike a crate's generator.

@@ -19,7 +19,7 @@ const MOST_LANES: usize = 8;
 
 /// Tables of a day by vertiport, then boundary between two slots.
 #[derive(Debug, Clone)]
-pub(super) struct WaysOn {
+pub(super) struct ValueTable {
     clock: Clock,
     vertiports: usize,
     hold: Stay,
@@ -34,7 +34,7 @@ pub(super) struct WaysOn {
     arch: Arch,
 }
 
-impl WaysOn {
+impl ValueTable {
     pub(super) fn of(view: View<'_>, clock: &Clock) -> Self {
         let (vertiports, kinds) = (view.vertiports(), view.aircraft_types().len());
         let stride = 2 * clock.slots + MOST_LANES + 1;
@@ -245,7 +245,7 @@ mod tests {
 
     use super::super::clock::Clock;
     use super::super::hops::Hops;
-    use super::WaysOn;
+    use super::ValueTable;
 
     #[test]
     fn vectors_of_any_width_give_the_same_tables() {
@@ -255,17 +255,17 @@ mod tests {
         let view = simulation.view();
         let clock = Clock::of(view);
         let mut hops = Hops::of(view, &clock);
-        hops.take_up(view);
+        hops.load(view);
         let pairs = view.period_starts().len() * view.vertiports() * view.vertiports();
         hops.charge(0, &vec![1.5; pairs]);
         let stand_usd: Vec<f64> =
             (0..clock.slots * view.vertiports()).map(|at| (at % 7) as f64 / 3.0).collect();
         let tables = |arch: Arch| {
-            let mut ways_on = WaysOn::of(view, &clock);
-            ways_on.arch = arch;
-            ways_on.pay(&stand_usd, 3);
-            ways_on.value(&hops, 3);
-            (ways_on.worth_less_paid_usd, ways_on.best)
+            let mut values = ValueTable::of(view, &clock);
+            values.arch = arch;
+            values.pay(&stand_usd, 3);
+            values.value(&hops, 3);
+            (values.worth_less_paid_usd, values.best)
         };
         let widest = tables(Arch::new());
         assert!(widest.0.iter().any(|&usd| usd > 100.0), "flights are worth something");

@@ -24,7 +24,7 @@ pub(super) struct Flight {
     pub(super) to: VertiportIx,
     /// Seconds from the decision until the aircraft may decide again, its delay included.
     pub(super) block_s: u32,
-    /// Place of its period and pair of vertiports in [`Network::demand`].
+    /// Place of its period and pair of vertiports in [`TimeExpandedDay::demand`].
     pub(super) cell: u32,
     /// The most passengers it may carry: its seats, or all who wait where those are fewer.
     pub(super) passengers: u32,
@@ -46,7 +46,7 @@ pub(super) struct Layer {
 
 /// A day, laid out.
 #[derive(Debug, Clone)]
-pub(super) struct Network {
+pub(super) struct TimeExpandedDay {
     pub(super) slices: Slices,
     /// The types that have an aircraft in the fleet.
     pub(super) layers: Vec<Layer>,
@@ -69,7 +69,7 @@ pub(super) struct Network {
     offsets: Vec<usize>,
 }
 
-impl Network {
+impl TimeExpandedDay {
     /// Lays out a day in slices of at most `step_s` seconds.
     ///
     /// # Errors
