@@ -31,7 +31,7 @@ enum Autoreset {
     NextStep,
     /// The step that ends it begins a new one; how it ended is shown apart.
     SameStep,
-    /// Whoever plays begins a new one.
+    /// The caller begins a new one.
     Disabled,
 }
 

@@ -81,7 +81,7 @@ impl Observations {
         (nodes, aircraft, clock, adjacency, mask, mask_i8).into_pyobject(py)
     }
 
-    /// An error if somebody has made an array read-only.
+    /// An error if an array was made read-only.
     pub(crate) fn lend<'py>(&self, py: Python<'py>) -> PyResult<ObservationsLent<'py>> {
         Ok(ObservationsLent {
             nodes: self.nodes.bind(py).try_readwrite()?,
@@ -111,7 +111,7 @@ impl Outcomes {
         (rewards, over, invalid, begun).into_pyobject(py)
     }
 
-    /// An error if somebody has made an array read-only.
+    /// An error if an array was made read-only.
     pub(crate) fn lend<'py>(&self, py: Python<'py>) -> PyResult<OutcomesLent<'py>> {
         Ok(OutcomesLent {
             rewards: self.rewards.bind(py).try_readwrite()?,

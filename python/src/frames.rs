@@ -58,7 +58,7 @@ pub(crate) fn count(value: impl TryInto<i64>) -> i64 {
     value.try_into().unwrap_or(i64::MAX)
 }
 
-/// An array that says no to whoever writes to it: it is a copy, and the original would not change.
+/// An array that cannot be written to: it is a copy, and the original would not change.
 pub(crate) fn read_only<T>(array: Bound<'_, T>) -> PyResult<Bound<'_, PyAny>> {
     let array = array.into_any();
     array.call_method("setflags", (), Some(&[("write", false)].into_py_dict(array.py())?))?;

@@ -51,7 +51,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     let raised = stop.clone();
     std::thread::spawn(move || {
         let outcome = pool(threads).install(|| work(&raised));
-        // Nobody listens any more after a second Ctrl-C.
+        // After a second Ctrl-C there is no listener.
         let _ = to.send(outcome);
     });
     let mut interrupt = None;

@@ -18,7 +18,7 @@ use crate::scenario::Scenario;
 use crate::trace::Trace;
 use crate::whole::Whole;
 
-/// How often somebody who waits for a proof looks for Ctrl-C.
+/// How often Ctrl-C is looked for while a proof is waited for.
 const GLANCE: Duration = Duration::from_millis(50);
 
 /// A proof of what a day can earn at most.
@@ -144,7 +144,7 @@ pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: Whole) -> PyResul
         Ok::<_, exact::Error>(bound.map(|bound| Bound::of(&day, &bound)))
     })?;
     let bound = bound.map_err(Failure::from)?;
-    Ok(bound.expect("whoever stops it hears of nothing but that"))
+    Ok(bound.expect("a stop is the only answer to a stopped call"))
 }
 
 /// A schedule for a day that is known.

@@ -1,4 +1,4 @@
-//! Pickling: who makes a thing again, and of what.
+//! Pickling: the function that makes an object again, and its arguments.
 
 use pyo3::prelude::*;
 use pyo3::type_object::PyTypeInfo;

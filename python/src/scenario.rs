@@ -134,7 +134,7 @@ impl Scenario {
         )?)
     }
 
-    /// What a flight costs whoever is on board, beside its energy, dollars [vertiports, vertiports].
+    /// What a flight costs with or without passengers, beside its energy, dollars [vertiports, vertiports].
     #[getter]
     fn flight_cost_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let size = self.scenario.vertiports.len();
@@ -153,7 +153,7 @@ impl Scenario {
         read_only(PyArray1::from_slice(py, &self.scenario.energy_price_usd))
     }
 
-    /// Revenue if everybody flew, dollars: the denominator of the reward.
+    /// Revenue if every passenger flew, dollars: the denominator of the reward.
     #[getter]
     fn potential_usd(&self) -> f64 {
         self.scenario.potential_usd()

@@ -46,7 +46,7 @@ pub(crate) struct Shown<'a> {
 }
 
 impl Shown<'_> {
-    /// Shows a decision to somebody.
+    /// Shows a decision.
     pub(crate) fn fill(self, decision: &Decision, view: View<'_>, scales: &Scales, to: To) {
         let left = scales.write((self.nodes, self.aircraft), decision, view);
         *self.clock = if to == To::Remember { 0.0 } else { left };

@@ -1,4 +1,4 @@
-//! Whole numbers as Python has them: of any size, until somebody says what they are for.
+//! Whole numbers as Python has them: of any size, until it is known what they are for.
 
 use pyo3::prelude::*;
 use pyo3::{Borrowed, PyErr};

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class Error(Exception):
-    """Something that whoever calls can put right.
+    """Something that the caller can put right.
 
     The error index of the documentation gives cause and fix of every code.
     """

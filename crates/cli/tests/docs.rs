@@ -42,7 +42,9 @@ fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
 /// The pages of the book, and those at the root of the project.
 fn pages() -> Vec<PathBuf> {
     let mut pages = files(&root().join("docs/src"), ".md");
-    pages.extend(["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(|page| root().join(page)));
+    pages.extend(
+        ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "AGENTS.md"].map(|page| root().join(page)),
+    );
     pages
 }
 

@@ -27,7 +27,7 @@ fn said(folder: &Path, arguments: &str, code: i32) -> String {
     String::from_utf8(assert.get_output().stderr.clone()).expect("text")
 }
 
-/// Demand of two pairs from a table, and costs whoever is on board.
+/// Demand of two pairs from a table, and costs with or without passengers.
 fn own_network(folder: &Path) {
     let begin = NEW_YORK.find("[daily_demand]").expect("a demand model");
     let end = NEW_YORK.find("[disturbances.forecast_error]").expect("what follows it");

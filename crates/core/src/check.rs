@@ -1,4 +1,4 @@
-//! The rules that every day obeys, checked once: whoever holds a [`Scenario`] may rely on them.
+//! The rules that every day obeys, checked once: code that holds a [`Scenario`] may rely on them.
 //!
 //! Bounds of single numbers are in `limits.rs`; here is what must agree with what.
 
@@ -298,7 +298,7 @@ impl Check<'_> {
         self.passengers(&self.day.demand, "demand")
     }
 
-    /// A table of passengers for each period, with nobody on the diagonal.
+    /// A table of passengers for each period, with 0 on the diagonal.
     fn passengers(&self, tables: &[Matrix<u32>], member: &str) -> Result<(), Error> {
         self.per_period(member, tables.len())?;
         demand_cells(self.origin, self.day.vertiports.len(), self.day.periods.len())?;

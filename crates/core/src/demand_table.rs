@@ -1,7 +1,7 @@
 //! A table of demand beside a network file: CSV of period, from, to, passengers, as a spreadsheet writes it.
 //!
 //! A network keeps everything it says in its own text, so that a copy of it elsewhere draws the same days. So the table's
-//! rows are put in the place of the member that names it, and from there on nobody knows of the table.
+//! rows are put in the place of the member that names it, and nothing after that knows of the table.
 
 use std::borrow::Cow;
 use std::collections::HashMap;

@@ -1,4 +1,4 @@
-//! What may disturb a day: demand that is not as forecast, late take-offs, closed routes, aircraft out of service. Nobody
+//! What may disturb a day: demand that is not as forecast, late take-offs, closed routes, aircraft out of service. No policy
 //! knows it in advance, but for closures that are announced.
 //!
 //! All of it stands in the scenario, so that every policy meets the same disturbances; what of it a policy may see, and

@@ -14,7 +14,7 @@ use crate::{Code, FileKind};
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// V101. The operating system does not let the file be read: it does not exist, is a folder, or belongs to
-    /// somebody else. Fix: correct the path or the file's permissions.
+    /// another user. Fix: correct the path or the file's permissions.
     #[error("{origin}: cannot be read: {cause}")]
     CannotRead {
         /// The path.
@@ -218,7 +218,9 @@ pub enum Error {
     },
 
     /// V116. Passengers want to fly from a vertiport to itself. Fix: set the diagonal of the demand tables to 0.
-    #[error("{origin}: {member} must be 0, found {found}: nobody flies from a vertiport to itself")]
+    #[error(
+        "{origin}: {member} must be 0, found {found}: no flight goes from a vertiport to itself"
+    )]
     SelfDemand {
         /// The file.
         origin: String,

@@ -8,7 +8,7 @@ use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 use crate::Error;
 use crate::outputs::folder_of;
 
-/// Held for reading by whoever writes a file, and for writing by whoever ends the process between two of them.
+/// Held for reading while a file is written, and for writing while the process is ended between two of them.
 static WRITING: RwLock<()> = RwLock::new(());
 
 /// The longest scenario file that is read. Every scenario that obeys the rules is shorter when written.
@@ -63,7 +63,7 @@ pub fn create_folder(path: &Path) -> Result<(), Error> {
     created.map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
 }
 
-/// Writes a whole file, so that whoever opens `path`, whenever the program ends, finds either what was there before or
+/// Writes a whole file, so that `path`, whenever the program ends, has either what was there before or
 /// all of `contents`.
 ///
 /// A link is followed. Where `path` is no plain file (a pipe, `/dev/stdout`), `contents` is simply written to it.
@@ -75,7 +75,7 @@ pub fn write_atomically(path: &Path, contents: &[u8]) -> Result<(), Error> {
 }
 
 /// Waits for the files that are being written by [`write_atomically`]; as long as the result lives, no other is begun. For
-/// whoever ends the process while its threads are at work, so that no file in between is left behind.
+/// ending the process while its threads are at work, so that no file in between is left behind.
 pub fn block_writes() -> RwLockWriteGuard<'static, ()> {
     WRITING.write().unwrap_or_else(PoisonError::into_inner)
 }
@@ -103,7 +103,7 @@ fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
     }
     let folder = folder_of(&target);
     fs::metadata(folder)?;
-    // Not for pipes, above: whoever waits for their reader may be ended.
+    // Not for pipes, above: a process that waits for a pipe's reader may be ended.
     let _writing = writing();
     // The name of the file in between would only confuse a message, so the kind of error must do.
     let mut file = new_file_in(folder).map_err(|error| io::Error::from(error.kind()))?;

@@ -128,7 +128,7 @@ pub fn replace_folder(
     let replaced = fs::create_dir_all(above).and_then(|()| replace(&target, kind, files));
     if replaced.is_err() {
         for folder in missing {
-            // Somebody else may have put something into it by now; then it stays.
+            // Another program may have put something into it by now; then it stays.
             let _ = fs::remove_dir(folder);
         }
     }

@@ -1,4 +1,4 @@
-//! The name that somebody meant who mistyped it.
+//! The name that was meant by a mistyped one.
 
 /// The name that differs from `typed` in the fewest letters, if so few differ that it may have been meant: one in three, capitals
 /// aside.

@@ -27,7 +27,7 @@ pub struct Network {
     pub(crate) toml: String,
     /// The files that it was read from.
     pub(crate) files: Vec<PathBuf>,
-    /// All that is the same every day. Its aircraft stand anywhere that is allowed, and nobody wants to fly.
+    /// All that is the same every day. Its aircraft stand anywhere that is allowed, and it has no passengers.
     pub(crate) idle_day: Scenario,
     pub(crate) demand: DemandModel,
     pub(crate) disturbances: DisturbanceModel,

@@ -120,7 +120,7 @@ impl RawNetwork {
         raw.tariffs.check(demand.periods.len(), origin)?;
 
         let passenger_cost_usd = raw.tariffs.passenger_costs_usd(&distance_mi);
-        let nobody = Matrix::from_fn(vertiports.len(), |_, _| 0);
+        let no_passengers = Matrix::from_fn(vertiports.len(), |_, _| 0);
         let idle_day = Day {
             name: raw.name.clone(),
             seed: 0,
@@ -134,7 +134,7 @@ impl RawNetwork {
             aircraft_cost_usd: raw.tariffs.aircraft_cost_usd(),
             distance_mi,
             periods: demand.periods.clone(),
-            demand: vec![nobody; demand.periods.len()],
+            demand: vec![no_passengers; demand.periods.len()],
             energy_price_usd: raw.tariffs.energy_prices_usd(demand.periods.len()),
             disturbances: Disturbances { closures, ..Disturbances::default() },
             vertiports,

@@ -1,4 +1,4 @@
-//! What a command may write to: nothing that it reads, nothing twice, and no file of somebody else's.
+//! What a command may write to: nothing that it reads, nothing twice, and no file of others.
 //!
 //! All of it is asked before any work is done. Files are told apart by what they are, not by how they are called: by
 //! device and inode on Unix, so that links are seen through, and by their canonical paths elsewhere. What is no plain file

@@ -156,7 +156,7 @@ impl Place<'_> {
             line,
             column,
             member: if path == "." { String::new() } else { format!("{}: ", shortened(path, 100)) },
-            // The parsers' own word for a number; nobody writes files in terms of our types.
+            // The parsers' own word for a number; files are not written in terms of our types.
             problem: shortened(&problem.replace("expected f64", "expected a number"), 300),
         }
     }

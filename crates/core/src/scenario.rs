@@ -1,7 +1,7 @@
 //! One operating day: everything exogenous, nothing left to be drawn.
 //!
 //! [`Day`] is the open form that readers and draws fill in; [`Scenario`] is a day that passed [`Day::check`] and can
-//! no longer be changed, so whoever holds one may trust every rule that `check.rs` states.
+//! no longer be changed, so every rule that `check.rs` states may be trusted.
 
 use std::ops::Deref;
 
@@ -115,7 +115,7 @@ pub struct Day {
     pub fare_usd: Fares,
     /// R_ij, dollars a passenger.
     pub passenger_cost_usd: Matrix<f64>,
-    /// What a flight costs whoever is on board, beside its energy; dollars a flight, all 0 in the paper.
+    /// What a flight costs with or without passengers, beside its energy; dollars a flight, all 0 in the paper.
     pub flight_cost_usd: Matrix<f64>,
     /// What each aircraft of the fleet costs whatever it does; dollars a day, 0 in the paper.
     pub aircraft_cost_usd: f64,
@@ -125,11 +125,11 @@ pub struct Day {
     pub demand: Vec<Matrix<u32>>,
     /// E: price of electricity per period, dollars per kWh.
     pub energy_price_usd: Vec<f64>,
-    /// What nobody knows in advance.
+    /// What is not known in advance.
     pub disturbances: Disturbances,
 }
 
-/// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, nobody stands on a full vertiport.
+/// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, no vertiport has more aircraft than stands.
 ///
 /// Reads like a [`Day`]; to change one, take it apart with [`Scenario::into_day`] and check it again.
 #[derive(Debug, Clone, PartialEq)]
@@ -159,7 +159,7 @@ impl Scenario {
         corridors.is_none_or(|routes| routes.iter().any(|route| route.covers(from, to)))
     }
 
-    /// Whether any flight costs something whoever is on board, beside its energy.
+    /// Whether any flight costs something with or without passengers, beside its energy.
     pub fn has_flight_costs(&self) -> bool {
         self.flight_cost_usd.cells().iter().any(|&cost_usd| cost_usd != 0.0)
     }

@@ -78,7 +78,7 @@ impl RawTariffs {
         })
     }
 
-    /// What a flight costs whoever is on board, dollars: so much a flight and so much a mile.
+    /// What a flight costs with or without passengers, dollars: so much a flight and so much a mile.
     pub(crate) fn flight_costs_usd(&self, distance_mi: &Matrix<f64>) -> Matrix<f64> {
         Matrix::from_fn(distance_mi.size(), |from, to| {
             if from == to {

@@ -109,7 +109,7 @@ impl Scenario {
         self.out_of_reach().into_iter().chain(stranded).collect()
     }
 
-    /// The vertiports to and from which nobody can fly. One alone has no other to be reached from.
+    /// The vertiports that no aircraft can reach or leave. One alone has no other to be reached from.
     fn out_of_reach(&self) -> Vec<Warning> {
         let fleet: Vec<&AircraftType> = self
             .aircraft_types
@@ -134,7 +134,7 @@ impl Scenario {
             .collect()
     }
 
-    /// Why nobody can fly to or from a vertiport.
+    /// Why no aircraft can reach or leave a vertiport.
     fn cause(&self, vertiport: VertiportIx, fleet: &[&AircraftType]) -> Cause {
         let reaches = |mi| fleet.iter().any(|kind| self.reaches(kind, mi));
         let ways = |other| {

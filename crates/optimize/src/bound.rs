@@ -82,7 +82,7 @@ pub struct Bound {
 /// [`Error::TooManyFlights`] if the day is too large for this step.
 pub fn upper_bound(scenario: &Scenario, step: Step) -> Result<Bound, Error> {
     let never = Stop::default();
-    Ok(upper_bound_unless(&never, scenario, step)?.expect("nobody stops it"))
+    Ok(upper_bound_unless(&never, scenario, step)?.expect("it is not stopped"))
 }
 
 /// As [`upper_bound`]; nothing, soon after `stopped` is raised.

@@ -140,7 +140,7 @@ pub fn plan(
         }
     });
     let mut plan = Plan { trace, profit_usd, best_policy_usd: profit_usd, steps: 0 };
-    // Where nobody pays for a seat, no flight is better than none.
+    // Where no passenger pays for a seat, no flight is better than none.
     let is_worth_it = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
     if is_worth_it && !stopped && clock.left() > first {
         search(scenario, (settings, &clock), &mut plan, watch);

@@ -3,7 +3,7 @@
 //!
 //! A rolling horizon in two parts. To the end of the day, the fleet's programme is solved anew every quarter of an hour from
 //! where it stands, is in the air and on charge, with its stands and passengers priced out ([`DayPrices`]). For the next
-//! two hours, each of a few choices is played out in the simulator several times, everybody else choosing by prices; what
+//! two hours, each of a few choices is played out in the simulator several times, every other aircraft choosing by prices; what
 //! the fleet has earned and is worth by then decides. Nothing looks at a clock, so the same day has the same outcome
 //! everywhere.
 

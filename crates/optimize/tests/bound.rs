@@ -238,7 +238,7 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
     };
     let cached = |day: &Scenario, step| {
         let bound = cached_upper_bound(&Stop::default(), day, minutes(step), &folder);
-        bound.expect("a folder of ours").expect("nobody stops it").upper_bound_usd()
+        bound.expect("a folder of ours").expect("it is not stopped").upper_bound_usd()
     };
     let found = bound_usd(&day, 30);
     assert_eq!(cached(&day, 30), found);

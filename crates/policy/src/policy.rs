@@ -40,7 +40,7 @@ pub trait Policy: Send {
 /// A policy that has no answer.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PolicyError {
-    /// Whoever asked wants no more answers.
+    /// The caller asked to stop.
     #[error("it was stopped")]
     Stopped,
     /// The trace ends before the day does.

@@ -1,4 +1,4 @@
-//! A policy that answers until somebody wants no more answers: how a day that is being played is stopped.
+//! A policy that answers until it is asked to stop: how a day that is being played is stopped.
 
 use vertifleet_core::{Stop, VertiportIx};
 use vertifleet_sim::{Decision, View};

@@ -119,7 +119,7 @@ impl Pace {
         self.remaining = self.remaining.saturating_sub(units);
     }
 
-    /// Nobody knows before the first unit is done.
+    /// Not known before the first unit is done.
     fn time_left(&self, now: Instant) -> Option<Duration> {
         if self.done == 0 {
             return None;

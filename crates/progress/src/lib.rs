@@ -1,4 +1,4 @@
-//! How far long work is, on the terminal of whoever waits for it.
+//! How far long work is, on the terminal.
 
 mod bar;
 mod days;

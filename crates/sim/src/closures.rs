@@ -14,13 +14,13 @@ pub(crate) struct Closures {
     day: Arc<DayClosures>,
     /// The changes before this one have happened.
     next: usize,
-    /// Whether closures that nobody knows of stay as they are from now on.
+    /// Whether unknown closures stay as they are from now on.
     no_surprises: bool,
     /// Unknown closures that have begun or ended.
     surprises: usize,
     /// Unknown closures in force by route, `[from][to]` row by row: they may overlap.
     in_force: Vec<u16>,
-    /// By vertiport: where flights from it may not go now, because of closures that nobody knew of, and of known ones.
+    /// By vertiport: where flights from it may not go now, because of unknown closures, and of known ones.
     unexpected: Vec<VertiportSet>,
     scheduled: Vec<VertiportSet>,
 }
@@ -125,7 +125,7 @@ impl Closures {
         }
     }
 
-    /// From now on closures that nobody knows of neither begin nor end.
+    /// From now on unknown closures neither begin nor end.
     pub(crate) fn expect_no_surprises(&mut self) {
         self.no_surprises = true;
     }
@@ -155,7 +155,7 @@ impl Closures {
         scheduled.or(&self.unexpected_from(from))
     }
 
-    /// The same because of closures of which nobody knew.
+    /// The same because of unknown closures.
     #[cold]
     pub(crate) fn unexpected_from(&self, from: VertiportIx) -> VertiportSet {
         self.unexpected.get(from.at()).copied().unwrap_or(VertiportSet::EMPTY)

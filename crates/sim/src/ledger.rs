@@ -14,7 +14,7 @@ pub struct Ledger {
     pub passenger_cost_usd: f64,
     /// C^C (Eq. 3).
     pub energy_cost_usd: f64,
-    /// What flights cost whoever is on board, beside their energy.
+    /// What flights cost with or without passengers, beside their energy.
     pub flight_cost_usd: f64,
     /// What the fleet costs whatever it does, entered when the day begins.
     pub aircraft_cost_usd: f64,
@@ -83,7 +83,7 @@ pub struct DayTotals {
     pub passenger_cost: f64,
     /// Dollars (Eq. 3).
     pub energy_cost: f64,
-    /// What flights cost whoever is on board, beside their energy; dollars.
+    /// What flights cost with or without passengers, beside their energy; dollars.
     pub flight_cost: f64,
     /// What the fleet costs whatever it does, dollars.
     pub aircraft_cost: f64,

@@ -40,7 +40,7 @@ impl Leg {
 }
 
 /// To the nearest second, halves up. A leg that no battery lasts for may take absurdly long; the bound keeps sums of its
-/// parts within `u32`, and nobody can fly it.
+/// parts within `u32`, and it cannot be flown.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -39,7 +39,7 @@ pub struct Simulation {
     ledger: Ledger,
     closures: Closures,
     outages: Outages,
-    /// Whether anything may yet happen that nobody expects; never on an imagined day, where unknown closures stay as they are
+    /// Whether anything unexpected may yet happen; never on an imagined day, where unknown closures stay as they are
     /// and outages count in `queue` only.
     surprises: bool,
     /// Whether anything may happen by itself: a surprise, or a known closure, which imagined days have too.

@@ -55,7 +55,7 @@ pub struct TraceRow {
     pub energy_kwh: f64,
     /// What charging costs, dollars.
     pub energy_cost_usd: f64,
-    /// What the flight costs whoever is on board, beside its energy; dollars.
+    /// What the flight costs with or without passengers, beside its energy; dollars.
     pub flight_cost_usd: f64,
     /// When the flight ends.
     pub arrival: Time,

@@ -89,13 +89,13 @@ impl<'a> View<'a> {
         self.simulation.closures().from(from)
     }
 
-    /// The same because of closures of which nobody knew before they began. Nobody knows how long they last.
+    /// The same because of closures that were not known before they began. How long they last is not known.
     #[inline]
     pub fn closed_unexpectedly(&self, from: VertiportIx) -> VertiportSet {
         self.simulation.closures().unexpected_from(from)
     }
 
-    /// When routes are closed that are known to be, all day. Closures of which nobody knows are not among these, also while they
+    /// When routes are closed that are known to be, all day. Unknown closures are not among these, also while they
     /// are in force.
     #[inline]
     pub fn known_closures(&self) -> &'a ClosedTimes {
@@ -171,7 +171,7 @@ impl<'a> View<'a> {
         self.scenario().passenger_cost_usd.row(from)
     }
 
-    /// What a flight costs whoever is on board, beside its energy; dollars, from one vertiport to each.
+    /// What a flight costs with or without passengers, beside its energy; dollars, from one vertiport to each.
     #[inline]
     pub fn flight_costs_usd(&self, from: VertiportIx) -> &'a [f64] {
         self.scenario().flight_cost_usd.row(from)

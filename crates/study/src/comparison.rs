@@ -97,7 +97,7 @@ impl Comparison {
         })
     }
 
-    /// Plays all days with everybody; `command` is what the study says it was made with.
+    /// Plays all days with every policy; `command` is what the study says it was made with.
     ///
     /// # Errors
     /// [`Error::Stopped`] soon after `stopped` is raised; else if a day is too large for its bound, or a policy cannot play
@@ -117,7 +117,7 @@ impl Comparison {
             None => scenarios.into_iter().map(BoundedDay::unbounded).collect(),
         };
         let policies = play(&days, &entrants, stopped, watch)?;
-        // How somebody learned on another network says nothing of these days. Nobody was trained on days of the user's own.
+        // How a policy learned on another network says nothing of these days. None was trained on days of the user's own.
         let here = |entrant: &&Entrant| days_from.is_none() && entrant.was_trained_on(&network);
         Ok(ComparisonRecords {
             curves: entrants.iter().filter(here).filter_map(Entrant::curve).collect(),
@@ -134,7 +134,7 @@ impl Comparison {
     }
 }
 
-/// Everybody who is asked for, no two of one name.
+/// All that are asked for, no two of one name.
 fn entrants(asked: &Asked<'_>, days: usize) -> Result<Vec<Entrant>, Error> {
     let entrants = asked.entrants()?;
     contenders(&entrants)?;
@@ -144,7 +144,7 @@ fn entrants(asked: &Asked<'_>, days: usize) -> Result<Vec<Entrant>, Error> {
     Ok(entrants)
 }
 
-/// Plays all days with everybody, one after the other, and tells who watches.
+/// Plays all days with every policy, one after the other, and tells the watch.
 ///
 /// # Errors
 /// As [`run`].

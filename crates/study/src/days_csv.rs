@@ -1,4 +1,4 @@
-//! `days.csv`: every policy's every day, one row each, for whoever wants to compute something else.
+//! `days.csv`: every policy's every day, one row each, for other computations.
 
 use serde::Serialize;
 

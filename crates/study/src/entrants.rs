@@ -13,7 +13,7 @@ use crate::run::{Contender, Contenders, Way};
 /// are as much work. There is no time limit, so that the plan is the same everywhere.
 const PLAN_STEPS: u64 = 200_000;
 
-/// Somebody who takes part, with its name.
+/// A policy or the planner, with the name that it has in the comparison.
 pub struct Entrant {
     /// Its name.
     pub name: String,
@@ -40,7 +40,7 @@ pub struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// Everybody: given weights first, then rules, then the network's shipped weights.
+    /// All who take part: given weights first, then rules, then the network's shipped weights.
     ///
     /// # Errors
     /// If there is no such policy, weights cannot be read, or names and weights do not go together.
@@ -145,7 +145,7 @@ fn planned(seed: u64) -> Way<'static> {
     }))
 }
 
-/// Everybody, for the comparison.
+/// All who take part, for the comparison.
 ///
 /// # Errors
 /// [`Error::DuplicatePolicy`] if two have one name.

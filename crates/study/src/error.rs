@@ -101,7 +101,7 @@ pub enum Error {
         hint: &'static str,
     },
 
-    /// V408. Somebody stopped it before it was done. Nothing was written.
+    /// V408. It was stopped before it was done. Nothing was written.
     #[error("stopped before all days were played")]
     Stopped,
 

@@ -1,4 +1,4 @@
-//! One day each of many networks: how policies do where nobody tuned them, and whether size matters.
+//! One day each of many networks: how policies do where they were not tuned, and whether size matters.
 //!
 //! What a policy earns on one network cannot be averaged with what it earns on another, so the measure is the share of the
 //! day's certified bound. Every network counts once.
@@ -71,7 +71,7 @@ pub struct PolicyShare {
     pub name: String,
     /// What the policy does.
     pub description: String,
-    /// Whether the days were planned by somebody who knew them: a reference, no policy.
+    /// Whether the days were planned with the whole day known: a reference, no policy.
     pub knows_the_day: bool,
     /// Profit as a share of the day's upper bound.
     pub bound_share: Estimate,
@@ -81,7 +81,7 @@ pub struct PolicyShare {
     pub minus_first: Option<PairedTest>,
 }
 
-/// One network with what everybody earns on its day.
+/// One network with what every policy earns on its day.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NetworkShare {
     /// Name by which every command finds it.
@@ -169,7 +169,7 @@ impl GeneralisationReport {
         self.policies.first().expect("a summary has at least one policy")
     }
 
-    /// The policy with the highest mean share. Who knows the day is no policy, unless there is nobody else.
+    /// The policy with the highest mean share. A plan is no policy, unless there is nothing else.
     pub(crate) fn best_position(&self) -> usize {
         let rank =
             |at: usize| (!self.policies[at].knows_the_day, self.policies[at].bound_share.mean);

@@ -70,9 +70,9 @@ mod tests {
     use crate::entrants::Asked;
     use crate::record::{ComparisonRecords, DayRecord};
 
-    struct Nobody;
+    struct Unwatched;
 
-    impl Watch for Nobody {
+    impl Watch for Unwatched {
         type Bar = fn();
 
         fn bounds(&self, _days: usize) -> fn() {
@@ -91,7 +91,7 @@ mod tests {
         let never = Stop::default();
         let comparison =
             Comparison::new(&network, &asked, (seed, days), None, &never).expect("days");
-        comparison.run(String::new(), &never, &Nobody).expect("played days")
+        comparison.run(String::new(), &never, &Unwatched).expect("played days")
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Whether the days of a study are those of a shipped network, or of one that only bears its name.
 //!
-//! Whoever wants more aircraft copies `networks/paper.toml`, changes a number and leaves the name as it is. What is known
+//! People who want more aircraft copy `networks/paper.toml`, change a number and leave the name as it is. What is known
 //! of the shipped network, the published figures above all, then says nothing about the copy.
 
 use std::sync::Arc;

@@ -18,14 +18,14 @@ use crate::origin::NetworkOrigin;
 /// The policy whose weights fit networks of any size.
 const ANY_SIZE: &str = "gcaps-x";
 
-/// What a name stands for, where whoever asks says so: weights, mostly.
+/// What a name stands for, where the caller says so: weights, mostly.
 #[derive(Debug, Clone)]
 pub enum Given {
     /// In a weight file, with the learning curves that may lie beside it.
     File(PathBuf),
     /// Read already.
     Model(Arc<Model>),
-    /// No weights, but whoever decides: a policy of the caller's own.
+    /// No weights: a policy of the caller's own.
     Policy(Maker),
 }
 

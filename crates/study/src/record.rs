@@ -24,7 +24,7 @@ pub struct DayRecord {
     pub passenger_cost_usd: f64,
     /// Cost of charging (Eq. 3), in dollars.
     pub energy_cost_usd: f64,
-    /// What flights cost whoever is on board, beside their energy, in dollars.
+    /// What flights cost with or without passengers, beside their energy, in dollars.
     #[serde(default)]
     pub flight_cost_usd: f64,
     /// What the fleet costs whatever it does, in dollars.
@@ -89,8 +89,8 @@ pub struct PolicyRecord {
     pub description: String,
     /// One record a day, in the study's order of days.
     pub days: Vec<DayRecord>,
-    /// Time that one decision of this policy takes; `None` for an offline reference, whose days were planned as a whole by
-    /// somebody who knew them.
+    /// Time that one decision of this policy takes; `None` for an offline reference, whose days were planned as a whole
+    /// with the day known.
     pub decision_ns: Option<LatencySummary>,
 }
 

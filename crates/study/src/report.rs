@@ -62,7 +62,7 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
     let made = fs::create_dir_all(folder)
         .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause });
     for path in missing {
-        // Somebody else may have put something into it by now; then it stays.
+        // Another program may have put something into it by now; then it stays.
         let _ = fs::remove_dir(path);
     }
     made?;

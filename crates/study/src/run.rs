@@ -16,14 +16,14 @@ use crate::record::{DayRecord, LatencySummary, PolicyRecord};
 
 /// A day of a comparison.
 pub struct BoundedDay {
-    /// What everybody meets.
+    /// What every policy meets.
     pub scenario: Arc<Scenario>,
     /// What no schedule of it earns more than, dollars, where that is asked for.
     pub upper_bound_usd: Option<f64>,
 }
 
 impl BoundedDay {
-    /// A day whose bound nobody asks for.
+    /// A day whose bound is not asked for.
     pub fn unbounded(scenario: Arc<Scenario>) -> Self {
         Self { scenario, upper_bound_usd: None }
     }
@@ -43,7 +43,7 @@ pub struct Contender<'a> {
 pub enum Way<'a> {
     /// A policy, made anew for each thread, decides while the day goes on.
     Online(Box<dyn Fn() -> Box<dyn Policy> + Sync + 'a>),
-    /// Somebody who knows the whole day plans it: a reference for those who do not.
+    /// The planner plans the day, knowing all of it: a reference for policies, which do not.
     Offline(Planner<'a>),
 }
 

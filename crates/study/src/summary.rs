@@ -122,7 +122,7 @@ pub struct PolicySummary {
     pub passenger_cost_usd: f64,
     /// Cost of charging, in dollars.
     pub energy_cost_usd: f64,
-    /// What flights cost whoever is on board, beside their energy, in dollars.
+    /// What flights cost with or without passengers, beside their energy, in dollars.
     pub flight_cost_usd: f64,
     /// What the fleet costs whatever it does, in dollars.
     pub aircraft_cost_usd: f64,
@@ -268,7 +268,7 @@ impl ComparisonReport {
 }
 
 impl PolicySummary {
-    /// Whether the days were planned by somebody who knew them.
+    /// Whether the days were planned with the whole day known.
     pub fn is_offline(&self) -> bool {
         self.decision_ns.is_none()
     }

@@ -22,7 +22,7 @@ def check_reward(reward: object) -> None:
 def whole(name: str, number: Any) -> int:
     """A whole number as Python or NumPy has it; neither a fraction nor a truth value nor a text is one."""
     try:
-        # True is a whole number for Python, but hardly for whoever passes it here.
+        # True is a whole number for Python, but is hardly meant as one here.
         if not isinstance(number, (bool, np.bool_)):
             return operator.index(number)
     except TypeError:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     """A network, a number of days, and the seed of the first."""
 
 TASKS_PER_CPU = 16
-"""So that nobody waits long for the last one, and little is lost with a node."""
+"""So that the last one is not waited for long, and little is lost with a node."""
 AHEAD = 2
 """Tasks under way for each CPU: none waits for its next, and an error or Ctrl-C leaves few behind."""
 GLANCE_S = 0.5

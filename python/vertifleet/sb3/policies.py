@@ -53,7 +53,7 @@ class TwinExtractor(BaseFeaturesExtractor):
     def forward(self, observations: dict[str, Tensor]) -> Tensor:
         """Logits and value.
 
-        The mask that is shown is applied here, so that whoever asks with no other decides as the program:
+        The mask that is shown is applied here, so that a call with no other mask decides as the program:
         plain `predict` and `evaluate_policy` do. MaskablePPO asks the environment, whose mask is the same.
         """
         logits, values = self.twin(observations["nodes"], observations["aircraft"], observations["clock"])

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 MOST_SEED = 2**32 - 1
 MOST_STEPS = 2**64 - 1
 NEVER = 1_000_000_000
-"""For "eval_every" where nobody looks at validation days, and the weights kept are the last."""
+"""For "eval_every" where validation days are not looked at, and the weights kept are the last."""
 
 
 def checked_settings(settings: Mapping[str, Any]) -> dict[str, Any]:

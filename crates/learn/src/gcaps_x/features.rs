@@ -192,7 +192,7 @@ impl Rows {
         for &(_, to) in listed {
             self.mask[first + to.at()] = 1;
         }
-        // The value head alone reads the clock, and nobody reads the value head.
+        // The value head alone reads the clock, and the value head is not read here.
         self.clock.push(0.0);
         let queue = self.look_around(scene);
         let best_usd = listed[0].0;

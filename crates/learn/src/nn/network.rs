@@ -13,7 +13,7 @@ pub struct NeuralNetwork {
     architecture: Architecture,
     shape: Shape,
     layout: Layout,
-    /// The weights in front are worked with only through products; nobody sums their slopes.
+    /// The weights in front are worked with only through products; their slopes are never summed.
     folded: usize,
     /// Length of the products.
     derived: usize,

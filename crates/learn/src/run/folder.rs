@@ -28,7 +28,7 @@ pub struct RunFolder {
     pub events: PathBuf,
 }
 
-/// Somebody who follows a run.
+/// Follows a run.
 pub trait TrainingWatch: Sync {
     /// So many units of [work](TrainingRun::work) more are done.
     fn has_worked(&self, units: u64);

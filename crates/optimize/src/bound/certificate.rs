@@ -1,4 +1,4 @@
-//! The certificate: prices prove a bound, in whole numbers, whoever found them.
+//! The certificate: prices prove a bound, in whole numbers, however they were found.
 //!
 //! Let aircraft pay for the stands that they take and for the passengers that they carry, and give every stand and every
 //! passenger its price back once. A schedule that keeps to the limits pays no more than is given back. So what is given back,

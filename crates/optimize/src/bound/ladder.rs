@@ -59,7 +59,7 @@ pub(super) fn cut_within(minutes: u32) -> u32 {
     cut.expect("the shortest slices are of a minute").minutes
 }
 
-/// Somebody who follows a search.
+/// Follows a search.
 pub(crate) trait Watch: Sync {
     /// Raised when the search shall end, soon.
     fn stopped(&self) -> &Stop;

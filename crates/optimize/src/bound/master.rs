@@ -73,12 +73,12 @@ struct Group {
 struct Known {
     way: Way,
     share: f64,
-    /// Since when nobody takes it, in rounds.
+    /// Since when no aircraft takes it, in rounds.
     idle: u32,
     worth: f64,
 }
 
-/// Ways that nobody takes are forgotten after so many rounds.
+/// Ways that no aircraft takes are forgotten after so many rounds.
 const FORGOTTEN: u32 = 12;
 /// A group has had its turns when it has shifted so often.
 const SHIFTS: u32 = 6;

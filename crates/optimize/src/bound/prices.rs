@@ -29,7 +29,7 @@ impl Prices {
         }
     }
 
-    /// Prices that somebody kept, if they are prices for this network.
+    /// Prices that were kept, if they are prices for this day.
     pub(super) fn checked(
         network: &TimeExpandedDay,
         stand: Vec<i64>,

@@ -90,7 +90,7 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
     let prices = any_prices(&network, mix);
     let mut certificate = Certificate::new(&network);
     let never = Stop::default();
-    let bound = certificate.evaluate(&network, &prices, &never).expect("nobody stops it");
+    let bound = certificate.evaluate(&network, &prices, &never).expect("it is not stopped");
     for trace in traces(day) {
         let mut taken = vec![0; prices.stand.len()];
         let mut carried = vec![0; prices.demand.len()];
@@ -165,7 +165,7 @@ fn proven(day: &Scenario, step_s: u32, mix: u64) -> (i128, Prices) {
     let prices = any_prices(&network, mix);
     let never = Stop::default();
     let micro_usd = Certificate::new(&network).evaluate(&network, &prices, &never);
-    (micro_usd.expect("nobody stops it"), prices)
+    (micro_usd.expect("it is not stopped"), prices)
 }
 
 proptest! {
@@ -204,6 +204,6 @@ proptest! {
         }
         let never = Stop::default();
         let shorter_proves = Certificate::new(&shorter).evaluate(&shorter, &same, &never);
-        assert!(shorter_proves.expect("nobody stops it") <= longer_proves);
+        assert!(shorter_proves.expect("it is not stopped") <= longer_proves);
     }
 }

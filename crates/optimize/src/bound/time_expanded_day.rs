@@ -28,7 +28,7 @@ pub(super) struct Flight {
     pub(super) cell: u32,
     /// The most passengers it may carry: its seats, or all who wait where those are fewer.
     pub(super) passengers: u32,
-    /// The least that it may cost whoever is on board, its energy included; micro-dollars.
+    /// The least that it may cost with or without passengers, its energy included; micro-dollars.
     pub(super) cost: i64,
 }
 

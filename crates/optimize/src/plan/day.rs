@@ -167,7 +167,7 @@ impl Day {
         self.margins_usd[cell]
     }
 
-    /// What a flight that takes off in `period` and lands at `arrival_s` costs whoever is on board, dollars: charging after it,
+    /// What a flight that takes off in `period` and lands at `arrival_s` costs with or without passengers, dollars: charging after it,
     /// and its own cost.
     #[inline]
     pub(super) fn flying_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {

@@ -1,6 +1,6 @@
 //! A schedule: the flights of each aircraft. When it holds, who boards and what stands are taken follow from them.
 //!
-//! The passengers of a pair and period are min(demand, seats of its flights) in total, whoever boards first; so what one
+//! The passengers of a pair and period are min(demand, seats of its flights) in total, in whatever order they board; so what one
 //! flight more or less earns is exact whatever the order in which flights are entered.
 
 use vertifleet_core::{AircraftIx, VertiportIx};

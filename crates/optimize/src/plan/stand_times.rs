@@ -48,7 +48,7 @@ pub(super) struct StandTimes {
 }
 
 impl StandTimes {
-    /// Stands that nobody takes.
+    /// Stands that no aircraft takes.
     pub(super) fn empty(limit: &[u16]) -> Self {
         Self {
             limit: limit.iter().map(|&stands| i32::from(stands)).collect(),

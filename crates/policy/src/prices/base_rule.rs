@@ -77,7 +77,7 @@ impl BaseRule {
     }
 }
 
-/// Whether a choice is a flight that nobody wants to take.
+/// Whether a choice is a flight without passengers.
 #[inline]
 pub(crate) fn is_empty_flight(view: View<'_>, decision: &Decision, to: VertiportIx) -> bool {
     to != decision.at && view.demand_left(view.period(), decision.at, to) == 0

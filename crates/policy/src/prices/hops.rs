@@ -8,7 +8,7 @@ use vertifleet_sim::View;
 use super::clock::{Clock, SLOT_S};
 use super::intervals::Intervals;
 
-/// Demand periods for which a route that is closed unexpectedly now is taken to stay so, this one and the next: nobody knows how
+/// Demand periods for which a route that is closed unexpectedly now is taken to stay so, this one and the next: it is not known how
 /// long it will be. On 60 days of `disrupted`, 1, 3 and all of them earned a little less, within chance.
 const CLOSED_PERIODS: usize = 2;
 

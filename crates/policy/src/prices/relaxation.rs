@@ -111,7 +111,7 @@ impl Relaxation {
         self.offer_usd() + self.send_fleet()
     }
 
-    /// Sets the excess of passengers to what there is, with nobody asking, and that of stands to nothing. Returns what all
+    /// Sets the excess of passengers to what there is, before any aircraft takes some, and that of stands to nothing. Returns what all
     /// that there is costs.
     fn offer_usd(&mut self) -> f64 {
         let (stand, passenger) = self.begins();
@@ -175,7 +175,7 @@ impl Relaxation {
     #[inline]
     fn ask(&mut self, place: VertiportIx, from: usize, until: usize) {
         for (slot, more) in [(from, 1.0), (until, -1.0)] {
-            // Past the last slot nobody counts.
+            // Past the last slot nothing counts.
             if let Some(excess) = self.stand_excess.get_mut(slot * self.vertiports + place.at()) {
                 *excess += more;
             }

@@ -43,7 +43,7 @@ pub struct Totals {
     pub passenger_cost: f64,
     /// Cost of charging (Eq. 3).
     pub energy_cost: f64,
-    /// What flights cost whoever is on board, beside their energy.
+    /// What flights cost with or without passengers, beside their energy.
     pub flight_cost: f64,
     /// What the fleet costs whatever it does.
     pub aircraft_cost: f64,

@@ -43,7 +43,7 @@ rules! {
     Place = "place":
         "An aircraft decides where it starts the day or where its decision before took it.",
     HoldEmpty = "hold-empty":
-        "A hold carries nobody, earns and costs nothing, and takes no energy.",
+        "A hold carries no passengers, earns and costs nothing, and takes no energy.",
     HoldTime = "hold-time":
         "A hold arrives when it is decided and is ready after the scenario's hold time (Eq. 8).",
     ArrivalTime = "arrival-time":
@@ -67,7 +67,7 @@ rules! {
     Demand = "demand":
         "A flight carries no more passengers than still want to fly in the period of its decision.",
     Boarding = "boarding":
-        "A flight leaves nobody behind who wants to fly and has a seat.",
+        "A flight leaves no passenger behind for whom it has a seat.",
     Revenue = "revenue":
         "A flight's revenue is its passengers times the fare of the period of its decision (Eq. 4).",
     PassengerCost = "passenger-cost":
@@ -75,7 +75,7 @@ rules! {
     EnergyCost = "energy-cost":
         "A flight's energy cost is its energy times the price in the period of arrival (Eq. 3).",
     FlightCost = "flight-cost":
-        "A flight's own cost is that of its pair, whoever is on board.",
+        "A flight's own cost is that of its pair, with or without passengers.",
     StandBound = "stand-bound":
         "At every instant the aircraft standing at a vertiport and in the air towards it are 0 to its stands (Eq. 16).",
     ChargerBound = "charger-bound":

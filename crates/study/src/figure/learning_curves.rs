@@ -74,7 +74,7 @@ pub(super) fn on_training_days(summary: &ComparisonReport) -> Option<Figure> {
     draw(summary, &ON_TRAINING_DAYS, lessons.collect())
 }
 
-/// The same on the validation days, a line a run; `None` if nobody was trained.
+/// The same on the validation days, a line a run; `None` if no policy was trained.
 pub(super) fn on_validation_days(summary: &ComparisonReport) -> Option<Figure> {
     let lessons = summary.trainings.iter().map(|training| Lesson {
         name: &training.policy,

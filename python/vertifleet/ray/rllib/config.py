@@ -49,9 +49,9 @@ def ppo_config(
     - Adam has an epsilon of 1e-8, not 1e-5;
     - a roll-out may be a few decisions longer than ``n_envs * n_steps``, the last minibatch of a pass is
       filled up with decisions of the next, and among those of a minibatch are a few that count for nothing;
-    - there is no ``total_steps``: whoever trains says when to stop, and a falling learning rate reaches 0 at
+    - there is no ``total_steps``: the caller says when to stop, and a falling learning rate reaches 0 at
       that many decisions;
-    - nobody looks at validation days (``eval_every``, ``eval_days``): the weights are always the last;
+    - validation days are not looked at (``eval_every``, ``eval_days``): the weights are always the last;
     - what is logged as the return of an episode is the day's reward times ``reward_scale``.
 
     Args:
