@@ -16,6 +16,7 @@ test: prepare
 lint: prepare python
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
 	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check . && .venv/bin/mypy
 	cd docs && ../python/.venv/bin/stubtest vertifleet._native
 

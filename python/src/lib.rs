@@ -1,6 +1,6 @@
 //! `vertifleet._native`: the Python package's door to the crates. It converts and forwards; every rule lives below.
 //!
-//! Calls that may take long leave Python to its other threads and look for Ctrl-C ([`interruptible`]). Arrays are filled in
+//! Calls that may take long leave Python to its other threads and look for Ctrl-C (`interruptible.rs`). Arrays are filled in
 //! place; docstrings come from the comments here, types from `vertifleet/_native.pyi`.
 
 #![expect(

@@ -117,7 +117,7 @@ impl From<FeatureScales> for Scales {
 }
 
 impl Scales {
-    /// Writes the features of a decision: of the nodes [N x F], of the aircraft [G]. Returns the share of the day left.
+    /// Writes the features of a decision: of the nodes `[N x F]`, of the aircraft `[G]`. Returns the share of the day left.
     ///
     /// # Panics
     /// If the room is for a network with another number of vertiports.

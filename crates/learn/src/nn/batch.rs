@@ -11,7 +11,7 @@ pub struct Inputs<'a> {
     pub aircraft: &'a [f32],
     /// [B x N]: 0 where the vertiport may not be chosen. At least one of each row may.
     pub mask: &'a [u8],
-    /// Share of the day left [B]; the value head alone sees it.
+    /// Share of the day left `[B]`; the value head alone sees it.
     pub clock: &'a [f32],
 }
 
@@ -20,7 +20,7 @@ pub struct Inputs<'a> {
 pub struct Slopes<'a> {
     /// In the logits [B x N]; those of masked vertiports are ignored.
     pub logits: &'a [f32],
-    /// In the values [B].
+    /// In the values `[B]`.
     pub values: &'a [f32],
 }
 

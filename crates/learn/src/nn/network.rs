@@ -249,7 +249,7 @@ impl Workspace {
         &self.outputs.logits[..self.batch * self.vertiports]
     }
 
-    /// Values of the latest forward pass [B].
+    /// Values of the latest forward pass `[B]`.
     pub fn values(&self) -> &[f32] {
         &self.outputs.values[..self.batch]
     }
