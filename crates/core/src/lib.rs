@@ -3,6 +3,17 @@
 //! A [`Scenario`] is one operating day with everything exogenous in it, nothing left to be drawn; a [`Network`] is
 //! what days are drawn from. Both are read in two stages: raw text, then checked types that cannot hold nonsense.
 //! This crate knows no clock, no policy and no motion; its only randomness is the one that draws a day or a network.
+//!
+//! ```
+//! use vertifleet_core::{DaySeed, Network};
+//!
+//! # fn main() -> Result<(), vertifleet_core::Error> {
+//! let network = Network::find("paper")?;
+//! let day = network.draw(DaySeed::comparison(1)?);
+//! assert_eq!((day.vertiports.len(), day.aircraft.len()), (8, 40));
+//! # Ok(())
+//! # }
+//! ```
 
 mod change;
 mod check;

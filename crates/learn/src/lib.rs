@@ -1,4 +1,25 @@
-//! Learned policies (§IV): features, the GCAPS and MLP networks, proximal policy optimisation, weights, checkpoints.
+//! Learned policies (§IV): features, the networks of layers, the two ways to learn, weights, checkpoints, and the shipped models.
+//!
+//! This crate builds on `vertifleet-policy`. A [`Model`] is a policy's weights and where they came from; a [`TrainingPlan`] starts a
+//! [`TrainingRun`], which learns by PPO or by imitation of roll-outs; a [`RunFolder`] keeps what a run leaves.
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use vertifleet_core::{DaySeed, Network};
+//! use vertifleet_learn::shipped;
+//! use vertifleet_policy::play;
+//! use vertifleet_sim::Simulation;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let model = shipped("gcaps-x", "paper")?.model;
+//! let day = Network::find("paper")?.draw(DaySeed::comparison(1)?);
+//! let mut simulation = Simulation::new(Arc::new(day));
+//! play(&mut simulation, model.policy(1).as_mut(), |_| ())?;
+//! assert!(simulation.ledger().profit_usd() > 36_000.0);
+//! # Ok(())
+//! # }
+//! ```
 
 #![expect(
     clippy::cast_possible_truncation,

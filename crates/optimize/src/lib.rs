@@ -2,6 +2,20 @@
 //!
 //! [`upper_bound`] proves that no schedule of a known day earns more than so much; the planner looks for the schedule
 //! that earns the most, and the two together say how far it is from the best. [`Rolling`] decides while the day goes on.
+//!
+//! This crate builds on `vertifleet-policy`, whose policies' days the planner begins from.
+//!
+//! ```
+//! use vertifleet_core::{DaySeed, Network};
+//! use vertifleet_optimize::{Step, upper_bound};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let day = Network::find("paper")?.draw(DaySeed::comparison(1)?);
+//! let bound = upper_bound(&day, Step::from_minutes(60)?)?;
+//! assert!((38_000.0..40_000.0).contains(&bound.upper_bound_usd()));
+//! # Ok(())
+//! # }
+//! ```
 
 mod bound;
 pub mod error;

@@ -1,4 +1,23 @@
-//! Who decides: the [`Policy`] trait, the rules that need no learning, and how a day is played with one.
+//! The [`Policy`] trait, the policies that need no learning, and how a day is played with one.
+//!
+//! This crate builds on `vertifleet-sim`. A policy sees a day through a `View` alone. [`Greedy`] and [`Lookahead`] are rules of one and two
+//! flights, [`BidPricePolicy`] decides by [`DayPrices`], and a [`RolloutEvaluator`] judges choices by roll-outs.
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use vertifleet_core::{DaySeed, Network};
+//! use vertifleet_policy::{Greedy, play};
+//! use vertifleet_sim::Simulation;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let day = Network::find("paper")?.draw(DaySeed::comparison(1)?);
+//! let mut simulation = Simulation::new(Arc::new(day));
+//! play(&mut simulation, &mut Greedy, |row| assert!(row.passengers <= 4))?;
+//! assert!(simulation.ledger().profit_usd() > 30_000.0);
+//! # Ok(())
+//! # }
+//! ```
 
 mod day_memory;
 mod draw;

@@ -3,6 +3,25 @@
 //! Everything passes through two calls: [`Simulation::next_decision`] says which aircraft must decide now, and
 //! [`Simulation::apply`] carries its decision out or refuses it. [`View`] is what a policy may look at meanwhile.
 //! The [checker](check) judges finished schedules from the rules alone and shares no code with the simulator.
+//!
+//! This crate builds on `vertifleet-core` and knows no policy. Every aircraft holds all day:
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use vertifleet_core::{DaySeed, Network};
+//! use vertifleet_sim::Simulation;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let day = Network::find("paper")?.draw(DaySeed::comparison(1)?);
+//! let mut simulation = Simulation::new(Arc::new(day));
+//! while let Some(decision) = simulation.next_decision() {
+//!     simulation.apply(decision.at)?;
+//! }
+//! assert_eq!(simulation.summary().flights, 0);
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod check;
 mod closures;

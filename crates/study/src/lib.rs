@@ -1,7 +1,42 @@
 //! Many policies on many days: statistics, figures, report.
 //!
-//! [`policies`] and [`entrants`] know who is meant by a name, [`comparison`] goes from what is asked for to its records, [`run`] plays the days, [`record`] holds what they leave behind, [`ComparisonReport`] turns it into statistics, and [`table`], [`figure`] and
-//! [`report`] present those; [`generalisation`] does the same for a day each of many networks. Presentation computes nothing; statistics know nothing of pages.
+//! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`policies`] and [`entrants`] know which policy a name means,
+//! [`comparison`] goes from what is asked for to its records, [`run`] plays the days, and [`record`] holds what they leave behind.
+//! [`ComparisonReport`] turns that into statistics, and [`table`], [`figure`] and [`report`] present them; [`generalisation`] does the same
+//! for a day each of many networks. Presentation computes nothing, and statistics know nothing of pages.
+//!
+//! ```
+//! use vertifleet_core::{Network, Stop};
+//! use vertifleet_study::comparison::{Comparison, Watch};
+//! use vertifleet_study::entrants::Asked;
+//! use vertifleet_study::{ComparisonReport, table};
+//!
+//! /// Watches nothing.
+//! struct Unwatched;
+//!
+//! impl Watch for Unwatched {
+//!     type Bar = fn();
+//!     fn bounds(&self, _: usize) -> fn() {
+//!         || ()
+//!     }
+//!     fn policy(&self, _: &str, _: usize, _: usize, _: usize) -> fn() {
+//!         || ()
+//!     }
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let network = Network::find("paper")?;
+//! let names = ["greedy".to_owned(), "random".to_owned()];
+//! let asked = Asked { policies: &names, models: &[], seed: 1, network: network.name() };
+//! let stop = Stop::default();
+//! let comparison = Comparison::new(&network, &asked, (1, 5), None, &stop)?;
+//! let records = comparison.run("an example".to_owned(), &stop, &Unwatched)?;
+//! let report = ComparisonReport::of(&records)?;
+//! assert_eq!(report.best().name, "greedy");
+//! println!("{}", table::text(&report));
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod comparison;
 mod days_csv;
