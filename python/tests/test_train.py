@@ -5,6 +5,7 @@ import threading
 
 import numpy as np
 import pytest
+
 import vertifleet
 
 SETTINGS = {"n_envs": 4, "n_steps": 25, "batch_size": 100, "n_epochs": 1, "eval_days": 1, "eval_every": 2}
@@ -47,8 +48,9 @@ def test_a_run_that_was_interrupted_goes_on_to_the_same_weights(tmp_path):
             trained(
                 tmp_path / "cut",
                 total_steps=2_000,
-                watch=lambda row: row["update"] == 3
-                and signal.pthread_kill(threading.main_thread().ident, signal.SIGINT),
+                watch=lambda row: (
+                    row["update"] == 3 and signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+                ),
             )
     finally:
         signal.signal(signal.SIGINT, heard)

@@ -2,9 +2,10 @@
 
 Everything here is the Rust program's own work on the same rules. `Network` draws days, `simulate` plays
 one, `compare` many with many policies, `sweep` does so on variations of a network, `bound` proves what a day
-can earn at most, `plan` looks for the best schedule, `check` judges one, `train` trains the learned policies. Importing the package registers
-the Gymnasium environment ``vertifleet/Fleet-v0``. `vertifleet.torch` has the learned policies as PyTorch
-modules; `vertifleet.sb3` and `vertifleet.ray` train them with those libraries.
+can earn at most, `plan` looks for the best schedule, `check` judges one, and `train` trains the learned
+policies. Importing the package registers the Gymnasium environment ``vertifleet/Fleet-v0``.
+`vertifleet.torch` has the learned policies as PyTorch modules; `vertifleet.sb3` and `vertifleet.ray` train
+them with those libraries.
 """
 
 from __future__ import annotations

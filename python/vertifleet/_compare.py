@@ -99,7 +99,7 @@ class Asked:
         step: SupportsIndex,
         policy_seed: SupportsIndex | None,
     ) -> Asked:
-        """What a function of the package was asked for; a single name would be taken for a list of letters."""
+        """What a function of the package was asked for; a single name would be a list of letters."""
         if isinstance(policies, str):
             raise Error(
                 "V451",

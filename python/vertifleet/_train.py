@@ -29,21 +29,23 @@ def train(
 ) -> Training:
     """Trains a policy by the program's own trainer, as ``vertifleet train`` does, and at its speed.
 
-    Ctrl-C ends it soon: the run is set aside as it stood after the last row of its curve, and the same call with
-    ``resume=True`` goes on, bit for bit as if it had never stopped.
+    Ctrl-C ends it soon: the run is set aside as it stood after the last row of its curve, and the same call
+    with ``resume=True`` goes on, bit for bit as if it had never stopped.
 
     Args:
         network: the network, its name, or the path of its file.
         policy: "gcaps", "mlp" or "gcaps-x".
-        out: folder for weights, learning curve, checkpoint and TensorBoard's events; it may hold runs of several
-            policies.
+        out: folder for weights, learning curve, checkpoint and TensorBoard's events; it may hold runs of
+            several policies.
         preset: settings to start from: "default", or "paper" for "gcaps" and "mlp".
         settings: settings to change by their names, as ``--set`` does.
         seed: first weights, training days and choices follow from it.
-        resume: whether to go on with the run in the folder, which has the same network, policy, settings and seed.
+        resume: whether to go on with the run in the folder, which has the same network, policy, settings and
+            seed.
         force: whether files may be replaced that the program did not write, or that are read-only.
         threads: how many at most; all cores by default. Results are the same with any number.
-        watch: is called with every new row of the learning curve, a dict; where it raises, the run is set aside.
+        watch: is called with every new row of the learning curve, a dict; where it raises, the run is set
+            aside.
 
     Raises:
         Error: with the code that the program has for it, such as V311 for a folder with an earlier run.

@@ -160,7 +160,5 @@ def _scales(twin: Twin, network: Network) -> dict[str, float] | None:
 def _new_header(twin: Twin, said: dict[str, Any]) -> dict[str, Any]:
     """The header of weights that come from no file."""
     if said["network"] is None or said["steps"] is None:
-        raise Error(
-            "V451", f"weights of {twin.kind} that come from no file are saved with network and steps"
-        )
+        raise Error("V451", f"weights of {twin.kind} that come from no file are saved with network and steps")
     return {"format": FORMAT, "policy": twin.policy, "shape": twin.shape} | said
