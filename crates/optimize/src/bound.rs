@@ -1,7 +1,7 @@
 //! The certified upper bound: what no schedule of a day can earn more than.
 //!
 //! Stands and passengers get prices (`bound/prices.rs`). Prices prove a bound in exact arithmetic, whatever they are
-//! (`bound/certificate.rs`), over a day that is laid out once (`bound/network.rs`). What the fleet would do at them
+//! (`bound/certificate.rs`), over a day that is laid out once (`bound/time_expanded_day.rs`). What the fleet would do at them
 //! (`bound/ways.rs`) says how to better them (`bound/descent.rs`), from coarse slices of time to fine ones (`bound/ladder.rs`).
 //! docs/src/concepts/bound.md has the proof. A bound can be kept in a file (`bound/cache.rs`).
 
