@@ -99,6 +99,21 @@ fn a_tiny_disturbed_day_is_planned_as_well_as_any_sequence_of_decisions_allows()
     assert!(compared >= 10, "{compared} days have few enough sequences");
 }
 
+/// Days on which one aircraft has to earn less than it could for another to earn more. A search whose every move is the best for
+/// one aircraft stays below the optimum of each, however long it goes on.
+#[test]
+fn a_tiny_day_is_planned_to_its_optimum_where_no_aircraft_may_take_what_is_best_for_itself() {
+    let days =
+        [(3, 3, 2, 5021), (3, 3, 2, 5046), (3, 2, 3, 5249), (2, 3, 2, 5314), (4, 3, 2, 5194)];
+    for (vertiports, fleet, hours, number) in days {
+        let day = any_day(number, Size { vertiports, fleet, hours });
+        let best = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 200_000);
+        let best = best.expect("few enough sequences");
+        let found = planned(&day, 2_000).profit_usd;
+        assert!((found - best).abs() < 1e-6, "day {number}: planned {found}, possible {best}");
+    }
+}
+
 #[test]
 fn a_plan_of_paper_gets_better_with_more_steps_and_keeps_every_rule() {
     let day = paper_day(1);

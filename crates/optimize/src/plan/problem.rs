@@ -18,6 +18,8 @@ pub(super) struct Problem {
     /// Passengers by period, then from, then to.
     pub(super) demand: Vec<u32>,
     pub(super) prices: StandPrices,
+    /// What a flight earns with every seat taken, in the mean over pairs and periods, before what flying costs; dollars.
+    pub(super) full_flight_usd: f64,
     /// When operations start.
     pub(super) first_s: u32,
 }
@@ -29,12 +31,17 @@ impl Problem {
         let view = simulation.view();
         let day = Day::of(view, Foresight::of(scenario));
         let start = scenario.operations.start;
+        let demand: Vec<u32> = scenario.demand.iter().flat_map(Matrix::cells).copied().collect();
+        let seats = day.fleet().map(|aircraft| day.seats(aircraft)).max().unwrap_or(1);
+        let margins_usd = (0..demand.len()).map(|cell| day.margin_usd(cell)).sum::<f64>();
+        let full_flight_usd = seats as f64 * margins_usd / demand.len().max(1) as f64;
         let prices = StandPrices::of(&day, &DayPrices::of(view, start), start);
         Self {
             day,
             places: view.places().to_vec(),
-            demand: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
+            demand,
             prices,
+            full_flight_usd,
             first_s: start.seconds(),
         }
     }

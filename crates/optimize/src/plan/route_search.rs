@@ -23,6 +23,11 @@ pub(super) struct Bias {
     pub(super) shift_s: u32,
     /// Share of the stand prices that the aircraft is made to pay, so that it leaves scarce stands to others.
     pub(super) rent_share: f64,
+    /// Most dollars by which a flight seems to earn more or less than it does, so that the aircraft may leave a flight to another,
+    /// or fly where it earns nothing to make room.
+    pub(super) noise_usd: f64,
+    /// Decides by how much each pair of vertiports and period is off.
+    pub(super) noise_seed: u64,
 }
 
 /// The best known way to be ready at a vertiport within a slot.
@@ -67,7 +72,19 @@ struct Task<'a> {
     seats: i64,
     /// First second of the first slot.
     origin_s: u32,
-    rent_share: f64,
+    bias: Bias,
+}
+
+impl Task<'_> {
+    /// How much more a flight of a pair and period seems to earn than it does.
+    #[inline]
+    fn noise_usd(&self, cell: usize) -> f64 {
+        if self.bias.noise_usd == 0.0 {
+            return 0.0;
+        }
+        let bits = (cell as u64 ^ self.bias.noise_seed).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.bias.noise_usd * ((bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
+    }
 }
 
 /// A label that is being settled: the aircraft decides there and then.
@@ -106,7 +123,7 @@ impl RouteSearch {
             kind: day.kind(aircraft),
             seats: day.seats(aircraft),
             origin_s: ready_s.saturating_sub(bias.shift_s),
-            rent_share: bias.rent_share,
+            bias,
         };
         self.prepare(&task);
         self.enter(&task, place, Label { value_usd: 0.0, ready_s, before: NONE });
@@ -201,7 +218,7 @@ impl RouteSearch {
         let cell = day.cell(choice.period, choice.place, hop.to);
         let passengers = task.schedule.boarding(cell, task.seats);
         let cost_usd = day.flying_cost_usd(hop, choice.period, landing.arrival_s);
-        let profit_usd = passengers as f64 * day.margin_usd(cell) - cost_usd;
+        let profit_usd = passengers as f64 * day.margin_usd(cell) - cost_usd + task.noise_usd(cell);
         self.reach(task, choice, hop.to, window, landing.ready_s, profit_usd);
     }
 
@@ -229,7 +246,7 @@ impl RouteSearch {
     ) {
         let Problem { day, prices, .. } = task.problem;
         let rent_usd = prices.rent_usd(place, choice.minute, prices.minute(ready_s));
-        let value_usd = choice.value_usd + profit_usd - task.rent_share * rent_usd;
+        let value_usd = choice.value_usd + profit_usd - task.bias.rent_share * rent_usd;
         if ready_s <= day.end_s {
             if Moment::of(ready_s, task.aircraft) < window.closes {
                 self.enter(task, place, Label { value_usd, ready_s, before: choice.label });

@@ -23,6 +23,11 @@ const TOGETHER: f64 = 0.5;
 const SAME_TIME_S: u32 = 1_800;
 /// How often routes are taken out from the morning on; else from any moment of the day on.
 const WHOLE_DAYS: f64 = 0.1;
+/// How much more or less than it does a flight seems to earn at most in a noisy step, in full flights. The noise is Ropke and
+/// Pisinger's: without it no aircraft leaves a flight to another that makes more of it, or flies empty to make room. Of
+/// 2,680 days that are small enough to be searched exhaustively, 2,000 steps without noise missed the optimum of 30; with it,
+/// of 4.
+const MOST_NOISE: f64 = 3.0;
 
 /// One search: where it stands, the best schedule it has met, and its memory.
 #[derive(Debug)]
@@ -128,12 +133,18 @@ impl Search {
     /// Completes the routes in the order in which they were chosen. Returns whether all could be.
     fn put_back(&mut self, problem: &Problem) -> bool {
         let rent_share = self.random.random::<f64>();
+        let noise_usd = self.draw_noise_usd(problem);
         for &aircraft in &self.taken_out.aircraft {
             // Its last flight stays, and it is not ready again before the plan's end.
             if self.current.is_whole(aircraft) {
                 continue;
             }
-            let bias = Bias { shift_s: self.random.random_range(0..SLOT_S), rent_share };
+            let bias = Bias {
+                shift_s: self.random.random_range(0..SLOT_S),
+                rent_share,
+                noise_usd,
+                noise_seed: self.random.random(),
+            };
             let found =
                 self.routes.complete(problem, &self.current, aircraft, bias, &mut self.way_on);
             if !found {
@@ -142,6 +153,15 @@ impl Search {
             self.current.complete(problem, aircraft, &self.way_on);
         }
         true
+    }
+
+    /// The noise of this step: most steps have none, and the more aircraft there are, the fewer need any, because there is
+    /// another way to make room.
+    fn draw_noise_usd(&mut self, problem: &Problem) -> f64 {
+        if self.random.random_range(0..problem.day.fleet().len()) > 0 {
+            return 0.0;
+        }
+        MOST_NOISE * problem.full_flight_usd * self.random.random::<f64>()
     }
 
     /// Gives every chosen aircraft its flights back. Those that have others by now lose them first.
