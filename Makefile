@@ -1,11 +1,19 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo test lint deny bench train python python-test wheel prepare
+.PHONY: demo check test lint deny bench train python python-light python-test wheel prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network.
 demo: prepare
 	cargo build --release --locked -p vertifleet-cli
 	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,prices,rolling,mlp,gcaps,gcaps-x --days 100 --seed 1 --report out/report
+
+# What to run before a commit, in minutes: formatting, lints, Rust's tests, and those of Python that need no PyTorch and no Ray.
+check: prepare python-light
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+	cargo test --workspace --locked
+	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check .
+	python/.venv/bin/pytest -q -c python/pyproject.toml --ignore python/tests/frameworks python/tests
 
 # Rust's tests first: they take minutes, and need nothing to be downloaded but crates.
 test: prepare
@@ -13,16 +21,25 @@ test: prepare
 	$(MAKE) python-test
 
 # What CI adds to the tests.
-lint: prepare python
+lint: prepare python tools
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
 	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check . && .venv/bin/mypy
 	cd docs && ../python/.venv/bin/stubtest vertifleet._native
+	python/.venv/bin/typos
+	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
+	shellcheck .ci/run scripts/*
 
-# The Python package with all its extras, in python/.venv.
+# The Python package with all its extras, in python/.venv; and with those alone that install in seconds.
 python: prepare
-	@scripts/python
+	@scripts/python dev
+python-light: prepare
+	@scripts/python light
+
+# What the lints need beside Rust and Python.
+tools: prepare
+	@scripts/tools
 
 python-test: python
 	# Not from python/: Ray's workers would take the package from there, which has no extension module in the sources.

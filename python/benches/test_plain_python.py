@@ -90,8 +90,8 @@ def test_every_decision_comes_to_what_the_package_says(scenario: Scenario) -> No
             seconds(row["ready"]),
         )
     assert day.over
-    assert day.profit == summary["profit"]
-    assert day.potential == pytest.approx(summary["potential"], rel=1e-12)
+    assert day.profit == summary["profit_usd"]
+    assert day.potential == pytest.approx(summary["potential_usd"], rel=1e-12)
 
 
 def test_the_masks_admit_all_that_the_package_chose_and_the_reward_is_its_own(scenario: Scenario) -> None:

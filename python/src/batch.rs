@@ -266,7 +266,7 @@ impl Seat {
     fn step(&mut self, world: &World, action: i64) -> Outcome {
         let day = self.day.as_mut().expect("every seat has a day in progress");
         let outcome = day.step(action, world.reward);
-        self.summary = outcome.over.then(|| day.summary());
+        self.summary = outcome.over.then(|| day.totals());
         outcome
     }
 }

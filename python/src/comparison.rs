@@ -10,19 +10,18 @@ use vertifleet_core::{self as core, DaySeed, Stop};
 use vertifleet_learn::Scales;
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
-use vertifleet_study::comparison;
-use vertifleet_study::entrants::Asked;
-use vertifleet_study::policies::Given;
+use vertifleet_study::competitor::Selection;
+use vertifleet_study::report::{self, Records as _};
 use vertifleet_study::{
-    ComparisonRecords, ComparisonReport, DayRecord, Error, OwnDays, report, table,
+    ComparisonRecords, ComparisonReport, DayRecord, Error, OwnDays, PolicySource, comparison,
 };
 
 use crate::failure::{Failure, warn};
 use crate::frames::{Columns, frame, loads};
-use crate::given::{Raised, given};
 use crate::interruptible::{self, interruptible};
 use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
+use crate::policy_source::{Raised, policy_source};
 use crate::scenario::Scenario;
 use crate::whole::Whole;
 
@@ -36,7 +35,7 @@ pub(crate) struct Comparison {
 
 #[pymethods]
 impl Comparison {
-    /// A row for each policy and day, as numpy arrays by column: dollars, kWh, counts. `upper_bound` and `bound_share` are there where
+    /// A row for each policy and day, as numpy arrays by column: dollars, kWh, counts. `upper_bound_usd` and `bound_share` are there where
     /// bounds were asked for.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -49,24 +48,12 @@ impl Comparison {
         )?;
         columns.texts("day", days().map(|day| day.day.as_str()))?;
         columns.counts("seed", days().map(|day| day.seed))?;
-        columns.numbers("profit", days().map(|day| day.profit_usd))?;
-        columns.numbers("revenue", days().map(|day| day.revenue_usd))?;
-        columns.numbers("passenger_cost", days().map(|day| day.passenger_cost_usd))?;
-        columns.numbers("energy_cost", days().map(|day| day.energy_cost_usd))?;
-        columns.numbers("flight_cost", days().map(|day| day.flight_cost_usd))?;
-        columns.numbers("aircraft_cost", days().map(|day| day.aircraft_cost_usd))?;
-        columns.numbers("energy_kwh", days().map(|day| day.energy_kwh))?;
-        columns.numbers("potential", days().map(|day| day.potential_usd))?;
-        columns.numbers("reward", days().map(|day| day.reward))?;
-        columns.counts("flights", days().map(|day| day.flights))?;
-        columns.counts("repositioning_flights", days().map(|day| day.repositioning_flights))?;
-        columns.counts("holds", days().map(|day| day.holds))?;
-        columns.counts("decisions", days().map(|day| day.decisions))?;
-        columns.counts("passengers", days().map(|day| day.passengers))?;
-        columns.counts("spilled_passengers", days().map(|day| day.spilled_passengers))?;
-        columns.numbers("load_factor", days().map(|day| day.load_factor))?;
+        let names = days().next().map(|day| day.totals.numbers().map(|(name, _)| name));
+        for (at, name) in names.into_iter().flatten().enumerate() {
+            columns.day_numbers(name, days().map(|day| day.totals.numbers()[at].1))?;
+        }
         if self.study.bound_step_s.is_some() {
-            columns.numbers("upper_bound", days().filter_map(|day| day.upper_bound_usd))?;
+            columns.numbers("upper_bound_usd", days().filter_map(|day| day.upper_bound_usd))?;
             columns.numbers("bound_share", days().filter_map(DayRecord::bound_share))?;
         }
         Ok(columns.into_dict())
@@ -91,7 +78,7 @@ impl Comparison {
     /// The statistics, as `vertifleet compare --json` prints them: means with confidence intervals, paired tests, times per decision.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        loads(py, &ComparisonReport::of(&self.study).map_err(Failure::from)?.to_json())
+        loads(py, &self.study.json().map_err(Failure::from)?)
     }
 
     /// Writes table, figures and a report page into a folder, in place of an earlier report; returns the path of the page. A folder that
@@ -103,7 +90,7 @@ impl Comparison {
         if let Some(kept) = &paths.kept {
             warn(py, &format!("what was there before is now {}", kept.display()))?;
         }
-        Ok(paths.report)
+        Ok(paths.page)
     }
 
     /// All days of some comparisons of the same policies, each of which goes on with the day after the last of the one before it.
@@ -132,7 +119,7 @@ impl Comparison {
     }
 
     fn __str__(&self) -> Result<String, Failure> {
-        Ok(table::text(&ComparisonReport::of(&self.study)?))
+        Ok(self.study.text()?)
     }
 
     fn __repr__(&self) -> String {
@@ -154,7 +141,7 @@ const DAYS: u32 = 1_000_000;
 /// policy and of the planner's search.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub(crate) struct Wanted<'py> {
+pub(crate) struct Arguments<'py> {
     policies: Vec<String>,
     days: Whole,
     seed: Whole,
@@ -164,10 +151,10 @@ pub(crate) struct Wanted<'py> {
     policy_seed: Whole,
 }
 
-/// Who is asked for, and how, in Rust's words, checked one by one.
-struct Wish {
+/// The same in Rust's types, checked one by one.
+struct Request {
     policies: Vec<String>,
-    models: Vec<(String, Given)>,
+    models: Vec<(String, PolicySource)>,
     step: Option<Step>,
     policy_seed: u64,
 }
@@ -179,54 +166,47 @@ struct Drawn {
     seed: u64,
 }
 
-impl Wish {
+impl Request {
     /// A function sees the days as those of `network`.
-    fn of(network: Option<&Network>, wanted: &Wanted<'_>, raised: &Raised) -> PyResult<Self> {
-        let step = Step::from_minutes(wanted.step.of("step")?);
+    fn of(network: Option<&Network>, arguments: &Arguments<'_>, raised: &Raised) -> PyResult<Self> {
+        let step = Step::from_minutes(arguments.step.of("step")?);
         let scales = network.map(|network| Scales::from(network.network.feature_scales()));
-        let given = |(name, value): (&String, &Bound<'_, PyAny>)| {
-            Ok((name.clone(), given(value, scales, raised)?))
+        let source = |(name, value): (&String, &Bound<'_, PyAny>)| {
+            Ok((name.clone(), policy_source(value, scales, raised)?))
         };
         Ok(Self {
-            policies: wanted.policies.clone(),
-            models: wanted.models.iter().map(given).collect::<PyResult<_>>()?,
-            step: wanted.bound.then_some(step).transpose().map_err(Failure::from)?,
-            policy_seed: wanted.policy_seed.of("policy_seed")?,
+            policies: arguments.policies.clone(),
+            models: arguments.models.iter().map(source).collect::<PyResult<_>>()?,
+            step: arguments.bound.then_some(step).transpose().map_err(Failure::from)?,
+            policy_seed: arguments.policy_seed.of("policy_seed")?,
         })
     }
 
-    fn asked<'a>(&'a self, network: &'a str) -> Asked<'a> {
+    fn selection(&self) -> Selection<'_> {
         let Self { policies, models, policy_seed, .. } = self;
-        Asked { policies, models, seed: *policy_seed, network }
+        Selection { policies, models, seed: *policy_seed }
     }
 
     /// The comparison on so many of the days.
-    fn on(
-        &self,
-        drawn: &Drawn,
-        days: u32,
-        stopped: &Stop,
-    ) -> Result<comparison::Comparison, Error> {
+    fn on(&self, drawn: &Drawn, days: u32, stop: &Stop) -> Result<comparison::Comparison, Error> {
         let Drawn { network, seed, .. } = drawn;
-        let asked = self.asked(network.name());
-        comparison::Comparison::new(network, &asked, (*seed, days), self.step, stopped)
+        comparison::Comparison::new(network, &self.selection(), *seed, days, self.step, stop)
     }
 
     /// The comparison on days of the caller's own.
     fn on_own(&self, days: OwnDays) -> Result<comparison::Comparison, Error> {
-        let network = days.network().to_owned();
-        comparison::Comparison::of_own(days, &self.asked(&network), self.step)
+        comparison::Comparison::of_own(days, &self.selection(), self.step)
     }
 }
 
 impl Drawn {
-    fn of(network: &Network, wanted: &Wanted<'_>) -> Result<Self, Failure> {
-        let days = wanted.days.of("days")?;
+    fn of(network: &Network, arguments: &Arguments<'_>) -> Result<Self, Failure> {
+        let days = arguments.days.of("days")?;
         if days > DAYS {
             return Err(Failure::argument(format!("days must be at most {DAYS}, found {days}")));
         }
         let network = Arc::clone(&network.network);
-        Ok(Self { network, days, seed: wanted.seed.of("seed")? })
+        Ok(Self { network, days, seed: arguments.seed.of("seed")? })
     }
 }
 
@@ -236,13 +216,13 @@ impl Drawn {
 pub(crate) fn check_comparison(
     py: Python<'_>,
     network: &Network,
-    asked: Wanted<'_>,
+    asked: Arguments<'_>,
 ) -> PyResult<Vec<String>> {
-    let wish = Wish::of(Some(network), &asked, &Raised::default())?;
+    let request = Request::of(Some(network), &asked, &Raised::default())?;
     let drawn = Drawn::of(network, &asked)?;
     let warnings = interruptible(py, 1, move |stop| {
         DaySeed::comparison(drawn.seed.saturating_add(drawn.days.saturating_sub(1).into()))?;
-        Ok::<_, Error>(wish.on(&drawn, drawn.days.min(1), stop)?.warnings().collect())
+        Ok::<_, Error>(request.on(&drawn, drawn.days.min(1), stop)?.warnings().collect())
     })?;
     Ok(warnings.map_err(Failure::from)?)
 }
@@ -254,14 +234,14 @@ pub(crate) fn check_comparison(
 pub(crate) fn compare(
     py: Python<'_>,
     network: &Network,
-    asked: Wanted<'_>,
+    asked: Arguments<'_>,
     threads: Option<Whole>,
     command: &str,
 ) -> PyResult<Comparison> {
     let raised = Raised::default();
-    let wish = Wish::of(Some(network), &asked, &raised)?;
+    let request = Request::of(Some(network), &asked, &raised)?;
     let drawn = Drawn::of(network, &asked)?;
-    played(py, threads, command, &raised, move |stop| wish.on(&drawn, drawn.days, stop))
+    played(py, threads, command, &raised, move |stop| request.on(&drawn, drawn.days, stop))
 }
 
 /// Scenario files to be compared on, and where they came from; a folder stands for all of its files whose names end in `.json`.
@@ -281,16 +261,16 @@ pub(crate) fn compare_own(
     scenarios: Vec<Py<Scenario>>,
     origin: String,
     network: Option<&Network>,
-    asked: Wanted<'_>,
+    asked: Arguments<'_>,
     threads: Option<Whole>,
     command: &str,
 ) -> PyResult<Comparison> {
     let raised = Raised::default();
-    let wish = Wish::of(network, &asked, &raised)?;
+    let request = Request::of(network, &asked, &raised)?;
     let scenario = |day: &Py<Scenario>| Arc::clone(&day.get().scenario);
     let days = OwnDays::of(scenarios.iter().map(scenario).collect(), origin);
     let days = days.map_err(Failure::from)?;
-    played(py, threads, command, &raised, move |_| wish.on_own(days))
+    played(py, threads, command, &raised, move |_| request.on_own(days))
 }
 
 /// Makes a comparison and plays it, on threads of its own.

@@ -79,8 +79,8 @@ impl Day {
         self.over
     }
 
-    pub(crate) fn summary(&self) -> DayTotals {
-        self.simulation.summary()
+    pub(crate) fn totals(&self) -> DayTotals {
+        self.simulation.totals()
     }
 
     pub(crate) fn scenario(&self) -> Scenario {
@@ -263,8 +263,7 @@ impl Environment {
     /// The day's numbers so far, as `vertifleet simulate --json` prints them.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let summary = self.day.as_ref().map(|day| day.simulation.summary());
-        summary.map(|summary| plain(py, &summary)).transpose()
+        self.day.as_ref().map(|day| plain(py, &day.totals())).transpose()
     }
 }
 

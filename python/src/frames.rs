@@ -5,6 +5,7 @@ use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList, PyMapping};
 use serde::Serialize;
+use vertifleet_sim::DayNumber;
 
 use crate::failure::Failure;
 
@@ -32,6 +33,22 @@ impl<'py> Columns<'py> {
         values: impl IntoIterator<Item = T>,
     ) -> PyResult<()> {
         self.0.set_item(name, PyArray1::from_iter(self.0.py(), values))
+    }
+
+    /// A column of one of the days' numbers.
+    pub(crate) fn day_numbers(
+        &self,
+        name: &str,
+        values: impl Iterator<Item = DayNumber>,
+    ) -> PyResult<()> {
+        let (mut amounts, mut counts) = (Vec::new(), Vec::new());
+        for value in values {
+            match value {
+                DayNumber::Amount(amount) => amounts.push(amount),
+                DayNumber::Count(count) => counts.push(count),
+            }
+        }
+        if counts.is_empty() { self.numbers(name, amounts) } else { self.counts(name, counts) }
     }
 
     /// A column of texts, as a numpy array of strings.

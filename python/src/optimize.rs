@@ -1,14 +1,14 @@
 //! `bound` and `plan`: what a known day can earn at most, and a schedule that comes close to it.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use vertifleet_core::{self as core, VertiportIx};
-use vertifleet_optimize::{self as exact, Budget, Proof, SearchSettings, Step};
+use vertifleet_optimize::{self as exact, Budget, SearchSettings, Step, plan_with_proof};
 use vertifleet_progress::SearchBar;
-use vertifleet_study::policies::shipped_for;
+use vertifleet_study::starting_policies;
 
 use crate::failure::Failure;
 use crate::frames::table;
@@ -17,9 +17,6 @@ use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
 use crate::whole::Whole;
-
-/// How often Ctrl-C is looked for while a proof is waited for.
-const GLANCE: Duration = Duration::from_millis(50);
 
 /// A proof of what a day can earn at most.
 #[pyclass(frozen, module = "vertifleet")]
@@ -152,6 +149,7 @@ pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: Whole) -> PyResul
 pub(crate) struct Plan {
     trace: Trace,
     profit_usd: f64,
+    best_policy: String,
     best_policy_usd: f64,
     steps: u64,
     bound: Option<Bound>,
@@ -171,7 +169,13 @@ impl Plan {
         self.profit_usd
     }
 
-    /// What the best policy earns that the search began with, dollars; the plan is never worse.
+    /// Name of the best policy whose day was played in time; the search began with that day.
+    #[getter]
+    fn best_policy(&self) -> &str {
+        &self.best_policy
+    }
+
+    /// What that policy earns, dollars; the plan is never worse.
     #[getter]
     fn best_policy_usd(&self) -> f64 {
         self.best_policy_usd
@@ -200,22 +204,31 @@ impl Plan {
     fn of_parts(
         trace: &Trace,
         profit_usd: f64,
+        best_policy: String,
         best_policy_usd: f64,
         steps: u64,
         bound: Option<&Bound>,
     ) -> Self {
-        Self { trace: trace.clone(), profit_usd, best_policy_usd, steps, bound: bound.cloned() }
+        let (trace, bound) = (trace.clone(), bound.cloned());
+        Self { trace, profit_usd, best_policy, best_policy_usd, steps, bound }
     }
 
     fn __reduce__<'py>(
         &self,
         py: Python<'py>,
-    ) -> Reduced<'py, (Trace, f64, f64, u64, Option<Bound>)> {
-        let Self { trace, profit_usd, best_policy_usd, steps, bound } = self;
+    ) -> Reduced<'py, (Trace, f64, String, f64, u64, Option<Bound>)> {
+        let Self { trace, profit_usd, best_policy, best_policy_usd, steps, bound } = self;
         reduced::<Self, _>(
             py,
             "of_parts",
-            (trace.clone(), *profit_usd, *best_policy_usd, *steps, bound.clone()),
+            (
+                trace.clone(),
+                *profit_usd,
+                best_policy.clone(),
+                *best_policy_usd,
+                *steps,
+                bound.clone(),
+            ),
         )
     }
 
@@ -262,37 +275,26 @@ pub(crate) fn plan(
     let threads = interruptible::threads(threads)?;
     let day = Arc::clone(&scenario.scenario);
     let outcome = interruptible(py, threads, move |stop| {
-        let proof = Proof::begin(&day);
         let settings = SearchSettings { budget, searches: threads, seed };
         let limit = match budget {
             Budget::Time(limit) => Some(limit),
             Budget::Steps(_) => None,
         };
         let mut bar = SearchBar::new(units, limit);
-        let mut learned = shipped_for(&day);
-        let begun = Instant::now();
-        let plan = exact::plan(&day, &settings, &mut learned, &mut |now| {
-            proof.knows(now.profit_usd);
-            let bound = proof.best();
-            bar.show(now, bound.as_deref());
-            let good_enough = bound.is_some_and(|bound| {
-                let gap = bound.gap(now.profit_usd);
-                bound.is_reached_by(now.profit_usd) || asked.is_some_and(|asked| gap <= asked)
-            });
-            !good_enough && !stop.is_requested()
-        })?;
-        let bound = match budget {
-            Budget::Time(limit) => proof.best_in_time(begun, limit),
-            Budget::Steps(_) => {
-                while !proof.wait(GLANCE) && !stop.is_requested() {}
-                proof.outcome()
-            }
-        };
-        // A day too large for any bound has a plan all the same.
-        let bound = bound.map(|bound| Bound::of(&day, &bound));
-        let exact::Plan { trace, profit_usd, best_policy_usd, steps } = plan;
-        let trace = Trace { scenario: day, trace: Arc::new(trace) };
-        Ok::<_, exact::Error>(Plan { trace, profit_usd, best_policy_usd, steps, bound })
+        let starts = starting_policies(&day);
+        let exact::ProvenPlan { plan, bound } =
+            plan_with_proof(&day, &settings, starts, asked, stop, &mut |now, bound| {
+                bar.show(now, bound);
+            })?;
+        Ok::<_, exact::Error>(Plan {
+            trace: Trace { scenario: Arc::clone(&day), trace: Arc::new(plan.trace) },
+            profit_usd: plan.profit_usd,
+            best_policy: plan.best_policy,
+            best_policy_usd: plan.best_policy_usd,
+            steps: plan.steps,
+            // A day too large for any bound has a plan all the same.
+            bound: bound.map(|bound| Bound::of(&day, &bound)),
+        })
     })?;
     Ok(outcome.map_err(Failure::from)?)
 }

@@ -6,18 +6,16 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use vertifleet_core as core;
 use vertifleet_learn::Scales;
-use vertifleet_policy::{Replay, Stoppable, play};
-use vertifleet_sim::{self as sim, DayTotals, Simulation};
-use vertifleet_study::Error;
-use vertifleet_study::policies::{Choice, Given, Recipe, for_scenario};
+use vertifleet_sim::DayTotals;
+use vertifleet_study::{Error, PolicySource, PolicySpec, ResolveFor, ResolvedPolicy};
 
 use crate::failure::Failure;
 use crate::frames::plain;
-use crate::given::{Raised, Weighed, own};
 use crate::interruptible::interruptible;
 use crate::model::Model;
 use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
+use crate::policy_source::{Raised, Weights, of_function};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
 use crate::whole::Whole;
@@ -25,7 +23,7 @@ use crate::whole::Whole;
 /// A day that was played to its end.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Played {
-    summary: DayTotals,
+    totals: DayTotals,
     trace: Trace,
 }
 
@@ -34,13 +32,13 @@ impl Played {
     /// Profit of the day, dollars.
     #[getter]
     fn profit_usd(&self) -> f64 {
-        self.summary.profit
+        self.totals.profit_usd
     }
 
     /// The day's numbers, as `vertifleet simulate --json` prints them: dollars, kWh, counts.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        plain(py, &self.summary)
+        plain(py, &self.totals)
     }
 
     /// Every decision.
@@ -52,10 +50,9 @@ impl Played {
     /// The day of a trace that was played to its end: what pickle makes.
     #[staticmethod]
     fn of_trace(trace: &Trace) -> Result<Self, Failure> {
-        let mut simulation = Simulation::new(Arc::clone(&trace.scenario));
-        play(&mut simulation, &mut Replay::new(Arc::clone(&trace.trace)), |_| ())
-            .map_err(|cause| Error::of_play("replay", &trace.scenario.name, cause))?;
-        Ok(Self { summary: simulation.summary(), trace: trace.clone() })
+        let policy = ResolvedPolicy::Replay(Arc::clone(&trace.trace));
+        let (_, totals) = policy.play("replay", &trace.scenario, &core::Stop::default())?;
+        Ok(Self { totals, trace: trace.clone() })
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (Trace,)> {
@@ -63,9 +60,9 @@ impl Played {
     }
 
     fn __repr__(&self) -> String {
-        let DayTotals { profit, flights, holds, .. } = self.summary;
+        let DayTotals { profit_usd, flights, holds, .. } = self.totals;
         let day = &self.trace.scenario.name;
-        format!("<Played {day}: profit ${profit:.2}, {flights} flights, {holds} holds>")
+        format!("<Played {day}: profit ${profit_usd:.2}, {flights} flights, {holds} holds>")
     }
 }
 
@@ -91,23 +88,21 @@ pub(crate) fn simulate(
     scenario: &Scenario,
     policy: Player<'_>,
     seed: Whole,
-    model: Option<Weighed<'_>>,
+    model: Option<Weights<'_>>,
     network: Option<PyRef<'_, Network>>,
 ) -> PyResult<Played> {
     let day = &scenario.scenario;
     let seed = seed.of("seed")?;
     match (policy, model, network) {
         (Player::Trace(trace), None, None) => {
-            let recipe = Recipe::Replay(Arc::clone(&trace.trace));
-            played(py, day, "replay".to_owned(), recipe)
+            played(py, day, "replay", ResolvedPolicy::Replay(Arc::clone(&trace.trace)))
         }
         (Player::Model(model), None, None) => {
-            let given = Given::Model(Arc::clone(&model.model));
-            by_name(py, day, &Choice { name: model.model.kind(), seed, model: Some(&given) })
+            let source = PolicySource::Model(Arc::clone(&model.model));
+            by_name(py, day, model.model.kind(), Some(&source), seed)
         }
         (Player::Named(name), model, None) => {
-            let given = model.map(Weighed::given);
-            by_name(py, day, &Choice { name: &name, seed, model: given.as_ref() })
+            by_name(py, day, &name, model.map(PolicySource::from).as_ref(), seed)
         }
         (Player::Function(function), ..) if !function.is_callable() => Err(PyTypeError::new_err(
             "a policy is a name, a vertifleet.Model, a vertifleet.Trace, or a function from an observation to an action",
@@ -115,8 +110,9 @@ pub(crate) fn simulate(
         (Player::Function(function), None, Some(network)) => {
             network.check_fits(day)?;
             let raised = Raised::default();
-            let maker = own(&function, Scales::from(network.network.feature_scales()), &raised);
-            let played = played(py, day, "function".to_owned(), Recipe::Own(maker));
+            let scales = Scales::from(network.network.feature_scales());
+            let policy = ResolvedPolicy::Own(of_function(&function, scales, &raised));
+            let played = played(py, day, "function", policy);
             raised.take().map_or(played, Err)
         }
         _ => {
@@ -126,30 +122,35 @@ pub(crate) fn simulate(
     }
 }
 
-fn by_name(py: Python<'_>, day: &Arc<core::Scenario>, choice: &Choice<'_>) -> PyResult<Played> {
-    let (recipe, warning) = for_scenario(choice, day).map_err(Failure::from)?;
-    if let Some(warning) = warning {
+fn by_name(
+    py: Python<'_>,
+    day: &Arc<core::Scenario>,
+    name: &str,
+    source: Option<&PolicySource>,
+    seed: u64,
+) -> PyResult<Played> {
+    let resolve = || {
+        let policy = PolicySpec::parse(name)?.resolve(source, ResolveFor::Day(day), seed)?;
+        policy.check_fits(day)?;
+        Ok::<_, Error>(policy)
+    };
+    let policy = resolve().map_err(Failure::from)?;
+    if let Some(warning) = policy.warning_for(name, day) {
         crate::failure::warn(py, &warning)?;
     }
-    played(py, day, choice.name.to_owned(), recipe)
+    played(py, day, name, policy)
 }
 
 fn played(
     py: Python<'_>,
     day: &Arc<core::Scenario>,
-    name: String,
-    recipe: Recipe,
+    name: &str,
+    policy: ResolvedPolicy,
 ) -> PyResult<Played> {
-    let scenario = Arc::clone(day);
+    let (scenario, name) = (Arc::clone(day), name.to_owned());
     let outcome = interruptible(py, 1, move |stop| {
-        let mut simulation = Simulation::new(Arc::clone(&scenario));
-        let mut trace = sim::Trace::default();
-        let mut policy = recipe.make();
-        let mut stoppable = Stoppable { policy: policy.as_mut(), stop };
-        play(&mut simulation, &mut stoppable, |row| trace.rows.push(*row))
-            .map_err(|cause| Error::of_play(&name, &scenario.name, cause))?;
-        let trace = Trace { scenario, trace: Arc::new(trace) };
-        Ok::<_, Error>(Played { summary: simulation.summary(), trace })
+        let (trace, totals) = policy.play(&name, &scenario, stop)?;
+        Ok::<_, Error>(Played { totals, trace: Trace { scenario, trace: Arc::new(trace) } })
     })?;
     Ok(outcome.map_err(Failure::from)?)
 }

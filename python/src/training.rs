@@ -15,10 +15,10 @@ use vertifleet_progress::Bar;
 
 use crate::failure::{Failure, warn};
 use crate::frames::{Columns, frame, plain};
-use crate::given::Raised;
 use crate::interruptible::{self, interruptible};
 use crate::model::{Model, change};
 use crate::network::Network;
+use crate::policy_source::Raised;
 use crate::whole::Whole;
 
 /// What a training run has left: the model, the learning curve, and whether there is more to learn.

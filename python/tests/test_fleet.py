@@ -141,7 +141,7 @@ def test_dense_rewards_add_up_to_the_terminal_one() -> None:
     assert len(dense) == len(terminal)
     assert sum(reward for _, reward, _, _ in dense) == pytest.approx(terminal[-1][1], abs=1e-12)
     summary = terminal[-1][3]["summary"]
-    assert terminal[-1][1] == summary["reward"] == summary["profit"] / summary["potential"]
+    assert terminal[-1][1] == summary["reward"] == summary["profit_usd"] / summary["potential_usd"]
 
 
 @pytest.mark.parametrize("network", ["paper", "disrupted", "new-york"])

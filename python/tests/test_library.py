@@ -103,7 +103,7 @@ def test_a_trace_is_a_schedule_that_can_be_kept_replayed_and_judged(day: Scenari
     assert played.trace.scenario == day
     verdict = vertifleet.check(day, played.trace)
     assert verdict["valid"]
-    assert verdict["totals"]["profit"] == pytest.approx(played.profit_usd)
+    assert verdict["totals"]["profit_usd"] == pytest.approx(played.profit_usd)
     columns = played.trace.columns
     profit = (columns["revenue"] - columns["passenger_cost"] - columns["energy_cost"]).sum()
     assert profit == pytest.approx(played.profit_usd)
@@ -128,11 +128,11 @@ def test_results_are_frames_where_the_libraries_are_installed(
 def test_a_comparison_is_the_days_one_by_one(paper: Network) -> None:
     comparison = vertifleet.compare(paper, POLICIES, days=4, seed=20, policy_seed=6)
     columns = comparison.columns
-    assert columns["profit"].shape == (20,)
+    assert columns["profit_usd"].shape == (20,)
     for row in range(20):
         day = paper.draw(int(columns["seed"][row]))
         alone = vertifleet.simulate(day, str(columns["policy"][row]), seed=6)
-        assert alone.profit_usd == columns["profit"][row]
+        assert alone.profit_usd == columns["profit_usd"][row]
         assert alone.summary["flights"] == columns["flights"][row]
     assert [policy["name"] for policy in comparison.summary["policies"]].count("gcaps") == 1
     assert "gcaps-x" in str(comparison)
@@ -160,7 +160,7 @@ def test_days_of_ones_own_earn_what_they_do_alone_wherever_they_come_from(
     alone = [vertifleet.simulate(day, "greedy").profit_usd for day in days]
     for days_from in given:
         comparison = vertifleet.compare(None, ["greedy"], days_from=days_from)
-        assert list(comparison.columns["profit"]) == alone
+        assert list(comparison.columns["profit_usd"]) == alone
     with pytest.raises(vertifleet.Error) as error:
         vertifleet.compare(None, ["greedy"], days_from=[days[0], days[0]])
     assert error.value.code == "V410"
@@ -198,7 +198,7 @@ def test_bounds_hold_and_plans_come_close_to_them(day: Scenario) -> None:
 
 def test_a_comparison_with_bounds_has_shares_of_them(paper: Network) -> None:
     columns = vertifleet.compare(paper, ["greedy"], days=2, bound=True, step=30).columns
-    assert np.allclose(columns["bound_share"], columns["profit"] / columns["upper_bound"])
+    assert np.allclose(columns["bound_share"], columns["profit_usd"] / columns["upper_bound_usd"])
     assert (columns["bound_share"] < 1).all()
 
 
@@ -217,8 +217,8 @@ def test_weights_may_be_given_as_paths_and_as_models(paper: Network, day: Scenar
     comparison = vertifleet.compare(
         paper, ["mine", "other"], days=2, models={"mine": model, "other": tmp_path / "mine.safetensors"}
     )
-    profit = comparison.columns["profit"]
-    assert profit[0] == expected["profit"]
+    profit = comparison.columns["profit_usd"]
+    assert profit[0] == expected["profit_usd"]
     assert np.array_equal(profit[:2], profit[2:])
 
 
@@ -237,7 +237,7 @@ def test_a_function_may_take_part_in_a_comparison(paper: Network) -> None:
         _, info = env.reset(options={"scenario": paper.draw(1 + day)})
         while "summary" not in info:
             *_, info = env.step(info["action_mask"].argmax())
-        assert comparison.columns["profit"][3 + day] == info["summary"]["profit"]
+        assert comparison.columns["profit_usd"][3 + day] == info["summary"]["profit_usd"]
     assert all(keys == set(env.observation_space) for keys in seen)
 
 
@@ -247,7 +247,7 @@ def test_a_function_plays_a_day(paper: Network, day: Scenario) -> None:
 
     played = vertifleet.simulate(day, last_feasible, network=paper)
     comparison = vertifleet.compare(paper, ["last"], days=1, seed=1, models={"last": last_feasible})
-    assert played.profit_usd == comparison.columns["profit"][0]
+    assert played.profit_usd == comparison.columns["profit_usd"][0]
     assert vertifleet.check(day, played.trace)["valid"]
 
 

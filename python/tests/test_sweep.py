@@ -42,17 +42,17 @@ def test_columns_are_means_over_the_days(swept):
     for row in range(12):
         days = swept.points[row // 2][1].columns
         own = days["policy"] == columns["policy"][row]
-        for name in ("profit", "reward", "flights", "load_factor"):
+        for name in ("profit_usd", "reward", "flights", "load_factor"):
             assert columns[name][row] == pytest.approx(days[name][own].mean()), name
         # Half of the interval is t(0.975, 2) = 4.3027 standard errors.
-        half = 4.302653 * days["profit"][own].std(ddof=1) / np.sqrt(3)
-        assert columns["profit_low"][row] == pytest.approx(columns["profit"][row] - half)
-        assert columns["profit_high"][row] == pytest.approx(columns["profit"][row] + half)
+        half = 4.302653 * days["profit_usd"][own].std(ddof=1) / np.sqrt(3)
+        assert columns["profit_low_usd"][row] == pytest.approx(columns["profit_usd"][row] - half)
+        assert columns["profit_high_usd"][row] == pytest.approx(columns["profit_usd"][row] + half)
 
 
 def test_a_single_day_has_no_interval_and_bounds_have_shares(paper):
     single = vertifleet.sweep(paper, {"fleet.0.count": [36, 40]}, ["greedy"], days=1, bound=True, step=15)
-    assert np.isnan(single.columns["profit_low"]).all()
+    assert np.isnan(single.columns["profit_low_usd"]).all()
     days = [comparison.columns["bound_share"][0] for _, comparison in single.points]
     assert single.columns["bound_share"].tolist() == days
     assert "share of bound" in str(single)
@@ -63,7 +63,7 @@ def test_frames_have_the_columns(swept):
     for library, frame in (("pandas", swept.to_pandas), ("polars", swept.to_polars)):
         pytest.importorskip(library)
         assert list(frame().columns) == list(swept.columns)
-        assert frame()["profit"].to_list() == swept.columns["profit"].tolist()
+        assert frame()["profit_usd"].to_list() == swept.columns["profit_usd"].tolist()
 
 
 def test_the_table_is_for_people(paper):
@@ -80,7 +80,7 @@ def test_no_change_is_the_network_itself(paper):
     (changes, comparison), *others = vertifleet.sweep(paper, {}, ["greedy"], days=2).points
     assert (changes, others) == ({}, [])
     expected = vertifleet.compare(paper, ["greedy"], days=2)
-    np.testing.assert_array_equal(comparison.columns["profit"], expected.columns["profit"])
+    np.testing.assert_array_equal(comparison.columns["profit_usd"], expected.columns["profit_usd"])
 
 
 def test_numbers_of_numpy_are_values_like_others(paper):

@@ -184,12 +184,19 @@ class Bound:
 class Plan:
     @staticmethod
     def of_parts(
-        trace: Trace, profit_usd: float, best_policy_usd: float, steps: int, bound: Bound | None
+        trace: Trace,
+        profit_usd: float,
+        best_policy: str,
+        best_policy_usd: float,
+        steps: int,
+        bound: Bound | None,
     ) -> Plan: ...
     @property
     def trace(self) -> Trace: ...
     @property
     def profit_usd(self) -> float: ...
+    @property
+    def best_policy(self) -> str: ...
     @property
     def best_policy_usd(self) -> float: ...
     @property

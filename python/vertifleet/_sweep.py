@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from vertifleet._compare import Given
     from vertifleet._native import Comparison, Network
 
-MEANS = ("profit", "profit_low", "profit_high", "reward", "flights", "load_factor", "bound_share")
+MEANS = ("profit_usd", "profit_low_usd", "profit_high_usd", "reward", "flights", "load_factor", "bound_share")
 """The columns that are means over the days; the last is there where bounds were asked for."""
 
 
@@ -44,8 +44,8 @@ class Sweep:
         """A row for each point and policy, as numpy arrays by column.
 
         First what was changed, a column for each path of the network file, then ``policy``, then means over
-        the days: ``profit`` in dollars with its 95 % confidence interval from ``profit_low`` to
-        ``profit_high`` (not a number for a single day), ``reward``, ``flights``, ``load_factor``, and
+        the days: ``profit_usd`` with its 95 % confidence interval from ``profit_low_usd`` to
+        ``profit_high_usd`` (not a number for a single day), ``reward``, ``flights``, ``load_factor``, and
         ``bound_share`` where bounds were asked for.
         """
         rows = list(self._rows())
@@ -158,9 +158,9 @@ def _means(policy: Mapping[str, Any]) -> dict[str, float]:
     profit, share = policy["profit_usd"], policy["bound_share"]
     half_width = math.nan if profit["half_width_95"] is None else profit["half_width_95"]
     means = {
-        "profit": profit["mean"],
-        "profit_low": profit["mean"] - half_width,
-        "profit_high": profit["mean"] + half_width,
+        "profit_usd": profit["mean"],
+        "profit_low_usd": profit["mean"] - half_width,
+        "profit_high_usd": profit["mean"] + half_width,
         "reward": policy["reward"]["mean"],
         "flights": policy["flights"],
         "load_factor": policy["load_factor"],
@@ -181,8 +181,8 @@ def _column(values: list[Any]) -> NDArray[Any]:
 def _shown(row: Mapping[str, Any]) -> dict[str, str]:
     """A row's cells as people read them, by heading."""
     cells = {name: str(value) for name, value in row.items() if name not in MEANS}
-    half_width = (row["profit_high"] - row["profit_low"]) / 2
-    cells["profit, $ a day"] = f"{row['profit']:,.0f}" + (
+    half_width = (row["profit_high_usd"] - row["profit_low_usd"]) / 2
+    cells["profit, $ a day"] = f"{row['profit_usd']:,.0f}" + (
         "" if math.isnan(half_width) else f" ± {half_width:,.0f}"
     )
     cells["reward"] = f"{row['reward']:.4f}"

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::builder::{PathBufValueParser, TypedValueParser as _};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use vertifleet_study::policies::Given;
+use vertifleet_study::PolicySource;
 
 use crate::typed::{
     parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_seconds, parse_seed,
@@ -72,8 +72,8 @@ pub(crate) struct SimulateArguments {
     #[arg(long, default_value_t = 0, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
     /// Weights of a learned policy [default: the shipped ones of the scenario's network]
-    #[arg(long, value_name = "PATH", value_parser = PathBufValueParser::new().map(Given::File))]
-    pub(crate) model: Option<Given>,
+    #[arg(long, value_name = "PATH", value_parser = PathBufValueParser::new().map(PolicySource::File))]
+    pub(crate) model: Option<PolicySource>,
     /// Write every decision to this CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
@@ -207,7 +207,7 @@ pub(crate) struct CompareArguments {
     pub(crate) seed: Option<u64>,
     /// Weights for a policy name; may be given several times
     #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
-    pub(crate) models: Vec<(String, Given)>,
+    pub(crate) models: Vec<(String, PolicySource)>,
     /// Prove an upper bound of every day and show each policy's share of it
     #[arg(long)]
     pub(crate) bound: bool,
@@ -235,7 +235,7 @@ pub(crate) struct GeneraliseArguments {
     pub(crate) policies: Vec<String>,
     /// Weights for a policy name; may be given several times
     #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
-    pub(crate) models: Vec<(String, Given)>,
+    pub(crate) models: Vec<(String, PolicySource)>,
     /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer never give looser bounds, and take longer
     #[arg(long, value_name = "MIN", default_value_t = 3, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,

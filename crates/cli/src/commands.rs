@@ -9,14 +9,15 @@ pub(crate) mod scenario;
 pub(crate) mod simulate;
 pub(crate) mod train;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anstream::eprintln;
 use vertifleet_core::{Network, Outputs, Scenario};
-use vertifleet_study::policies::Given;
+use vertifleet_study::PolicySource;
+use vertifleet_study::report::{self, Records};
 
 use crate::failure::Failure;
-use crate::output::warn;
+use crate::output::{print, warn};
 
 /// Warnings of many days that are printed one by one.
 const MOST_WARNINGS: usize = 10;
@@ -31,9 +32,9 @@ fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
 }
 
 /// Weights that are read are not to be written to.
-fn reads_models<'a>(models: impl IntoIterator<Item = &'a Given>, outputs: &mut Outputs) {
+fn reads_models<'a>(models: impl IntoIterator<Item = &'a PolicySource>, outputs: &mut Outputs) {
     for model in models {
-        if let Given::File(path) = model {
+        if let PolicySource::File(path) = model {
             outputs.reads(path);
         }
     }
@@ -62,11 +63,31 @@ fn warn_of_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     }
 }
 
-/// Says where a folder went that was in the way of a report.
-fn tell_kept(kept: Option<&PathBuf>) {
-    if let Some(kept) = kept {
-        eprintln!("what was there before is now {}", kept.display());
+/// Makes sure, before any day is played, that a report can be written to this folder and replaces nothing that is read.
+fn claim_report(folder: Option<&Path>, outputs: &mut Outputs, force: bool) -> Result<(), Failure> {
+    if let Some(folder) = folder {
+        outputs.replaces_folder(folder)?;
+        report::check_folder(folder, force)?;
     }
+    Ok(())
+}
+
+/// Prints a study, and writes its report where one is asked for.
+fn present(
+    study: &impl Records,
+    json: bool,
+    folder: Option<&Path>,
+    force: bool,
+) -> Result<(), Failure> {
+    print(&if json { study.json()? } else { study.text()? })?;
+    if let Some(folder) = folder {
+        let written = report::write(study, folder, force)?;
+        if let Some(kept) = &written.kept {
+            eprintln!("what was there before is now {}", kept.display());
+        }
+        eprintln!("report: {}", written.page.display());
+    }
+    Ok(())
 }
 
 /// Reads a scenario file and says on stderr what looks wrong with it.

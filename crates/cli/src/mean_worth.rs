@@ -50,13 +50,14 @@ fn of_passengers(days: &[(&Scenario, &Bound)]) -> Vec<([String; 3], Mean)> {
     let mut worths: Vec<([String; 3], Vec<f64>)> = Vec::new();
     let mut places = std::collections::BTreeMap::new();
     for (number, (scenario, bound)) in days.iter().enumerate() {
-        for PassengerWorth { from, to, period, worth } in worth::of_passengers(scenario, bound) {
+        for PassengerWorth { from, to, period, worth_usd } in worth::of_passengers(scenario, bound)
+        {
             let key = [from.to_owned(), to.to_owned(), period];
             let place = *places.entry(key.clone()).or_insert_with(|| {
                 worths.push((key, vec![0.0; days.len()]));
                 worths.len() - 1
             });
-            worths[place].1[number] = worth;
+            worths[place].1[number] = worth_usd;
         }
     }
     let mut means: Vec<_> =
@@ -89,9 +90,9 @@ pub(crate) fn numbers(days: &[(&Scenario, &Bound)]) -> Map<String, Value> {
         })
     });
     let numbers = [
-        ("stand_worth", json!(by_id(&|_| true))),
-        ("charger_worth", json!(by_id(&separate))),
-        ("passenger_worth", passengers.collect()),
+        ("stand_worth_usd", json!(by_id(&|_| true))),
+        ("charger_worth_usd", json!(by_id(&separate))),
+        ("passenger_worth_usd", passengers.collect()),
     ];
     numbers.map(|(name, number)| (name.to_owned(), number)).into_iter().collect()
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use vertifleet_study::policies::Given;
+use vertifleet_study::PolicySource;
 
 pub(crate) fn parse_pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
@@ -13,8 +13,8 @@ pub(crate) fn parse_pair(text: &str) -> Result<(String, String), String> {
     }
 }
 
-pub(crate) fn parse_model(text: &str) -> Result<(String, Given), String> {
-    parse_pair(text).map(|(name, path)| (name, Given::File(path.into())))
+pub(crate) fn parse_model(text: &str) -> Result<(String, PolicySource), String> {
+    parse_pair(text).map(|(name, path)| (name, PolicySource::File(path.into())))
 }
 
 /// A policy's name; people put blanks behind commas.

@@ -38,7 +38,7 @@ pub(crate) struct PassengerWorth<'a> {
     pub(crate) from: &'a str,
     pub(crate) to: &'a str,
     pub(crate) period: String,
-    pub(crate) worth: f64,
+    pub(crate) worth_usd: f64,
 }
 
 /// What one more passenger is worth, by pair and period, most first; only where it is worth something.
@@ -48,7 +48,7 @@ pub(crate) fn of_passengers<'a>(scenario: &'a Scenario, bound: &Bound) -> Vec<Pa
         from: name(from),
         to: name(to),
         period: scenario.periods[period].to_string(),
-        worth: worth_usd,
+        worth_usd,
     };
     passengers(scenario, bound).into_iter().map(entry).collect()
 }

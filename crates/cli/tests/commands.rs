@@ -47,7 +47,7 @@ fn a_day_is_drawn_played_checked_and_replayed() {
         let played: Value = serde_json::from_str(&played).expect("JSON");
         let verdict: Value = serde_json::from_str(&verdict).expect("JSON");
         assert_eq!(verdict["valid"], true);
-        let (found, stated) = (&verdict["totals"]["profit"], &played["profit"]);
+        let (found, stated) = (&verdict["totals"]["profit_usd"], &played["profit_usd"]);
         let apart = found.as_f64().expect("dollars") - stated.as_f64().expect("dollars");
         assert!(apart.abs() < 1e-6, "{policy}: {found} is not {stated}");
     }
@@ -63,10 +63,10 @@ fn a_day_is_bounded_above_what_a_rule_earns() {
     let greedy = json("simulate day.json --policy greedy --json");
     let bound = json("bound day.json --step 15 --json");
     let number = |value: &Value| value.as_f64().expect("a number");
-    assert!(number(&greedy["profit"]) < number(&bound["upper_bound"]));
+    assert!(number(&greedy["profit_usd"]) < number(&bound["upper_bound_usd"]));
     assert_eq!(bound["step_s"], 900);
     assert!(number(&bound["seconds"]) > 0.0);
-    assert_eq!(bound["stand_worth"].as_object().map(serde_json::Map::len), Some(8));
+    assert_eq!(bound["stand_worth_usd"].as_object().map(serde_json::Map::len), Some(8));
     let people = stdout(at, "bound day.json --step 60");
     assert!(people.contains("upper bound") && people.contains("one more stand"));
     assert!(failure(at, "bound day.json --step 0", 2).contains("error[V501]"));
@@ -91,19 +91,19 @@ fn several_days_are_bounded_with_means() {
         assert!((number(&mean["standard_error"]) - error).abs() < 1e-6, "{mean}: not {error}");
     };
     let of = |name: &str| days.iter().map(|day| number(&day[name])).collect();
-    near(&found["mean"]["upper_bound"], of("upper_bound"));
-    for (id, mean) in found["mean"]["stand_worth"].as_object().expect("vertiports") {
-        near(mean, days.iter().map(|day| number(&day["stand_worth"][id])).collect());
+    near(&found["mean"]["upper_bound_usd"], of("upper_bound_usd"));
+    for (id, mean) in found["mean"]["stand_worth_usd"].as_object().expect("vertiports") {
+        near(mean, days.iter().map(|day| number(&day["stand_worth_usd"][id])).collect());
         // Its chargers are a pool of their own, counted together with the stands.
-        assert_eq!(mean, &found["mean"]["charger_worth"][id]);
+        assert_eq!(mean, &found["mean"]["charger_worth_usd"][id]);
     }
-    assert_eq!(days[0]["charger_worth"], days[0]["stand_worth"]);
-    let passengers = found["mean"]["passenger_worth"].as_array().expect("pairs and periods");
+    assert_eq!(days[0]["charger_worth_usd"], days[0]["stand_worth_usd"]);
+    let passengers = found["mean"]["passenger_worth_usd"].as_array().expect("pairs and periods");
     assert!(passengers.iter().all(|passenger| number(&passenger["mean"]) > 0.0));
 
     let first = days[0]["name"].as_str().expect("a name");
     let alone = json(&format!("bound days/{first}.json --step 60 --json"));
-    assert_eq!(alone["upper_bound"], days[0]["upper_bound"]);
+    assert_eq!(alone["upper_bound_usd"], days[0]["upper_bound_usd"]);
     let people = stdout(at, "bound days --step 60");
     assert!(people.contains("standard error") && people.contains("in the mean"));
     stdout(at, "scenario new-york --seed 1 -o other.json");
@@ -119,14 +119,14 @@ fn a_day_is_planned_between_the_best_policy_and_the_bound() {
     let planned = stdout(at, "plan day.json --time-limit 1 --json -o plan.csv");
     let planned: Value = serde_json::from_str(&planned).expect("JSON");
     let number = |name: &str| planned[name].as_f64().unwrap_or_else(|| panic!("{name} is missing"));
-    assert!(number("best_policy") <= number("profit"));
-    assert!(number("profit") <= number("upper_bound"));
-    let gap = (number("upper_bound") - number("profit")) / number("upper_bound");
+    assert!(number("best_policy_usd") <= number("profit_usd"));
+    assert!(number("profit_usd") <= number("upper_bound_usd"));
+    let gap = (number("upper_bound_usd") - number("profit_usd")) / number("upper_bound_usd");
     assert!((number("gap") - gap).abs() < 1e-9);
-    assert!(number("seconds") > 0.0 && planned["stand_worth"]["V1"].is_number());
+    assert!(number("seconds") > 0.0 && planned["stand_worth_usd"]["V1"].is_number());
     let replayed = stdout(at, "simulate day.json --policy replay:plan.csv --json");
     let replayed: Value = serde_json::from_str(&replayed).expect("JSON");
-    assert_eq!(replayed["profit"], planned["profit"]);
+    assert_eq!(replayed["profit_usd"], planned["profit_usd"]);
     stdout(at, "check day.json plan.csv");
 
     let people = stdout(at, "plan day.json --time-limit 0 -o rule.csv");
@@ -154,9 +154,9 @@ fn simulate_prints_every_number_of_the_day() {
     let day: Value = serde_json::from_str(&text).expect("JSON");
     let number = |name: &str| day[name].as_f64().unwrap_or_else(|| panic!("{name} is missing"));
     assert_eq!(number("decisions"), number("flights") + number("holds"));
-    assert!((number("reward") - number("profit") / number("potential")).abs() < 1e-12);
-    let earned = number("revenue") - number("passenger_cost") - number("energy_cost");
-    assert!((number("profit") - earned).abs() < 1e-9);
+    assert!((number("reward") - number("profit_usd") / number("potential_usd")).abs() < 1e-12);
+    let earned = number("revenue_usd") - number("passenger_cost_usd") - number("energy_cost_usd");
+    assert!((number("profit_usd") - earned).abs() < 1e-9);
     for name in
         ["energy_kwh", "repositioning_flights", "passengers", "spilled_passengers", "load_factor"]
     {

@@ -35,9 +35,9 @@ fn shares_are_those_of_the_networks_days_and_threads_change_nothing() {
     std::fs::write(at.join("day.json"), stdout(vertifleet(at, "scenario random:2 --seed 2")))
         .expect("a file");
     let bound = json(vertifleet(at, "bound day.json --step 60 --json"));
-    assert_eq!(networks[2]["upper_bound_usd"], bound["upper_bound"]);
+    assert_eq!(networks[2]["upper_bound_usd"], bound["upper_bound_usd"]);
     let greedy = json(vertifleet(at, "simulate day.json --policy greedy --json"));
-    assert_eq!(networks[2]["results"][0]["profit_usd"], greedy["profit"]);
+    assert_eq!(networks[2]["results"][0]["profit_usd"], greedy["profit_usd"]);
 
     let mut again = json(vertifleet(at, &format!("{asked} --json --threads 1")));
     again["command"] = results["command"].clone();

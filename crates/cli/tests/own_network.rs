@@ -61,18 +61,18 @@ fn a_day_of_a_network_with_a_table_and_costs_is_played_checked_bounded_and_plann
     let verdict = json(at, "check day.json day.csv --json");
     assert_eq!(verdict["valid"], true, "{verdict}");
     let number = |value: &Value, member: &str| value[member].as_f64().expect("a number");
-    assert!(number(&played, "flight_cost") > 0.0 && number(&played, "aircraft_cost") > 0.0);
-    for member in ["profit", "flight_cost", "aircraft_cost"] {
+    assert!(number(&played, "flight_cost_usd") > 0.0 && number(&played, "aircraft_cost_usd") > 0.0);
+    for member in ["profit_usd", "flight_cost_usd", "aircraft_cost_usd"] {
         let found = number(&verdict["totals"], member);
         assert!((found - number(&played, member)).abs() < 1e-6, "{member}: {found}");
     }
-    let bound = number(&json(at, "bound day.json --step 15 --json"), "upper_bound");
+    let bound = number(&json(at, "bound day.json --step 15 --json"), "upper_bound_usd");
     let plan = json(at, "plan day.json --time-limit 1 -o plan.csv --json");
-    for pair in plan["passenger_worth"].as_array().expect("a list") {
+    for pair in plan["passenger_worth_usd"].as_array().expect("a list") {
         assert_ne!(pair["from"], pair["to"], "nobody can fly from a vertiport to itself");
     }
-    assert!(number(&plan, "profit") >= number(&played, "profit"));
-    assert!(number(&plan, "profit") <= bound, "{plan}: {bound}");
+    assert!(number(&plan, "profit_usd") >= number(&played, "profit_usd"));
+    assert!(number(&plan, "profit_usd") <= bound, "{plan}: {bound}");
     assert_eq!(json(at, "check day.json plan.csv --json")["valid"], true);
 }
 

@@ -26,7 +26,7 @@ fn observation(criterion: &mut Criterion) {
     let day = Arc::new(network.draw(DaySeed::comparison(1).expect("a seed")));
     let scales = Scales::from(network.feature_scales());
     let mut observations = Observations::new(shape(network.vertiports().len()), 1);
-    let decisions = u64::from(play(&day, &mut observations, &scales).summary().decisions);
+    let decisions = u64::from(play(&day, &mut observations, &scales).totals().decisions);
     let mut group = criterion.benchmark_group("simulation");
     group.throughput(Throughput::Elements(decisions));
     group.bench_function("random with observations, paper, one day", |bencher| {

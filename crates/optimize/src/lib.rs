@@ -21,10 +21,15 @@ mod bound;
 pub mod error;
 mod plan;
 mod proof;
+mod proven_plan;
 mod rolling;
 
 pub use bound::{Bound, Step, cached_upper_bound, upper_bound, upper_bound_unless};
 pub use error::Error;
-pub use plan::{Budget, Plan, SearchProgress, SearchSettings, can_plan, plan, steps_of_equal_work};
+pub use plan::{
+    Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, can_plan, plan,
+    steps_of_equal_work,
+};
 pub use proof::{Proof, gap};
+pub use proven_plan::{ProvenPlan, plan_with_proof};
 pub use rolling::Rolling;

@@ -19,12 +19,14 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use vertifleet_core::Scenario;
-use vertifleet_policy::{Policy, draw};
+use vertifleet_policy::draw;
 use vertifleet_sim::{Simulation, Trace};
 
 use crate::Error;
 use problem::Problem;
 use search::Search;
+
+pub use start::StartingPolicy;
 
 /// Steps that a search takes between two looks at what the others found.
 const STEPS_A_ROUND: u64 = 50;
@@ -49,7 +51,7 @@ pub enum Budget {
     Steps(u64),
 }
 
-/// SearchSettings of a plan.
+/// How to search for a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SearchSettings {
     /// How long to search.
@@ -78,7 +80,9 @@ pub struct Plan {
     pub trace: Trace,
     /// What the day earns, as the simulator accounts for it, dollars.
     pub profit_usd: f64,
-    /// What the best policy earns whose day was played within the budget, dollars; the plan is never worse.
+    /// Name of the best policy whose day was played within the budget; the search began with that day.
+    pub best_policy: String,
+    /// What that policy earns, dollars; the plan is never worse.
     pub best_policy_usd: f64,
     /// Steps of each search.
     pub steps: u64,
@@ -117,7 +121,7 @@ pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
 pub fn plan(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,
-    more: &mut [Box<dyn Policy>],
+    more: Vec<StartingPolicy>,
     watch: &mut dyn FnMut(&SearchProgress) -> bool,
 ) -> Result<Plan, Error> {
     can_plan(scenario)?;
@@ -125,13 +129,13 @@ pub fn plan(
     let mut stopped = false;
     // What a day's prices take at its start, which the search needs too.
     let mut first = Duration::ZERO;
-    let (trace, profit_usd) = start::best_policy(scenario, more, &mut {
-        let mut day = PlayedDay::begin(&clock);
+    let start::Played { policy, trace, profit_usd } = start::best_policy(scenario, more, &mut {
+        let mut day = DayTimer::begin(&clock);
         let (clock, stopped, first, watch) = (&clock, &mut stopped, &mut first, &mut *watch);
         move |profit_usd, day_share: Option<f64>| {
             *stopped |= !watch(&SearchProgress { share: clock.share(0), steps: 0, profit_usd });
             let Some(day_share) = day_share else {
-                day = PlayedDay::begin(clock);
+                day = DayTimer::begin(clock);
                 return !*stopped && clock.left() > *first;
             };
             day.has_decided();
@@ -139,11 +143,12 @@ pub fn plan(
             !*stopped && clock.leaves_time_for(&day, day_share)
         }
     });
-    let mut plan = Plan { trace, profit_usd, best_policy_usd: profit_usd, steps: 0 };
+    let mut plan =
+        Plan { trace, profit_usd, best_policy: policy, best_policy_usd: profit_usd, steps: 0 };
     // Where no passenger pays for a seat, no flight is better than none.
     let is_worth_it = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
     if is_worth_it && !stopped && clock.left() > first {
-        search(scenario, (settings, &clock), &mut plan, watch);
+        search(scenario, settings, &clock, &mut plan, watch);
     }
     Ok(plan)
 }
@@ -151,7 +156,8 @@ pub fn plan(
 /// Improves a plan until the budget is gone or `watch` says no.
 fn search(
     scenario: &Arc<Scenario>,
-    (settings, clock): (&SearchSettings, &Clock),
+    settings: &SearchSettings,
+    clock: &Clock,
     plan: &mut Plan,
     watch: &mut dyn FnMut(&SearchProgress) -> bool,
 ) {
@@ -216,7 +222,7 @@ impl Clock {
 
     /// Whether a policy may go on with a day of which a share is over: there is time for one more decision, and the day seems to
     /// end in time.
-    fn leaves_time_for(&self, day: &PlayedDay, day_share: f64) -> bool {
+    fn leaves_time_for(&self, day: &DayTimer, day_share: f64) -> bool {
         let left = self.left();
         let played = day.begun.elapsed();
         let seems_to_end = || to_come_s(played, day_share) <= left.as_secs_f64();
@@ -239,7 +245,7 @@ impl Clock {
 }
 
 /// How long a policy takes over a day that it plays.
-struct PlayedDay {
+struct DayTimer {
     begun: Instant,
     judged_after: Duration,
     /// What the first decision took, for which much is made ready.
@@ -249,7 +255,7 @@ struct PlayedDay {
     longest: Duration,
 }
 
-impl PlayedDay {
+impl DayTimer {
     fn begin(clock: &Clock) -> Self {
         let now = Instant::now();
         let judged_after = clock.left().mul_f64(JUDGED_FROM);

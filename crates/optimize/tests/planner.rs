@@ -1,28 +1,22 @@
 //! What the planner promises, on small days of every kind and on days of the `paper` network.
 
-mod common;
 mod exhaustive;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use common::{Size, any_day, any_extended_day};
 use exhaustive::best_of_all;
-use vertifleet_core::{DaySeed, Matrix, Network, Scenario, VertiportIx};
-use vertifleet_optimize::{Budget, Plan, SearchSettings, plan};
+use vertifleet_core::{Matrix, Scenario, VertiportIx};
+use vertifleet_optimize::{Budget, Plan, SearchSettings, StartingPolicy, plan};
 use vertifleet_policy::{
     BidPricePolicy, Greedy, Lookahead, Policy, PolicyError, Random, Replay, play,
 };
 use vertifleet_sim::{Decision, Simulation, View, check::check};
-
-fn paper_day(seed: u64) -> Arc<Scenario> {
-    let network = Network::shipped("paper").expect("a shipped network");
-    Arc::new(network.draw(DaySeed::validation(seed).expect("a seed")))
-}
+use vertifleet_testkit::{Size, any_day, any_extended_day, paper_day};
 
 fn planned(day: &Arc<Scenario>, steps: u64) -> Plan {
     let settings = SearchSettings { budget: Budget::Steps(steps), searches: 2, seed: 5 };
-    plan(day, &settings, &mut [], &mut |_| true).expect("a day without chargers beside stands")
+    plan(day, &settings, Vec::new(), &mut |_| true).expect("a day without chargers beside stands")
 }
 
 #[test]
@@ -48,7 +42,7 @@ fn a_plan_keeps_every_rule_and_earns_no_less_than_any_simple_one() {
         let plan = planned(&day, 60);
         let report = check(&day, &plan.trace);
         assert!(report.is_valid(), "day {number}: {report}");
-        assert!((report.totals.profit - plan.profit_usd).abs() < 1e-6, "day {number}");
+        assert!((report.totals.profit_usd - plan.profit_usd).abs() < 1e-6, "day {number}");
         let rules: [&mut dyn Policy; 4] =
             [&mut Random::new(0), &mut Greedy, &mut Lookahead, &mut BidPricePolicy::default()];
         for rule in rules {
@@ -67,7 +61,7 @@ fn a_disturbed_day_is_planned_as_known_and_one_with_chargers_beside_stands_not_a
     for number in 500..560 {
         let day = any_extended_day(number, small);
         let settings = SearchSettings { budget: Budget::Steps(60), searches: 2, seed: 5 };
-        let plan = match plan(&day, &settings, &mut [], &mut |_| true) {
+        let plan = match plan(&day, &settings, Vec::new(), &mut |_| true) {
             Ok(plan) => plan,
             Err(error) => {
                 let chargers = day.vertiports.iter().any(|vertiport| vertiport.chargers.is_some());
@@ -77,7 +71,7 @@ fn a_disturbed_day_is_planned_as_known_and_one_with_chargers_beside_stands_not_a
         };
         let report = check(&day, &plan.trace);
         assert!(report.is_valid(), "day {number}: {report}");
-        assert!((report.totals.profit - plan.profit_usd).abs() < 1e-6, "day {number}");
+        assert!((report.totals.profit_usd - plan.profit_usd).abs() < 1e-6, "day {number}");
         assert!(plan.profit_usd >= plan.best_policy_usd, "day {number}");
         better += usize::from(plan.profit_usd > plan.best_policy_usd);
     }
@@ -142,7 +136,7 @@ fn the_same_settings_give_the_same_plan_on_any_number_of_threads() {
     let one = on(1);
     assert_eq!(one, on(2));
     let other_seed = SearchSettings { budget: Budget::Steps(300), searches: 2, seed: 6 };
-    let other = plan(&day, &other_seed, &mut [], &mut |_| true).expect("a day of paper");
+    let other = plan(&day, &other_seed, Vec::new(), &mut |_| true).expect("a day of paper");
     assert_ne!(one, other, "chance follows the seed");
 }
 
@@ -152,7 +146,7 @@ fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
     let settings =
         SearchSettings { budget: Budget::Time(Duration::from_mins(10)), searches: 1, seed: 1 };
     let mut looks = 0;
-    let stopped = plan(&day, &settings, &mut [], &mut |progress| {
+    let stopped = plan(&day, &settings, Vec::new(), &mut |progress| {
         looks += 1;
         assert!((0.0..=1.0).contains(&progress.share));
         looks < 4
@@ -160,7 +154,7 @@ fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
     .expect("a day of paper");
     assert!(check(&day, &stopped.trace).is_valid());
     let at_once = SearchSettings { budget: Budget::Time(Duration::ZERO), ..settings };
-    let policy = plan(&day, &at_once, &mut [], &mut |_| true).expect("a day of paper");
+    let policy = plan(&day, &at_once, Vec::new(), &mut |_| true).expect("a day of paper");
     assert_eq!((policy.steps, policy.profit_usd), (0, policy.best_policy_usd));
 }
 
@@ -177,10 +171,15 @@ impl Policy for NotInTime {
 fn without_time_the_plan_is_greedys_day() {
     let day = paper_day(6);
     let settings = SearchSettings { budget: Budget::Time(Duration::ZERO), searches: 1, seed: 1 };
-    let plan = plan(&day, &settings, &mut [Box::new(NotInTime)], &mut |_| true).expect("a day");
+    let plan =
+        plan(&day, &settings, vec![StartingPolicy::new("late", Box::new(NotInTime))], &mut |_| {
+            true
+        })
+        .expect("a day");
     let mut simulation = Simulation::new(Arc::clone(&day));
     play(&mut simulation, &mut Greedy, |_| ()).expect("greedy always answers");
     assert_eq!((plan.profit_usd, plan.steps), (simulation.ledger().profit_usd(), 0));
+    assert_eq!(plan.best_policy, "greedy");
 }
 
 #[test]
@@ -188,9 +187,10 @@ fn a_plan_is_never_below_a_policy_that_it_is_given() {
     let day = paper_day(5);
     let better = planned(&day, 1_000);
     let settings = SearchSettings { budget: Budget::Steps(0), searches: 1, seed: 1 };
-    let replay = Box::new(Replay::new(Arc::new(better.trace.clone())));
-    let given = plan(&day, &settings, &mut [replay], &mut |_| true).expect("a day");
-    assert_eq!(given.profit_usd, better.profit_usd);
+    let replay = Replay::new(Arc::new(better.trace.clone()));
+    let replay = StartingPolicy::new("replay", Box::new(replay));
+    let given = plan(&day, &settings, vec![replay], &mut |_| true).expect("a day");
+    assert_eq!((given.best_policy.as_str(), given.profit_usd), ("replay", better.profit_usd));
     assert!(given.profit_usd > planned(&day, 0).profit_usd, "it is better than any rule's day");
 }
 

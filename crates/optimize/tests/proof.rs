@@ -3,15 +3,11 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use vertifleet_core::{DaySeed, Matrix, Network, Scenario, Vertiport};
+use vertifleet_core::{Matrix, Scenario, Vertiport};
 use vertifleet_optimize::{Proof, Step, upper_bound};
 use vertifleet_policy::{Greedy, play};
 use vertifleet_sim::Simulation;
-
-fn paper_day(seed: u64) -> Arc<Scenario> {
-    let network = Network::shipped("paper").expect("a shipped network");
-    Arc::new(network.draw(DaySeed::validation(seed).expect("a seed")))
-}
+use vertifleet_testkit::paper_day;
 
 fn greedy_usd(day: &Arc<Scenario>) -> f64 {
     let mut simulation = Simulation::new(Arc::clone(day));

@@ -1,15 +1,13 @@
 //! What the rolling horizon promises as a policy, on small days of every kind.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{Size, any_day, any_extended_day};
 use rayon::prelude::*;
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario};
 use vertifleet_optimize::Rolling;
 use vertifleet_policy::{BidPricePolicy, Greedy, Policy, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
+use vertifleet_testkit::{Size, any_day, any_extended_day};
 
 const SMALL: Size = Size { vertiports: 5, fleet: 8, hours: 5 };
 

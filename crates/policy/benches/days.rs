@@ -21,7 +21,7 @@ fn play(day: &Arc<Scenario>) -> Simulation {
 fn days(criterion: &mut Criterion) {
     let network = Network::shipped("paper").expect("a shipped network");
     let day = Arc::new(network.draw(DaySeed::comparison(1).expect("a seed")));
-    let decisions = u64::from(play(&day).summary().decisions);
+    let decisions = u64::from(play(&day).totals().decisions);
     let mut group = criterion.benchmark_group("simulation");
     group.throughput(Throughput::Elements(decisions));
     group.bench_function("random, paper, one day", |bencher| {

@@ -65,7 +65,7 @@ fn mean_reward(table: &Table, days: &[Arc<Scenario>]) -> f64 {
     let reward = |day: &Arc<Scenario>| {
         let mut simulation = Simulation::new(Arc::clone(day));
         play(&mut simulation, &mut table.clone(), |_| ()).expect("a table always has an answer");
-        simulation.summary().reward
+        simulation.totals().reward
     };
     days.iter().map(reward).sum::<f64>() / days.len() as f64
 }

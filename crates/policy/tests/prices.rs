@@ -2,20 +2,14 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{
-    AircraftIx, Closure, DaySeed, Network, Route, Scenario, TypeIx, VertiportIx,
-};
+use vertifleet_core::{AircraftIx, Closure, Route, Scenario, TypeIx, VertiportIx};
 use vertifleet_policy::{BidPricePolicy, DayPrices, Greedy, Policy, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
-
-fn day(seed: u64) -> Arc<Scenario> {
-    let network = Network::shipped("paper").expect("a shipped network");
-    Arc::new(network.draw(DaySeed::validation(seed).expect("a seed")))
-}
+use vertifleet_testkit::paper_day;
 
 /// The day with other numbers of aircraft and stands.
 fn changed(seed: u64, aircraft: usize, stands: u16) -> Arc<Scenario> {
-    let mut day = Scenario::clone(&day(seed)).into_day();
+    let mut day = Scenario::clone(&paper_day(seed)).into_day();
     day.aircraft.truncate(aircraft);
     day.vertiports.iter_mut().for_each(|vertiport| vertiport.stands = stands);
     Arc::new(day.check("a changed day").expect("a day"))
@@ -87,14 +81,14 @@ fn what_nobody_lacks_is_free() {
     let roomy = changed(1, 8, 40);
     let prices = prices_of(&roomy);
     assert_eq!(all_rents_usd(&roomy, &prices), 0.0, "40 stands suffice for 8 aircraft");
-    let crowded = day(1);
+    let crowded = paper_day(1);
     let prices = prices_of(&crowded);
     assert!(all_rents_usd(&crowded, &prices) > 100.0, "48 stands are few for 40 aircraft");
 }
 
 #[test]
 fn prices_are_never_negative_and_worth_falls_to_nothing_at_the_end() {
-    let day = day(2);
+    let day = paper_day(2);
     let prices = prices_of(&day);
     let (start, end) = (day.operations.start, day.operations.end);
     for vertiport in VertiportIx::all(day.vertiports.len()) {
@@ -131,7 +125,7 @@ fn alone_and_with_room_an_aircraft_earns_what_its_prices_say() {
 #[test]
 fn the_rule_keeps_every_rule_of_the_world_and_earns_more_than_greedy() {
     for seed in 3..6 {
-        let day = day(seed);
+        let day = paper_day(seed);
         let (trace, profit_usd) = played(&day, &mut BidPricePolicy::default());
         let report = check(&day, &trace);
         assert!(report.is_valid(), "{report}");
@@ -142,7 +136,7 @@ fn the_rule_keeps_every_rule_of_the_world_and_earns_more_than_greedy() {
 
 #[test]
 fn a_day_has_one_outcome_whatever_was_played_before() {
-    let (one, other) = (day(7), day(8));
+    let (one, other) = (paper_day(7), paper_day(8));
     let mut policy = BidPricePolicy::default();
     let first = played(&one, &mut policy);
     played(&other, &mut policy);
@@ -170,7 +164,7 @@ fn days_played_by_turns_are_not_mixed_up() {
 
 /// The day with so many passengers of each pair and period as there were hundreds.
 fn thin(seed: u64) -> Arc<Scenario> {
-    let mut day = Scenario::clone(&day(seed)).into_day();
+    let mut day = Scenario::clone(&paper_day(seed)).into_day();
     for demand in day.demand.iter_mut().flat_map(vertifleet_core::Matrix::cells_mut) {
         *demand /= 50;
     }
@@ -191,11 +185,14 @@ fn where_hardly_anybody_wants_to_fly_prices_earn_as_much_as_greedy() {
 
 #[test]
 fn nothing_is_at_stake_where_nobody_wants_to_fly() {
-    let mut idle = Scenario::clone(&day(1)).into_day();
+    let mut idle = Scenario::clone(&paper_day(1)).into_day();
     idle.demand.iter_mut().for_each(|table| table.cells_mut().fill(0));
     let idle = Arc::new(idle.check("a day without demand").expect("a day"));
     assert_eq!(prices_of(&idle).stake_usd(), 0.0);
     let (trace, _) = played(&idle, &mut BidPricePolicy::default());
     assert!(trace.rows.iter().all(|row| row.to == row.from), "every aircraft holds");
-    assert!(prices_of(&day(1)).stake_usd() > 50.0, "a decision of a busy day is worth a flight");
+    assert!(
+        prices_of(&paper_day(1)).stake_usd() > 50.0,
+        "a decision of a busy day is worth a flight"
+    );
 }

@@ -2,20 +2,16 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{Closure, DaySeed, Network, Route, Scenario, VertiportIx};
+use vertifleet_core::{Closure, Route, Scenario, VertiportIx};
 use vertifleet_policy::{Greedy, Lookahead, PlayError, Policy, PolicyError, Random, Replay, play};
 use vertifleet_sim::{Decision, Simulation, Trace, View, check::check};
-
-fn day(seed: u64) -> Arc<Scenario> {
-    let network = Network::shipped("paper").expect("a shipped network");
-    Arc::new(network.draw(DaySeed::validation(seed).expect("a seed")))
-}
+use vertifleet_testkit::paper_day;
 
 fn trace_of(day: &Arc<Scenario>, policy: &mut dyn Policy) -> (Trace, f64) {
     let mut simulation = Simulation::new(Arc::clone(day));
     let mut trace = Trace::default();
     play(&mut simulation, policy, |row| trace.rows.push(*row)).expect("the policy plays the day");
-    (trace, simulation.summary().profit)
+    (trace, simulation.totals().profit_usd)
 }
 
 fn rules() -> [(&'static str, Box<dyn Policy>); 3] {
@@ -30,18 +26,18 @@ fn rules() -> [(&'static str, Box<dyn Policy>); 3] {
 fn every_rule_leaves_a_schedule_that_passes_the_check() {
     for (name, mut policy) in rules() {
         for seed in 0..5 {
-            let day = day(seed);
+            let day = paper_day(seed);
             let (trace, profit) = trace_of(&day, policy.as_mut());
             let report = check(&day, &trace);
             assert!(report.is_valid(), "{name}: {report}");
-            assert!((report.totals.profit - profit).abs() < 1e-6, "{name}");
+            assert!((report.totals.profit_usd - profit).abs() < 1e-6, "{name}");
         }
     }
 }
 
 #[test]
 fn a_replay_repeats_the_day_to_the_bit() {
-    let day = day(3);
+    let day = paper_day(3);
     let (trace, profit) = trace_of(&day, &mut Random::new(8));
     let (again, profit_again) = trace_of(&day, &mut Replay::new(Arc::new(trace.clone())));
     assert_eq!((again, profit_again), (trace, profit));
@@ -49,22 +45,22 @@ fn a_replay_repeats_the_day_to_the_bit() {
 
 #[test]
 fn a_replay_of_another_day_gets_stuck_and_says_where() {
-    let (trace, _) = trace_of(&day(3), &mut Greedy);
+    let (trace, _) = trace_of(&paper_day(3), &mut Greedy);
     let stuck = |day: Arc<Scenario>, trace: Trace| {
         let mut replay = Replay::new(Arc::new(trace));
         let error = play(&mut Simulation::new(day), &mut replay, |_| ());
         error.expect_err("another day's trace").to_string()
     };
-    let refused = stuck(day(4), trace.clone());
+    let refused = stuck(paper_day(4), trace.clone());
     assert!(refused.contains("aircraft \"A") && refused.contains("vertiport \"V"), "{refused}");
     let later = Trace { rows: trace.rows[1..].to_vec() };
     assert_eq!(
-        stuck(day(3), later),
+        stuck(paper_day(3), later),
         "row 1 of the trace is aircraft \"A02\" at 06:00:00, but aircraft \"A01\" decides at 06:00:00"
     );
 
     let short = Trace { rows: trace.rows[..10].to_vec() };
-    let mut simulation = Simulation::new(day(3));
+    let mut simulation = Simulation::new(paper_day(3));
     let error = play(&mut simulation, &mut Replay::new(Arc::new(short)), |_| ());
     let expected = PolicyError::TraceTooShort {
         rows: 10,
@@ -85,7 +81,7 @@ fn on_every_decision(day: &Arc<Scenario>, mut ask: impl FnMut(&Decision, &View<'
 
 #[test]
 fn greedy_takes_the_highest_profit_per_hour() {
-    let day = day(11);
+    let day = paper_day(11);
     on_every_decision(&day, |decision, view| {
         let rate = |to: VertiportIx| {
             if to == decision.at {
@@ -108,7 +104,7 @@ fn greedy_takes_the_highest_profit_per_hour() {
 
 /// A day on which a third of all routes close for two hours at some time or other, every other one of them known to.
 fn day_with_closures(seed: u64) -> Arc<Scenario> {
-    let mut day = Scenario::clone(&day(seed)).into_day();
+    let mut day = Scenario::clone(&paper_day(seed)).into_day();
     let all = VertiportIx::all(day.vertiports.len());
     let pairs = all.clone().flat_map(|from| all.clone().map(move |to| (from, to)));
     for ((from, to), number) in pairs.filter(|(from, to)| from != to).zip(0_u32..) {
@@ -163,7 +159,7 @@ fn lookahead_takes_the_best_two_flights_in_a_row() {
 
 #[test]
 fn random_draws_evenly_from_the_mask() {
-    let day = day(5);
+    let day = paper_day(5);
     let mut simulation = Simulation::new(day);
     let decision = simulation.next_decision().expect("a day begins");
     let view = simulation.view();
@@ -191,7 +187,8 @@ fn random_draws_evenly_from_the_mask() {
 
 #[test]
 fn another_seed_or_another_day_draws_otherwise() {
-    let profit = |policy_seed, day_seed| trace_of(&day(day_seed), &mut Random::new(policy_seed)).1;
+    let profit =
+        |policy_seed, day_seed| trace_of(&paper_day(day_seed), &mut Random::new(policy_seed)).1;
     assert_ne!(profit(1, 0), profit(2, 0));
     assert_ne!(profit(1, 0), profit(1, 1));
     assert_eq!(profit(1, 0), profit(1, 0));

@@ -1,6 +1,6 @@
 //! Bars of work that plays many days with many policies.
 
-use vertifleet_study::comparison::Watch;
+use vertifleet_study::Watch;
 
 use crate::Bar;
 

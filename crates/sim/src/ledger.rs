@@ -1,6 +1,5 @@
 //! The day's account (Eq. 2-5): what came in, what it cost, and what was flown for it.
 
-use serde::Serialize;
 use vertifleet_core::Scenario;
 
 use crate::TraceRow;
@@ -69,66 +68,5 @@ impl Ledger {
         self.passengers += u64::from(row.passengers);
         self.passenger_miles += distance_mi * f64::from(row.passengers);
         self.seat_miles += distance_mi * f64::from(seats);
-    }
-}
-
-/// A finished day in numbers, as `simulate --json` prints it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct DayTotals {
-    /// Dollars (Eq. 5).
-    pub profit: f64,
-    /// Dollars (Eq. 4).
-    pub revenue: f64,
-    /// Dollars (Eq. 2).
-    pub passenger_cost: f64,
-    /// Dollars (Eq. 3).
-    pub energy_cost: f64,
-    /// What flights cost with or without passengers, beside their energy; dollars.
-    pub flight_cost: f64,
-    /// What the fleet costs whatever it does, dollars.
-    pub aircraft_cost: f64,
-    /// Energy charged.
-    pub energy_kwh: f64,
-    /// The reward's denominator: all of the day's demand at full fare, dollars (§III.H).
-    pub potential: f64,
-    /// Profit over potential; 0 on a day without demand.
-    pub reward: f64,
-    /// Flights, with passengers or without.
-    pub flights: u32,
-    /// Flights without passengers.
-    pub repositioning_flights: u32,
-    /// Decisions to stay.
-    pub holds: u32,
-    /// Flights and holds.
-    pub decisions: u32,
-    /// Passengers carried.
-    pub passengers: u64,
-    /// Passengers who wanted to fly and were not carried.
-    pub spilled_passengers: u64,
-    /// Passenger-miles over seat-miles, repositioning included; 0 if nothing flew.
-    pub load_factor: f64,
-}
-
-impl DayTotals {
-    pub(crate) fn new(ledger: &Ledger, potential_usd: f64, demanded: u64) -> Self {
-        let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
-        Self {
-            profit: ledger.profit_usd(),
-            revenue: ledger.revenue_usd,
-            passenger_cost: ledger.passenger_cost_usd,
-            energy_cost: ledger.energy_cost_usd,
-            flight_cost: ledger.flight_cost_usd,
-            aircraft_cost: ledger.aircraft_cost_usd,
-            energy_kwh: ledger.energy_kwh,
-            potential: potential_usd,
-            reward: share(ledger.profit_usd(), potential_usd),
-            flights: ledger.flights,
-            repositioning_flights: ledger.repositioning_flights,
-            holds: ledger.holds,
-            decisions: ledger.decisions(),
-            passengers: ledger.passengers,
-            spilled_passengers: demanded - ledger.passengers,
-            load_factor: share(ledger.passenger_miles, ledger.seat_miles),
-        }
     }
 }

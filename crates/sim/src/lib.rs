@@ -18,13 +18,14 @@
 //! while let Some(decision) = simulation.next_decision() {
 //!     simulation.apply(decision.at)?;
 //! }
-//! assert_eq!(simulation.summary().flights, 0);
+//! assert_eq!(simulation.totals().flights, 0);
 //! # Ok(())
 //! # }
 //! ```
 
 pub mod check;
 mod closures;
+mod day_totals;
 mod demand;
 mod error;
 mod imagined;
@@ -39,9 +40,10 @@ mod trace;
 mod vertiport_set;
 mod view;
 
+pub use day_totals::{DayNumber, DayTotals};
 pub use error::Refusal;
 pub use imagined::Imagined;
-pub use ledger::{DayTotals, Ledger};
+pub use ledger::Ledger;
 pub use legs::{Leg, Legs};
 pub use simulation::{Decision, Simulation};
 pub use trace::{Trace, TraceError, TraceRow};

@@ -297,7 +297,7 @@ impl Simulation {
     }
 
     /// The day's numbers so far; those of the day once it is over.
-    pub fn summary(&self) -> DayTotals {
+    pub fn totals(&self) -> DayTotals {
         DayTotals::new(&self.ledger, self.potential_usd, self.demand.total())
     }
 

@@ -129,11 +129,11 @@ fn totals_are_those_worked_out_by_hand() {
     );
     assert_eq!(counts, (4, 1, 1, 5, 9));
     for (found, due) in [
-        (totals.revenue, 390.0),
-        (totals.passenger_cost, 195.0),
-        (totals.energy_cost, 40.603_5),
+        (totals.revenue_usd, 390.0),
+        (totals.passenger_cost_usd, 195.0),
+        (totals.energy_cost_usd, 40.603_5),
         (totals.energy_kwh, 158.011_666_666_666_67),
-        (totals.profit, 154.396_5),
+        (totals.profit_usd, 154.396_5),
     ] {
         assert!((found - due).abs() < 1e-9, "{found} and not {due}");
     }
@@ -251,12 +251,12 @@ fn machines_get_the_same_verdict() {
     {
       "valid": false,
       "totals": {
-        "profit": 167.9,
-        "revenue": 390.0,
-        "passenger_cost": 195.0,
-        "energy_cost": 27.1,
-        "flight_cost": 0.0,
-        "aircraft_cost": 0.0,
+        "profit_usd": 167.9,
+        "revenue_usd": 390.0,
+        "passenger_cost_usd": 195.0,
+        "energy_cost_usd": 27.1,
+        "flight_cost_usd": 0.0,
+        "aircraft_cost_usd": 0.0,
         "energy_kwh": 113.0,
         "flights": 3,
         "repositioning_flights": 0,

@@ -1,7 +1,5 @@
 //! Simulator and checker, written apart, agree: what the one plays the other passes, and not with one row edited.
 
-mod common;
-
 use std::sync::Arc;
 
 use proptest::prelude::{
@@ -13,8 +11,8 @@ use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_sim::check::check;
 use vertifleet_sim::{DayTotals, Simulation, Trace, TraceRow};
 
-use common::extended::extended_day;
-use common::small_day;
+use vertifleet_testkit::extended_day;
+use vertifleet_testkit::small_day;
 
 /// Plays a day at random: each draw picks among the feasible vertiports, round and round.
 fn play(day: &Arc<Scenario>, draws: &[u32]) -> (DayTotals, Trace) {
@@ -26,7 +24,7 @@ fn play(day: &Arc<Scenario>, draws: &[u32]) -> (DayTotals, Trace) {
         let choice = mask.nth(rank).expect("a rank below the number of members");
         trace.rows.push(simulation.apply(choice).expect("a choice from the mask"));
     }
-    (simulation.summary(), trace)
+    (simulation.totals(), trace)
 }
 
 fn draws() -> impl Strategy<Value = Vec<u32>> {
@@ -179,12 +177,12 @@ proptest! {
         let (summary, trace) = play(&day, &draws);
         let totals = check(&day, &trace).totals;
         for (theirs, ours) in [
-            (totals.profit, summary.profit),
-            (totals.revenue, summary.revenue),
-            (totals.passenger_cost, summary.passenger_cost),
-            (totals.energy_cost, summary.energy_cost),
-            (totals.flight_cost, summary.flight_cost),
-            (totals.aircraft_cost, summary.aircraft_cost),
+            (totals.profit_usd, summary.profit_usd),
+            (totals.revenue_usd, summary.revenue_usd),
+            (totals.passenger_cost_usd, summary.passenger_cost_usd),
+            (totals.energy_cost_usd, summary.energy_cost_usd),
+            (totals.flight_cost_usd, summary.flight_cost_usd),
+            (totals.aircraft_cost_usd, summary.aircraft_cost_usd),
             (totals.energy_kwh, summary.energy_kwh),
         ] {
             prop_assert!(close(theirs, ours), "{theirs} and {ours}");

@@ -56,9 +56,9 @@ fn a_day_with_flight_costs_has_a_column_for_them() {
     let verdict = check(&day, &trace);
     assert!(verdict.is_valid(), "{verdict}");
     let totals = verdict.totals;
-    assert_eq!((totals.flight_cost, totals.aircraft_cost), (2.0 * 7.25, 2.0 * 100.0));
+    assert_eq!((totals.flight_cost_usd, totals.aircraft_cost_usd), (2.0 * 7.25, 2.0 * 100.0));
     let plain = check(&scenario(), &schedule()).totals;
-    assert!((totals.profit - (plain.profit - 214.5)).abs() < 1e-9);
+    assert!((totals.profit_usd - (plain.profit_usd - 214.5)).abs() < 1e-9);
     assert!(verdict.to_string().ends_with("flight cost $14.50 - aircraft cost $200.00"));
     for (csv, day) in [(csv, scenario()), (schedule().to_csv(&scenario()), day)] {
         let error = Trace::from_csv(csv.as_bytes(), &day, "day.csv").expect_err("another header");

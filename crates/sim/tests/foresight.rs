@@ -1,14 +1,12 @@
 //! Nobody sees the future: what a decision's view shows does not change when what comes later is changed.
 
-mod common;
-
 use std::sync::Arc;
 
 use proptest::prelude::{ProptestConfig, any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_core::{AircraftIx, Closure, Outage, Route, Scenario, Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, Simulation, View};
 
-use common::extended::extended_day;
+use vertifleet_testkit::extended_day;
 
 /// Everything that a view shows at a decision, as text.
 fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {

@@ -1,14 +1,12 @@
 //! What holds on every day under any decisions.
 
-mod common;
-
 use std::sync::Arc;
 
 use proptest::prelude::{any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_core::{AircraftIx, Matrix, Scenario, VertiportIx};
 use vertifleet_sim::{Refusal, Simulation, TraceRow};
 
-use common::extended::extended_day;
+use vertifleet_testkit::extended_day;
 
 /// Plays a day; each draw picks among the feasible vertiports, round and round. `each` sees every step.
 fn play(
@@ -86,20 +84,20 @@ proptest! {
     #[test]
     fn the_ledger_adds_up(day in extended_day(), draws in draws()) {
         let (simulation, rows) = play(&day, &draws, |_, _| ());
-        let summary = simulation.summary();
+        let summary = simulation.totals();
         let sum = |part: fn(&TraceRow) -> f64| rows.iter().map(part).sum::<f64>();
-        prop_assert_eq!(summary.revenue, sum(|row| row.revenue_usd));
-        prop_assert_eq!(summary.passenger_cost, sum(|row| row.passenger_cost_usd));
-        prop_assert_eq!(summary.energy_cost, sum(|row| row.energy_cost_usd));
+        prop_assert_eq!(summary.revenue_usd, sum(|row| row.revenue_usd));
+        prop_assert_eq!(summary.passenger_cost_usd, sum(|row| row.passenger_cost_usd));
+        prop_assert_eq!(summary.energy_cost_usd, sum(|row| row.energy_cost_usd));
         prop_assert_eq!(summary.energy_kwh, sum(|row| row.energy_kwh));
-        prop_assert_eq!(summary.flight_cost, sum(|row| row.flight_cost_usd));
+        prop_assert_eq!(summary.flight_cost_usd, sum(|row| row.flight_cost_usd));
         let flown = rows.iter().filter(|row| row.from != row.to);
         let due: f64 = flown.map(|row| day.flight_cost_usd[(row.from, row.to)]).sum();
-        prop_assert_eq!(summary.flight_cost, due);
+        prop_assert_eq!(summary.flight_cost_usd, due);
         let fleet_cost = day.aircraft_cost_usd * day.aircraft.len() as f64;
-        prop_assert_eq!(summary.aircraft_cost, fleet_cost);
-        let earned = summary.revenue - summary.passenger_cost - summary.energy_cost;
-        prop_assert_eq!(summary.profit, earned - summary.flight_cost - fleet_cost);
+        prop_assert_eq!(summary.aircraft_cost_usd, fleet_cost);
+        let earned = summary.revenue_usd - summary.passenger_cost_usd - summary.energy_cost_usd;
+        prop_assert_eq!(summary.profit_usd, earned - summary.flight_cost_usd - fleet_cost);
         let flights = rows.iter().filter(|row| row.from != row.to).count();
         prop_assert_eq!(summary.flights as usize, flights);
         prop_assert_eq!(summary.decisions as usize, rows.len());
@@ -116,7 +114,7 @@ proptest! {
         if simulation.potential_usd() > 0.0 {
             let flights: f64 = rows.iter().map(TraceRow::profit_usd).sum();
             let dense = (flights - day.fleet_cost_usd()) / simulation.potential_usd();
-            prop_assert!((dense - simulation.summary().reward).abs() < 1e-9);
+            prop_assert!((dense - simulation.totals().reward).abs() < 1e-9);
         }
     }
 

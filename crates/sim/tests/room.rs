@@ -1,14 +1,12 @@
 //! Imagining the rest of a day takes memory the first time only.
 
-mod common;
-
 use std::sync::Arc;
 
 use allocation_counter::measure;
 use proptest::prelude::{ProptestConfig, any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_sim::{Imagined, Simulation};
 
-use common::extended::extended_day;
+use vertifleet_testkit::extended_day;
 
 /// Plays a course to its end, each aircraft going to a vertiport of its mask.
 fn play_on(imagined: &mut Imagined) -> f64 {

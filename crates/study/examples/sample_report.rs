@@ -17,7 +17,7 @@ fn main() -> ExitCode {
     let study = made_up::study(100);
     match vertifleet_study::report::write(&study, Path::new(&folder), false) {
         Ok(paths) => {
-            println!("{}", paths.report.display());
+            println!("{}", paths.page.display());
             ExitCode::SUCCESS
         }
         Err(error) => {

@@ -1,5 +1,7 @@
 //! What every figure promises: it is well-formed, its texts are inside, it makes a PNG, and it says what is what.
 
+use vertifleet_sim::DayTotals;
+
 use resvg::usvg::roxmltree::Document;
 
 use super::{Figure, all, png, style_sheet};
@@ -21,7 +23,7 @@ fn bounded(names: &[&str], days: u32) -> ComparisonReport {
     let mut study = study(names, days);
     study.bound_step_s = Some(180);
     for day in study.policies.iter_mut().flat_map(|policy| &mut policy.days) {
-        day.upper_bound_usd = Some(3_500.0 + day.profit_usd / 10.0);
+        day.upper_bound_usd = Some(3_500.0 + day.totals.profit_usd / 10.0);
     }
     ComparisonReport::of(&study).expect("a sound study")
 }
@@ -66,25 +68,26 @@ fn record(policy: u32, day: u32) -> DayRecord {
     let odd = if day == 2 { 900.0 } else { 0.0 };
     let profit_usd = 1_000.0 + f64::from(100 * policy + 10 * (day * 7 % 5)) + odd;
     DayRecord {
-        policy: policy as usize,
         day: format!("day-{day}"),
         seed: u64::from(day),
-        profit_usd,
-        revenue_usd: 3_000.0,
-        passenger_cost_usd: 1_500.0,
-        energy_cost_usd: 100.0,
-        flight_cost_usd: 0.0,
-        aircraft_cost_usd: 0.0,
-        energy_kwh: 500.0,
-        potential_usd: 10_000.0,
-        reward: profit_usd / 10_000.0,
-        flights: 30,
-        repositioning_flights: 2,
-        holds: 5,
-        decisions: 35,
-        passengers: 100,
-        spilled_passengers: 10,
-        load_factor: 0.8,
+        totals: DayTotals {
+            profit_usd,
+            revenue_usd: 3_000.0,
+            passenger_cost_usd: 1_500.0,
+            energy_cost_usd: 100.0,
+            flight_cost_usd: 0.0,
+            aircraft_cost_usd: 0.0,
+            energy_kwh: 500.0,
+            potential_usd: 10_000.0,
+            reward: profit_usd / 10_000.0,
+            flights: 30,
+            repositioning_flights: 2,
+            holds: 5,
+            decisions: 35,
+            passengers: 100,
+            spilled_passengers: 10,
+            load_factor: 0.8,
+        },
         upper_bound_usd: None,
     }
 }

@@ -6,21 +6,71 @@
 mod headline;
 mod networks_csv;
 mod page;
-mod report;
+mod summary;
 mod table;
 
-use serde::Serialize;
+use std::sync::Arc;
 
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, Stop, random_network};
+use vertifleet_optimize::Step;
+
+use crate::competitor::Selection;
 use crate::error::Error;
-use crate::record::{DayRecord, PolicyRecord};
-use crate::statistics::{Estimate, PairedTest};
-use crate::summary;
+use crate::figure;
+use crate::record::PolicyRecord;
+use crate::report::{File, Records, pictures};
+use crate::study::{Study, Watch};
 
-pub use report::{Written, write};
-pub use table::text;
+pub use summary::{FORMAT, GeneralisationReport, NetworkShare, Outcome, PolicyShare};
 
-/// Name and version of the format of `summary.json`.
-pub const FORMAT: &str = "vertifleet-generalisation/1";
+/// Random networks with a day of each, and the competitors that will play them; everything that can be found wrong beforehand has
+/// been looked for.
+pub struct Generalisation {
+    study: Study,
+    step: Step,
+}
+
+impl Generalisation {
+    /// The first so many random networks, each with the day that has its number.
+    ///
+    /// # Errors
+    /// If there is no such policy, two policies have one name, or a policy cannot play networks of any size.
+    pub fn new(selection: &Selection<'_>, networks: u32, step: Step) -> Result<Self, Error> {
+        let competitors = selection.resolve("random")?;
+        let draw = |number| {
+            let network = random_network(Purpose::Comparison, number);
+            Ok(Arc::new(network.draw(DaySeed::comparison(number)?)))
+        };
+        let scenarios = (0..u64::from(networks)).map(draw).collect::<Result<_, Error>>()?;
+        Ok(Self { study: Study::new(competitors, scenarios, Some(step))?, step })
+    }
+
+    /// The days that will be played.
+    pub fn days(&self) -> impl Iterator<Item = &Scenario> {
+        self.study.days()
+    }
+
+    /// Bounds all days and plays them with every policy; `command` is what the study says it was made with.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] soon after `stop` is raised; else if a day is too large for its bound, or a policy cannot play
+    /// one to its end.
+    pub fn run(
+        self,
+        command: String,
+        stop: &Stop,
+        watch: &impl Watch,
+    ) -> Result<GeneralisationRecords, Error> {
+        let policies = self.study.play(stop, watch)?;
+        let network = |day: &Scenario| NetworkRecord {
+            name: Network::random_name(day.seed),
+            vertiports: day.vertiports.len(),
+            aircraft: day.aircraft.len(),
+        };
+        let networks = self.study.days().map(network).collect();
+        Ok(GeneralisationRecords { bound_step_s: self.step.seconds(), command, networks, policies })
+    }
+}
 
 /// What playing a day each of many networks leaves behind.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,146 +97,24 @@ pub struct NetworkRecord {
     pub aircraft: usize,
 }
 
-/// A study in numbers: what `summary.json` and `--json` hold, and what table, figure and page show.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct GeneralisationReport {
-    /// Always [`FORMAT`].
-    pub format: &'static str,
-    /// Version of the program.
-    pub program_version: &'static str,
-    /// Command that made the study.
-    pub command: String,
-    /// Length of the bounds' steps, in seconds.
-    pub bound_step_s: u32,
-    /// Every policy, in the order in which they were named.
-    pub policies: Vec<PolicyShare>,
-    /// Every network.
-    pub networks: Vec<NetworkShare>,
-}
-
-/// One policy over all networks.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PolicyShare {
-    /// Name as the user gave it.
-    pub name: String,
-    /// What the policy does.
-    pub description: String,
-    /// Whether the days were planned with the whole day known: a reference, no policy.
-    pub knows_the_day: bool,
-    /// Profit as a share of the day's upper bound.
-    pub bound_share: Estimate,
-    /// The same on the network where it is lowest.
-    pub lowest_bound_share: f64,
-    /// Paired t-test of the share, this policy minus the first; none for the first itself.
-    pub minus_first: Option<PairedTest>,
-}
-
-/// One network with what every policy earns on its day.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct NetworkShare {
-    /// Name by which every command finds it.
-    pub network: String,
-    /// Seed of its day.
-    pub seed: u64,
-    /// Number of vertiports.
-    pub vertiports: usize,
-    /// Aircraft of all types together.
-    pub aircraft: usize,
-    /// What no schedule of the day earns more than, in dollars.
-    pub upper_bound_usd: f64,
-    /// Every policy's result, in the order of the policies.
-    pub results: Vec<Outcome>,
-}
-
-/// What a policy earns on the day of a network.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Outcome {
-    /// The policy's name.
-    pub policy: String,
-    /// Profit, in dollars.
-    pub profit_usd: f64,
-    /// Profit as a share of the day's upper bound.
-    pub bound_share: f64,
-}
-
-impl GeneralisationReport {
-    /// Sums a study up.
-    ///
-    /// # Errors
-    /// [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies on the same days.
-    ///
-    /// # Panics
-    /// If a day has no upper bound.
-    pub fn of(study: &GeneralisationRecords) -> Result<Self, Error> {
-        summary::check(&study.policies, study.networks.len())?;
-        let shares: Vec<Vec<f64>> =
-            study.policies.iter().map(|policy| policy.days.iter().map(share).collect()).collect();
-        let policies = study.policies.iter().zip(&shares).enumerate();
-        let policies = policies.map(|(position, (policy, own))| PolicyShare {
-            name: policy.name.clone(),
-            description: policy.description.clone(),
-            knows_the_day: policy.decision_ns.is_none(),
-            bound_share: Estimate::of(own),
-            lowest_bound_share: own.iter().copied().fold(f64::INFINITY, f64::min),
-            minus_first: (position > 0).then(|| PairedTest::of(own, &shares[0])),
-        });
-        let network = |(position, record): (usize, &NetworkRecord)| {
-            let day = &study.policies[0].days[position];
-            let outcome = |policy: &PolicyRecord| Outcome {
-                policy: policy.name.clone(),
-                profit_usd: policy.days[position].profit_usd,
-                bound_share: share(&policy.days[position]),
-            };
-            NetworkShare {
-                network: record.name.clone(),
-                seed: day.seed,
-                vertiports: record.vertiports,
-                aircraft: record.aircraft,
-                upper_bound_usd: bound_usd(day),
-                results: study.policies.iter().map(outcome).collect(),
-            }
-        };
-        Ok(Self {
-            format: FORMAT,
-            program_version: env!("CARGO_PKG_VERSION"),
-            command: study.command.clone(),
-            bound_step_s: study.bound_step_s,
-            policies: policies.collect(),
-            networks: study.networks.iter().enumerate().map(network).collect(),
-        })
+impl Records for GeneralisationRecords {
+    fn text(&self) -> Result<String, Error> {
+        Ok(table::text(&GeneralisationReport::of(self)?))
     }
 
-    /// The summary as `summary.json` and `--json` have it: indented.
-    ///
-    /// # Panics
-    /// Never: numbers and texts can always be written.
-    pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
+    fn json(&self) -> Result<String, Error> {
+        Ok(GeneralisationReport::of(self)?.to_json())
     }
 
-    /// The policy that the others are measured against.
-    pub(crate) fn first(&self) -> &PolicyShare {
-        self.policies.first().expect("a summary has at least one policy")
+    fn files(&self) -> Result<Vec<File>, Error> {
+        let summary = GeneralisationReport::of(self)?;
+        let figures = [figure::share_by_size(&summary)];
+        let mut files = pictures(&figures);
+        files.extend([
+            ("networks.csv".to_owned(), networks_csv::text(&summary).into_bytes()),
+            ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
+            ("report.html".to_owned(), page::text(&summary, &figures).into_bytes()),
+        ]);
+        Ok(files)
     }
-
-    /// The policy with the highest mean share. A plan is no policy, unless there is nothing else.
-    pub(crate) fn best_position(&self) -> usize {
-        let rank =
-            |at: usize| (!self.policies[at].knows_the_day, self.policies[at].bound_share.mean);
-        (1..self.policies.len()).fold(0, |best, at| if rank(at) > rank(best) { at } else { best })
-    }
-
-    /// Smallest and largest of a size of the networks.
-    pub(crate) fn range(&self, size: fn(&NetworkShare) -> usize) -> (usize, usize) {
-        let sizes = || self.networks.iter().map(size);
-        (sizes().min().unwrap_or(0), sizes().max().unwrap_or(0))
-    }
-}
-
-fn share(day: &DayRecord) -> f64 {
-    day.bound_share().expect("every day of many networks has its bound")
-}
-
-fn bound_usd(day: &DayRecord) -> f64 {
-    day.upper_bound_usd.expect("every day of many networks has its bound")
 }

@@ -63,34 +63,20 @@ fn slower(one: Option<LatencySummary>, other: Option<LatencySummary>) -> Option<
 
 #[cfg(test)]
 mod tests {
-
     use vertifleet_core::{Coded, Network, Stop};
 
-    use crate::comparison::{Comparison, Watch};
-    use crate::entrants::Asked;
+    use crate::comparison::Comparison;
+    use crate::competitor::Selection;
     use crate::record::{ComparisonRecords, DayRecord};
-
-    struct Unwatched;
-
-    impl Watch for Unwatched {
-        type Bar = fn();
-
-        fn bounds(&self, _days: usize) -> fn() {
-            || ()
-        }
-
-        fn policy(&self, _name: &str, _position: usize, _policies: usize, _days: usize) -> fn() {
-            || ()
-        }
-    }
+    use crate::study::Unwatched;
 
     fn study(policies: &[&str], seed: u64, days: u32) -> ComparisonRecords {
         let network = Network::shipped("paper").expect("a shipped network");
         let policies: Vec<String> = policies.iter().map(|&name| name.to_owned()).collect();
-        let asked = Asked { policies: &policies, models: &[], seed: 0, network: "paper" };
+        let selection = Selection { policies: &policies, models: &[], seed: 0 };
         let never = Stop::default();
         let comparison =
-            Comparison::new(&network, &asked, (seed, days), None, &never).expect("days");
+            Comparison::new(&network, &selection, seed, days, None, &never).expect("days");
         comparison.run(String::new(), &never, &Unwatched).expect("played days")
     }
 

@@ -1,46 +1,35 @@
 //! Many policies on many days: statistics, figures, report.
 //!
-//! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`policies`] and [`entrants`] know which policy a name means,
-//! [`comparison`] goes from what is asked for to its records, [`run`] plays the days, and [`record`] holds what they leave behind.
-//! [`ComparisonReport`] turns that into statistics, and [`table`], [`figure`] and [`report`] present them; [`generalisation`] does the same
-//! for a day each of many networks. Presentation computes nothing, and statistics know nothing of pages.
+//! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`PolicySpec`] knows what the name of a policy means, [`competitor`]
+//! which policies a study has. There are two studies, [`comparison`] of policies on the days of one network, and [`generalisation`]
+//! over a day each of many networks: both go from what is asked for to records, have [`run`] play the days, and are shown by
+//! [`report`]. [`ComparisonReport`] turns records into statistics. Presentation computes nothing, and statistics know nothing of
+//! pages.
 //!
 //! ```
 //! use vertifleet_core::{Network, Stop};
-//! use vertifleet_study::comparison::{Comparison, Watch};
-//! use vertifleet_study::entrants::Asked;
-//! use vertifleet_study::{ComparisonReport, table};
-//!
-//! /// Watches nothing.
-//! struct Unwatched;
-//!
-//! impl Watch for Unwatched {
-//!     type Bar = fn();
-//!     fn bounds(&self, _: usize) -> fn() {
-//!         || ()
-//!     }
-//!     fn policy(&self, _: &str, _: usize, _: usize, _: usize) -> fn() {
-//!         || ()
-//!     }
-//! }
+//! use vertifleet_study::comparison::Comparison;
+//! use vertifleet_study::competitor::Selection;
+//! use vertifleet_study::report::Records;
+//! use vertifleet_study::{ComparisonReport, Unwatched};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let network = Network::find("paper")?;
 //! let names = ["greedy".to_owned(), "random".to_owned()];
-//! let asked = Asked { policies: &names, models: &[], seed: 1, network: network.name() };
+//! let selection = Selection { policies: &names, models: &[], seed: 1 };
 //! let stop = Stop::default();
-//! let comparison = Comparison::new(&network, &asked, (1, 5), None, &stop)?;
+//! let comparison = Comparison::new(&network, &selection, 1, 5, None, &stop)?;
 //! let records = comparison.run("an example".to_owned(), &stop, &Unwatched)?;
 //! let report = ComparisonReport::of(&records)?;
 //! assert_eq!(report.best().name, "greedy");
-//! println!("{}", table::text(&report));
+//! println!("{}", records.text()?);
 //! # Ok(())
 //! # }
 //! ```
 
 pub mod comparison;
+pub mod competitor;
 mod days_csv;
-pub mod entrants;
 mod error;
 pub mod figure;
 pub mod generalisation;
@@ -51,20 +40,25 @@ mod numbers;
 mod origin;
 mod own_days;
 mod page;
-pub mod policies;
+mod policy_spec;
 pub mod published;
 pub mod record;
 pub mod report;
+mod resolved_policy;
 pub mod run;
 pub mod statistics;
+mod study;
 pub mod summary;
-pub mod table;
+mod table;
 
 pub use error::Error;
 pub use kept_bounds::KeptBounds;
 pub use origin::NetworkOrigin;
 pub use own_days::OwnDays;
+pub use policy_spec::{PolicyFactory, PolicySource, PolicySpec, ResolveFor};
 pub use record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
 };
+pub use resolved_policy::{ResolvedPolicy, starting_policies};
+pub use study::{Unwatched, Watch};
 pub use summary::ComparisonReport;

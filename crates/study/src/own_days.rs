@@ -13,7 +13,7 @@ use vertifleet_core::Scenario;
 
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
-use crate::policies::network_of;
+use crate::policy_spec::network_of;
 
 /// Days of one's own that go together.
 #[derive(Debug, Clone)]

@@ -4,52 +4,20 @@
 //! simulation. Days stand in the same order for every policy: that is what makes the tests paired.
 
 use serde::{Deserialize, Serialize};
+use vertifleet_sim::DayTotals;
 
 use crate::origin::NetworkOrigin;
 
 /// One policy's result on one day.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DayRecord {
-    /// Position of the policy in [`ComparisonRecords::policies`].
-    pub policy: usize,
     /// Name of the day's scenario.
     pub day: String,
     /// Seed that the day was drawn from.
     pub seed: u64,
-    /// Revenue less all costs (Eq. 5), in dollars.
-    pub profit_usd: f64,
-    /// Fares paid (Eq. 4), in dollars.
-    pub revenue_usd: f64,
-    /// Operating cost (Eq. 2), in dollars.
-    pub passenger_cost_usd: f64,
-    /// Cost of charging (Eq. 3), in dollars.
-    pub energy_cost_usd: f64,
-    /// What flights cost with or without passengers, beside their energy, in dollars.
-    #[serde(default)]
-    pub flight_cost_usd: f64,
-    /// What the fleet costs whatever it does, in dollars.
-    #[serde(default)]
-    pub aircraft_cost_usd: f64,
-    /// Energy charged, in kWh.
-    pub energy_kwh: f64,
-    /// Revenue if every passenger of the day flew: the denominator of the reward, in dollars.
-    pub potential_usd: f64,
-    /// Episode reward (§III.H): profit over potential revenue.
-    pub reward: f64,
-    /// Flights, with and without passengers.
-    pub flights: u32,
-    /// Flights without passengers.
-    pub repositioning_flights: u32,
-    /// Decisions to stay and ask again later.
-    pub holds: u32,
-    /// Decisions: flights and holds.
-    pub decisions: u32,
-    /// Passengers flown.
-    pub passengers: u64,
-    /// Passengers of the day's demand that did not fly.
-    pub spilled_passengers: u64,
-    /// Passenger-miles over seat-miles, 0 to 1.
-    pub load_factor: f64,
+    /// The day's numbers.
+    #[serde(flatten)]
+    pub totals: DayTotals,
     /// What no schedule of the day earns more than, in dollars, where that was asked for.
     pub upper_bound_usd: Option<f64>,
 }
@@ -60,10 +28,10 @@ impl DayRecord {
     pub fn bound_share(&self) -> Option<f64> {
         self.upper_bound_usd.map(|bound_usd| {
             if bound_usd > 0.0 {
-                self.profit_usd / bound_usd
-            } else if self.profit_usd < 0.0 {
+                self.totals.profit_usd / bound_usd
+            } else if self.totals.profit_usd < 0.0 {
                 // Not -0 where the bound is 0.
-                (0.0 - bound_usd) / -self.profit_usd
+                (0.0 - bound_usd) / -self.totals.profit_usd
             } else {
                 1.0
             }
@@ -131,7 +99,7 @@ pub struct ComparisonRecords {
     pub bound_step_s: Option<u32>,
     /// Command that made the study, as it would be typed.
     pub command: String,
-    /// Every policy's record, no two of the same name: [`Contenders`](crate::run::Contenders) sees to that.
+    /// Every policy's record, no two of the same name: [`Selection`](crate::competitor::Selection) sees to that.
     pub policies: Vec<PolicyRecord>,
     /// Learning curves on the training days of those policies that have one; may be empty.
     pub curves: Vec<LearningCurve>,

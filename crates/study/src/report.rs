@@ -1,4 +1,4 @@
-//! Writes a comparison to a folder: page, figures, table of days, numbers for machines. The folder is replaced as a whole, so
+//! How studies are shown: as text, as JSON, and as a folder with a page, figures and tables. The folder is replaced as a whole, so
 //! that a page never stands beside figures of another run.
 
 use std::fs;
@@ -10,19 +10,37 @@ use crate::error::Error;
 use crate::figure::Figure;
 use crate::record::ComparisonRecords;
 use crate::summary::ComparisonReport;
-use crate::{days_csv, figure, page};
+use crate::{days_csv, figure, page, table};
 
-/// Where everything was written.
+/// A file of a report: its name and what it holds.
+pub type File = (String, Vec<u8>);
+
+/// What a study leaves behind, which can be shown.
+pub trait Records {
+    /// The study as a table for a terminal. No line end after the last line.
+    ///
+    /// # Errors
+    /// [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies on the same days.
+    fn text(&self) -> Result<String, Error>;
+
+    /// Its numbers for machines.
+    ///
+    /// # Errors
+    /// As [`text`](Self::text).
+    fn json(&self) -> Result<String, Error>;
+
+    /// The files of its report, of which `report.html` is the page.
+    ///
+    /// # Errors
+    /// As [`text`](Self::text).
+    fn files(&self) -> Result<Vec<File>, Error>;
+}
+
+/// Where a report was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Paths {
+pub struct Written {
     /// The page.
-    pub report: PathBuf,
-    /// Every policy's every day.
-    pub days: PathBuf,
-    /// All numbers of the page.
-    pub summary: PathBuf,
-    /// The figures, each as SVG and as PNG.
-    pub figures: Vec<PathBuf>,
+    pub page: PathBuf,
     /// Where a folder is kept that was there before and held something else.
     pub kept: Option<PathBuf>,
 }
@@ -73,40 +91,38 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
 /// is replaced, and what else may be there is kept beside it, which takes `force`.
 ///
 /// # Errors
-/// As [`check_folder`]; [`Error::Core`] (V102) where it cannot be written, or any error of [`ComparisonReport::of`]. Everything is as it was
-/// then.
-pub fn write(study: &ComparisonRecords, folder: &Path, force: bool) -> Result<Paths, Error> {
-    let summary = ComparisonReport::of(study)?;
-    let figures = figure::all(&summary);
-    let mut files = pictures(&figures);
-    let drawn: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
-    files.extend([
-        ("days.csv".to_owned(), days_csv::text(study).into_bytes()),
-        ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
-        ("report.html".to_owned(), page::text(&summary, &figures).into_bytes()),
-    ]);
-    let kept = replace(folder, force, &files)?;
-    Ok(Paths {
-        report: folder.join("report.html"),
-        days: folder.join("days.csv"),
-        summary: folder.join("summary.json"),
-        figures: drawn,
-        kept,
-    })
+/// As [`check_folder`]; [`Error::Core`] (V102) where it cannot be written, or as [`Records::text`]. Everything is as it was then.
+pub fn write(study: &impl Records, folder: &Path, force: bool) -> Result<Written, Error> {
+    let files = study.files()?;
+    check_folder(folder, force)?;
+    let kept = replace_folder(folder, &FOLDER, force, &files)?;
+    Ok(Written { page: folder.join("report.html"), kept })
 }
 
-/// Puts a folder with these files in place of this one.
-pub(crate) fn replace(
-    folder: &Path,
-    force: bool,
-    files: &[(String, Vec<u8>)],
-) -> Result<Option<PathBuf>, Error> {
-    check_folder(folder, force)?;
-    Ok(replace_folder(folder, &FOLDER, force, files)?)
+impl Records for ComparisonRecords {
+    fn text(&self) -> Result<String, Error> {
+        Ok(table::text(&ComparisonReport::of(self)?))
+    }
+
+    fn json(&self) -> Result<String, Error> {
+        Ok(ComparisonReport::of(self)?.to_json())
+    }
+
+    fn files(&self) -> Result<Vec<File>, Error> {
+        let summary = ComparisonReport::of(self)?;
+        let figures = figure::all(&summary);
+        let mut files = pictures(&figures);
+        files.extend([
+            ("days.csv".to_owned(), days_csv::text(self).into_bytes()),
+            ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
+            ("report.html".to_owned(), page::text(&summary, &figures).into_bytes()),
+        ]);
+        Ok(files)
+    }
 }
 
 /// The figures, each as SVG and as PNG, by the names of their files.
-pub(crate) fn pictures(figures: &[Figure]) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn pictures(figures: &[Figure]) -> Vec<File> {
     let both = |figure: &Figure| {
         [
             (format!("{}.svg", figure.slug), figure.svg.clone().into_bytes()),

@@ -9,10 +9,12 @@ use std::time::Instant;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use vertifleet_core::{Scenario, Stop, VertiportIx};
 use vertifleet_policy::{Policy, PolicyError, Replay, Stoppable, play};
-use vertifleet_sim::{Decision, Simulation, Trace, View};
+use vertifleet_sim::{Decision, Simulation, View};
 
+use crate::competitor::{Competitor, Kind, Planner};
 use crate::error::Error;
 use crate::record::{DayRecord, LatencySummary, PolicyRecord};
+use crate::resolved_policy::ResolvedPolicy;
 
 /// A day of a comparison.
 pub struct BoundedDay {
@@ -29,143 +31,85 @@ impl BoundedDay {
     }
 }
 
-/// Who takes part: its name and how it comes to its decisions.
-pub struct Contender<'a> {
-    /// Name as the user gave it.
-    pub name: String,
-    /// What it does, in one short sentence.
-    pub description: String,
-    /// How it comes to its decisions.
-    pub way: Way<'a>,
-}
-
-/// How a contender comes to its decisions.
-pub enum Way<'a> {
-    /// A policy, made anew for each thread, decides while the day goes on.
-    Online(Box<dyn Fn() -> Box<dyn Policy> + Sync + 'a>),
-    /// The planner plans the day, knowing all of it: a reference for policies, which do not.
-    Offline(Planner<'a>),
-}
-
-/// The whole schedule of a day that is known; some schedule soon once the flag is raised.
-pub type Planner<'a> = Box<dyn Fn(&Arc<Scenario>, &Stop) -> Trace + Sync + 'a>;
-
-/// Those who take part, no two of the same name: everything after this tells them apart by it.
-pub struct Contenders<'a>(Vec<Contender<'a>>);
-
-impl<'a> Contenders<'a> {
-    /// These policies, in this order.
-    ///
-    /// # Errors
-    /// [`Error::DuplicatePolicy`] if two have the same name.
-    pub fn new(contenders: Vec<Contender<'a>>) -> Result<Self, Error> {
-        for (position, Contender { name, .. }) in contenders.iter().enumerate() {
-            if contenders[..position].iter().any(|other| other.name == *name) {
-                return Err(Error::DuplicatePolicy { name: name.clone() });
-            }
-        }
-        Ok(Self(contenders))
-    }
-}
-
-/// Plays all days with every contender, one contender after the other. `begin` is given the name of the one that begins, and
-/// gives what is called after each of its days, from any thread.
+/// Plays all days with every competitor, one after the other. `begin` is given the name of the one that begins, and gives what is
+/// called after each of its days, from any thread.
 ///
 /// # Errors
 /// [`Error::Stuck`] if a policy cannot play a day to its end; [`Error::Stopped`] soon after `stop` is raised.
 pub fn run<Played: Fn() + Sync>(
     days: &[BoundedDay],
-    contenders: &Contenders<'_>,
+    competitors: &[Competitor],
     stop: &Stop,
     mut begin: impl FnMut(&str) -> Played,
 ) -> Result<Vec<PolicyRecord>, Error> {
-    let mut play = |(position, contender): (usize, &Contender<'_>)| {
-        play_days(position, contender, (days, stop), &begin(&contender.name))
+    let mut play = |competitor: &Competitor| {
+        let played = begin(&competitor.name);
+        let (days, decision_ns) = match &competitor.kind {
+            Kind::Policy(policy) => {
+                let (days, time) = play_policy(&competitor.name, policy, days, stop, &played)?;
+                (days, Some(time))
+            }
+            Kind::Planner(planner) => {
+                (play_plans(&competitor.name, planner, days, stop, &played)?, None)
+            }
+        };
+        let (name, description) = (competitor.name.clone(), competitor.description());
+        Ok(PolicyRecord { name, description, days, decision_ns })
     };
-    contenders.0.iter().enumerate().map(&mut play).collect()
+    competitors.iter().map(&mut play).collect()
 }
 
-fn play_days(
-    position: usize,
-    contender: &Contender<'_>,
-    (days, stop): (&[BoundedDay], &Stop),
+/// Plays all days with a policy that decides while they go on, one policy a thread, and times its decisions.
+fn play_policy(
+    name: &str,
+    policy: &ResolvedPolicy,
+    days: &[BoundedDay],
+    stop: &Stop,
     played: &(impl Fn() + Sync),
-) -> Result<PolicyRecord, Error> {
-    let (records, decision_ns) = match &contender.way {
-        Way::Online(make) => {
-            let results: Vec<(DayRecord, Vec<u64>)> = days
-                .par_iter()
-                .map_init(make, |policy, day| {
-                    let policy = Stoppable { policy: policy.as_mut(), stop };
-                    let mut timed = Timed { policy, nanoseconds: Vec::new() };
-                    let record = play_day(position, contender, &mut timed, day)?;
-                    played();
-                    Ok((record, timed.nanoseconds))
-                })
-                .collect::<Result<_, Error>>()?;
-            let (records, nanoseconds): (Vec<DayRecord>, Vec<Vec<u64>>) =
-                results.into_iter().unzip();
-            (records, Some(latency(nanoseconds.concat())))
-        }
-        Way::Offline(plan) => {
-            let records = days
-                .par_iter()
-                .map(|day| {
-                    let mut planned = Replay::new(Arc::new(plan(&day.scenario, stop)));
-                    if stop.is_requested() {
-                        return Err(Error::Stopped);
-                    }
-                    let record = play_day(position, contender, &mut planned, day)?;
-                    played();
-                    Ok(record)
-                })
-                .collect::<Result<_, Error>>()?;
-            (records, None)
-        }
+) -> Result<(Vec<DayRecord>, LatencySummary), Error> {
+    let play = |policy: &mut Box<dyn Policy>, day: &BoundedDay| {
+        let policy = Stoppable { policy: policy.as_mut(), stop };
+        let mut timed = Timed { policy, nanoseconds: Vec::new() };
+        let record = play_day(name, &mut timed, day)?;
+        played();
+        Ok((record, timed.nanoseconds))
     };
-    Ok(PolicyRecord {
-        name: contender.name.clone(),
-        description: contender.description.clone(),
-        days: records,
-        decision_ns,
-    })
+    let results: Vec<(DayRecord, Vec<u64>)> =
+        days.par_iter().map_init(|| policy.build(), play).collect::<Result<_, Error>>()?;
+    let (records, nanoseconds): (Vec<DayRecord>, Vec<Vec<u64>>) = results.into_iter().unzip();
+    Ok((records, latency(nanoseconds.concat())))
 }
 
-fn play_day(
-    position: usize,
-    contender: &Contender<'_>,
-    policy: &mut dyn Policy,
-    day: &BoundedDay,
-) -> Result<DayRecord, Error> {
+/// Plans all days, each with all of it known, and plays what was planned.
+fn play_plans(
+    name: &str,
+    planner: &Planner,
+    days: &[BoundedDay],
+    stop: &Stop,
+    played: &(impl Fn() + Sync),
+) -> Result<Vec<DayRecord>, Error> {
+    let play = |day: &BoundedDay| {
+        let mut replay = Replay::new(Arc::new(planner.plan(&day.scenario, stop)));
+        if stop.is_requested() {
+            return Err(Error::Stopped);
+        }
+        let record = play_day(name, &mut replay, day)?;
+        played();
+        Ok(record)
+    };
+    days.par_iter().map(play).collect()
+}
+
+fn play_day(name: &str, policy: &mut dyn Policy, day: &BoundedDay) -> Result<DayRecord, Error> {
     let mut simulation = Simulation::new(Arc::clone(&day.scenario));
     play(&mut simulation, policy, |_| ())
-        .map_err(|cause| Error::of_play(&contender.name, &day.scenario.name, cause))?;
-    Ok(record(position, day, &simulation.summary()))
-}
-
-fn record(policy: usize, day: &BoundedDay, summary: &vertifleet_sim::DayTotals) -> DayRecord {
-    DayRecord {
-        policy,
+        .map_err(|cause| Error::of_play(name, &day.scenario.name, cause))?;
+    Ok(DayRecord {
         day: day.scenario.name.clone(),
         seed: day.scenario.seed,
-        profit_usd: summary.profit,
-        revenue_usd: summary.revenue,
-        passenger_cost_usd: summary.passenger_cost,
-        energy_cost_usd: summary.energy_cost,
-        flight_cost_usd: summary.flight_cost,
-        aircraft_cost_usd: summary.aircraft_cost,
-        energy_kwh: summary.energy_kwh,
-        potential_usd: summary.potential,
-        reward: summary.reward,
-        flights: summary.flights,
-        repositioning_flights: summary.repositioning_flights,
-        holds: summary.holds,
-        decisions: summary.decisions,
-        passengers: summary.passengers,
-        spilled_passengers: summary.spilled_passengers,
-        load_factor: summary.load_factor,
+        totals: simulation.totals(),
         upper_bound_usd: day.upper_bound_usd,
-    }
+    })
 }
 
 /// A policy whose every choice is timed, one by one as a dispatcher would ask, until it is stopped.
@@ -198,49 +142,21 @@ mod tests {
     use std::sync::Arc;
 
     use vertifleet_core::{Coded, DaySeed, Network, Stop};
-    use vertifleet_policy::{Greedy, Random, play};
-    use vertifleet_sim::{Simulation, Trace};
 
-    use super::{
-        BoundedDay, Contender, Contenders, LatencySummary, PolicyRecord, Way, latency, run,
-    };
+    use super::{BoundedDay, LatencySummary, PolicyRecord, latency, run};
+    use crate::competitor::{Competitor, Kind, Planner};
+    use crate::resolved_policy::ResolvedPolicy;
     use crate::summary::ComparisonReport;
     use crate::{ComparisonRecords, DayRecord, NetworkOrigin};
 
-    fn greedy(name: &str) -> Contender<'static> {
-        Contender {
-            name: name.to_owned(),
-            description: String::new(),
-            way: Way::Online(Box::new(|| Box::new(Greedy))),
-        }
-    }
-
-    fn contenders() -> Contenders<'static> {
-        let random = Contender {
-            name: "random".to_owned(),
-            description: String::new(),
-            way: Way::Online(Box::new(|| Box::new(Random::new(7)))),
-        };
-        // Knows no more than greedy does, but that is no matter here.
-        let plan = Contender {
-            name: "plan".to_owned(),
-            description: String::new(),
-            way: Way::Offline(Box::new(|day, _| {
-                let mut trace = Trace::default();
-                let mut simulation = Simulation::new(Arc::clone(day));
-                play(&mut simulation, &mut Greedy, |row| trace.rows.push(*row)).expect("a day");
-                trace
-            })),
-        };
-        Contenders::new(vec![random, plan, greedy("greedy")]).expect("different names")
-    }
-
-    #[test]
-    fn a_name_that_comes_twice_is_refused_before_any_day_is_played() {
-        let repeated = vec![greedy("one"), greedy("two"), greedy("one")];
-        let error = Contenders::new(repeated).err().expect("a name that comes twice");
-        assert_eq!(error.code().to_string(), "V404");
-        assert!(error.to_string().contains("\"one\""), "{error}");
+    fn competitors() -> Vec<Competitor> {
+        let kinds = [
+            ("random", Kind::Policy(ResolvedPolicy::Random(7))),
+            // Too few steps to find more than it begins with, but that is no matter here.
+            ("plan", Kind::Planner(Planner { paper_steps: 1, seed: 7 })),
+            ("greedy", Kind::Policy(ResolvedPolicy::Greedy)),
+        ];
+        kinds.map(|(name, kind)| Competitor { name: name.to_owned(), kind }).into()
     }
 
     fn played_on(threads: usize) -> Vec<PolicyRecord> {
@@ -252,7 +168,7 @@ mod tests {
         };
         let days: Vec<BoundedDay> = seeds.map(day).collect();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| run(&days, &contenders(), &Stop::default(), |_| || ()))
+        pool.install(|| run(&days, &competitors(), &Stop::default(), |_| || ()))
             .expect("every day is played")
     }
 
@@ -272,7 +188,7 @@ mod tests {
         let stop = Stop::default();
         stop.request();
         let error =
-            run(&days, &contenders(), &stop, |_| || ()).expect_err("nothing was to be played");
+            run(&days, &competitors(), &stop, |_| || ()).expect_err("nothing was to be played");
         assert_eq!(error.code().to_string(), "V408");
     }
 
@@ -293,14 +209,17 @@ mod tests {
         let summary = ComparisonReport::of(&study).expect("records of one run");
         assert_eq!(summary.day_seeds, Some((11, 16)));
         let [plan, greedy, random] = &summary.policies[..] else { panic!("three took part") };
-        assert_eq!(plan.profit_usd, greedy.profit_usd, "its days are greedy's, flown once more");
+        assert!(
+            plan.profit_usd.mean > greedy.profit_usd.mean,
+            "it begins from the best policy's days"
+        );
         assert!(plan.is_offline() && plan.decision_ns.is_none());
         for policy in [greedy, random] {
             assert!(policy.decision_ns.is_some_and(|time| time.p99 > 0));
         }
         assert_eq!(summary.best().name, "greedy", "a reference that knows the day is no policy");
         for day in study.policies.iter().flat_map(|policy| &policy.days) {
-            assert_eq!(day.decisions, day.flights + day.holds);
+            assert_eq!(day.totals.decisions, day.totals.flights + day.totals.holds);
         }
     }
 

@@ -3,6 +3,7 @@
 //! The one place where records become statistics. Everything that presents reads a [`ComparisonReport`] and computes nothing.
 
 use serde::Serialize;
+use vertifleet_sim::DayNumber;
 
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
@@ -277,8 +278,8 @@ impl PolicySummary {
         let column =
             |value: fn(&DayRecord) -> f64| policy.days.iter().map(value).collect::<Vec<f64>>();
         let average = |value: fn(&DayRecord) -> f64| mean(&column(value));
-        let daily_profit_usd = column(|day| day.profit_usd);
-        let daily_reward = column(|day| day.reward);
+        let daily_profit_usd = column(|day| day.totals.profit_usd);
+        let daily_reward = column(|day| day.totals.reward);
         let daily_bound_share: Vec<f64> = policy
             .days
             .iter()
@@ -297,20 +298,20 @@ impl PolicySummary {
             bound_share_box,
             reward: Estimate::of(&daily_reward),
             reward_box: BoxSummary::of(&daily_reward)?,
-            revenue_usd: average(|day| day.revenue_usd),
-            passenger_cost_usd: average(|day| day.passenger_cost_usd),
-            energy_cost_usd: average(|day| day.energy_cost_usd),
-            flight_cost_usd: average(|day| day.flight_cost_usd),
-            aircraft_cost_usd: average(|day| day.aircraft_cost_usd),
-            energy_kwh: average(|day| day.energy_kwh),
-            potential_usd: average(|day| day.potential_usd),
-            flights: average(|day| f64::from(day.flights)),
-            repositioning_flights: average(|day| f64::from(day.repositioning_flights)),
-            holds: average(|day| f64::from(day.holds)),
-            decisions: average(|day| f64::from(day.decisions)),
-            passengers: average(|day| day.passengers as f64),
-            spilled_passengers: average(|day| day.spilled_passengers as f64),
-            load_factor: average(|day| day.load_factor),
+            revenue_usd: average(|day| day.totals.revenue_usd),
+            passenger_cost_usd: average(|day| day.totals.passenger_cost_usd),
+            energy_cost_usd: average(|day| day.totals.energy_cost_usd),
+            flight_cost_usd: average(|day| day.totals.flight_cost_usd),
+            aircraft_cost_usd: average(|day| day.totals.aircraft_cost_usd),
+            energy_kwh: average(|day| day.totals.energy_kwh),
+            potential_usd: average(|day| day.totals.potential_usd),
+            flights: average(|day| f64::from(day.totals.flights)),
+            repositioning_flights: average(|day| f64::from(day.totals.repositioning_flights)),
+            holds: average(|day| f64::from(day.totals.holds)),
+            decisions: average(|day| f64::from(day.totals.decisions)),
+            passengers: average(|day| day.totals.passengers as f64),
+            spilled_passengers: average(|day| day.totals.spilled_passengers as f64),
+            load_factor: average(|day| day.totals.load_factor),
             decision_ns: policy.decision_ns.map(latency),
             daily_profit_usd,
             daily_reward,
@@ -376,20 +377,12 @@ fn check_paired(days: usize, first: &PolicyRecord, policy: &PolicyRecord) -> Res
 }
 
 fn check_finite(policy: &str, day: &DayRecord) -> Result<(), Error> {
-    let members = [
-        ("profit_usd", day.profit_usd),
-        ("revenue_usd", day.revenue_usd),
-        ("passenger_cost_usd", day.passenger_cost_usd),
-        ("energy_cost_usd", day.energy_cost_usd),
-        ("flight_cost_usd", day.flight_cost_usd),
-        ("aircraft_cost_usd", day.aircraft_cost_usd),
-        ("energy_kwh", day.energy_kwh),
-        ("potential_usd", day.potential_usd),
-        ("reward", day.reward),
-        ("load_factor", day.load_factor),
-        ("upper_bound_usd", day.upper_bound_usd.unwrap_or(0.0)),
-    ];
-    match members.into_iter().find(|(_, value)| !value.is_finite()) {
+    let amounts = day.totals.numbers().into_iter().filter_map(|(member, number)| match number {
+        DayNumber::Amount(value) => Some((member, value)),
+        DayNumber::Count(_) => None,
+    });
+    let bound = day.upper_bound_usd.map(|bound_usd| ("upper_bound_usd", bound_usd));
+    match amounts.chain(bound).find(|(_, value)| !value.is_finite()) {
         None => Ok(()),
         Some((member, value)) => {
             Err(Error::NotFinite { policy: policy.to_owned(), day: day.day.clone(), member, value })

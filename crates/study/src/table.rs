@@ -21,7 +21,7 @@ enum Align {
 
 /// The text that `compare` prints: policies by mean profit, then every pair's t-test on the daily profit. No line
 /// end after the last line.
-pub fn text(summary: &ComparisonReport) -> String {
+pub(crate) fn text(summary: &ComparisonReport) -> String {
     let changed = if summary.network_origin == NetworkOrigin::Changed { " (changed)" } else { "" };
     let mut text =
         format!("network {}{changed}, {}", summary.network, counted(summary.days, "day", "days"));

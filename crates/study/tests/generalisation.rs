@@ -8,8 +8,9 @@ use vertifleet_core::Coded;
 use vertifleet_study::generalisation::{
     self, GeneralisationRecords, GeneralisationReport, NetworkRecord,
 };
+use vertifleet_study::report::{self, Records as _};
 
-/// Random, greedy and gcaps, and somebody who knows the days, on networks of all sizes. Greedy is named first.
+/// Random, greedy and gcaps, and a reference that knows the days, on networks of all sizes. Greedy is named first.
 fn study(networks: usize) -> GeneralisationRecords {
     let mut policies = made_up::study(networks).policies;
     policies.swap(0, 1);
@@ -17,9 +18,8 @@ fn study(networks: usize) -> GeneralisationRecords {
     "plan".clone_into(&mut plan.name);
     plan.decision_ns = None;
     policies.push(plan);
-    for (position, policy) in policies.iter_mut().enumerate() {
+    for policy in &mut policies {
         for (number, day) in policy.days.iter_mut().enumerate() {
-            day.policy = position;
             day.upper_bound_usd = Some(46_000.0 + 100.0 * (number * 7 % 11) as f64);
         }
     }
@@ -38,8 +38,7 @@ fn study(networks: usize) -> GeneralisationRecords {
 
 #[test]
 fn the_table_of_random_networks() {
-    let summary = GeneralisationReport::of(&study(50)).expect("a sound study");
-    insta::assert_snapshot!(generalisation::text(&summary));
+    insta::assert_snapshot!(study(50).text().expect("a sound study"));
 }
 
 #[test]
@@ -81,8 +80,7 @@ fn a_study_of_nothing_or_of_other_days_is_refused() {
 fn the_folder_holds_all_that_the_page_links_to_and_every_network() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let study = study(50);
-    let page =
-        generalisation::write(&study, &folder.path().join("new"), false).expect("a report").report;
+    let page = report::write(&study, &folder.path().join("new"), false).expect("a report").page;
     let text = fs::read_to_string(&page).expect("the page");
     let links: Vec<&str> =
         text.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
@@ -105,8 +103,7 @@ fn one_network_and_one_policy_make_a_report_too() {
     let mut study = study(1);
     study.policies.truncate(1);
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let page = generalisation::write(&study, folder.path(), false).expect("a report").report;
+    let page = report::write(&study, folder.path(), false).expect("a report").page;
     assert!(fs::read_to_string(page).expect("the page").contains("1 random network"));
-    let summary = GeneralisationReport::of(&study).expect("a sound study");
-    assert!(generalisation::text(&summary).contains("greedy"));
+    assert!(study.text().expect("a sound study").contains("greedy"));
 }

@@ -2,18 +2,18 @@
 
 mod made_up;
 
+use std::fs;
 use std::path::Path;
 
 use vertifleet_core::Coded;
-use vertifleet_study::{
-    ComparisonRecords, ComparisonReport, Error, NetworkOrigin, PolicyRecord, report, table,
-};
+use vertifleet_study::report::{self, Records as _, Written};
+use vertifleet_study::{ComparisonRecords, ComparisonReport, Error, NetworkOrigin, PolicyRecord};
 
 fn read(path: &Path) -> String {
-    std::fs::read_to_string(path).expect("a written file")
+    fs::read_to_string(path).expect("a written file")
 }
 
-fn written(study: &ComparisonRecords) -> (tempfile::TempDir, report::Paths) {
+fn written(study: &ComparisonRecords) -> (tempfile::TempDir, Written) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let paths = report::write(study, &folder.path().join("new/folder"), false).expect("a report");
     (folder, paths)
@@ -21,15 +21,14 @@ fn written(study: &ComparisonRecords) -> (tempfile::TempDir, report::Paths) {
 
 #[test]
 fn the_table_of_five_policies() {
-    let summary = ComparisonReport::of(&made_up::study(20)).expect("a sound study");
-    insta::assert_snapshot!(table::text(&summary));
+    insta::assert_snapshot!(made_up::study(20).text().expect("a sound study"));
 }
 
 #[test]
 fn the_table_of_one_policy_on_one_day_leaves_undefined_numbers_out() {
     let mut study = made_up::study(1);
     study.policies.truncate(1);
-    insta::assert_snapshot!(table::text(&ComparisonReport::of(&study).expect("a sound study")));
+    insta::assert_snapshot!(study.text().expect("a sound study"));
 }
 
 /// Five policies on days with upper bounds, and a reference that knows the days.
@@ -38,10 +37,9 @@ fn bounded(days: usize) -> ComparisonRecords {
     let best = study.policies[4].clone();
     let mut plan = PolicyRecord { name: "plan".to_owned(), decision_ns: None, ..best };
     for (day, number) in plan.days.iter_mut().zip(0_u32..) {
-        day.policy = study.policies.len();
-        day.profit_usd += 1_000.0 + f64::from(number % 5);
+        day.totals.profit_usd += 1_000.0 + f64::from(number % 5);
     }
-    let bounds_usd: Vec<f64> = plan.days.iter().map(|day| day.profit_usd / 0.97).collect();
+    let bounds_usd: Vec<f64> = plan.days.iter().map(|day| day.totals.profit_usd / 0.97).collect();
     study.policies.push(plan);
     study.bound_step_s = Some(180);
     for policy in &mut study.policies {
@@ -54,25 +52,26 @@ fn bounded(days: usize) -> ComparisonRecords {
 
 #[test]
 fn the_table_of_five_policies_a_reference_and_the_bound() {
-    let summary = ComparisonReport::of(&bounded(20)).expect("a sound study");
-    insta::assert_snapshot!(table::text(&summary));
+    insta::assert_snapshot!(bounded(20).text().expect("a sound study"));
 }
 
 #[test]
 fn shares_of_the_bound_stand_in_page_days_and_numbers_for_machines() {
     let (_folder, paths) = written(&bounded(12));
-    let page = read(&paths.report);
+    let page = read(&paths.page);
     assert!(page.contains("of bound, %") && page.contains("knows the day"));
     assert!(page.contains("gcaps earns"), "a reference is not the best policy");
     assert!(page.contains("% of the proven upper bound, "));
     assert!(page.contains("5 policies and 1 reference on 12 unseen days"));
-    let summary: serde_json::Value = serde_json::from_str(&read(&paths.summary)).expect("JSON");
+    let summary: serde_json::Value =
+        serde_json::from_str(&read(&paths.page.with_file_name("summary.json"))).expect("JSON");
     assert_eq!(summary["bound"]["step_s"], 180);
     let plan = &summary["policies"][0];
     assert_eq!((&plan["name"], &plan["decision_ns"]), (&"plan".into(), &serde_json::Value::Null));
     let share = plan["bound_share"]["mean"].as_f64().expect("a share");
     assert!((share - 0.97).abs() < 1e-9, "{share}");
-    let mut days = csv::Reader::from_path(&paths.days).expect("a CSV file");
+    let mut days =
+        csv::Reader::from_path(paths.page.with_file_name("days.csv")).expect("a CSV file");
     let column = days.headers().expect("names").iter().position(|name| name == "bound_share");
     let column = column.expect("a column of shares");
     for row in days.records() {
@@ -80,14 +79,14 @@ fn shares_of_the_bound_stand_in_page_days_and_numbers_for_machines() {
         assert!((0.5..=0.98).contains(&share), "{share}");
     }
     let (_folder, paths) = written(&made_up::study(12));
-    assert!(!read(&paths.report).contains("of bound, %"));
+    assert!(!read(&paths.page).contains("of bound, %"));
 }
 
 #[test]
 fn where_nothing_can_be_earned_nothing_earned_is_all_of_it() {
     let mut day = made_up::study(1).policies[0].days[0].clone();
     let mut share = |profit_usd, upper_bound_usd| {
-        (day.profit_usd, day.upper_bound_usd) = (profit_usd, upper_bound_usd);
+        (day.totals.profit_usd, day.upper_bound_usd) = (profit_usd, upper_bound_usd);
         day.bound_share()
     };
     assert_eq!(share(90.0, None), None);
@@ -100,7 +99,7 @@ fn where_nothing_can_be_earned_nothing_earned_is_all_of_it() {
 #[test]
 fn a_report_loads_nothing_from_anywhere() {
     let (_folder, paths) = written(&made_up::study(12));
-    let page = read(&paths.report);
+    let page = read(&paths.page);
     for loading in ["src=", "@import", "url(", "<script", "<link", "href=\"http", "href=\"//"] {
         assert!(!page.contains(loading), "{loading}");
     }
@@ -112,11 +111,12 @@ fn a_report_loads_nothing_from_anywhere() {
 #[test]
 fn links_of_a_report_lead_to_files_beside_it() {
     let (_folder, paths) = written(&made_up::study(12));
-    let page = read(&paths.report);
-    let folder = paths.report.parent().expect("a file has a folder");
+    let page = read(&paths.page);
+    let folder = paths.page.parent().expect("a file has a folder");
     let links: Vec<&str> =
         page.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
-    assert_eq!(links.len(), 2 + paths.figures.len());
+    let beside = fs::read_dir(folder).expect("the report's folder").count();
+    assert_eq!(links.len(), beside - 1, "all files but the page itself");
     for link in links {
         assert!(folder.join(link).is_file(), "{link}");
     }
@@ -136,7 +136,7 @@ fn every_name_in_a_report_is_escaped() {
         curve.name = hostile.to_owned();
     }
     let (_folder, paths) = written(&study);
-    let page = read(&paths.report);
+    let page = read(&paths.page);
     assert!(!page.contains("<script") && !page.contains("</script"));
     assert!(page.contains("&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;&amp;"));
 }
@@ -145,30 +145,29 @@ fn every_name_in_a_report_is_escaped() {
 fn a_headline_says_whether_the_lead_is_more_than_chance() {
     let mut study = made_up::study(40);
     let (_folder, paths) = written(&study);
-    assert!(read(&paths.report).contains("% more than greedy (95 % interval of the difference +$"));
-    let profits: Vec<f64> = study.policies[1].days.iter().map(|day| day.profit_usd).collect();
+    assert!(read(&paths.page).contains("% more than greedy (95 % interval of the difference +$"));
+    let profits: Vec<f64> =
+        study.policies[1].days.iter().map(|day| day.totals.profit_usd).collect();
     for (position, (day, profit)) in study.policies[4].days.iter_mut().zip(profits).enumerate() {
-        day.profit_usd = profit + if position % 2 == 0 { 500.0 } else { -480.0 };
+        day.totals.profit_usd = profit + if position % 2 == 0 { 500.0 } else { -480.0 };
     }
     study.policies.remove(2);
     let (_folder, paths) = written(&study);
-    assert!(
-        read(&paths.report).contains("Its lead over greedy, +$10, is within what chance alone")
-    );
+    assert!(read(&paths.page).contains("Its lead over greedy, +$10, is within what chance alone"));
 }
 
 #[test]
 fn published_figures_stand_in_the_report_of_the_paper_network_only() {
     let mut study = made_up::study(12);
     let (_folder, paths) = written(&study);
-    assert!(read(&paths.report).contains("28,747"));
-    assert!(read(&paths.report).contains("Corresponds to Fig. 5 of the paper"));
+    assert!(read(&paths.page).contains("28,747"));
+    assert!(read(&paths.page).contains("Corresponds to Fig. 5 of the paper"));
     let own_days =
         ComparisonRecords { days_from: Some("my days".to_owned()), seed: None, ..study.clone() };
     study.network = "new-york".to_owned();
     for elsewhere in [study, own_days] {
         let (_folder, paths) = written(&elsewhere);
-        let page = read(&paths.report);
+        let page = read(&paths.page);
         assert!(
             !page.contains("28,747") && !page.contains("of the paper."),
             "{}",
@@ -181,7 +180,7 @@ fn published_figures_stand_in_the_report_of_the_paper_network_only() {
 fn a_page_says_whose_days_it_shows() {
     let shown = |study: &ComparisonRecords| {
         let (_folder, paths) = written(study);
-        read(&paths.report)
+        read(&paths.page)
     };
     let mut study = made_up::study(4);
     let page = shown(&study);
@@ -207,7 +206,7 @@ fn a_folder_with_anything_else_in_it_is_no_report() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let target = folder.path().join("out");
     report::write(&made_up::study(5), &target, false).expect("a report");
-    std::fs::write(target.join("notes.txt"), "dear").expect("a file");
+    fs::write(target.join("notes.txt"), "dear").expect("a file");
     for attempt in [
         report::check_folder(&target, false).map(|()| None),
         report::write(&made_up::study(9), &target, false).map(|paths| paths.kept),
@@ -219,24 +218,26 @@ fn a_folder_with_anything_else_in_it_is_no_report() {
     let kept = paths.kept.expect("a place for what was there");
     assert_eq!(read(&kept.join("notes.txt")), "dear");
     assert!(read(&kept.join("report.html")).contains("5 unseen days"));
-    assert!(read(&paths.report).contains("9 unseen days"));
+    assert!(read(&paths.page).contains("9 unseen days"));
 }
 
 #[test]
 fn days_have_one_row_a_policy_and_day() {
     let study = made_up::study(7);
     let (_folder, paths) = written(&study);
-    let mut reader = csv::Reader::from_path(&paths.days).expect("a CSV file");
+    let mut reader =
+        csv::Reader::from_path(paths.page.with_file_name("days.csv")).expect("a CSV file");
     let rows: Vec<csv::StringRecord> = reader.records().collect::<Result<_, _>>().expect("rows");
     assert_eq!(rows.len(), study.policies.len() * 7);
     assert_eq!((&rows[0][0], &rows[0][1], &rows[0][2]), ("random", "paper-1", "1"));
-    assert_eq!(rows[0][3].parse(), Ok(study.policies[0].days[0].profit_usd));
+    assert_eq!(rows[0][3].parse(), Ok(study.policies[0].days[0].totals.profit_usd));
 }
 
 #[test]
 fn the_summary_for_machines_holds_policies_by_profit_and_every_pair() {
     let (_folder, paths) = written(&made_up::study(30));
-    let summary: serde_json::Value = serde_json::from_str(&read(&paths.summary)).expect("JSON");
+    let summary: serde_json::Value =
+        serde_json::from_str(&read(&paths.page.with_file_name("summary.json"))).expect("JSON");
     assert_eq!(summary["format"], "vertifleet-comparison/1");
     let policies = summary["policies"].as_array().expect("a list");
     let profits: Vec<f64> =
@@ -252,17 +253,18 @@ fn the_summary_for_machines_holds_policies_by_profit_and_every_pair() {
 fn a_report_replaces_an_older_one_and_leaves_no_other_file() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     report::write(&made_up::study(5), folder.path(), false).expect("a report");
+    fs::write(folder.path().join("figure-of-before.svg"), "<svg/>").expect("an older figure");
     let paths = report::write(&made_up::study(9), folder.path(), false).expect("a second report");
-    assert!(read(&paths.report).contains("9 unseen days"));
-    let files = std::fs::read_dir(folder.path()).expect("a folder").count();
-    assert_eq!(files, 3 + paths.figures.len());
+    assert!(read(&paths.page).contains("9 unseen days"));
+    let files = fs::read_dir(folder.path()).expect("a folder").count();
+    assert_eq!(files, made_up::study(9).files().expect("a sound study").len());
 }
 
 #[test]
 fn a_report_that_cannot_be_written_names_the_file() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("taken");
-    std::fs::write(&file, "").expect("a file");
+    fs::write(&file, "").expect("a file");
     let error = report::write(&made_up::study(3), &file, false).expect_err("a file is no folder");
     assert_eq!(error.code().0, 401);
     assert!(error.to_string().contains("taken"), "{error}");
@@ -273,11 +275,11 @@ fn a_folder_is_checked_without_a_trace() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     report::check_folder(&folder.path().join("new/folder"), false)
         .expect("a folder that can be made");
-    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0);
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
     report::check_folder(folder.path(), false).expect("a folder that is there");
     assert!(folder.path().exists(), "it stays");
     let file = folder.path().join("taken");
-    std::fs::write(&file, "").expect("a file");
+    fs::write(&file, "").expect("a file");
     for taken in [file.clone(), file.join("below")] {
         assert_eq!(report::check_folder(&taken, false).expect_err("a file").code().0, 401);
     }
@@ -301,7 +303,7 @@ fn records_that_cannot_be_compared_are_refused() {
         refusal(|study| study.policies[1].days.truncate(3)),
         refusal(|study| study.days = 5),
         refusal(|study| study.days = 3),
-        refusal(|study| study.policies[0].days[3].reward = f64::NAN),
+        refusal(|study| study.policies[0].days[3].totals.reward = f64::NAN),
     ];
     let text: Vec<String> = refusals.iter().map(|(code, text)| format!("{code}: {text}")).collect();
     insta::assert_snapshot!(text.join("\n"));

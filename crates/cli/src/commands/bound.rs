@@ -61,12 +61,12 @@ impl<'a> Day<'a> {
         let Self { scenario, bound, seconds } = self;
         json!({
             "name": scenario.name,
-            "upper_bound": bound.upper_bound_usd(),
+            "upper_bound_usd": bound.upper_bound_usd(),
             "step_s": bound.step_s(),
             "seconds": seconds,
-            "stand_worth": worth::of_stands(scenario, bound),
-            "charger_worth": worth::of_chargers(scenario, bound),
-            "passenger_worth": worth::of_passengers(scenario, bound),
+            "stand_worth_usd": worth::of_stands(scenario, bound),
+            "charger_worth_usd": worth::of_chargers(scenario, bound),
+            "passenger_worth_usd": worth::of_passengers(scenario, bound),
         })
     }
 
@@ -96,7 +96,7 @@ fn pairs<'a>(days: &'a [Day<'a>]) -> Vec<(&'a Scenario, &'a Bound)> {
 
 fn numbers_of_days(days: &[Day<'_>]) -> Value {
     let mut mean = mean_worth::numbers(&pairs(days));
-    mean.insert("upper_bound".to_owned(), mean_bound(days).number());
+    mean.insert("upper_bound_usd".to_owned(), mean_bound(days).number());
     json!({ "days": days.iter().map(Day::numbers).collect::<Vec<_>>(), "mean": mean })
 }
 

@@ -6,11 +6,11 @@ use std::time::Instant;
 
 use serde::Serialize;
 use serde_json::{Map, Value};
-use vertifleet_core::{Outputs, Scenario, Stop};
-use vertifleet_optimize::{Bound, Budget, Error, Plan, Proof, SearchSettings, plan};
+use vertifleet_core::{Outputs, Scenario};
+use vertifleet_optimize::{Bound, Budget, Plan, ProvenPlan, SearchSettings, plan_with_proof};
 use vertifleet_progress::SearchBar;
 use vertifleet_sim::Trace;
-use vertifleet_study::policies::shipped_for;
+use vertifleet_study::starting_policies;
 
 use crate::args::PlanArguments;
 use crate::commands::read_scenario;
@@ -27,74 +27,59 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     outputs.writes(&arguments.output, &Trace::FILE)?;
     let stop = stop_on_interrupt()?;
     let begun = Instant::now();
-    let proof = Proof::begin(&scenario);
-    let plan = search(arguments, &scenario, &stop, &proof)?;
-    let bound = proof.best_in_time(begun, arguments.time_limit);
-    let seconds = begun.elapsed().as_secs_f64();
-    plan.trace.write(&scenario, &arguments.output)?;
-    if arguments.json {
-        let numbers = Numbers::of(&scenario, &plan, bound.as_ref(), seconds);
-        print(&serde_json::to_string_pretty(&numbers).expect("numbers are plain data"))?;
-    } else {
-        print(&text(&scenario, &plan, bound.as_ref(), seconds))?;
-    }
-    Ok(ExitCode::SUCCESS)
-}
-
-/// Searches until the time is over, the gap is small enough or Ctrl-C is pressed.
-fn search(
-    arguments: &PlanArguments,
-    scenario: &Arc<Scenario>,
-    stop: &Stop,
-    proof: &Proof,
-) -> Result<Plan, Error> {
     let settings = SearchSettings {
         budget: Budget::Time(arguments.time_limit),
         searches: rayon::current_num_threads(),
         seed: arguments.seed,
     };
     let mut bar = SearchBar::new("% of the time", Some(arguments.time_limit));
-    let mut learned = shipped_for(scenario);
-    plan(scenario, &settings, &mut learned, &mut |now| {
-        proof.knows(now.profit_usd);
-        let bound = proof.best();
-        bar.show(now, bound.as_deref());
-        let good_enough = bound.is_some_and(|bound| {
-            let gap = bound.gap(now.profit_usd);
-            bound.is_reached_by(now.profit_usd) || arguments.gap.is_some_and(|asked| gap <= asked)
-        });
-        !good_enough && !stop.is_requested()
-    })
+    let starts = starting_policies(&scenario);
+    let ProvenPlan { plan, bound } =
+        plan_with_proof(&scenario, &settings, starts, arguments.gap, &stop, &mut |now, bound| {
+            bar.show(now, bound);
+        })?;
+    drop(bar);
+    let (bound, seconds) = (bound.as_ref(), begun.elapsed().as_secs_f64());
+    plan.trace.write(&scenario, &arguments.output)?;
+    if arguments.json {
+        let numbers = Numbers::of(&scenario, &plan, bound, seconds);
+        print(&serde_json::to_string_pretty(&numbers).expect("numbers are plain data"))?;
+    } else {
+        print(&text(&scenario, &plan, bound, seconds))?;
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Numbers<'a> {
-    profit: f64,
-    best_policy: f64,
-    upper_bound: Option<f64>,
+    profit_usd: f64,
+    best_policy: &'a str,
+    best_policy_usd: f64,
+    upper_bound_usd: Option<f64>,
     gap: Option<f64>,
     step_s: Option<u32>,
     bound_is_final: Option<bool>,
     seconds: f64,
     steps: u64,
-    stand_worth: Option<Map<String, Value>>,
-    passenger_worth: Option<Vec<PassengerWorth<'a>>>,
+    stand_worth_usd: Option<Map<String, Value>>,
+    passenger_worth_usd: Option<Vec<PassengerWorth<'a>>>,
 }
 
 impl<'a> Numbers<'a> {
-    fn of(scenario: &'a Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -> Self {
+    fn of(scenario: &'a Scenario, plan: &'a Plan, bound: Option<&Bound>, seconds: f64) -> Self {
         Self {
-            profit: plan.profit_usd,
-            best_policy: plan.best_policy_usd,
-            upper_bound: bound.map(Bound::upper_bound_usd),
+            profit_usd: plan.profit_usd,
+            best_policy: &plan.best_policy,
+            best_policy_usd: plan.best_policy_usd,
+            upper_bound_usd: bound.map(Bound::upper_bound_usd),
             gap: bound.map(|bound| bound.gap(plan.profit_usd)),
             step_s: bound.map(Bound::step_s),
             bound_is_final: bound.map(Bound::is_final),
             seconds,
             steps: plan.steps,
-            stand_worth: bound.map(|bound| worth::of_stands(scenario, bound)),
-            passenger_worth: bound.map(|bound| worth::of_passengers(scenario, bound)),
+            stand_worth_usd: bound.map(|bound| worth::of_stands(scenario, bound)),
+            passenger_worth_usd: bound.map(|bound| worth::of_passengers(scenario, bound)),
         }
     }
 }
@@ -104,8 +89,8 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
         format!("{} planned in {seconds:.1} s", scenario.name),
         format!("  profit          {:>12.2} $", plan.profit_usd),
         format!(
-            "  best policy     {:>12.2} $    of those whose day was played in time; the search began there",
-            plan.best_policy_usd
+            "  best policy     {:>12.2} $    {}, of those whose day was played in time; the search began there",
+            plan.best_policy_usd, plan.best_policy
         ),
     ];
     let Some(bound) = bound else {

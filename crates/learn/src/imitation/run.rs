@@ -217,7 +217,7 @@ impl ImitationRun {
             .par_iter()
             .map(|(day, priced_usd)| {
                 let played = played(&mut GcapsX::new(&model, 1), day);
-                Look { reward: played.reward, gain: played.profit / priced_usd - 1.0 }
+                Look { reward: played.reward, gain: played.profit_usd / priced_usd - 1.0 }
             })
             .collect();
         let mean = |of: fn(&Look) -> f64| looks.iter().map(of).sum::<f64>() / looks.len() as f64;
@@ -301,12 +301,12 @@ struct Look {
 fn with_priced_profit(days: Vec<Scenario>) -> Vec<(Arc<Scenario>, f64)> {
     let days: Vec<Arc<Scenario>> = days.into_iter().map(Arc::new).collect();
     days.par_iter()
-        .map(|day| (Arc::clone(day), played(&mut BidPricePolicy::default(), day).profit))
+        .map(|day| (Arc::clone(day), played(&mut BidPricePolicy::default(), day).profit_usd))
         .collect()
 }
 
 fn played(policy: &mut dyn Policy, day: &Arc<Scenario>) -> DayTotals {
     let mut simulation = Simulation::new(Arc::clone(day));
     play(&mut simulation, policy, |_| ()).expect("the policy has an answer for every decision");
-    simulation.summary()
+    simulation.totals()
 }

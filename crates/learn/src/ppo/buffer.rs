@@ -246,7 +246,7 @@ impl Group {
         experience.rewards[row] = reward as f32 * settings.reward_scale;
         experience.day_ends[row] = over;
         if over {
-            finished.push(day.simulation.summary().reward);
+            finished.push(day.simulation.totals().reward);
             let number = day.progress.number + settings.n_envs as u64;
             *day = PlayedDay::resume(source, DayInProgress { number, choices: Vec::new() })?;
         }

@@ -282,7 +282,7 @@ fn play_block(policy: &mut Learned, days: &[Arc<Scenario>]) -> Vec<f64> {
                 .filter_map(|(at, day)| day.next_decision().map(|decision| (at, decision))),
         );
         if open.is_empty() {
-            return simulations.iter().map(|day| day.summary().reward).collect();
+            return simulations.iter().map(|day| day.totals().reward).collect();
         }
         choices.clear();
         let mut asked = open.iter().map(|&(at, decision)| (decision, simulations[at].view()));

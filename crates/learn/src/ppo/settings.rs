@@ -26,7 +26,7 @@ impl Reward {
                 let fleet_usd = if over { day.ledger().aircraft_cost_usd } else { 0.0 };
                 share(outcome.profit_usd() - fleet_usd, day.potential_usd())
             }
-            Self::Terminal if over => day.summary().reward,
+            Self::Terminal if over => day.totals().reward,
             Self::Terminal => 0.0,
         }
     }

@@ -1,21 +1,18 @@
 //! The proof's steps, checked on real days at arbitrary prices: what an aircraft pays and earns, and what is given back. The
 //! days are of `paper`, of `disrupted`, and small ones with everything that a day may hold.
 
-#[path = "../../tests/common/mod.rs"]
-mod days;
-
 use std::sync::Arc;
 
 use proptest::prelude::{ProptestConfig, any, proptest};
 use vertifleet_core::{AircraftIx, DaySeed, Network, Scenario, Stop, TakeoffDelays, Time};
 use vertifleet_policy::{BidPricePolicy, Greedy, Lookahead, Policy, Random, draw, play};
 use vertifleet_sim::{Simulation, Trace};
+use vertifleet_testkit::{Size, any_extended_day};
 
 use super::certificate::Certificate;
 use super::money;
 use super::prices::Prices;
 use super::time_expanded_day::{Layer, TimeExpandedDay};
-use days::{Size, any_extended_day};
 
 /// A day of a shipped network, cut short to `hours`, with fewer stands free and less demand, so that limits bind.
 fn scarce_day(name: &str, seed: u64, hours: u32) -> Arc<Scenario> {

@@ -203,8 +203,8 @@ mod tests {
         let network = Network::shipped("paper").expect("a shipped network");
         let day = Arc::new(network.draw(DaySeed::validation(9).expect("a seed")));
         let problem = Problem::of(&day);
-        let (trace, _) = start::best_policy(&day, &mut [], &mut |_, _| true);
-        let mut search = Search::new(start::schedule_of(&problem, &trace), 3);
+        let start = start::best_policy(&day, Vec::new(), &mut |_, _| true);
+        let mut search = Search::new(start::schedule_of(&problem, &start.trace), 3);
         for step in 0..300 {
             // Hot and cold, so that steps are kept as well as undone.
             search.step(&problem, f64::from(step % 5) * 20.0 + 0.1);

@@ -12,8 +12,25 @@ use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 use crate::Rolling;
 
-/// A day that was played, and its profit in dollars.
-pub(super) type Played = (Trace, f64);
+/// A policy from whose day a plan may set out.
+pub struct StartingPolicy {
+    name: String,
+    policy: Box<dyn Policy>,
+}
+
+impl StartingPolicy {
+    /// A policy with the name by which a plan names it ([`Plan::best_policy`](crate::Plan::best_policy)).
+    pub fn new(name: &str, policy: Box<dyn Policy>) -> Self {
+        Self { name: name.to_owned(), policy }
+    }
+}
+
+/// A day that a policy has played.
+pub(super) struct Played {
+    pub(super) policy: String,
+    pub(super) trace: Trace,
+    pub(super) profit_usd: f64,
+}
 
 /// A day begun by one policy, until `go_on`, asked after each decision with how many there were, says no.
 struct Begun {
@@ -47,14 +64,16 @@ impl Begun {
     }
 
     /// The day, if the policy has come to its end.
-    fn whole(self) -> Option<Played> {
-        self.is_over.then(|| (self.trace, self.simulation.ledger().profit_usd()))
+    fn whole(self, policy: &str) -> Option<Played> {
+        let profit_usd = self.simulation.ledger().profit_usd();
+        self.is_over.then(|| Played { policy: policy.to_owned(), trace: self.trace, profit_usd })
     }
 
     /// The day; greedy decides what is left of it.
-    fn finished(mut self) -> Played {
+    fn finished(mut self, policy: &str) -> Played {
         play(&mut self.simulation, &mut Greedy, |row| self.trace.rows.push(*row)).expect(ANSWERS);
-        (self.trace, self.simulation.ledger().profit_usd())
+        let profit_usd = self.simulation.ledger().profit_usd();
+        Played { policy: policy.to_owned(), trace: self.trace, profit_usd }
     }
 }
 
@@ -68,28 +87,32 @@ const ANSWERS: &str = "these policies always answer, and from the mask";
 /// with a short limit nothing else gets so far.
 pub(super) fn best_policy(
     scenario: &Arc<Scenario>,
-    more: &mut [Box<dyn Policy>],
+    more: Vec<StartingPolicy>,
     go_on: &mut dyn FnMut(f64, Option<f64>) -> bool,
 ) -> Played {
-    let mut best = Begun::by(&mut Greedy, scenario, &mut |_| true).finished();
-    if !go_on(best.1, None) {
+    let mut best = Begun::by(&mut Greedy, scenario, &mut |_| true).finished("greedy");
+    if !go_on(best.profit_usd, None) {
         return best;
     }
-    let decisions = best.0.rows.len().max(1) as f64;
+    let decisions = best.trace.rows.len().max(1) as f64;
     // As if each decision were its last, so that it goes on until there is no time at all.
-    let priced =
-        Begun::by(&mut BidPricePolicy::default(), scenario, &mut |_| go_on(best.1, Some(1.0)));
-    best = better(best, priced.finished());
-    let mut others: [Box<dyn Policy>; 3] =
-        [Box::new(Lookahead), Box::new(Random::new(0)), Box::<Rolling>::default()];
-    for policy in more.iter_mut().chain(&mut others) {
-        if !go_on(best.1, None) {
+    let priced = Begun::by(&mut BidPricePolicy::default(), scenario, &mut |_| {
+        go_on(best.profit_usd, Some(1.0))
+    });
+    best = better(best, priced.finished("prices"));
+    let others = [
+        StartingPolicy::new("lookahead", Box::new(Lookahead)),
+        StartingPolicy::new("random", Box::new(Random::new(0))),
+        StartingPolicy::new("rolling", Box::<Rolling>::default()),
+    ];
+    for StartingPolicy { name, mut policy } in more.into_iter().chain(others) {
+        if !go_on(best.profit_usd, None) {
             break;
         }
         let day = Begun::by(policy.as_mut(), scenario, &mut |taken| {
-            go_on(best.1, Some((taken as f64 / decisions).min(1.0)))
+            go_on(best.profit_usd, Some((taken as f64 / decisions).min(1.0)))
         });
-        if let Some(day) = day.whole() {
+        if let Some(day) = day.whole(&name) {
             best = better(best, day);
         }
     }
@@ -98,7 +121,7 @@ pub(super) fn best_policy(
 
 /// The day that earns more; the first of equals.
 fn better(one: Played, other: Played) -> Played {
-    if other.1 > one.1 { other } else { one }
+    if other.profit_usd > one.profit_usd { other } else { one }
 }
 
 /// The flights of a whole day's trace.

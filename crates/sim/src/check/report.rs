@@ -36,17 +36,17 @@ pub struct Finding {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Totals {
     /// Revenue less all costs (Eq. 5).
-    pub profit: f64,
+    pub profit_usd: f64,
     /// Fares (Eq. 4).
-    pub revenue: f64,
+    pub revenue_usd: f64,
     /// Cost of carrying passengers (Eq. 2).
-    pub passenger_cost: f64,
+    pub passenger_cost_usd: f64,
     /// Cost of charging (Eq. 3).
-    pub energy_cost: f64,
+    pub energy_cost_usd: f64,
     /// What flights cost with or without passengers, beside their energy.
-    pub flight_cost: f64,
+    pub flight_cost_usd: f64,
     /// What the fleet costs whatever it does.
-    pub aircraft_cost: f64,
+    pub aircraft_cost_usd: f64,
     /// Energy charged.
     pub energy_kwh: f64,
     /// Flights, with passengers or without.
@@ -72,21 +72,21 @@ impl Totals {
         self.decisions += 1;
         self.repositioning_flights += u32::from(passengers == 0);
         self.passengers += u64::from(passengers);
-        self.revenue += flight.revenue_usd;
-        self.passenger_cost += flight.passenger_cost_usd;
-        self.energy_cost += flight.energy_cost_usd;
-        self.flight_cost += flight.flight_cost_usd;
+        self.revenue_usd += flight.revenue_usd;
+        self.passenger_cost_usd += flight.passenger_cost_usd;
+        self.energy_cost_usd += flight.energy_cost_usd;
+        self.flight_cost_usd += flight.flight_cost_usd;
         self.energy_kwh += flight.energy_kwh;
     }
 
     /// Enters what so many aircraft cost for the day, and draws the balance.
     pub(super) fn close(&mut self, aircraft: usize, cost_usd: f64) {
-        self.aircraft_cost = cost_usd * aircraft as f64;
-        self.profit = self.revenue
-            - self.passenger_cost
-            - self.energy_cost
-            - self.flight_cost
-            - self.aircraft_cost;
+        self.aircraft_cost_usd = cost_usd * aircraft as f64;
+        self.profit_usd = self.revenue_usd
+            - self.passenger_cost_usd
+            - self.energy_cost_usd
+            - self.flight_cost_usd
+            - self.aircraft_cost_usd;
     }
 }
 
@@ -217,10 +217,14 @@ impl fmt::Display for Totals {
         write!(
             f,
             "profit ${:.2} = revenue ${:.2} - passenger cost ${:.2} - energy cost ${:.2} ({:.2} kWh)",
-            self.profit, self.revenue, self.passenger_cost, self.energy_cost, self.energy_kwh
+            self.profit_usd,
+            self.revenue_usd,
+            self.passenger_cost_usd,
+            self.energy_cost_usd,
+            self.energy_kwh
         )?;
         for (name, cost) in
-            [("flight cost", self.flight_cost), ("aircraft cost", self.aircraft_cost)]
+            [("flight cost", self.flight_cost_usd), ("aircraft cost", self.aircraft_cost_usd)]
         {
             if cost != 0.0 {
                 write!(f, " - {name} ${cost:.2}")?;

@@ -8,7 +8,7 @@ use crate::table::{append_aligned, estimate};
 const OFFLINE_MARK: &str = " *";
 
 /// The text that `generalise` prints. No line end after the last line.
-pub fn text(summary: &GeneralisationReport) -> String {
+pub(super) fn text(summary: &GeneralisationReport) -> String {
     let first = &summary.first().name;
     let networks = counted(summary.networks.len(), "random network", "random networks");
     let mut text = format!("{networks}, a day of each\n\n");

@@ -1,5 +1,6 @@
 //! Made-up results of five policies, the same on every machine: for tests and the sample report.
 
+use vertifleet_sim::DayTotals;
 use vertifleet_study::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, NetworkOrigin, PolicyRecord,
     ValidationCurves,
@@ -66,13 +67,13 @@ const POLICIES: [Outline; 5] = [
 pub(crate) fn study(days: usize) -> ComparisonRecords {
     let mut noise = Noise(1);
     let seasons: Vec<f64> = (0..days).map(|_| 1_300.0 * noise.next_normal()).collect();
-    let policies = POLICIES.iter().enumerate().map(|(position, outline)| PolicyRecord {
+    let policies = POLICIES.iter().map(|outline| PolicyRecord {
         name: outline.name.to_owned(),
         description: outline.description.to_owned(),
         days: seasons
             .iter()
             .zip(0..)
-            .map(|(&season, day)| record(position, outline, day, season, &mut noise))
+            .map(|(&season, day)| record(outline, day, season, &mut noise))
             .collect(),
         decision_ns: Some(outline.decision_ns),
     });
@@ -102,31 +103,32 @@ pub(crate) fn study(days: usize) -> ComparisonRecords {
     }
 }
 
-fn record(policy: usize, outline: &Outline, day: u64, season: f64, noise: &mut Noise) -> DayRecord {
+fn record(outline: &Outline, day: u64, season: f64, noise: &mut Noise) -> DayRecord {
     let profit_usd = outline.profit_usd + season + outline.noise_usd * noise.next_normal();
     let potential_usd = 131_000.0 + 2.0 * season;
     let jitter = (day % 7) as u32;
     let flights = outline.flights + jitter;
     DayRecord {
-        policy,
         day: format!("paper-{}", day + 1),
         seed: day + 1,
-        profit_usd,
-        revenue_usd: profit_usd * 1.9,
-        passenger_cost_usd: profit_usd * 0.8,
-        energy_cost_usd: profit_usd * 0.1,
-        flight_cost_usd: 0.0,
-        aircraft_cost_usd: 0.0,
-        energy_kwh: profit_usd * 0.5,
-        potential_usd,
-        reward: profit_usd / potential_usd,
-        flights,
-        repositioning_flights: 9 + jitter,
-        holds: 44 - jitter,
-        decisions: flights + 44 - jitter,
-        passengers: u64::from(flights * 4 - 60),
-        spilled_passengers: 29_000,
-        load_factor: f64::from(flights * 4 - 60) / f64::from(flights * 4),
+        totals: DayTotals {
+            profit_usd,
+            revenue_usd: profit_usd * 1.9,
+            passenger_cost_usd: profit_usd * 0.8,
+            energy_cost_usd: profit_usd * 0.1,
+            flight_cost_usd: 0.0,
+            aircraft_cost_usd: 0.0,
+            energy_kwh: profit_usd * 0.5,
+            potential_usd,
+            reward: profit_usd / potential_usd,
+            flights,
+            repositioning_flights: 9 + jitter,
+            holds: 44 - jitter,
+            decisions: flights + 44 - jitter,
+            passengers: u64::from(flights * 4 - 60),
+            spilled_passengers: 29_000,
+            load_factor: f64::from(flights * 4 - 60) / f64::from(flights * 4),
+        },
         upper_bound_usd: None,
     }
 }

@@ -9,25 +9,25 @@ use vertifleet_core::VertiportIx;
 use vertifleet_learn::Scales;
 use vertifleet_policy::{Policy, PolicyError};
 use vertifleet_sim::{Decision, View};
-use vertifleet_study::policies::{Given, Maker};
+use vertifleet_study::{PolicyFactory, PolicySource};
 
 use crate::failure::Failure;
 use crate::model::Model;
 use crate::shown::{Arrays, To};
 use crate::whole::Whole;
 
-/// Weights: a path, or a model.
+/// Weights: a model, or the path of a file.
 #[derive(FromPyObject)]
-pub(crate) enum Weighed<'py> {
+pub(crate) enum Weights<'py> {
     Model(PyRef<'py, Model>),
     Path(PathBuf),
 }
 
-impl Weighed<'_> {
-    pub(crate) fn given(self) -> Given {
-        match self {
-            Self::Model(model) => Given::Model(Arc::clone(&model.model)),
-            Self::Path(path) => Given::File(path),
+impl From<Weights<'_>> for PolicySource {
+    fn from(weights: Weights<'_>) -> Self {
+        match weights {
+            Weights::Model(model) => Self::Model(Arc::clone(&model.model)),
+            Weights::Path(path) => Self::File(path),
         }
     }
 }
@@ -42,16 +42,16 @@ impl Raised {
     }
 }
 
-/// Weights, or a function ([`own`]), which takes the scales of a network.
-pub(crate) fn given(
+/// What a value in Python stands for: weights, or a function ([`of_function`]), which takes the scales of a network.
+pub(crate) fn policy_source(
     value: &Bound<'_, PyAny>,
     scales: Option<Scales>,
     raised: &Raised,
-) -> PyResult<Given> {
-    match (value.extract::<Weighed<'_>>(), scales) {
-        (Ok(weighed), _) => Ok(weighed.given()),
+) -> PyResult<PolicySource> {
+    match (value.extract::<Weights<'_>>(), scales) {
+        (Ok(weights), _) => Ok(weights.into()),
         (Err(_), Some(scales)) if value.is_callable() => {
-            Ok(Given::Policy(own(value, scales, raised)))
+            Ok(PolicySource::Own(of_function(value, scales, raised)))
         }
         (Err(_), None) if value.is_callable() => {
             let message = "a function takes a network, as which it sees the days";
@@ -64,9 +64,13 @@ pub(crate) fn given(
 }
 
 /// A function from an observation, as the environment shows it, to an action.
-pub(crate) fn own(function: &Bound<'_, PyAny>, scales: Scales, raised: &Raised) -> Maker {
+pub(crate) fn of_function(
+    function: &Bound<'_, PyAny>,
+    scales: Scales,
+    raised: &Raised,
+) -> PolicyFactory {
     let (function, raised) = (Arc::new(function.clone().unbind()), raised.clone());
-    Maker(Arc::new(move || {
+    PolicyFactory(Arc::new(move || {
         let (call, raised) = (Arc::clone(&function), raised.clone());
         Box::new(Function { call, scales, raised })
     }))

@@ -1,6 +1,4 @@
-//! Small random days, anything that a checked scenario may be.
-
-pub(crate) mod extended;
+//! Small days of every kind as a proptest strategy, which shrinks what fails.
 
 use std::sync::Arc;
 
@@ -12,7 +10,7 @@ use vertifleet_core::{
 
 /// Days with 1 to 5 vertiports, 1 to 6 aircraft of 1 or 2 types and a few periods; stands and demand are scarce, and
 /// some pairs are out of range.
-pub(crate) fn small_day() -> impl Strategy<Value = Arc<Scenario>> {
+pub fn small_day() -> impl Strategy<Value = Arc<Scenario>> {
     (1_usize..=5, 1_usize..=6, 1_usize..=2, 1_usize..=4, any::<u64>())
         .prop_flat_map(|(vertiports, fleet, types, periods, seed)| {
             (

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 PAGES = ["README.md", "docs/src/guide/python.md", "docs/src/guide/cluster.md", "python/README.md"]
 EXAMPLES = [
     (page, number, code)

@@ -447,7 +447,7 @@ def test_settings_are_checked_before_anything_is_learned():
         assert refused.value.code == code
 
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "maskable_ppo.py"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "maskable_ppo.py"
 
 
 def test_the_example_asks_first_whether_the_file_can_be_written(tmp_path):

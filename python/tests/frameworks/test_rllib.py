@@ -355,7 +355,7 @@ def test_a_network_that_is_not_known_or_not_the_one_trained_on_is_refused(paper,
     assert not path.exists()
 
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "rllib_ppo.py"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "rllib_ppo.py"
 
 
 def test_the_example_asks_first_whether_the_file_can_be_written(tmp_path):

@@ -15,7 +15,7 @@ safetensors = pytest.importorskip("safetensors.torch")
 
 from vertifleet.torch import Gcaps, GcapsX, Mlp, act, load, masked, save  # noqa: E402
 
-MODELS = Path(__file__).parents[2] / "models"
+MODELS = Path(__file__).parents[3] / "models"
 SHIPPED = {
     "gcaps": MODELS / "paper" / "gcaps.safetensors",
     "mlp": MODELS / "paper" / "mlp.safetensors",

@@ -1,4 +1,4 @@
-//! Small days of every kind, drawn from a number.
+//! Small days of every kind, drawn from a number, for tests that search each of them exhaustively or with a planner.
 
 use std::sync::Arc;
 
@@ -11,15 +11,18 @@ use vertifleet_core::{
 
 /// How large a day may be.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Size {
-    pub(crate) vertiports: usize,
-    pub(crate) fleet: usize,
-    pub(crate) hours: u32,
+pub struct Size {
+    /// Most vertiports.
+    pub vertiports: usize,
+    /// Most aircraft.
+    pub fleet: usize,
+    /// Most hours of operations, to which up to half an hour is added.
+    pub hours: u32,
 }
 
 /// A day with up to as many vertiports, aircraft and hours, with one or two types of aircraft, scarce stands, scarce or
 /// ample demand, changing prices, periods of any length, and pairs that are out of range.
-pub(crate) fn any_day(number: u64, most: Size) -> Arc<Scenario> {
+pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(number);
     let size = random.random_range(1..=most.vertiports);
     let types = random.random_range(1..=2_usize);
@@ -106,9 +109,9 @@ pub(crate) fn any_day(number: u64, most: Size) -> Arc<Scenario> {
     Arc::new(day.check("small day").expect("a day within the rules"))
 }
 
-/// As [`any_day`], with fares that change, corridors, separate chargers, delays, closures and outages; each on some days. The
+/// A day as of [`any_day`], with fares that change, corridors, separate chargers, delays, closures and outages; each on some days. The
 /// demand is not as forecast.
-pub(crate) fn any_extended_day(number: u64, most: Size) -> Arc<Scenario> {
+pub fn any_extended_day(number: u64, most: Size) -> Arc<Scenario> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(!number);
     let mut day = Scenario::clone(&any_day(number, most)).into_day();
     let size = day.vertiports.len();

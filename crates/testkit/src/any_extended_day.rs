@@ -1,4 +1,4 @@
-//! Small days with everything beyond the paper in them, or with some of it.
+//! Small days with everything beyond the paper in them, or with some of it, as a proptest strategy.
 
 use std::sync::Arc;
 
@@ -9,10 +9,11 @@ use vertifleet_core::{
     VertiportIx,
 };
 
-use super::small_day;
+use crate::small_day;
 
-/// What is laid over a day; every number is taken for what it is needed for, round and round.
-pub(crate) fn extended_day() -> impl Strategy<Value = Arc<Scenario>> {
+/// Days as of [`small_day`] with changing fares, corridors, separate chargers, forecasts, delays, closures and outages; each on some.
+/// Every number that proptest draws is taken for what it is needed for, round and round.
+pub fn extended_day() -> impl Strategy<Value = Arc<Scenario>> {
     let parts = prop::collection::vec(any::<bool>(), 7);
     (small_day(), parts, prop::collection::vec(any::<Index>(), 30))
         .prop_map(|(day, parts, numbers)| extended(&day, &parts, &numbers))

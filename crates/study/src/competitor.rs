@@ -1,0 +1,176 @@
+//! Competitors of a study: policies by their names, and the planner as a reference that knows the days.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use vertifleet_core::{Scenario, Stop};
+use vertifleet_optimize::{Budget, SearchSettings, can_plan, plan, steps_of_equal_work};
+use vertifleet_sim::Trace;
+
+use crate::error::Error;
+use crate::numbers::grouped;
+use crate::policy_spec::{PolicySource, PolicySpec, ResolveFor};
+use crate::record::{LearningCurve, ValidationCurves};
+use crate::resolved_policy::{ResolvedPolicy, starting_policies};
+
+/// Steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; on other days as many as
+/// are as much work. There is no time limit, so that the plan is the same everywhere.
+const PLAN_STEPS: u64 = 200_000;
+
+/// A policy or the planner, with the name that it has in the study.
+pub struct Competitor {
+    /// Its name, which no other competitor has.
+    pub name: String,
+    pub(crate) kind: Kind,
+}
+
+/// How a competitor comes to its decisions.
+pub(crate) enum Kind {
+    /// While the day goes on.
+    Policy(ResolvedPolicy),
+    /// With the whole day known: a reference for policies.
+    Planner(Planner),
+}
+
+/// The planner, with as many steps on a day of `paper` and the seed of its search.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Planner {
+    pub(crate) paper_steps: u64,
+    pub(crate) seed: u64,
+}
+
+impl Planner {
+    /// The whole schedule of a day that is known; some schedule soon once `stop` is raised. Days take turns on the threads, so
+    /// each plan needs but one search.
+    pub(crate) fn plan(&self, day: &Arc<Scenario>, stop: &Stop) -> Trace {
+        let budget = Budget::Steps(steps_of_equal_work(day, self.paper_steps));
+        let settings = SearchSettings { budget, searches: 1, seed: self.seed };
+        let starts = starting_policies(day);
+        let plan = plan(day, &settings, starts, &mut |_| !stop.is_requested());
+        plan.expect("the days were found to be fit for it").trace
+    }
+}
+
+/// The competitors that are asked for.
+pub struct Selection<'a> {
+    /// Names, in the order of the results.
+    pub policies: &'a [String],
+    /// What names stand for, where that is given.
+    pub models: &'a [(String, PolicySource)],
+    /// Seed of the random policy and of the planner's search.
+    pub seed: u64,
+}
+
+impl Selection<'_> {
+    /// All competitors, for days of the network of this name.
+    ///
+    /// # Errors
+    /// If there is no such policy, weights cannot be read, names and weights do not go together, or two have one name.
+    pub fn resolve(&self, network: &str) -> Result<Vec<Competitor>, Error> {
+        let parse = |name: &String| PolicySpec::parse(name);
+        let specs: Vec<PolicySpec> = self.policies.iter().map(parse).collect::<Result<_, _>>()?;
+        self.check_models(&specs)?;
+        if let Some(name) = first_repeated(self.policies.iter()) {
+            return Err(Error::DuplicatePolicy { name: name.clone() });
+        }
+        specs.iter().map(|spec| self.competitor(spec, network)).collect()
+    }
+
+    fn check_models(&self, specs: &[PolicySpec]) -> Result<(), Error> {
+        let names = || self.models.iter().map(|(name, _)| name);
+        if let Some(twice) = first_repeated(names()) {
+            return Err(Error::Asked {
+                rule: format!("two models are given for {twice:?}"),
+                hint: "give each name one path",
+            });
+        }
+        let is_used = |name: &str| specs.iter().any(|spec| spec.takes(name));
+        match names().find(|name| !is_used(name)) {
+            None => Ok(()),
+            Some(unused) => Err(Error::Asked {
+                rule: format!("a model is given for {unused:?}, which is not among the policies"),
+                hint: "add the name to the policies",
+            }),
+        }
+    }
+
+    fn competitor(&self, spec: &PolicySpec, network: &str) -> Result<Competitor, Error> {
+        let source =
+            self.models.iter().find(|(name, _)| spec.takes(name)).map(|(_, source)| source);
+        let kind = if spec.is_planner() && source.is_none() {
+            Kind::Planner(Planner { paper_steps: PLAN_STEPS, seed: self.seed })
+        } else {
+            Kind::Policy(spec.resolve(source, ResolveFor::DaysOf(network), self.seed)?)
+        };
+        Ok(Competitor { name: spec.name().to_owned(), kind })
+    }
+}
+
+impl Competitor {
+    /// Whether it can take part on days like this one.
+    ///
+    /// # Errors
+    /// If its weights are of another network, or the day has what the planner does not know.
+    pub fn check_fits(&self, scenario: &Scenario) -> Result<(), Error> {
+        match &self.kind {
+            Kind::Policy(policy) => policy.check_fits(scenario),
+            Kind::Planner(_) => Ok(can_plan(scenario)?),
+        }
+    }
+
+    pub(crate) fn policy(&self) -> Option<&ResolvedPolicy> {
+        match &self.kind {
+            Kind::Policy(policy) => Some(policy),
+            Kind::Planner(_) => None,
+        }
+    }
+
+    /// What it does, in one short sentence.
+    pub(crate) fn description(&self) -> String {
+        match &self.kind {
+            Kind::Policy(policy) => policy.description(),
+            Kind::Planner(Planner { paper_steps, .. }) => format!(
+                "knows the day beforehand and searches for its best schedule, on `paper` in {} steps",
+                grouped(*paper_steps as f64, 0)
+            ),
+        }
+    }
+
+    /// Whether it was trained on days of the network of this name.
+    pub(crate) fn was_trained_on(&self, network: &str) -> bool {
+        self.policy().and_then(ResolvedPolicy::trained_on) == Some(network)
+    }
+
+    /// Its learning curve on the training days, where it has one.
+    pub(crate) fn learning_curve(&self) -> Option<LearningCurve> {
+        let points = self.policy()?.training_rewards();
+        (!points.is_empty()).then(|| LearningCurve { name: self.name.clone(), points })
+    }
+
+    /// How it did on the validation days while it was trained, a run a seed.
+    pub(crate) fn validation_curves(&self) -> Option<ValidationCurves> {
+        let runs = self.policy()?.validation_rewards();
+        (!runs.is_empty()).then(|| ValidationCurves { name: self.name.clone(), runs })
+    }
+}
+
+fn first_repeated<'a>(mut names: impl Iterator<Item = &'a String>) -> Option<&'a String> {
+    let mut known = BTreeSet::new();
+    names.find(|name| !known.insert(*name))
+}
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::Coded;
+
+    use super::Selection;
+
+    #[test]
+    fn a_name_that_comes_twice_is_refused() {
+        let policies = ["greedy", "random", "greedy"].map(str::to_owned);
+        let selection = Selection { policies: &policies, models: &[], seed: 0 };
+        let error = selection.resolve("paper").err().expect("a name that comes twice");
+        assert_eq!(error.code().to_string(), "V404");
+        assert!(error.to_string().contains("\"greedy\""), "{error}");
+    }
+}

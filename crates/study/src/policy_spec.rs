@@ -1,0 +1,244 @@
+//! How a policy is named: [`PolicySpec::parse`] reads the name, [`PolicySpec::resolve`] finds the weights or the trace behind it.
+//!
+//! Every command and the Python package name policies in this one way.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use vertifleet_core::{Scenario, nearest};
+use vertifleet_learn::nn::Architecture;
+use vertifleet_learn::{Curve, GcapsX, Model, Shipped, shipped};
+use vertifleet_policy::Policy;
+use vertifleet_sim::Trace;
+
+use crate::error::Error;
+use crate::resolved_policy::ResolvedPolicy;
+
+/// The policy whose weights fit networks of any size.
+const ANY_SIZE: &str = "gcaps-x";
+
+/// Names that commands take as they are.
+const NAMES: [&str; 9] =
+    ["random", "greedy", "lookahead", "prices", "rolling", ANY_SIZE, "gcaps", "mlp", "plan"];
+
+/// A policy as its name says it, before anything is read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PolicySpec {
+    name: String,
+    kind: Kind,
+}
+
+/// What a name says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Kind {
+    Random,
+    Greedy,
+    Lookahead,
+    BidPrices,
+    Rolling,
+    /// The planner, which is no policy: it knows the day.
+    Planner,
+    /// The trace in this file.
+    Replay(PathBuf),
+    Learned {
+        architecture: &'static str,
+        most_rolled_out: usize,
+    },
+    /// A name of the user's own for weights or a function that come with it.
+    Own,
+}
+
+/// What a name stands for, where its user says so.
+#[derive(Debug, Clone)]
+pub enum PolicySource {
+    /// Weights in a file, with the learning curves that may lie beside it.
+    File(PathBuf),
+    /// Weights that have been read.
+    Model(Arc<Model>),
+    /// A policy of the user's own.
+    Own(PolicyFactory),
+}
+
+/// Makes a policy, as often as there are threads that need one.
+#[derive(Clone)]
+pub struct PolicyFactory(pub Arc<dyn Fn() -> Box<dyn Policy> + Send + Sync>);
+
+impl fmt::Debug for PolicyFactory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("PolicyFactory")
+    }
+}
+
+/// The days that a policy is resolved for.
+#[derive(Debug, Clone, Copy)]
+pub enum ResolveFor<'a> {
+    /// One day, which a trace may be of.
+    Day(&'a Scenario),
+    /// Days of the network of this name.
+    DaysOf(&'a str),
+}
+
+impl PolicySpec {
+    /// Reads a name, as `greedy`, `gcaps-x:rollouts=3` or `replay:day.csv`. One that is not known may be the user's own, for what
+    /// [`resolve`](Self::resolve) is given with it.
+    ///
+    /// # Errors
+    /// [`Error::Asked`] if what stands behind `gcaps-x:` cannot be.
+    pub fn parse(name: &str) -> Result<Self, Error> {
+        let kind = match name {
+            "random" => Kind::Random,
+            "greedy" => Kind::Greedy,
+            "lookahead" => Kind::Lookahead,
+            "prices" => Kind::BidPrices,
+            "rolling" => Kind::Rolling,
+            "plan" => Kind::Planner,
+            _ => match (Architecture::named(name), name.split_once(':')) {
+                (Some(architecture), _) => {
+                    Kind::Learned { architecture: architecture.name(), most_rolled_out: 1 }
+                }
+                (None, Some((ANY_SIZE, options))) => Kind::Learned {
+                    architecture: ANY_SIZE,
+                    most_rolled_out: parse_rollouts(name, options)?,
+                },
+                (None, Some(("replay", path))) => Kind::Replay(path.into()),
+                _ => Kind::Own,
+            },
+        };
+        Ok(Self { name: name.to_owned(), kind })
+    }
+
+    /// The name as it was given.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether the planner is meant, which knows the day and is no policy.
+    pub fn is_planner(&self) -> bool {
+        self.kind == Kind::Planner
+    }
+
+    /// Whether what is given under this name is meant: the own name, or `gcaps-x` for `gcaps-x:rollouts=3`.
+    pub fn takes(&self, name: &str) -> bool {
+        let is_architecture = |kind: &Kind| matches!(kind, Kind::Learned { architecture, .. } if *architecture == name);
+        self.name == name || is_architecture(&self.kind)
+    }
+
+    /// The trace that is replayed, where one is.
+    pub fn replayed(&self) -> Option<&Path> {
+        match &self.kind {
+            Kind::Replay(path) => Some(path),
+            _ => None,
+        }
+    }
+
+    /// Finds the policy: of what is given with the name, or else a rule, a trace, or weights that the program ships. `seed` is that of
+    /// the random policy.
+    ///
+    /// # Errors
+    /// If there is no such policy, weights or trace cannot be read, or name and weights do not go together. The planner is no policy.
+    pub fn resolve(
+        &self,
+        source: Option<&PolicySource>,
+        days: ResolveFor<'_>,
+        seed: u64,
+    ) -> Result<ResolvedPolicy, Error> {
+        let takes_a_source = matches!(self.kind, Kind::Learned { .. } | Kind::Own);
+        match (source, &self.kind) {
+            (Some(source), _) if takes_a_source => self.given(source, days),
+            (Some(_), _) => Err(Error::Asked {
+                rule: format!(
+                    "policy {:?} takes no weights, but a model is given for it",
+                    self.name
+                ),
+                hint: "leave the model out, or name a learned policy (gcaps, mlp, gcaps-x)",
+            }),
+            (None, Kind::Random) => Ok(ResolvedPolicy::Random(seed)),
+            (None, Kind::Greedy) => Ok(ResolvedPolicy::Greedy),
+            (None, Kind::Lookahead) => Ok(ResolvedPolicy::Lookahead),
+            (None, Kind::BidPrices) => Ok(ResolvedPolicy::BidPrices),
+            (None, Kind::Rolling) => Ok(ResolvedPolicy::Rolling),
+            (None, Kind::Replay(path)) => match days {
+                ResolveFor::Day(day) => {
+                    Ok(ResolvedPolicy::Replay(Arc::new(Trace::read(path, day)?)))
+                }
+                ResolveFor::DaysOf(_) => Err(self.is_unknown()),
+            },
+            (None, Kind::Learned { architecture, most_rolled_out }) => {
+                let Shipped { model, curves } = shipped(architecture, days.network())?;
+                Ok(ResolvedPolicy::Learned {
+                    model: Arc::new(model),
+                    most_rolled_out: *most_rolled_out,
+                    curves,
+                    is_shipped: true,
+                })
+            }
+            (None, Kind::Own | Kind::Planner) => Err(self.is_unknown()),
+        }
+    }
+
+    /// The policy of what is given with the name. Where the name is that of an architecture, the weights must be of it.
+    fn given(&self, source: &PolicySource, days: ResolveFor<'_>) -> Result<ResolvedPolicy, Error> {
+        let (model, origin) = match source {
+            PolicySource::File(path) => (Arc::new(Model::read(path)?), path.display().to_string()),
+            PolicySource::Model(model) => (Arc::clone(model), "the model".to_owned()),
+            PolicySource::Own(factory) => return Ok(ResolvedPolicy::Own(factory.clone())),
+        };
+        let (found, mut most) = (model.kind(), 1);
+        if let Kind::Learned { architecture, most_rolled_out } = self.kind {
+            if architecture != found {
+                return Err(Error::Asked {
+                    rule: format!(
+                        "{origin} has weights of {found:?}, but {architecture:?} is asked for"
+                    ),
+                    hint: "name the policy as its weights do",
+                });
+            }
+            most = most_rolled_out;
+        }
+        // How it learned is told beside results of many days; of one day's, a curve that cannot be read must not be in the way.
+        let curves = match (source, days) {
+            (PolicySource::File(path), ResolveFor::DaysOf(_)) => Curve::read_beside(path)?,
+            _ => Vec::new(),
+        };
+        Ok(ResolvedPolicy::Learned { model, most_rolled_out: most, curves, is_shipped: false })
+    }
+
+    fn is_unknown(&self) -> Error {
+        let meant = match nearest(&self.name, NAMES) {
+            Some("plan") => Some("`vertifleet plan` plans a day that is known in full".to_owned()),
+            meant => meant.map(|name| format!("did you mean {name}?")),
+        };
+        let known = NAMES.join(", ");
+        Error::UnknownPolicy {
+            name: self.name.clone(),
+            known: format!(
+                "{known} (in compare), {ANY_SIZE}:rollouts=K and replay:TRACE (in simulate)"
+            ),
+            meant,
+        }
+    }
+}
+
+/// How many choices `gcaps-x` rolls out, of what stands behind its colon.
+fn parse_rollouts(name: &str, options: &str) -> Result<usize, Error> {
+    let most = options.strip_prefix("rollouts=").and_then(|most| most.parse().ok());
+    most.filter(|most| (2..=GcapsX::MOST_ROLLED_OUT).contains(most)).ok_or_else(|| Error::Asked {
+        rule: format!("policy {name:?} is not understood"),
+        hint: "gcaps-x:rollouts=3 rolls the 3 best choices out; from 2 to 5 can be",
+    })
+}
+
+impl ResolveFor<'_> {
+    fn network(&self) -> &str {
+        match self {
+            Self::Day(day) => network_of(day),
+            Self::DaysOf(network) => network,
+        }
+    }
+}
+
+/// The network a day was drawn from, by its name: `paper` of `paper-7`.
+pub(crate) fn network_of(scenario: &Scenario) -> &str {
+    scenario.name.strip_suffix(&format!("-{}", scenario.seed)).unwrap_or(&scenario.name)
+}

@@ -1,0 +1,186 @@
+//! A policy with all that it needs to decide, which is built as often as there are threads that need one.
+
+use std::sync::Arc;
+
+use vertifleet_core::{Scenario, Stop};
+use vertifleet_learn::{Curve, Model};
+use vertifleet_optimize::{Rolling, StartingPolicy};
+use vertifleet_policy::{
+    BidPricePolicy, Greedy, Lookahead, Policy, Random, Replay, Stoppable, play,
+};
+use vertifleet_sim::{DayTotals, Simulation, Trace};
+
+use crate::error::Error;
+use crate::numbers::grouped;
+use crate::origin::NetworkOrigin;
+use crate::policy_spec::{PolicyFactory, PolicySpec, ResolveFor, network_of};
+
+/// A policy that can be built.
+#[derive(Debug, Clone)]
+pub enum ResolvedPolicy {
+    /// [`Random`] with this seed.
+    Random(u64),
+    /// [`Greedy`].
+    Greedy,
+    /// [`Lookahead`].
+    Lookahead,
+    /// [`BidPricePolicy`].
+    BidPrices,
+    /// [`Rolling`].
+    Rolling,
+    /// One of the user's own.
+    Own(PolicyFactory),
+    /// [`Replay`] of a trace.
+    Replay(Arc<Trace>),
+    /// A policy that has learned.
+    Learned {
+        /// Its weights.
+        model: Arc<Model>,
+        /// How many choices `gcaps-x` rolls out; 1 decides at once, as the others do.
+        most_rolled_out: usize,
+        /// Of the run that these weights are of, then of runs with other seeds.
+        curves: Vec<Curve>,
+        /// Whether the program ships them.
+        is_shipped: bool,
+    },
+}
+
+impl ResolvedPolicy {
+    /// One policy of this kind.
+    pub fn build(&self) -> Box<dyn Policy> {
+        match self {
+            Self::Random(seed) => Box::new(Random::new(*seed)),
+            Self::Greedy => Box::new(Greedy),
+            Self::Lookahead => Box::new(Lookahead),
+            Self::BidPrices => Box::new(BidPricePolicy::default()),
+            Self::Rolling => Box::new(Rolling::default()),
+            Self::Own(PolicyFactory(build)) => build(),
+            Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
+            Self::Learned { model, most_rolled_out, .. } => model.policy(*most_rolled_out),
+        }
+    }
+
+    /// Plays a day to its end; `name` is the policy's in an error.
+    ///
+    /// # Errors
+    /// [`Error::Stuck`] if the policy cannot; [`Error::Stopped`] soon after `stop` is raised.
+    pub fn play(
+        &self,
+        name: &str,
+        day: &Arc<Scenario>,
+        stop: &Stop,
+    ) -> Result<(Trace, DayTotals), Error> {
+        let mut simulation = Simulation::new(Arc::clone(day));
+        let mut trace = Trace::default();
+        let mut policy = self.build();
+        let mut policy = Stoppable { policy: policy.as_mut(), stop };
+        play(&mut simulation, &mut policy, |row| trace.rows.push(*row))
+            .map_err(|cause| Error::of_play(name, &day.name, cause))?;
+        Ok((trace, simulation.totals()))
+    }
+
+    /// Whether the policy can play this day.
+    ///
+    /// # Errors
+    /// [`Error::Learn`] if its weights are of another network.
+    pub fn check_fits(&self, scenario: &Scenario) -> Result<(), Error> {
+        match self {
+            Self::Learned { model, .. } => Ok(model.check_fits(scenario)?),
+            _ => Ok(()),
+        }
+    }
+
+    /// [`warning`](Self::warning) for one day.
+    pub fn warning_for(&self, name: &str, day: &Scenario) -> Option<String> {
+        let network = network_of(day);
+        self.warning(name, network, NetworkOrigin::of(network, [day]))
+    }
+
+    /// V310: what to say where shipped weights decide on a network that only bears the name of theirs. Cause: the network
+    /// was copied and changed, or the scenario was. Fix: train weights on it, or take it that these know the other one.
+    pub(crate) fn warning(
+        &self,
+        name: &str,
+        network: &str,
+        origin: NetworkOrigin,
+    ) -> Option<String> {
+        let Self::Learned { is_shipped: true, model, .. } = self else { return None };
+        let is_for_another =
+            origin == NetworkOrigin::Changed && model.header().shape.vertiports.is_some();
+        is_for_another.then(|| {
+            format!(
+                "policy {name:?} was trained on network {network:?} as it is shipped, but this is a changed copy of it; `vertifleet train` makes weights for the copy"
+            )
+        })
+    }
+
+    /// What the policy does, in one short sentence.
+    pub(crate) fn description(&self) -> String {
+        match self {
+            Self::Random(_) => "draws evenly among the feasible vertiports (Feas-RND)".to_owned(),
+            Self::Greedy => "takes the flight with the highest profit per hour".to_owned(),
+            Self::Lookahead => "takes the first of the best two flights in a row".to_owned(),
+            Self::BidPrices => "takes what is worth most at the day's prices".to_owned(),
+            Self::Rolling => "tries out what is worth most at the day's prices".to_owned(),
+            Self::Own(_) => "decides in a way of its own".to_owned(),
+            Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
+            Self::Learned { model, most_rolled_out, .. } => {
+                let header = model.header();
+                let decisions = grouped(header.steps as f64, 0);
+                match (header.shape.vertiports, most_rolled_out) {
+                    (Some(_), _) => {
+                        format!("learned on {} from {decisions} decisions", header.network)
+                    }
+                    (None, 1) => format!("learned what prices miss from {decisions} decisions"),
+                    (None, most) => format!(
+                        "learned what prices miss from {decisions} decisions; rolls its {most} best choices out"
+                    ),
+                }
+            }
+        }
+    }
+
+    /// Name of the network whose days it was trained on, if it was.
+    pub(crate) fn trained_on(&self) -> Option<&str> {
+        match self {
+            Self::Learned { model, .. } => Some(&model.header().network),
+            _ => None,
+        }
+    }
+
+    /// Steps and mean episode reward on the training days; none of a policy that does not learn from rewards.
+    pub(crate) fn training_rewards(&self) -> Vec<(u64, f64)> {
+        match self {
+            Self::Learned { curves, .. } => {
+                curves.first().map(Curve::training_rewards).unwrap_or_default()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Decisions learned from and mean reward on the validation days, run by run; none of a policy that was not trained, or not
+    /// validated while it was.
+    pub(crate) fn validation_rewards(&self) -> Vec<Vec<(u64, f64)>> {
+        let mut runs: Vec<Vec<(u64, f64)>> = match self {
+            // With roll-outs it decides in another way than in its training.
+            Self::Learned { curves, most_rolled_out: 1, .. } => {
+                curves.iter().map(Curve::validation_rewards).collect()
+            }
+            _ => Vec::new(),
+        };
+        runs.retain(|run| !run.is_empty());
+        runs
+    }
+}
+
+/// The learned policies that the program ships for a day's network, and those for every network: with the rules, all from
+/// whose days a plan can set out.
+pub fn starting_policies(scenario: &Scenario) -> Vec<StartingPolicy> {
+    let names = ["gcaps-x", "gcaps", "mlp"];
+    let shipped = names.into_iter().filter_map(|name| {
+        let spec = PolicySpec::parse(name).ok()?;
+        let policy = spec.resolve(None, ResolveFor::Day(scenario), 0).ok()?;
+        policy.check_fits(scenario).is_ok().then(|| StartingPolicy::new(name, policy.build()))
+    });
+    shipped.collect()
+}

@@ -1,0 +1,85 @@
+//! What all studies have in common: competitors play days, which may be bounded first.
+
+use std::sync::Arc;
+
+use vertifleet_core::{Scenario, Stop};
+use vertifleet_optimize::Step;
+
+use crate::competitor::Competitor;
+use crate::error::Error;
+use crate::kept_bounds::KeptBounds;
+use crate::record::PolicyRecord;
+use crate::run::{BoundedDay, run};
+
+/// What is told how far a study is. Each member is asked for something to call after every day, from any thread.
+pub trait Watch {
+    /// What is called after a day.
+    type Bar: Fn() + Sync;
+    /// So many days are being bounded.
+    fn bounds(&self, days: usize) -> Self::Bar;
+    /// So many days are being played by this policy; `position` of `policies`, from 1.
+    fn policy(&self, name: &str, position: usize, policies: usize, days: usize) -> Self::Bar;
+}
+
+/// Watches nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    type Bar = fn();
+
+    fn bounds(&self, _: usize) -> fn() {
+        || ()
+    }
+
+    fn policy(&self, _: &str, _: usize, _: usize, _: usize) -> fn() {
+        || ()
+    }
+}
+
+/// Days and the competitors that will play them, each of which can play each.
+pub(crate) struct Study {
+    pub(crate) competitors: Vec<Competitor>,
+    pub(crate) scenarios: Vec<Arc<Scenario>>,
+    /// Step of the days' upper bounds, where those are asked for.
+    pub(crate) bound_step: Option<Step>,
+}
+
+impl Study {
+    /// # Errors
+    /// [`Error::Empty`] if there is no competitor or no day; else if a competitor cannot play one of the days.
+    pub(crate) fn new(
+        competitors: Vec<Competitor>,
+        scenarios: Vec<Arc<Scenario>>,
+        bound_step: Option<Step>,
+    ) -> Result<Self, Error> {
+        if competitors.is_empty() || scenarios.is_empty() {
+            return Err(Error::Empty { policies: competitors.len(), days: scenarios.len() });
+        }
+        for scenario in &scenarios {
+            competitors.iter().try_for_each(|competitor| competitor.check_fits(scenario))?;
+        }
+        Ok(Self { competitors, scenarios, bound_step })
+    }
+
+    pub(crate) fn days(&self) -> impl Iterator<Item = &Scenario> {
+        self.scenarios.iter().map(Arc::as_ref)
+    }
+
+    /// Bounds all days, if that is asked for, and plays them with every competitor, one after the other.
+    pub(crate) fn play(&self, stop: &Stop, watch: &impl Watch) -> Result<Vec<PolicyRecord>, Error> {
+        let Self { competitors, scenarios, bound_step } = self;
+        let (number, scenarios) = (scenarios.len(), scenarios.clone());
+        let days = match *bound_step {
+            Some(slices) => {
+                KeptBounds::of_this_user().days(scenarios, slices, stop, &watch.bounds(number))?
+            }
+            None => scenarios.into_iter().map(BoundedDay::unbounded).collect(),
+        };
+        let mut begun = 0;
+        run(&days, competitors, stop, |name| {
+            begun += 1;
+            watch.policy(name, begun, competitors.len(), number)
+        })
+    }
+}
