@@ -1,7 +1,7 @@
 //! `Batch`: many days side by side, advanced by as many threads as there are; what the vector environment is made of.
 //!
 //! Observations of steps alternate between two sets of arrays, so that those of a step stay as they are while the next one is taken.
-//! A third set is for resets of some seats, which come between two steps.
+//! A third set is for resets of some slots, which come between two steps.
 
 use std::sync::{Arc, Mutex};
 
@@ -11,15 +11,15 @@ use pyo3::types::PyTuple;
 use vertifleet_core::DaySeed;
 use vertifleet_sim::DayTotals;
 
-use crate::buffers::{Observations, Outcomes, Paying, Showing};
+use crate::buffers::{ObservationRows, Observations, OutcomeRows, Outcomes};
 use crate::environment::{Day, Outcome, World};
 use crate::failure::Failure;
 use crate::frames::plain;
 use crate::network::Network;
+use crate::observation::ObservationRow;
 use crate::scenario::Scenario;
-use crate::shown::Shown;
 use crate::threads::Threads;
-use crate::whole::Whole;
+use crate::whole_number::WholeNumber;
 
 /// Days that one thread advances at a time: some ten microseconds of work, far more than it costs to share it out.
 const GRAIN: usize = 16;
@@ -37,7 +37,7 @@ enum Autoreset {
 
 /// A place of the batch and the day that is played there.
 #[derive(Default)]
-struct Seat {
+struct Slot {
     day: Option<Day>,
     /// The numbers of the day that the latest step ended.
     summary: Option<DayTotals>,
@@ -48,8 +48,8 @@ struct Seat {
 pub(crate) struct Batch {
     world: World,
     autoreset: Autoreset,
-    seats: Vec<Seat>,
-    /// Two for steps, one for resets of some seats.
+    slots: Vec<Slot>,
+    /// Two for steps, one for resets of some slots.
     sets: [Observations; 3],
     /// How days ended that were followed by others in the same step.
     finals: Observations,
@@ -62,16 +62,16 @@ pub(crate) struct Batch {
 #[pymethods]
 impl Batch {
     #[new]
-    #[pyo3(signature = (network, reward, seats, autoreset, threads = None))]
+    #[pyo3(signature = (network, reward, slots, autoreset, threads = None))]
     fn new(
         py: Python<'_>,
         network: &Network,
         reward: &str,
-        seats: Whole,
+        slots: WholeNumber,
         autoreset: &str,
-        threads: Option<Whole>,
+        threads: Option<WholeNumber>,
     ) -> Result<Self, Failure> {
-        let seats = seats.of("num_envs")?;
+        let slots = slots.of("num_envs")?;
         let world = World::new(network, reward)?;
         let autoreset = match autoreset {
             "NextStep" => Autoreset::NextStep,
@@ -81,19 +81,19 @@ impl Batch {
                 return Err(Failure::argument(format!("there is no autoreset mode {autoreset:?}")));
             }
         };
-        if !(1..=1 << 20).contains(&seats) {
+        if !(1..=1 << 20).contains(&slots) {
             return Err(Failure::argument(format!(
-                "num_envs must be from 1 to 1048576, found {seats}"
+                "num_envs must be from 1 to 1048576, found {slots}"
             )));
         }
         let vertiports = world.vertiports();
-        let set = || Observations::new(py, seats, vertiports);
+        let set = || Observations::new(py, slots, vertiports);
         Ok(Self {
             sets: [set(), set(), set()],
             finals: set(),
-            outcomes: Outcomes::new(py, seats),
+            outcomes: Outcomes::new(py, slots),
             latest: 0,
-            seats: std::iter::repeat_with(Seat::default).take(seats).collect(),
+            slots: std::iter::repeat_with(Slot::default).take(slots).collect(),
             threads: Threads::new(threads)?,
             autoreset,
             world,
@@ -112,7 +112,7 @@ impl Batch {
         ])
     }
 
-    /// Begins days at the seats that `which` has, the training days of these numbers or a given one; every seat shows where it is.
+    /// Begins days at the slots that `which` has, the training days of these numbers or a given one; every slot shows where it is.
     /// Returns the set.
     fn reset(
         &mut self,
@@ -127,27 +127,27 @@ impl Batch {
         let which = self.one_each("which", which.as_slice()?)?;
         let numbers = self.one_each("numbers", numbers.as_slice()?)?;
         check_numbers(numbers)?;
-        if let Some(seat) =
-            (0..self.seats.len()).find(|&at| !which[at] && self.seats[at].day.is_none())
+        if let Some(slot) =
+            (0..self.slots.len()).find(|&at| !which[at] && self.slots[at].day.is_none())
         {
             let message =
-                format!("environment {seat} has no day yet: the first reset must be of all");
+                format!("environment {slot} has no day yet: the first reset must be of all");
             return Err(Failure::argument(message).into());
         }
         let set = if which.contains(&false) { 2 } else { self.next() };
-        self.on_all(py, set, |world, seat, mut row, at| {
+        self.on_all(py, set, |world, slot, mut row, at| {
             row.pay(0.0, false, false, which[at]);
             match scenario {
                 _ if !which[at] => {}
-                Some(scenario) => seat.day = Some(Day::new(Arc::clone(&scenario.scenario))),
-                None => seat.begin(world, numbers[at]),
+                Some(scenario) => slot.day = Some(Day::new(Arc::clone(&scenario.scenario))),
+                None => slot.begin(world, numbers[at]),
             }
-            row.show(world, seat);
+            row.show(world, slot);
         })?;
         Ok(set)
     }
 
-    /// Takes a decision at every seat; `numbers` are of the training days that begin where one is due. Returns the set, and whether
+    /// Takes a decision at every slot; `numbers` are of the training days that begin where one is due. Returns the set, and whether
     /// any day is over or has begun.
     fn step(
         &mut self,
@@ -160,53 +160,53 @@ impl Batch {
         check_numbers(numbers)?;
         self.check_can_step()?;
         let (autoreset, set) = (self.autoreset, self.next());
-        let eventful = self.on_all(py, set, |world, seat, mut row, at| {
-            if seat.is_over() && autoreset == Autoreset::NextStep {
-                seat.summary = None;
-                seat.begin(world, numbers[at]);
+        let eventful = self.on_all(py, set, |world, slot, mut row, at| {
+            if slot.is_over() && autoreset == Autoreset::NextStep {
+                slot.summary = None;
+                slot.begin(world, numbers[at]);
                 row.pay(0.0, false, false, true);
-                return row.show(world, seat);
+                return row.show(world, slot);
             }
-            let Outcome { reward, over, invalid, .. } = seat.step(world, actions[at]);
+            let Outcome { reward, over, invalid, .. } = slot.step(world, actions[at]);
             let followed = over && autoreset == Autoreset::SameStep;
             row.pay(reward, over, invalid, followed);
             if followed {
-                row.show_end(world, seat);
-                seat.begin(world, numbers[at]);
+                row.show_end(world, slot);
+                slot.begin(world, numbers[at]);
             }
-            row.show(world, seat);
+            row.show(world, slot);
         })?;
         Ok((set, eventful))
     }
 
-    /// The day that is being played at a seat.
-    fn scenario(&self, seat: usize) -> Option<Scenario> {
-        self.seats.get(seat)?.day.as_ref().map(Day::scenario)
+    /// The day that is being played at a slot.
+    fn scenario(&self, slot: usize) -> Option<Scenario> {
+        self.slots.get(slot)?.day.as_ref().map(Day::scenario)
     }
 
-    /// The numbers of the day that the latest step ended at a seat, as `vertifleet simulate --json` prints them.
-    fn summary<'py>(&self, py: Python<'py>, seat: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let summary = self.seats.get(seat).and_then(|seat| seat.summary);
+    /// The numbers of the day that the latest step ended at a slot, as `vertifleet simulate --json` prints them.
+    fn summary<'py>(&self, py: Python<'py>, slot: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let summary = self.slots.get(slot).and_then(|slot| slot.summary);
         summary.map(|summary| plain(py, &summary)).transpose()
     }
 }
 
 impl Batch {
-    /// An argument that must have an entry for each seat.
+    /// An argument that must have an entry for each slot.
     fn one_each<'a, T>(&self, name: &str, entries: &'a [T]) -> Result<&'a [T], Failure> {
-        if entries.len() == self.seats.len() {
+        if entries.len() == self.slots.len() {
             return Ok(entries);
         }
-        let (expected, found) = (self.seats.len(), entries.len());
+        let (expected, found) = (self.slots.len(), entries.len());
         Err(Failure::argument(format!("{name} must have {expected} entries, found {found}")))
     }
 
     fn check_can_step(&self) -> Result<(), Failure> {
         let waits = self.autoreset == Autoreset::Disabled;
-        let stuck = |seat: &Seat| seat.day.is_none() || (waits && seat.is_over());
-        match self.seats.iter().position(stuck) {
-            Some(seat) => Err(Failure::argument(format!(
-                "environment {seat} has no day in progress: call reset, with options={{\"reset_mask\": mask}} for some of them"
+        let stuck = |slot: &Slot| slot.day.is_none() || (waits && slot.is_over());
+        match self.slots.iter().position(stuck) {
+            Some(slot) => Err(Failure::argument(format!(
+                "environment {slot} has no day in progress: call reset, with options={{\"reset_mask\": mask}} for some of them"
             ))),
             None => Ok(()),
         }
@@ -218,29 +218,30 @@ impl Batch {
         self.latest
     }
 
-    /// Does something at every seat, on all threads if there are enough seats, and writes to a set. Returns whether any day is over or
+    /// Does something at every slot, on all threads if there are enough slots, and writes to a set. Returns whether any day is over or
     /// has begun.
     fn on_all(
         &mut self,
         py: Python<'_>,
         set: usize,
-        each: impl Fn(&World, &mut Seat, Row<'_, '_>, usize) + Sync,
+        each: impl Fn(&World, &mut Slot, Row<'_, '_>, usize) + Sync,
     ) -> PyResult<bool> {
-        let Self { world, seats, sets, finals, outcomes, threads, .. } = self;
-        let (mut showing, mut ending, mut outcomes) =
+        let Self { world, slots, sets, finals, outcomes, threads, .. } = self;
+        let (mut observations_lent, mut finals_lent, mut outcomes_lent) =
             (sets[set].lend(py)?, finals.lend(py)?, outcomes.lend(py)?);
-        let (showing, ending, paying) = (showing.rows()?, ending.rows()?, outcomes.rows()?);
-        let part = Part { seats, showing, ending, paying, first: 0 };
+        let (observations, finals, outcomes) =
+            (observations_lent.rows()?, finals_lent.rows()?, outcomes_lent.rows()?);
+        let part = Part { slots, observations, finals, outcomes, first: 0 };
         let world = &*world;
-        let each = |seat: &mut Seat, row: Row<'_, '_>, at: usize| each(world, seat, row, at);
+        let each = |slot: &mut Slot, row: Row<'_, '_>, at: usize| each(world, slot, row, at);
         py.detach(|| {
-            if part.seats.len() <= GRAIN {
+            if part.slots.len() <= GRAIN {
                 return part.each(&each);
             }
             let shares = Shares::of(part, threads.number());
             threads.all(|thread| shares.each(thread, &each));
         });
-        let Paying { over, begun, .. } = outcomes.rows()?;
+        let OutcomeRows { over, begun, .. } = outcomes_lent.rows()?;
         Ok(over.iter().chain(&*begun).any(|&flag| flag))
     }
 }
@@ -250,13 +251,13 @@ fn check_numbers(numbers: &[u64]) -> Result<(), Failure> {
     Ok(numbers.iter().try_for_each(|&number| DaySeed::training_number(number).map(|_| ()))?)
 }
 
-impl Seat {
+impl Slot {
     fn is_over(&self) -> bool {
         self.day.as_ref().is_some_and(Day::is_over)
     }
 
-    fn show(&self, world: &World, to: Shown<'_>) {
-        self.day.as_ref().expect("every seat has a day").show(&world.scales, to);
+    fn show(&self, world: &World, to: ObservationRow<'_>) {
+        self.day.as_ref().expect("every slot has a day").show(&world.scales, to);
     }
 
     fn begin(&mut self, world: &World, number: u64) {
@@ -264,46 +265,46 @@ impl Seat {
     }
 
     fn step(&mut self, world: &World, action: i64) -> Outcome {
-        let day = self.day.as_mut().expect("every seat has a day in progress");
+        let day = self.day.as_mut().expect("every slot has a day in progress");
         let outcome = day.step(action, world.reward);
         self.summary = outcome.over.then(|| day.totals());
         outcome
     }
 }
 
-/// Some seats with their rows of all arrays.
+/// Some slots with their rows of all arrays.
 struct Part<'a> {
-    seats: &'a mut [Seat],
-    showing: Showing<'a>,
-    ending: Showing<'a>,
-    paying: Paying<'a>,
+    slots: &'a mut [Slot],
+    observations: ObservationRows<'a>,
+    finals: ObservationRows<'a>,
+    outcomes: OutcomeRows<'a>,
     /// Position of the first of them in the batch.
     first: usize,
 }
 
 impl Part<'_> {
-    /// Does something at every seat, one after the other.
-    fn each(self, each: &impl Fn(&mut Seat, Row<'_, '_>, usize)) {
-        let Self { seats, mut showing, mut ending, mut paying, first } = self;
-        let (showing, ending, paying) = (&mut showing, &mut ending, &mut paying);
-        for (at, seat) in seats.iter_mut().enumerate() {
-            each(seat, Row { at, showing, ending, paying }, first + at);
+    /// Does something at every slot, one after the other.
+    fn each(self, each: &impl Fn(&mut Slot, Row<'_, '_>, usize)) {
+        let Self { slots, mut observations, mut finals, mut outcomes, first } = self;
+        let (observations, finals, outcomes) = (&mut observations, &mut finals, &mut outcomes);
+        for (at, slot) in slots.iter_mut().enumerate() {
+            each(slot, Row { at, observations, finals, outcomes }, first + at);
         }
     }
 
     fn split(self, middle: usize) -> (Self, Self) {
-        let (seats, other_seats) = self.seats.split_at_mut(middle);
-        let (showing, other_showing) = self.showing.split(middle);
-        let (ending, other_ending) = self.ending.split(middle);
-        let (paying, other_paying) = self.paying.split(middle);
+        let (slots, other_slots) = self.slots.split_at_mut(middle);
+        let (observations, other_observations) = self.observations.split(middle);
+        let (finals, other_finals) = self.finals.split(middle);
+        let (outcomes, other_outcomes) = self.outcomes.split(middle);
         let other = Self {
-            seats: other_seats,
-            showing: other_showing,
-            ending: other_ending,
-            paying: other_paying,
+            slots: other_slots,
+            observations: other_observations,
+            finals: other_finals,
+            outcomes: other_outcomes,
             first: self.first + middle,
         };
-        (Self { seats, showing, ending, paying, first: self.first }, other)
+        (Self { slots, observations, finals, outcomes, first: self.first }, other)
     }
 }
 
@@ -314,8 +315,8 @@ impl<'a> Shares<'a> {
     fn of(mut part: Part<'a>, threads: usize) -> Self {
         let mut shares = Vec::with_capacity(threads);
         for left in (1..threads).rev() {
-            let seats = part.seats.len().div_ceil(left + 1);
-            let (share, others) = part.split(seats);
+            let slots = part.slots.len().div_ceil(left + 1);
+            let (share, others) = part.split(slots);
             shares.push(Mutex::new(Some(share)));
             part = others;
         }
@@ -323,8 +324,8 @@ impl<'a> Shares<'a> {
         Self(shares)
     }
 
-    /// Does something at every seat of a thread's share, then of what others have not come to.
-    fn each(&self, thread: usize, each: &(impl Fn(&mut Seat, Row<'_, '_>, usize) + Sync)) {
+    /// Does something at every slot of a thread's share, then of what others have not come to.
+    fn each(&self, thread: usize, each: &(impl Fn(&mut Slot, Row<'_, '_>, usize) + Sync)) {
         let others = (thread..self.0.len()).chain(0..thread);
         for share in others.map(|share| &self.0[share]) {
             while let Some(part) = take(share) {
@@ -334,11 +335,11 @@ impl<'a> Shares<'a> {
     }
 }
 
-/// Takes some seats of a share.
+/// Takes some slots of a share.
 fn take<'a>(share: &Mutex<Option<Part<'a>>>) -> Option<Part<'a>> {
     let mut share = share.lock().expect("no thread ends while it takes a part");
     let part = share.take()?;
-    if part.seats.len() <= GRAIN {
+    if part.slots.len() <= GRAIN {
         return Some(part);
     }
     let (first, others) = part.split(GRAIN);
@@ -346,28 +347,28 @@ fn take<'a>(share: &Mutex<Option<Part<'a>>>) -> Option<Part<'a>> {
     Some(first)
 }
 
-/// One seat's row of all arrays.
+/// One slot's row of all arrays.
 struct Row<'part, 'a> {
     at: usize,
-    showing: &'part mut Showing<'a>,
-    ending: &'part mut Showing<'a>,
-    paying: &'part mut Paying<'a>,
+    observations: &'part mut ObservationRows<'a>,
+    finals: &'part mut ObservationRows<'a>,
+    outcomes: &'part mut OutcomeRows<'a>,
 }
 
 impl Row<'_, '_> {
     fn pay(&mut self, reward: f64, over: bool, invalid: bool, begun: bool) {
-        self.paying.rewards[self.at] = reward;
-        self.paying.over[self.at] = over;
-        self.paying.invalid[self.at] = invalid;
-        self.paying.begun[self.at] = begun;
+        self.outcomes.rewards[self.at] = reward;
+        self.outcomes.over[self.at] = over;
+        self.outcomes.invalid[self.at] = invalid;
+        self.outcomes.begun[self.at] = begun;
     }
 
-    fn show(&mut self, world: &World, seat: &Seat) {
-        seat.show(world, self.showing.row(self.at));
+    fn show(&mut self, world: &World, slot: &Slot) {
+        slot.show(world, self.observations.row(self.at));
     }
 
     /// Shows how a day ended that is followed by another in the same step.
-    fn show_end(&mut self, world: &World, seat: &Seat) {
-        seat.show(world, self.ending.row(self.at));
+    fn show_end(&mut self, world: &World, slot: &Slot) {
+        slot.show(world, self.finals.row(self.at));
     }
 }

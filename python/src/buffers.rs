@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1, PyReadwriteAr
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::shown::Shown;
+use crate::observation::ObservationRow;
 
 /// Arrays for one observation of every day of a batch.
 pub(crate) struct Observations {
@@ -43,7 +43,7 @@ pub(crate) struct OutcomesLent<'py> {
 }
 
 /// Rows of observations.
-pub(crate) struct Showing<'a> {
+pub(crate) struct ObservationRows<'a> {
     nodes: &'a mut [f32],
     aircraft: &'a mut [f32],
     clock: &'a mut [f32],
@@ -53,7 +53,7 @@ pub(crate) struct Showing<'a> {
 }
 
 /// Rows of outcomes.
-pub(crate) struct Paying<'a> {
+pub(crate) struct OutcomeRows<'a> {
     pub(crate) rewards: &'a mut [f64],
     pub(crate) over: &'a mut [bool],
     pub(crate) invalid: &'a mut [bool],
@@ -123,8 +123,8 @@ impl Outcomes {
 }
 
 impl ObservationsLent<'_> {
-    pub(crate) fn rows(&mut self) -> PyResult<Showing<'_>> {
-        Ok(Showing {
+    pub(crate) fn rows(&mut self) -> PyResult<ObservationRows<'_>> {
+        Ok(ObservationRows {
             nodes: self.nodes.as_slice_mut()?,
             aircraft: self.aircraft.as_slice_mut()?,
             clock: self.clock.as_slice_mut()?,
@@ -136,8 +136,8 @@ impl ObservationsLent<'_> {
 }
 
 impl OutcomesLent<'_> {
-    pub(crate) fn rows(&mut self) -> PyResult<Paying<'_>> {
-        Ok(Paying {
+    pub(crate) fn rows(&mut self) -> PyResult<OutcomeRows<'_>> {
+        Ok(OutcomeRows {
             rewards: self.rewards.as_slice_mut()?,
             over: self.over.as_slice_mut()?,
             invalid: self.invalid.as_slice_mut()?,
@@ -146,11 +146,11 @@ impl OutcomesLent<'_> {
     }
 }
 
-impl Showing<'_> {
+impl ObservationRows<'_> {
     /// Room for what row `row` shows.
-    pub(crate) fn row(&mut self, row: usize) -> Shown<'_> {
+    pub(crate) fn row(&mut self, row: usize) -> ObservationRow<'_> {
         let rows = self.clock.len();
-        Shown {
+        ObservationRow {
             nodes: one_of(self.nodes, row, rows),
             aircraft: one_of(self.aircraft, row, rows),
             clock: &mut self.clock[row],
@@ -181,7 +181,7 @@ impl Showing<'_> {
     }
 }
 
-impl Paying<'_> {
+impl OutcomeRows<'_> {
     /// The rows before `first`, and the others.
     pub(crate) fn split(self, first: usize) -> (Self, Self) {
         let (rewards, more_rewards) = self.rewards.split_at_mut(first);

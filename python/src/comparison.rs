@@ -23,7 +23,7 @@ use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
 use crate::policy_source::{Raised, policy_source};
 use crate::scenario::Scenario;
-use crate::whole::Whole;
+use crate::whole_number::WholeNumber;
 
 /// Many policies on the same days: every policy's every day, and the statistics of them.
 #[pyclass(frozen, module = "vertifleet")]
@@ -143,12 +143,12 @@ const DAYS: u32 = 1_000_000;
 #[pyo3(from_item_all)]
 pub(crate) struct Arguments<'py> {
     policies: Vec<String>,
-    days: Whole,
-    seed: Whole,
+    days: WholeNumber,
+    seed: WholeNumber,
     models: BTreeMap<String, Bound<'py, PyAny>>,
     bound: bool,
-    step: Whole,
-    policy_seed: Whole,
+    step: WholeNumber,
+    policy_seed: WholeNumber,
 }
 
 /// The same in Rust's types, checked one by one.
@@ -235,7 +235,7 @@ pub(crate) fn compare(
     py: Python<'_>,
     network: &Network,
     asked: Arguments<'_>,
-    threads: Option<Whole>,
+    threads: Option<WholeNumber>,
     command: &str,
 ) -> PyResult<Comparison> {
     let raised = Raised::default();
@@ -262,7 +262,7 @@ pub(crate) fn compare_own(
     origin: String,
     network: Option<&Network>,
     asked: Arguments<'_>,
-    threads: Option<Whole>,
+    threads: Option<WholeNumber>,
     command: &str,
 ) -> PyResult<Comparison> {
     let raised = Raised::default();
@@ -276,7 +276,7 @@ pub(crate) fn compare_own(
 /// Makes a comparison and plays it, on threads of its own.
 fn played(
     py: Python<'_>,
-    threads: Option<Whole>,
+    threads: Option<WholeNumber>,
     command: &str,
     raised: &Raised,
     made: impl FnOnce(&Stop) -> Result<comparison::Comparison, Error> + Send + 'static,

@@ -11,9 +11,9 @@ use vertifleet_sim::{DayTotals, Decision, Simulation};
 use crate::failure::Failure;
 use crate::frames::plain;
 use crate::network::Network;
+use crate::observation::{Arrays, Observation, ObservationRow, Observer};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
-use crate::shown::{Arrays, Observation, Shown, To};
 
 /// What all days of an environment have in common.
 #[derive(Clone)]
@@ -107,18 +107,18 @@ impl Day {
 
     /// Shows the decision. A day that is over shows how it ended to the aircraft that decided last: no time is left, and nothing but
     /// hold is feasible.
-    pub(crate) fn show(&self, scales: &Scales, to: Shown<'_>) {
+    pub(crate) fn show(&self, scales: &Scales, to: ObservationRow<'_>) {
         to.fill(&self.decision, self.simulation.view(), scales, self.to(&self.decision));
     }
 
     /// Whom a decision of this day is shown to.
-    fn to(&self, decision: &Decision) -> To {
+    fn to(&self, decision: &Decision) -> Observer {
         if self.over {
-            To::Remember
+            Observer::Finished
         } else if decision.aircraft == self.decision.aircraft {
-            To::Decide
+            Observer::Deciding
         } else {
-            To::Watch
+            Observer::Waiting
         }
     }
 

@@ -9,15 +9,15 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use vertifleet_core::Stop;
 
 use crate::failure::Failure;
-use crate::whole::Whole;
+use crate::whole_number::WholeNumber;
 
 /// How often Ctrl-C is looked for.
-const GLANCE: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 /// Threads that may be asked for.
 const THREADS: RangeInclusive<usize> = 1..=1024;
 
 /// So many threads, or as many as there are cores.
-pub(crate) fn threads(asked: Option<Whole>) -> Result<usize, Failure> {
+pub(crate) fn threads(asked: Option<WholeNumber>) -> Result<usize, Failure> {
     match asked.map(|asked| asked.of("threads")).transpose()? {
         None => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
         Some(asked) if THREADS.contains(&asked) => Ok(asked),
@@ -56,9 +56,9 @@ pub(crate) fn interruptible<T: Send + 'static>(
     });
     let mut interrupt = None;
     loop {
-        let (glance, receiver) = py.detach(move || (from.recv_timeout(GLANCE), from));
+        let (answer, receiver) = py.detach(move || (from.recv_timeout(POLL_INTERVAL), from));
         from = receiver;
-        match glance {
+        match answer {
             Ok(outcome) => return interrupt.map_or(Ok(outcome), Err),
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => panic!("the work ends with an outcome"),

@@ -17,16 +17,16 @@ mod frames;
 mod interruptible;
 mod model;
 mod network;
+mod observation;
 mod optimize;
 mod pickle;
 mod played;
 mod policy_source;
 mod scenario;
-mod shown;
 mod threads;
 mod trace;
 mod training;
-mod whole;
+mod whole_number;
 
 use pyo3::prelude::pymodule;
 

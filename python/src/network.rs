@@ -12,7 +12,7 @@ use crate::failure::{Failure, warn};
 use crate::frames::{members, plain, table};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
-use crate::whole::Whole;
+use crate::whole_number::WholeNumber;
 
 /// A network: vertiports, fleet, tariffs, and how demand is distributed. Days are drawn from it.
 ///
@@ -115,7 +115,7 @@ impl Network {
     /// Days of different purposes ("comparison", "validation", "training") are never the same, so that no policy is judged on
     /// a day that it learned from.
     #[pyo3(signature = (seed, purpose = "comparison"))]
-    fn draw(&self, seed: Whole, purpose: &str) -> Result<Scenario, Failure> {
+    fn draw(&self, seed: WholeNumber, purpose: &str) -> Result<Scenario, Failure> {
         let seed = seed.of("seed")?;
         let seed = match purpose {
             "comparison" => DaySeed::comparison(seed)?,

@@ -16,7 +16,7 @@ use crate::interruptible::{self, interruptible};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
-use crate::whole::Whole;
+use crate::whole_number::WholeNumber;
 
 /// A proof of what a day can earn at most.
 #[pyclass(frozen, module = "vertifleet")]
@@ -132,8 +132,8 @@ impl Bound {
 /// Proves how much a day can earn at most. `step`: minutes for which the proof's prices stay the same at most, 1 to 60; fewer never
 /// give a looser bound, and take longer.
 #[pyfunction]
-#[pyo3(signature = (scenario, *, step = Whole::from(5)), text_signature = "(scenario, *, step=5)")]
-pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: Whole) -> PyResult<Bound> {
+#[pyo3(signature = (scenario, *, step = WholeNumber::from(5)), text_signature = "(scenario, *, step=5)")]
+pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: WholeNumber) -> PyResult<Bound> {
     let step = Step::from_minutes(step.of("step")?).map_err(Failure::from)?;
     let day = Arc::clone(&scenario.scenario);
     let bound = interruptible(py, 1, move |stop| {
@@ -246,17 +246,17 @@ impl Plan {
 /// the best one that is proven when the time is over; with `steps`, the whole proof is waited for.
 #[pyfunction]
 #[pyo3(
-    signature = (scenario, *, time_limit = None, steps = None, gap = None, seed = Whole::from(0), threads = None),
+    signature = (scenario, *, time_limit = None, steps = None, gap = None, seed = WholeNumber::from(0), threads = None),
     text_signature = "(scenario, *, time_limit=None, steps=None, gap=None, seed=0, threads=None)"
 )]
 pub(crate) fn plan(
     py: Python<'_>,
     scenario: &Scenario,
     time_limit: Option<f64>,
-    steps: Option<Whole>,
+    steps: Option<WholeNumber>,
     gap: Option<f64>,
-    seed: Whole,
-    threads: Option<Whole>,
+    seed: WholeNumber,
+    threads: Option<WholeNumber>,
 ) -> PyResult<Plan> {
     let seed = seed.of("seed")?;
     let (budget, units) = match (time_limit, steps) {

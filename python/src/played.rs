@@ -18,7 +18,7 @@ use crate::pickle::{Reduced, reduced};
 use crate::policy_source::{Raised, Weights, of_function};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
-use crate::whole::Whole;
+use crate::whole_number::WholeNumber;
 
 /// A day that was played to its end.
 #[pyclass(frozen, module = "vertifleet")]
@@ -80,14 +80,14 @@ pub(crate) enum Player<'py> {
 /// the caller's own, as `compare` takes it, which sees the day as the environment of `network` shows it.
 #[pyfunction]
 #[pyo3(
-    signature = (scenario, policy = Player::Named("greedy".to_owned()), *, seed = Whole::from(0), model = None, network = None),
+    signature = (scenario, policy = Player::Named("greedy".to_owned()), *, seed = WholeNumber::from(0), model = None, network = None),
     text_signature = "(scenario, policy='greedy', *, seed=0, model=None, network=None)"
 )]
 pub(crate) fn simulate(
     py: Python<'_>,
     scenario: &Scenario,
     policy: Player<'_>,
-    seed: Whole,
+    seed: WholeNumber,
     model: Option<Weights<'_>>,
     network: Option<PyRef<'_, Network>>,
 ) -> PyResult<Played> {

@@ -13,8 +13,8 @@ use vertifleet_study::{PolicyFactory, PolicySource};
 
 use crate::failure::Failure;
 use crate::model::Model;
-use crate::shown::{Arrays, To};
-use crate::whole::Whole;
+use crate::observation::{Arrays, Observer};
+use crate::whole_number::WholeNumber;
 
 /// Weights: a model, or the path of a file.
 #[derive(FromPyObject)]
@@ -95,10 +95,10 @@ impl Policy for Function {
 impl Function {
     /// An action that no vertiport has is an error here; one that is not feasible is refused by the day.
     fn ask(&self, py: Python<'_>, decision: &Decision, view: View<'_>) -> PyResult<VertiportIx> {
-        let arrays = Arrays::of(py, decision, view, &self.scales, To::Decide)?;
+        let arrays = Arrays::of(py, decision, view, &self.scales, Observer::Deciding)?;
         let (observation, _) = arrays.into_observation(py)?;
         let answer = self.call.bind(py).call1((observation,))?;
-        let action: Whole = answer.extract()?;
+        let action: WholeNumber = answer.extract()?;
         Ok(VertiportIx(action.of("what the function returns")?))
     }
 }

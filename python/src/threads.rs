@@ -8,7 +8,7 @@ use rayon::ThreadPool;
 
 use crate::failure::Failure;
 use crate::interruptible;
-use crate::whole::Whole;
+use crate::whole_number::WholeNumber;
 
 /// So many threads, made when they are first needed.
 pub(crate) struct Threads {
@@ -28,7 +28,7 @@ struct Pool {
 const AWAKE: Duration = Duration::from_micros(100);
 
 impl Threads {
-    pub(crate) fn new(asked: Option<Whole>) -> Result<Self, Failure> {
+    pub(crate) fn new(asked: Option<WholeNumber>) -> Result<Self, Failure> {
         Ok(Self { number: interruptible::threads(asked)?, pool: None })
     }
 

@@ -19,7 +19,7 @@ use crate::interruptible::{self, interruptible};
 use crate::model::{Model, change};
 use crate::network::Network;
 use crate::policy_source::Raised;
-use crate::whole::Whole;
+use crate::whole_number::WholeNumber;
 
 /// What a training run has left: the model, the learning curve, and whether there is more to learn.
 #[pyclass(frozen, module = "vertifleet")]
@@ -100,10 +100,10 @@ pub(crate) fn train(
     out: PathBuf,
     preset: &str,
     settings: Option<&Bound<'_, PyMapping>>,
-    seed: Option<Whole>,
+    seed: Option<WholeNumber>,
     resume: bool,
     force: bool,
-    threads: Option<Whole>,
+    threads: Option<WholeNumber>,
     watch: Option<Py<PyAny>>,
 ) -> PyResult<Training> {
     let policy = Architecture::named(policy).ok_or_else(|| {

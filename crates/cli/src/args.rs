@@ -1,4 +1,4 @@
-//! The command line as typed.
+//! The arguments of the command line.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -146,7 +146,7 @@ pub(crate) enum Trainable {
 }
 
 impl Trainable {
-    /// The policy's name.
+    /// The name of the policy.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Gcaps => "gcaps",

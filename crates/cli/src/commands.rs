@@ -1,4 +1,4 @@
-//! One file a command, and what they share.
+//! The commands, one file each, and the functions that they share.
 
 pub(crate) mod bound;
 pub(crate) mod check;
@@ -19,10 +19,10 @@ use vertifleet_study::report::{self, Records};
 use crate::failure::Failure;
 use crate::output::{print, warn};
 
-/// Warnings of many days that are printed one by one.
+/// Most warnings about many days that are printed one by one.
 const MOST_WARNINGS: usize = 10;
 
-/// The network of this name or path; what it is read from is not to be written to.
+/// The network with this name or path. The files that it is read from are protected from being written to.
 fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
     let network = Network::find(name)?;
     for file in network.files() {
@@ -31,7 +31,7 @@ fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
     Ok(network)
 }
 
-/// Weights that are read are not to be written to.
+/// Protects the weight files that are read from being written to.
 fn reads_models<'a>(models: impl IntoIterator<Item = &'a PolicySource>, outputs: &mut Outputs) {
     for model in models {
         if let PolicySource::File(path) = model {
@@ -40,7 +40,7 @@ fn reads_models<'a>(models: impl IntoIterator<Item = &'a PolicySource>, outputs:
     }
 }
 
-/// Says on stderr what looks wrong with some days, each thing once, with the first day that it was found on.
+/// Prints the warnings about some days on stderr, each one once, with the first day that it applies to.
 fn warn_of_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     let mut said: Vec<String> = Vec::new();
     let mut more = 0_u32;
@@ -63,7 +63,8 @@ fn warn_of_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     }
 }
 
-/// Makes sure, before any day is played, that a report can be written to this folder and replaces nothing that is read.
+/// Checks, before any day is played, that a report can be written to this folder without replacing anything that is
+/// read.
 fn claim_report(folder: Option<&Path>, outputs: &mut Outputs, force: bool) -> Result<(), Failure> {
     if let Some(folder) = folder {
         outputs.replaces_folder(folder)?;
@@ -72,7 +73,7 @@ fn claim_report(folder: Option<&Path>, outputs: &mut Outputs, force: bool) -> Re
     Ok(())
 }
 
-/// Prints a study, and writes its report where one is asked for.
+/// Prints a study, and writes its report if one was asked for.
 fn present(
     study: &impl Records,
     json: bool,
@@ -90,7 +91,7 @@ fn present(
     Ok(())
 }
 
-/// Reads a scenario file and says on stderr what looks wrong with it.
+/// Reads a scenario file and prints the warnings about it on stderr.
 fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
     let scenario = Scenario::read(path)?;
     for warning in scenario.warnings() {
@@ -99,7 +100,7 @@ fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
     Ok(scenario)
 }
 
-/// The command as anyone can type it, wherever the program lies.
+/// The command line, with a program name that works wherever the program is installed.
 fn command() -> String {
     std::iter::once("vertifleet".to_owned())
         .chain(std::env::args().skip(1))

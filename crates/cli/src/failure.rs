@@ -1,7 +1,7 @@
-//! How the program fails: a coded message and a hint on stderr, and an exit code.
+//! How the program fails: with a coded message and a hint on stderr, and an exit code.
 //!
-//! Exit code 2 is for what the user typed or wrote; 1 is for what went wrong although that was right: a disk that is
-//! full, a training that diverges.
+//! Exit code 2 means that the arguments or the input files are wrong; 1 means that something else failed, such as a
+//! write to a full disk or a training that diverged.
 
 use std::fmt;
 use std::process::ExitCode;
@@ -9,10 +9,10 @@ use std::process::ExitCode;
 use anstream::eprintln;
 use vertifleet_core::{Code, Coded, Exit};
 
-/// Why a command did not do what it was asked for.
+/// Why a command failed.
 #[derive(Debug)]
 pub(crate) struct Failure {
-    /// None where the failure is not expected.
+    /// The code of the error; `None` for a failure that is not expected.
     code: Option<Code>,
     exit: Exit,
     message: String,
@@ -26,12 +26,12 @@ impl Failure {
         Self { code: Some(Code(450)), exit: Exit::Input, message, hint }
     }
 
-    /// Something that the user cannot put right.
+    /// A failure that the user cannot fix.
     pub(crate) fn internal(cause: &dyn fmt::Display) -> Self {
         Self { code: None, exit: Exit::Failed, message: cause.to_string(), hint: None }
     }
 
-    /// Tells the user; gives the exit code.
+    /// Prints the message and the hint, and returns the exit code.
     pub(crate) fn report(&self) -> ExitCode {
         let (bold, red, reset) = ("\u{1b}[1m", "\u{1b}[1;31m", "\u{1b}[0m");
         match self.code {

@@ -1,9 +1,9 @@
-//! Ctrl-C. Where what was done so far is worth having, the first one asks for a clean end and the second ends at once;
-//! elsewhere the first one does. It never cuts off a file that is being written.
+//! Ctrl-C. In a command whose partial results are worth keeping, the first Ctrl-C requests a clean end and the second
+//! ends the program at once; in other commands the first one does. A file that is being written is never cut off.
 //!
-//! On Unix a request to terminate and a terminal that goes away are heard in the same way. A signal that was ignored when the
-//! program started stays ignored: that is how `nohup`, and a shell without job control that starts something in the background,
-//! say that the program is to go on.
+//! On Unix, SIGTERM and SIGHUP are handled in the same way. A signal that was ignored when the program started stays
+//! ignored: that is how `nohup`, and a shell without job control that starts a program in the background, tell the
+//! program to continue.
 
 use std::process::exit;
 
@@ -12,10 +12,10 @@ use vertifleet_core::Stop;
 
 use crate::failure::Failure;
 
-/// Exit code of a program that Ctrl-C ended, as shells give it: 128 and the number of the signal.
+/// The exit code of a program that Ctrl-C ended, as shells define it: 128 plus the number of the signal.
 const INTERRUPTED: i32 = 130;
 
-/// What the first Ctrl-C requests. Of the functions of this file, one may be called, once.
+/// The stop request of the first Ctrl-C. Only one of the functions of this file may be called, and only once.
 pub(crate) fn stop_on_interrupt() -> Result<Stop, Failure> {
     let stop = Stop::default();
     let raised = stop.clone();
@@ -28,7 +28,7 @@ pub(crate) fn stop_on_interrupt() -> Result<Stop, Failure> {
     Ok(stop)
 }
 
-/// From now on the first Ctrl-C ends the program.
+/// Makes the first Ctrl-C end the program from now on.
 pub(crate) fn end_on_interrupt() -> Result<(), Failure> {
     on_interrupt(|| {
         eprintln!("\nstopped");
@@ -49,8 +49,8 @@ fn on_interrupt(mut handler: impl FnMut() + Send + 'static) -> Result<(), Failur
     Ok(())
 }
 
-/// A bit for each signal that is ignored, the first for signal 1, as Linux tells it. Elsewhere nothing is known of them and all are
-/// heard.
+/// The signals that are ignored, one bit each, the lowest bit for signal 1, as Linux reports them. On other systems
+/// this is not known, and all signals are handled.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

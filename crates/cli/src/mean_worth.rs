@@ -1,4 +1,4 @@
-//! What one more stand or passenger is worth in the mean of several days.
+//! The shadow prices of stands and passengers in the mean of several days.
 
 use serde_json::{Map, Value, json};
 use vertifleet_core::{Scenario, VertiportIx};
@@ -11,7 +11,7 @@ use crate::worth::{self, ALL_STANDS, PASSENGERS, PassengerWorth, SHOWN_PASSENGER
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mean {
     mean: f64,
-    /// Nothing of a single day.
+    /// `None` for a single day.
     standard_error: Option<f64>,
 }
 
@@ -34,7 +34,7 @@ impl Mean {
     }
 }
 
-/// By vertiport, the mean of what one more stand is worth.
+/// The mean worth of one more stand, by vertiport.
 fn of_stands(days: &[(&Scenario, &Bound)]) -> Vec<(String, Mean)> {
     let Some((first, _)) = days.first() else { return Vec::new() };
     let mean = |at: VertiportIx| {
@@ -44,8 +44,8 @@ fn of_stands(days: &[(&Scenario, &Bound)]) -> Vec<(String, Mean)> {
     VertiportIx::all(first.vertiports.len()).map(mean).collect()
 }
 
-/// By pair and period, the mean of what one more passenger is worth, most first; only where it is worth something on some day. A day on
-/// which that is nothing, or that has no such period, counts as nothing.
+/// The mean worth of one more passenger, by pair and period, highest first. Only those with a worth on some day are
+/// listed. A day on which the worth is zero, or which has no such period, counts as zero.
 fn of_passengers(days: &[(&Scenario, &Bound)]) -> Vec<([String; 3], Mean)> {
     let mut worths: Vec<([String; 3], Vec<f64>)> = Vec::new();
     let mut places = std::collections::BTreeMap::new();
@@ -68,7 +68,7 @@ fn of_passengers(days: &[(&Scenario, &Bound)]) -> Vec<([String; 3], Mean)> {
     means
 }
 
-/// Means for machines.
+/// The means as JSON.
 pub(crate) fn numbers(days: &[(&Scenario, &Bound)]) -> Map<String, Value> {
     let separate = |id: &str| {
         days.iter().any(|(day, _)| {
@@ -97,7 +97,7 @@ pub(crate) fn numbers(days: &[(&Scenario, &Bound)]) -> Map<String, Value> {
     numbers.map(|(name, number)| (name.to_owned(), number)).into_iter().collect()
 }
 
-/// Means for people, most first.
+/// The means as lines of text, highest first.
 pub(crate) fn lines(days: &[(&Scenario, &Bound)]) -> Vec<String> {
     let mut stands = of_stands(days);
     stands.sort_by(|one, other| other.1.mean.total_cmp(&one.1.mean));

@@ -1,4 +1,4 @@
-//! Values as typed, checked one by one: what is asked for, where a value is none of it.
+//! Parses the values of arguments one by one. The error of a value that does not fit says what is expected.
 
 use std::time::Duration;
 
@@ -17,7 +17,7 @@ pub(crate) fn parse_model(text: &str) -> Result<(String, PolicySource), String> 
     parse_pair(text).map(|(name, path)| (name, PolicySource::File(path.into())))
 }
 
-/// A policy's name; people put blanks behind commas.
+/// A policy's name. Blanks around it are removed, since users put them after commas.
 pub(crate) fn parse_name(text: &str) -> Result<String, String> {
     match text.trim() {
         "" => Err("expected a policy's name, found none; is there a comma too many?".to_owned()),
@@ -25,7 +25,7 @@ pub(crate) fn parse_name(text: &str) -> Result<String, String> {
     }
 }
 
-/// Days, or networks.
+/// A number of days or networks.
 pub(crate) fn parse_count(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(count @ 1..=1_000_000) => Ok(count),
@@ -33,22 +33,22 @@ pub(crate) fn parse_count(text: &str) -> Result<u32, String> {
     }
 }
 
-/// A seed; its upper limit is known to what draws from it.
+/// A seed. The code that draws from it checks its upper limit.
 pub(crate) fn parse_seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| "seeds are whole numbers from 0".to_owned())
 }
 
-/// The seed of a training run, as [`parse_seed`].
+/// The seed of a training run, parsed as by [`parse_seed`].
 pub(crate) fn parse_seed_of_a_run(text: &str) -> Result<u32, String> {
     text.parse().map_err(|_| "seeds of a training are whole numbers from 0 to 16777215".to_owned())
 }
 
-/// Decisions to learn from.
+/// The number of decisions to learn from.
 pub(crate) fn parse_steps(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| "expected a whole number".to_owned())
 }
 
-/// The steps of a bound; its limits are known to what proves it.
+/// The length of a bound's slices in minutes. The code that proves the bound checks its limits.
 pub(crate) fn parse_minutes(text: &str) -> Result<u32, String> {
     text.parse().map_err(|_| "expected whole minutes from 1 to 60".to_owned())
 }

@@ -1,30 +1,31 @@
-//! What one more stand or passenger is worth at a bound's prices: as JSON and as lines for people.
+//! The shadow prices of stands and passengers, which are what one more of them is worth at a bound's prices, as JSON
+//! and as lines of text.
 //!
-//! With one more of them, the same prices prove the bound and the worth: no schedule of that day earns more. A bound that is proven
-//! anew is another search, and may come out a little above that or below.
+//! With one more stand or passenger, the same prices prove the bound plus its worth: no schedule of that day earns
+//! more. A bound that is proved anew comes from another search, and may be a little above or below that.
 
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_optimize::Bound;
 
-/// Pairs and periods in the lines for people.
+/// Number of pairs and periods in the lines of text.
 pub(crate) const SHOWN_PASSENGERS: usize = 10;
-/// What the lines of stands say.
+/// The heading of the lines about stands.
 pub(crate) const ALL_STANDS: &str =
     "with one more stand, all day, no schedule earns more than the bound and";
-/// What the lines of passengers say.
+/// The heading of the lines about passengers.
 pub(crate) const PASSENGERS: &str =
     "with one more passenger, no schedule earns more than the bound and";
 
-/// What one more stand is worth all day, dollars by vertiport, in file order.
+/// The worth of one more stand all day, dollars by vertiport, in file order.
 pub(crate) fn of_stands(scenario: &Scenario, bound: &Bound) -> Map<String, Value> {
     let worth = |vertiport| (id(scenario, vertiport), json!(bound.stand_worth_usd(vertiport)));
     VertiportIx::all(scenario.vertiports.len()).map(worth).collect()
 }
 
-/// What one more charger is worth all day, dollars by vertiport, where chargers are a pool of their own. The bound counts them
-/// together with the stands, so it is what one more stand is worth there.
+/// The worth of one more charger all day, dollars by vertiport, for the vertiports that have chargers beside their
+/// other stands. The bound does not tell the two apart, so this is the worth of one more stand there.
 pub(crate) fn of_chargers(scenario: &Scenario, bound: &Bound) -> Map<String, Value> {
     let separate = VertiportIx::all(scenario.vertiports.len())
         .filter(|vertiport| scenario.vertiports[vertiport.at()].chargers.is_some());
@@ -32,7 +33,7 @@ pub(crate) fn of_chargers(scenario: &Scenario, bound: &Bound) -> Map<String, Val
     separate.map(worth).collect()
 }
 
-/// What one more passenger of a pair and of the period that begins at a time is worth, dollars; as JSON has it.
+/// The worth in dollars of one more passenger of a pair in the period that begins at a time, as it stands in JSON.
 #[derive(Serialize)]
 pub(crate) struct PassengerWorth<'a> {
     pub(crate) from: &'a str,
@@ -41,7 +42,7 @@ pub(crate) struct PassengerWorth<'a> {
     pub(crate) worth_usd: f64,
 }
 
-/// What one more passenger is worth, by pair and period, most first; only where it is worth something.
+/// The worth of one more passenger, by pair and period, highest first; pairs and periods without a worth are left out.
 pub(crate) fn of_passengers<'a>(scenario: &'a Scenario, bound: &Bound) -> Vec<PassengerWorth<'a>> {
     let name = |at: VertiportIx| scenario.vertiports[at.at()].id.as_str();
     let entry = |Passenger { worth_usd, period, from, to }| PassengerWorth {
@@ -53,7 +54,7 @@ pub(crate) fn of_passengers<'a>(scenario: &'a Scenario, bound: &Bound) -> Vec<Pa
     passengers(scenario, bound).into_iter().map(entry).collect()
 }
 
-/// Both, most first, as lines for people.
+/// The worths of stands and of passengers as lines of text, highest first.
 pub(crate) fn lines(scenario: &Scenario, bound: &Bound) -> Vec<String> {
     let mut lines = vec![ALL_STANDS.to_owned()];
     let mut stands: Vec<_> = VertiportIx::all(scenario.vertiports.len())
@@ -78,7 +79,7 @@ pub(crate) fn lines(scenario: &Scenario, bound: &Bound) -> Vec<String> {
     lines
 }
 
-/// Says how many lines of passengers are left out.
+/// A line that says how many lines about passengers are left out, if any are.
 pub(crate) fn more_passengers(count: usize) -> Option<String> {
     let more = count.saturating_sub(SHOWN_PASSENGERS);
     (more > 0).then(|| format!("  and {more} more, which --json lists"))

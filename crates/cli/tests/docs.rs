@@ -1,6 +1,6 @@
 //! The documentation is true: error index, links, architecture page and command reference match code and tree.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -144,6 +144,38 @@ fn the_architecture_page_names_every_crate_and_every_dependency() {
     let lines = section.lines().take_while(|line| !line.starts_with('['));
     let asked = lines.filter_map(|line| line.split_once(" = ")).map(|(name, _)| name.to_owned());
     assert_eq!(named, asked.filter(|name| !name.starts_with('#')).collect());
+}
+
+#[test]
+fn the_benchmark_page_shows_the_latest_figures_of_the_history() {
+    let page = text("docs/src/benchmarks.md");
+    let history = root().join("benches/history/criterion.csv");
+    let mut history = csv::Reader::from_path(history).expect("the history");
+    let rows = history.deserialize::<BTreeMap<String, String>>();
+    let rows = rows.map(|row| row.expect("a row"));
+    // A later row is a later measurement.
+    let latest: BTreeMap<String, _> = rows.map(|row| (row["bench"].clone(), row)).collect();
+    let (_, table) = page.split_once("<!-- begin of criterion.csv -->").expect("a table");
+    let (table, _) = table.split_once("<!-- end of criterion.csv -->").expect("its end");
+    let shown: Vec<String> = table
+        .lines()
+        .skip(4)
+        .filter(|line| !line.is_empty())
+        .map(|line| line.replace(',', ""))
+        .collect();
+    assert_eq!(shown.len(), latest.len());
+    for (row, line) in latest.values().zip(shown) {
+        let cell = |name: &str| &row[name];
+        let bench = cell("bench").replace(',', "");
+        let figures = format!(
+            "| {bench} | {} | {} to {} |",
+            cell("median_ns"),
+            cell("low_ns"),
+            cell("high_ns")
+        );
+        assert!(line.starts_with(&figures), "{line}: the history has {figures}");
+        assert!(line.contains(cell("commit")) && line.contains(cell("date")), "{line}");
+    }
 }
 
 /// What `vertifleet ... --help` prints.

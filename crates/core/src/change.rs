@@ -1,4 +1,5 @@
-//! Networks like another but for some members of its file: what a planner asks with "and with 12 more aircraft?".
+//! Networks that differ from another one in some members of its file, for questions such as "and with 12 more
+//! aircraft?".
 
 use serde_json::Value;
 
@@ -6,14 +7,14 @@ use crate::parse::shortened;
 use crate::{Error, Network};
 
 impl Network {
-    /// The network whose file differs from this one's in some members. A path names members from the outside in, with dots
-    /// between; the entries of a list by their `id`, by their position from 0, or by `*` for all of them: `fleet.0.count`,
-    /// `vertiports.V3.stands`, `vertiports.*.stands`. Changes are made in their order, so that later ones win. The file's format then
-    /// has to allow what it says.
+    /// Returns the network whose file differs from this one's in some members. A path names members from the outside
+    /// in, separated by dots. An entry of a list is named by its `id` or by its position from 0, and `*` names all of
+    /// them: `fleet.0.count`, `vertiports.V3.stands`, `vertiports.*.stands`. Changes are made in order, so that later
+    /// ones win. The changed file has to obey the format like any other.
     ///
     /// # Errors
-    /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form in TOML; then as
-    /// [`from_toml`](Self::from_toml).
+    /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form in TOML, and the
+    /// errors of [`from_toml`](Self::from_toml).
     pub fn changed<'a>(
         &self,
         changes: impl IntoIterator<Item = (&'a String, &'a Value)>,
@@ -38,7 +39,7 @@ impl Network {
     }
 }
 
-/// Sets what a path leads to; the error is the part that leads nowhere.
+/// Sets the member that a path leads to. The error is the part of the path that leads nowhere.
 fn set(at: &mut toml::Value, path: &[&str], value: &toml::Value) -> Result<(), String> {
     let [part, rest @ ..] = path else {
         *at = value.clone();
@@ -46,7 +47,8 @@ fn set(at: &mut toml::Value, path: &[&str], value: &toml::Value) -> Result<(), S
     };
     let lost = || Err((*part).to_owned());
     match at {
-        // A member that the file does not have may be one that it can have.
+        // The file may lack a member that the format allows, so a missing one is inserted. Reading the result refuses
+        // the others.
         toml::Value::Table(members) if rest.is_empty() => {
             members.insert((*part).to_owned(), value.clone());
             Ok(())
@@ -66,7 +68,7 @@ fn set(at: &mut toml::Value, path: &[&str], value: &toml::Value) -> Result<(), S
     }
 }
 
-/// The entry of that id, or else at that position.
+/// The position of the entry whose id is `part`, or else the position that `part` is.
 fn position(entries: &[toml::Value], part: &str) -> Option<usize> {
     let of_id = |entry: &toml::Value| entry.get("id").and_then(toml::Value::as_str) == Some(part);
     let counted = || part.parse().ok().filter(|&position| position < entries.len());

@@ -1,6 +1,6 @@
 //! The rules that every day obeys, checked once: code that holds a [`Scenario`] may rely on them.
 //!
-//! Bounds of single numbers are in `limits.rs`; here is what must agree with what.
+//! Bounds of single numbers are in `limits.rs`. This file checks what has to agree with what.
 
 use std::collections::HashSet;
 
@@ -10,7 +10,7 @@ use crate::{Day, Error, Matrix, Scenario, Time};
 mod beyond;
 
 impl Day {
-    /// Checks every rule; `origin` names the file (or whatever else the day comes from) in messages.
+    /// Checks every rule; `origin` names the file, or the other source of the day, in messages.
     ///
     /// # Errors
     /// The first rule that is broken, with its member and value.
@@ -39,7 +39,7 @@ pub(crate) fn demand_cells(origin: &str, vertiports: usize, periods: usize) -> R
     entry_count(origin, "demand (vertiports x vertiports x periods)", cells, entries::DEMAND)
 }
 
-/// Refuses a name that is empty, endless, or cannot be printed on one line.
+/// Refuses a name that is empty, too long, or cannot be printed on one line.
 pub(crate) fn id(origin: &str, member: impl FnOnce() -> String, id: &str) -> Result<(), Error> {
     const RULE: &str = "1 to 64 characters without control characters";
     if (1..=64).contains(&id.chars().count()) && !id.chars().any(char::is_control) {
@@ -49,7 +49,8 @@ pub(crate) fn id(origin: &str, member: impl FnOnce() -> String, id: &str) -> Res
     Err(Error::BadId { origin: origin.to_owned(), member: member(), rule: RULE, found })
 }
 
-/// Refuses ids that are not well formed or not unique; `list` and `entry` are what the file and people call them.
+/// Refuses ids that are not well formed or not unique; `list` is the list's name in the file, `entry` the word for one
+/// of its entries.
 pub(crate) fn ids<'a>(
     origin: &str,
     list: &str,
@@ -67,7 +68,7 @@ pub(crate) fn ids<'a>(
     Ok(())
 }
 
-/// Refuses what ends before it starts, or later than any day.
+/// Refuses a span that ends before it starts, or later than any day.
 pub(crate) fn span(
     start: Time,
     end: Time,
@@ -98,7 +99,7 @@ fn not_too_late(time: Time, origin: &str, member: impl FnOnce() -> String) -> Re
     })
 }
 
-/// A day under examination; each function is one family of rules.
+/// A day that is being checked. Each function checks one family of rules.
 struct Check<'a> {
     origin: &'a str,
     day: &'a Day,
@@ -298,7 +299,7 @@ impl Check<'_> {
         self.passengers(&self.day.demand, "demand")
     }
 
-    /// A table of passengers for each period, with 0 on the diagonal.
+    /// Checks that there is a table of passengers for each period, and that each has 0 on the diagonal.
     fn passengers(&self, tables: &[Matrix<u32>], member: &str) -> Result<(), Error> {
         self.per_period(member, tables.len())?;
         demand_cells(self.origin, self.day.vertiports.len(), self.day.periods.len())?;

@@ -1,13 +1,14 @@
-//! When each route is closed: a day's closures by route, those that overlap or touch joined.
+//! The times at which each route is closed: a day's closures by route, with those that overlap or touch joined.
 
 use crate::{Closure, Time, VertiportIx};
 
-/// The times at which the routes of a day are closed, of some of its closures or all of them. To ask costs a look into a
-/// table and takes no memory.
+/// The times at which the routes of a day are closed, by some of its closures or by all of them. A query looks into a
+/// table and allocates no memory.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ClosedTimes {
     vertiports: usize,
-    /// Where the spans of each route begin, `[from][to]` row by row, and where the last end; empty if nothing is ever closed.
+    /// Position in `spans` at which those of each route begin, `[from][to]` row by row, and the number of spans at the
+    /// end. Empty if nothing is ever closed.
     begins: Vec<u32>,
     spans: Vec<ClosedSpan>,
 }
@@ -15,14 +16,14 @@ pub struct ClosedTimes {
 /// A time in which a route is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ClosedSpan {
-    /// First instant at which it is closed.
+    /// First instant at which the route is closed.
     pub start: Time,
-    /// First instant at which it is open again.
+    /// First instant at which the route is open again.
     pub end: Time,
 }
 
 impl ClosedTimes {
-    /// The times of some closures of a day with so many vertiports.
+    /// The times at which the given closures close routes, for a day with `vertiports` vertiports.
     pub fn of<'a>(closures: impl IntoIterator<Item = &'a Closure>, vertiports: usize) -> Self {
         let mut spans = Vec::new();
         for &Closure { route, start, end, .. } in closures {
@@ -60,7 +61,7 @@ impl ClosedTimes {
         self.spans.is_empty()
     }
 
-    /// When a route is closed: in order, and with time between any two.
+    /// The spans in which a route is closed, in order, with time between any two of them.
     #[inline]
     pub fn spans(&self, from: VertiportIx, to: VertiportIx) -> &[ClosedSpan] {
         if self.is_empty() {
@@ -76,7 +77,7 @@ impl ClosedTimes {
         self.is_closed_throughout(from, to, time, time)
     }
 
-    /// Whether a route is closed from the first to the last of these times.
+    /// Whether a route is closed at every instant from `first` to `last`, both included.
     #[inline]
     pub fn is_closed_throughout(
         &self,

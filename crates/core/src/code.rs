@@ -4,8 +4,9 @@ use std::fmt;
 
 /// The stable number of an expected error or warning, printed as `V104`.
 ///
-/// V1xx are files, networks and scenarios (this crate), V2xx decisions, traces and checks, V3xx models and training,
-/// V4xx studies and the command line, V5xx bounds and plans. A number is never used again for something else.
+/// V1xx numbers belong to files, networks and scenarios (this crate), V2xx to decisions, traces and checks, V3xx to
+/// models and training, V4xx to studies and the command line, V5xx to bounds and plans. A number is never reused for
+/// something else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code(pub u16);
 
@@ -15,23 +16,23 @@ impl fmt::Display for Code {
     }
 }
 
-/// An expected error: something that the user can know the number of, and mostly put right.
+/// An expected error: one that has a stable number and that the user can mostly put right.
 pub trait Coded: std::error::Error {
     /// The stable number.
     fn code(&self) -> Code;
 
-    /// What helps beside the message, where there is more to say.
+    /// Advice beyond the message, where there is any.
     fn hint(&self) -> Option<&str>;
 
-    /// How the program ends after it.
+    /// How the program exits after the error.
     fn exit(&self) -> Exit;
 }
 
-/// How the program ends after an expected error.
+/// How the program exits after an expected error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
-    /// It failed although the input was right: a disk that is full, a training that diverges.
+    /// The program failed although its input was right: a disk is full, or a training diverges.
     Failed = 1,
-    /// The input must change.
+    /// The input has to be changed.
     Input = 2,
 }

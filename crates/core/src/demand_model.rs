@@ -1,8 +1,9 @@
-//! How many passengers want to fly from i to j in a period: the models that a network file may choose from.
+//! The models of how many passengers want to fly from i to j in a period. A network file chooses one of them.
 //!
-//! Eq. 1 (`demand_model/equation_1.rs`), a day's total spread over the hours (`demand_model/daily.rs`), numbers of each pair
-//! and hour (`demand_model/hourly.rs`), and draws that are uniform (`demand_model/uniform.rs`). Eq. 1 rounds its draws, as the
-//! paper does, which moves the mean where demand is thin; the others draw the mean that is asked for.
+//! They are Eq. 1 (`demand_model/equation_1.rs`), a day's total spread over the periods (`demand_model/daily.rs`),
+//! means of each pair and period (`demand_model/hourly.rs`), and uniform draws (`demand_model/uniform.rs`). Eq. 1
+//! rounds its draws, as the paper does, which moves the mean where demand is thin. The draws of the other models keep
+//! the mean that the file asks for.
 
 mod daily;
 mod distribution;
@@ -23,14 +24,14 @@ pub(crate) use equation_1::RawEquation1;
 pub(crate) use hourly::RawHourlyDemand;
 pub(crate) use uniform::RawUniformDemand;
 
-/// N(mean, sd) passengers.
+/// The normal distribution N(mean, sd) of passengers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Level {
     pub(crate) mean: f64,
     pub(crate) sd: f64,
 }
 
-/// Where the passengers of a network's days come from.
+/// The model that the passengers of a network's days are drawn from.
 #[derive(Debug, Clone)]
 pub(crate) struct DemandModel {
     /// Start of each period.
@@ -47,7 +48,7 @@ enum Kind {
 }
 
 impl DemandModel {
-    /// The mean of a pair in a period, passengers; 0 from a vertiport to itself.
+    /// Mean passengers of a pair in a period; 0 from a vertiport to itself.
     pub(crate) fn mean(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
         if from == to {
             return 0.0;
@@ -60,12 +61,12 @@ impl DemandModel {
         }
     }
 
-    /// The means of one period, for so many vertiports.
+    /// Mean passengers of every pair in one period.
     pub(crate) fn means(&self, period: usize, vertiports: usize) -> Matrix<f64> {
         Matrix::from_fn(vertiports, |from, to| self.mean(period, from, to))
     }
 
-    /// The mean over the day's periods of the means.
+    /// Mean passengers of every pair in a period, averaged over the day's periods.
     pub(crate) fn day_means(&self, vertiports: usize) -> Matrix<f64> {
         let periods = self.periods.len();
         Matrix::from_fn(vertiports, |from, to| {
@@ -73,7 +74,7 @@ impl DemandModel {
         })
     }
 
-    /// The passengers of a pair of different vertiports in a period.
+    /// Draws the passengers of a pair of different vertiports in a period.
     pub(crate) fn draw(
         &self,
         period: usize,
@@ -107,7 +108,8 @@ pub(crate) fn whole_passengers(drawn: f64) -> u32 {
     drawn.round().max(0.0) as u32
 }
 
-/// Refuses no periods, too many of them, and too many cells of demand; their order is checked with every day's.
+/// Refuses an empty list of periods, too many periods, and too many cells of demand. The order of the periods is
+/// checked with each day.
 fn check_periods(
     periods: &[Time],
     member: &str,

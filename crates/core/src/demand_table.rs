@@ -1,7 +1,8 @@
-//! A table of demand beside a network file: CSV of period, from, to, passengers, as a spreadsheet writes it.
+//! A table of demand beside a network file: CSV with the columns period, from, to and passengers, as a spreadsheet
+//! writes it.
 //!
-//! A network keeps everything it says in its own text, so that a copy of it elsewhere draws the same days. So the table's
-//! rows are put in the place of the member that names it, and nothing after that knows of the table.
+//! A network keeps everything it says in its own text, so that a copy of the text draws the same days elsewhere. The
+//! rows of the table therefore replace the member that names it, and no later code knows of the table.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -15,8 +16,8 @@ use crate::{Error, Time, files, limits};
 
 const COLUMNS: [&str; 4] = ["period", "from", "to", "passengers"];
 
-/// The text of a network file with the rows of its table in it, the file `table`; `raw` is what that text says of hourly
-/// demand, and `vertiports` are the ids of its vertiports.
+/// Returns the text of a network file with the rows of the file `table` put into it; `raw` is the hourly demand in that
+/// text, and `vertiports` are the ids of its vertiports.
 pub(crate) fn inlined(
     text: &str,
     raw: &RawHourlyDemand,
@@ -41,13 +42,13 @@ pub(crate) fn inlined(
     Ok(toml::to_string(&file).expect("what was read can be written"))
 }
 
-/// The mean passengers of a pair by period; the pair by the positions of its vertiports.
+/// The mean passengers of a pair by period. The pair is given by the positions of its vertiports.
 struct Pair {
     ends: (usize, usize),
     passengers: Vec<f64>,
 }
 
-/// A pair as it stands in a network file; whole numbers without a fraction, which keeps the text short.
+/// A pair as it stands in a network file. Whole numbers are written without a fraction, which keeps the text short.
 #[expect(clippy::cast_possible_truncation, reason = "within bounds, and only whole numbers")]
 fn pair_value(pair: &Pair, vertiports: &[&str]) -> toml::Value {
     let number = |&mean: &f64| {
@@ -61,7 +62,7 @@ fn pair_value(pair: &Pair, vertiports: &[&str]) -> toml::Value {
     value.into()
 }
 
-/// A table under reading.
+/// A table that is being read.
 struct Reader<'a> {
     csv: &'a [u8],
     origin: String,
@@ -107,8 +108,8 @@ impl Reader<'_> {
         Ok(pairs)
     }
 
-    /// The line of the record that begins at a byte. Counted anew: the parser's own count lags behind where it skips empty
-    /// lines or the second half of a CR LF.
+    /// The line of the record that begins at a byte. It is counted anew, because the parser's own count lags behind
+    /// where the parser skips empty lines or the second half of a CR LF.
     fn line(&self, begin: usize) -> usize {
         let mut begin = begin.min(self.csv.len());
         begin += self.csv[begin..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
@@ -123,7 +124,7 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Its period, the ends of its pair, and the mean.
+    /// Reads the row's period, the ends of its pair, and the mean.
     fn read(&self) -> Result<(usize, (usize, usize), f64), Error> {
         if self.record.len() != COLUMNS.len() {
             let rule = format!("of {} values", COLUMNS.len());

@@ -14,7 +14,7 @@ use crate::{
     VertiportIx, check,
 };
 
-/// What may disturb a network's days; nothing by default.
+/// The disturbances that a network's days may have; none by default.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct DisturbanceModel {
     pub(crate) forecast_error: Option<ForecastError>,
@@ -24,7 +24,7 @@ pub(crate) struct DisturbanceModel {
 }
 
 impl DisturbanceModel {
-    /// Closures of a day on which everything closes that may.
+    /// Number of closures on a day on which every possible closure happens.
     pub(crate) fn most_closures(&self) -> usize {
         self.closures.iter().map(|closure| closure.routes.len()).sum()
     }
@@ -35,13 +35,13 @@ impl DisturbanceModel {
 pub(crate) struct ForecastError {
     /// Standard deviation of a pair's demand in a period, as a share of its forecast.
     noise: f64,
-    /// Probability that more want to leave a vertiport in a period than was forecast, and by which factor.
+    /// Probability that demand from a vertiport surges in a period, and by which factor it then exceeds the forecast.
     surge_probability: f64,
     surge_factor: f64,
 }
 
 impl ForecastError {
-    /// Actual demand, drawn around the forecast.
+    /// Draws actual demand around the forecast.
     pub(crate) fn draw(
         &self,
         forecast: &[Matrix<u32>],
@@ -55,8 +55,8 @@ impl ForecastError {
                 for to in VertiportIx::all(table.size()) {
                     let deviation: f64 = StandardNormal.sample(random);
                     let mut expected = f64::from(table[(from, to)]) * factor;
-                    // Around a whole number, rounding to the nearest is as often up as down and leaves the mean alone; a
-                    // surge of few passengers need not be one.
+                    // Rounding to the nearest goes up as often as down if the centre is a whole number, and so keeps
+                    // the mean. A surge of few passengers may not be a whole number.
                     if expected.fract() != 0.0 {
                         expected = f64::from(rounded_by_chance(expected, random));
                     }
@@ -69,15 +69,15 @@ impl ForecastError {
     }
 }
 
-/// Delays by slot and vertiport.
+/// The model of take-off delays, which are drawn for each slot and vertiport.
 #[derive(Debug, Clone)]
 pub(crate) struct DelayModel {
     slot_s: u32,
-    /// By vertiport; `None` where flights are on time.
+    /// By vertiport; `None` where flights are always on time.
     late: Vec<Option<Late>>,
 }
 
-/// In some slots flights leave late, by an exponential draw.
+/// Flights leave late in some slots, by an exponential draw of at most `most_s`.
 #[derive(Debug, Clone, Copy)]
 struct Late {
     probability: f64,
@@ -92,7 +92,8 @@ impl DelayModel {
             self.late
                 .iter()
                 .map(|late| {
-                    // Two draws whatever comes out, so that one vertiport's settings leave the others' delays alone.
+                    // Both draws are always made, so that one vertiport's settings do not change the delays of the
+                    // others.
                     let (chance, size) = (uniform(random), uniform(random));
                     late.map_or(0, |late| late.delay_s(chance, size))
                 })
@@ -112,7 +113,7 @@ impl Late {
     }
 }
 
-/// Weather over some routes, at most once a day.
+/// Weather that closes some routes at most once a day.
 #[derive(Debug, Clone)]
 pub(crate) struct ClosureModel {
     probability: f64,
@@ -141,7 +142,7 @@ impl ClosureModel {
     }
 }
 
-/// Aircraft that fail, each at most once a day.
+/// Failures of aircraft, at most one a day for each.
 #[derive(Debug, Clone)]
 pub(crate) struct OutageModel {
     probability: f64,
@@ -166,12 +167,12 @@ impl OutageModel {
     }
 }
 
-/// Uniform over [0, 1), 53 bits.
+/// A uniform draw from [0, 1) with 53 random bits.
 pub(crate) fn uniform(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Uniform over the seconds of operations.
+/// An instant drawn uniformly from the seconds of operations.
 fn instant(operations: &Operations, random: &mut ChaCha8Rng) -> Time {
     operations.start + random.random_range(0..=operations.end.since(operations.start))
 }
@@ -228,7 +229,7 @@ struct RawOutageModel {
     most_s: f64,
 }
 
-/// The file in which a model stands, and the model's name in it.
+/// The file that a disturbance model stands in, and the model's name there.
 struct Member<'a> {
     origin: &'a str,
     name: String,
@@ -244,7 +245,7 @@ impl Member<'_> {
         limits.whole_number(value, self.origin, || format!("disturbances: {}: {member}", self.name))
     }
 
-    /// How long something lasts, at least and at most.
+    /// Checks the shortest and the longest duration of something, and returns both.
     fn span_s(&self, least_s: f64, most_s: f64) -> Result<(u32, u32), Error> {
         let least_s = self.seconds(least_s, &limits::PHASE_S, "least_s")?;
         let most_s = self.seconds(most_s, &limits::PHASE_S, "most_s")?;

@@ -1,16 +1,16 @@
-//! What may disturb a day: demand that is not as forecast, late take-offs, closed routes, aircraft out of service. No policy
-//! knows it in advance, but for closures that are announced.
+//! What may disturb a day: demand that differs from the forecast, late take-offs, closed routes, aircraft out of
+//! service. No policy knows disturbances in advance, except for closures that are announced.
 //!
-//! All of it stands in the scenario, so that every policy meets the same disturbances; what of it a policy may see, and
-//! when, is the simulator's affair. A quiet day, as those of `paper` are, has none.
+//! All disturbances stand in the scenario, so that every policy meets the same ones. The simulator decides which of
+//! them a policy may see, and when. A quiet day has none; all days of `paper` are quiet.
 
 use crate::{AircraftIx, Matrix, Time, VertiportIx};
 
-/// The disturbances of a day; the default is none.
+/// The disturbances of a day; by default there are none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Disturbances {
-    /// Passengers expected, per period, where the actual [demand](crate::Day::demand) differs from it. A period's actual
-    /// demand becomes known when the period begins.
+    /// Passengers expected in each period, if the actual [demand](crate::Day::demand) differs from the forecast. A
+    /// period's actual demand becomes known when the period begins.
     pub forecast: Option<Vec<Matrix<u32>>>,
     /// How late flights take off.
     pub takeoff_delays: Option<TakeoffDelays>,
@@ -21,7 +21,7 @@ pub struct Disturbances {
 }
 
 impl Disturbances {
-    /// Whether the day has none.
+    /// Whether the day has no disturbances.
     pub fn is_none(&self) -> bool {
         self.forecast.is_none()
             && self.takeoff_delays.is_none()
@@ -30,7 +30,7 @@ impl Disturbances {
     }
 }
 
-/// How late flights take off, by the vertiport they leave and the time at which they are decided.
+/// How late flights take off, by the vertiport that they leave and the time of the decision.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TakeoffDelays {
     /// Length of a slot, seconds. The first slot begins when operations start; the last one contains their end.
@@ -40,12 +40,12 @@ pub struct TakeoffDelays {
 }
 
 impl TakeoffDelays {
-    /// Slots from the first to the last decision of a day, whose first and last instant these are.
+    /// Number of slots from `start`, the first instant of a day's decisions, to `end`, their last.
     pub fn slots(slot_s: u32, start: Time, end: Time) -> usize {
         (end.since(start) / slot_s) as usize + 1
     }
 
-    /// How late a flight takes off that is decided at `time`, in a day that starts at `start`; seconds.
+    /// Seconds by which a flight takes off late if it is decided at `time`, on a day that starts at `start`.
     #[inline]
     pub fn at(&self, start: Time, time: Time, from: VertiportIx) -> u32 {
         let slot = (time.since(start) / self.slot_s) as usize;
@@ -56,11 +56,11 @@ impl TakeoffDelays {
 /// A pair of vertiports as files name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Route {
-    /// Where flights leave.
+    /// Vertiport that flights leave.
     pub from: VertiportIx,
-    /// Where they lead.
+    /// Vertiport that flights fly to.
     pub to: VertiportIx,
-    /// Whether the way back is meant too.
+    /// Whether the route includes the way back.
     pub both_ways: bool,
 }
 
@@ -72,27 +72,28 @@ impl Route {
     }
 }
 
-/// A route on which no flight may be decided from `start` on until before `end`.
+/// A route, and the time from `start` until before `end` in which no flight along it may be decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Closure {
     /// The route.
     pub route: Route,
-    /// First instant at which it is closed.
+    /// First instant at which the route is closed.
     pub start: Time,
-    /// First instant at which it is open again.
+    /// First instant at which the route is open again.
     pub end: Time,
-    /// Whether policies know of it from the start of the day on. If not, they see that the route is closed once it is, and not
-    /// until when.
+    /// Whether policies know of the closure from the start of the day on. If not, they see that the route is closed
+    /// only once it is, and do not see until when.
     pub known: bool,
 }
 
-/// An aircraft that stays on the ground: if it lands at `start` or later and before `end`, it is not ready before `end`.
+/// A time in which an aircraft stays on the ground: if it lands at `start` or later and before `end`, it is not ready
+/// before `end`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outage {
     /// The aircraft.
     pub aircraft: AircraftIx,
-    /// First instant of a landing that the outage concerns.
+    /// First instant of the landings that the outage affects.
     pub start: Time,
-    /// When the aircraft is fit again.
+    /// First instant at which the aircraft is fit to fly again.
     pub end: Time,
 }

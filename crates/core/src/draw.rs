@@ -1,15 +1,15 @@
-//! One day of a network, drawn from a seed: demand by Eq. 1 and start positions (§V.A).
+//! Draws one day of a network from a seed: demand, start positions (§V.A) and disturbances.
 //!
-//! Each of the two, and each kind of disturbance, has a random stream of its own, so that a change in how one is drawn leaves
-//! the others as they were. The
-//! generator and the normal distribution are plain arithmetic, the same on every machine, and counts are rounded.
+//! Demand, start positions and each kind of disturbance have a random stream of their own, so that a change in how one
+//! of them is drawn leaves the others as they were. The generator and the normal distribution are plain arithmetic, the
+//! same on every machine, and counts are rounded.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::{Day, DaySeed, Matrix, Network, Scenario, Vertiport, VertiportIx};
 
-/// What a day's random streams are for; the numbers are part of what a seed means.
+/// The random streams of a day. Their numbers are part of what a seed means, so they must not change.
 #[derive(Debug, Clone, Copy)]
 enum Stream {
     Demand = 1,
@@ -31,7 +31,7 @@ impl Stream {
 }
 
 impl Network {
-    /// The day that this seed stands for, called `{network}-{seed}`. The same seed always gives the same day.
+    /// Draws the day of this seed, called `{network}-{seed}`. The same seed always gives the same day.
     pub fn draw(&self, seed: DaySeed) -> Scenario {
         let mut day = self.idle_day.clone().into_day();
         day.name = format!("{}-{seed}", self.name);
@@ -43,17 +43,17 @@ impl Network {
             aircraft.at = positions.next(&mut random);
         }
         self.draw_disturbances(&mut day, seed);
-        // Demand is within bounds for any network that was accepted, and positions respect the stands.
+        // Demand is within bounds for every network that was accepted, and start positions respect the stands.
         Scenario::checked(day)
     }
 
-    /// Whether this network draws exactly this day from the day's seed: one that has been changed since does not, even
-    /// if it still bears the name.
+    /// Whether this network draws exactly this day from the day's seed. It does not if it was changed since the day was
+    /// drawn, even if it still has the same name.
     pub fn draws(&self, day: &Scenario) -> bool {
         self.draw(DaySeed::of(day)) == *day
     }
 
-    /// Q(i, j, t), pair by pair.
+    /// Draws Q(i, j, t), pair by pair.
     fn draw_demand(&self, demand: &mut [Matrix<u32>], random: &mut ChaCha8Rng) {
         for (period, table) in demand.iter_mut().enumerate() {
             for from in VertiportIx::all(table.size()) {
@@ -64,8 +64,8 @@ impl Network {
         }
     }
 
-    /// Disturbances come after demand and start positions, and leave both as they would be without them: what was drawn
-    /// as demand becomes the forecast.
+    /// Draws the disturbances. Demand and start positions have been drawn before and stay as they would be without
+    /// disturbances; the demand that was drawn becomes the forecast.
     fn draw_disturbances(&self, day: &mut Day, seed: DaySeed) {
         let model = &self.disturbances;
         if let Some(error) = &model.forecast_error {

@@ -1,7 +1,7 @@
 //! Expected errors of reading, checking, writing and drawing: what is wrong in the user's files, and what to do.
 //!
-//! Messages are lower-case fragments that name file, member, value and rule; `docs/src/reference/errors.md` is written
-//! from the comments here, cause first, then fix.
+//! Messages are lower-case fragments that name file, member, value and rule. `docs/src/reference/errors.md` is written
+//! from the comments here, which give the cause first and then the fix.
 
 use std::io;
 
@@ -10,7 +10,7 @@ use crate::limits::SEED_LIMIT;
 use crate::output_error::OutputError;
 use crate::{Code, FileKind};
 
-/// What is wrong with a file, a network, a scenario or a seed.
+/// An error in a file, a network, a scenario or a seed.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// V101. The operating system does not let the file be read: it does not exist, is a folder, or belongs to
@@ -19,7 +19,7 @@ pub enum Error {
     CannotRead {
         /// The path.
         origin: String,
-        /// What the operating system says.
+        /// The operating system's message.
         cause: io::Error,
     },
 
@@ -29,7 +29,7 @@ pub enum Error {
     CannotWrite {
         /// The path.
         origin: String,
-        /// What the operating system says.
+        /// The operating system's message.
         cause: io::Error,
     },
 
@@ -39,7 +39,7 @@ pub enum Error {
     FileTooLarge {
         /// The path.
         origin: String,
-        /// The longest that is read, bytes.
+        /// The greatest length that is read, bytes.
         limit: u64,
     },
 
@@ -51,11 +51,11 @@ pub enum Error {
         origin: String,
         /// Path of the member inside the file.
         member: String,
-        /// What is asked of the number.
+        /// The rule that the number breaks.
         rule: String,
         /// The number.
         found: String,
-        /// What the member means, where that is easily mistaken.
+        /// The meaning of the member, where it is easily mistaken.
         hint: Option<&'static str>,
     },
 
@@ -69,7 +69,7 @@ pub enum Error {
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What the parser says.
+        /// The parser's message.
         problem: String,
     },
 
@@ -85,7 +85,7 @@ pub enum Error {
         column: usize,
         /// Path of the member and a colon, or nothing for the file as a whole.
         member: String,
-        /// What is wrong with it.
+        /// The parser's message.
         problem: String,
     },
 
@@ -95,9 +95,9 @@ pub enum Error {
     UnknownFormat {
         /// The file.
         origin: String,
-        /// What this program reads.
+        /// The format that this program reads.
         expected: &'static str,
-        /// What the file says.
+        /// The format that the file states.
         found: String,
     },
 
@@ -106,7 +106,7 @@ pub enum Error {
     NoFormat {
         /// The file.
         origin: String,
-        /// What this program reads.
+        /// The format that this program reads.
         expected: &'static str,
     },
 
@@ -117,23 +117,23 @@ pub enum Error {
         origin: String,
         /// The list.
         member: String,
-        /// The most entries it may have.
+        /// The most entries that it may have.
         most: usize,
-        /// The entries it has.
+        /// The number of entries that it has.
         found: usize,
     },
 
-    /// V109. A table does not have one row and one column a vertiport, or a list does not have one entry a demand
-    /// period. Fix: add or remove entries in the member that the message names.
+    /// V109. A table does not have one row and one column for each vertiport, or a list does not have one entry for
+    /// each demand period. Fix: add or remove entries in the member that the message names.
     #[error("{origin}: {member} must have {expected}, found {found}")]
     WrongShape {
         /// The file.
         origin: String,
         /// The table or list.
         member: String,
-        /// The entries it needs.
+        /// The entries that it has to have.
         expected: String,
-        /// The entries it has.
+        /// The number of entries that it has.
         found: usize,
     },
 
@@ -151,9 +151,9 @@ pub enum Error {
     UnknownId {
         /// The file.
         origin: String,
-        /// The member that refers.
+        /// The member that refers to an entry.
         member: String,
-        /// What it says.
+        /// The id that the member gives.
         found: String,
         /// The list that has no such entry.
         list: &'static str,
@@ -167,9 +167,9 @@ pub enum Error {
         origin: String,
         /// The id or name.
         member: String,
-        /// What is asked of it.
+        /// The rule that it breaks.
         rule: &'static str,
-        /// What it is, cut short where it is long.
+        /// The id or name, cut short if it is long.
         found: String,
     },
 
@@ -183,9 +183,9 @@ pub enum Error {
         origin: String,
         /// The vertiport.
         vertiport: String,
-        /// Stands it has.
+        /// Number of its stands.
         stands: u16,
-        /// Aircraft that start there.
+        /// Number of aircraft that start there.
         aircraft: usize,
     },
 
@@ -195,7 +195,7 @@ pub enum Error {
     StartAfterEnd {
         /// The file.
         origin: String,
-        /// What has a start and an end.
+        /// The member with the start and the end.
         member: String,
         /// First instant.
         start: String,
@@ -211,9 +211,9 @@ pub enum Error {
         origin: String,
         /// The period.
         member: String,
-        /// What is asked of it.
+        /// The rule that it breaks.
         rule: String,
-        /// When it starts.
+        /// The start of the period.
         found: String,
     },
 
@@ -226,7 +226,7 @@ pub enum Error {
         origin: String,
         /// The cell.
         member: String,
-        /// Passengers in it.
+        /// Number of passengers in the cell.
         found: u32,
     },
 
@@ -248,7 +248,7 @@ pub enum Error {
     /// different purposes apart. Fix: choose a smaller one.
     #[error("{member} must be a whole number below {limit}, found {found}")]
     SeedOutOfRange {
-        /// Which number, with its file if it has one.
+        /// The name of the number, with its file if it has one.
         member: String,
         /// The first number that is too large.
         limit: u64,
@@ -256,16 +256,17 @@ pub enum Error {
         found: String,
     },
 
-    /// V121. A file has two members of which it must have one, or none of them. Fix: keep the one that is meant.
+    /// V121. A file has several of the members of which it must have exactly one, or none of them. Fix: keep the one
+    /// you mean.
     #[error("{origin}: {member} must have {choices}, found {found}")]
     NotOneOf {
         /// The file.
         origin: String,
-        /// What has the members.
+        /// The member that contains them.
         member: String,
         /// The members to choose from.
         choices: &'static str,
-        /// How many of them it has.
+        /// The number of them that it has.
         found: usize,
     },
 
@@ -286,7 +287,7 @@ pub enum Error {
     NoSuchMember {
         /// The path.
         path: String,
-        /// Its first part that is not there.
+        /// The first part of the path that does not exist.
         part: String,
     },
 
@@ -296,14 +297,15 @@ pub enum Error {
     WrongKind {
         /// The file.
         origin: String,
-        /// What it is.
+        /// The kind of the file.
         found: &'static str,
-        /// What is expected.
+        /// The kind that is expected.
         expected: FileKind,
     },
 
-    /// V131. A row of a table of demand is not what the table's columns hold, or the first line is not their names. Fix:
-    /// correct the line that the message names; numbers have a decimal point, and commas only stand between columns.
+    /// V131. A row of a table of demand does not fit the table's columns, or the first line does not hold their names.
+    /// Fix: correct the line that the message names; numbers have a decimal point, and commas only stand between
+    /// columns.
     #[error("{origin}: line {line}: {column} must be {rule}, found {found:?}")]
     TableRow {
         /// The table's file.
@@ -312,9 +314,9 @@ pub enum Error {
         line: usize,
         /// The column, or the row or header as a whole.
         column: &'static str,
-        /// What is asked of it.
+        /// The rule that it breaks.
         rule: String,
-        /// What it says, cut short where it is long.
+        /// The text found, cut short if it is long.
         found: String,
     },
 
@@ -335,9 +337,9 @@ pub enum Error {
     GivenTwice {
         /// The network or table.
         origin: String,
-        /// The second of the two.
+        /// The second of the two members.
         member: String,
-        /// What it gives again.
+        /// The pair, or the period and pair, whose demand is given again.
         what: String,
     },
 
@@ -349,7 +351,7 @@ pub enum Error {
         origin: String,
         /// The setting.
         member: String,
-        /// What is asked of it.
+        /// The rule that it breaks.
         rule: &'static str,
         /// The distribution.
         distribution: &'static str,
@@ -361,15 +363,15 @@ pub enum Error {
         "there is no network {name:?}: shipped are {shipped}, random:NUMBER draws one, and no file has that path"
     )]
     UnknownNetwork {
-        /// What was asked for.
+        /// The name that was asked for.
         name: String,
-        /// The names that are shipped.
+        /// The names of the shipped networks.
         shipped: String,
-        /// The one of them that was meant, if it can be guessed.
+        /// A question whether a similar shipped name was meant, if there is one.
         meant: Option<String>,
     },
 
-    /// A file that would be lost (V141 to V144).
+    /// A refusal to write over a file that would be lost (V141 to V144).
     #[error(transparent)]
     Output(#[from] OutputError),
 }

@@ -6,15 +6,15 @@ use crate::Matrix;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fares {
     first: Matrix<f64>,
-    /// Of the second period on; none where the first table is for all day.
+    /// The tables of the second period and later ones; empty if the first table holds all day.
     later: Vec<Matrix<f64>>,
 }
 
 impl Fares {
-    /// Fares that change with the demand period in which a flight is decided: a table for each.
+    /// Fares that change with the demand period in which a flight is decided, one table for each period.
     ///
     /// # Panics
-    /// If there is no table.
+    /// If `tables` is empty.
     pub fn by_period(tables: Vec<Matrix<f64>>) -> Self {
         let mut tables = tables.into_iter();
         let first = tables.next().expect("a day has a period");
@@ -27,14 +27,14 @@ impl Fares {
         self.later.get(period.wrapping_sub(1)).unwrap_or(&self.first)
     }
 
-    /// One table, or one for each demand period.
+    /// The one table, or the tables of all demand periods in order.
     pub fn tables(&self) -> impl Iterator<Item = &Matrix<f64>> + Clone {
         std::iter::once(&self.first).chain(&self.later)
     }
 }
 
 impl From<Matrix<f64>> for Fares {
-    /// The same fares all day.
+    /// Fares that are the same all day.
     fn from(first: Matrix<f64>) -> Self {
         Self { first, later: Vec::new() }
     }

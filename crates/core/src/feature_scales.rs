@@ -1,4 +1,5 @@
-//! What learned policies divide their features by (§IV.A): fixed numbers of the network file, never learned from days.
+//! The divisors of the features of learned policies (§IV.A): fixed numbers of the network file, never learned from
+//! days.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,9 +9,9 @@ use crate::{Error, limits};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "RawFeatureScales")]
 pub struct FeatureScales {
-    /// Aircraft at a vertiport U_i and its stands U_max.
+    /// U_i, the aircraft at a vertiport, and U_max, its stands.
     pub stands: f64,
-    /// d_i and r_i: passengers of one period who leave a vertiport or want to reach it.
+    /// d_i and r_i, the passengers of one period who leave a vertiport or want to reach it.
     pub passengers: f64,
     /// P_ij, dollars a passenger.
     pub fare_usd: f64,
@@ -28,7 +29,7 @@ impl FeatureScales {
     /// Checks that every scale is above 0 and finite; `origin` names the file in messages.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the first that is not.
+    /// [`Error::OutOfRange`] for the first scale that is not.
     pub fn check(self, origin: &str) -> Result<Self, Error> {
         for (member, value) in [
             ("stands", self.stands),
@@ -46,7 +47,7 @@ impl FeatureScales {
     }
 }
 
-/// The scales as written, before the check.
+/// The scales as they are written, before the check.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of feature_scales")]
 pub(crate) struct RawFeatureScales {

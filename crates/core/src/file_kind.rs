@@ -1,4 +1,4 @@
-//! The kinds of files that commands read: telling one from another is worth an error of its own.
+//! The kinds of files that commands read, for an error that says so when a file of one kind is given for the other.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use std::fmt;
 pub enum FileKind {
     /// One day, as JSON.
     Scenario,
-    /// What days are drawn from, as TOML.
+    /// A network, as TOML.
     Network,
 }
 

@@ -1,4 +1,4 @@
-//! Whole files in and out: never more than a bound of them in, never a half of them out.
+//! Reading and writing whole files: never reading more than a bound, and never leaving a half-written file.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -8,25 +8,26 @@ use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 use crate::Error;
 use crate::outputs::folder_of;
 
-/// Held for reading while a file is written, and for writing while the process is ended between two of them.
+/// Held for reading while a file is written, and for writing when the process is to end, so that it ends between two
+/// files.
 static WRITING: RwLock<()> = RwLock::new(());
 
 /// The longest scenario file that is read. Every scenario that obeys the rules is shorter when written.
 pub(crate) const LONGEST_SCENARIO: u64 = 64 << 20;
 
-/// The longest network file that is read: demand by hour and pair takes the most of it.
+/// The longest network file that is read. Most of its length is demand by hour and pair.
 pub(crate) const LONGEST_NETWORK: u64 = 32 << 20;
 
 /// The longest table of demand that is read.
 pub(crate) const LONGEST_TABLE: u64 = 16 << 20;
 
-/// What a path is called in messages.
+/// The name of a path in messages.
 pub(crate) fn origin(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// How the names of files and folders begin that are not finished yet, or were not when the process was killed. Nothing reads
-/// them, and they may be removed at any time when no program writes.
+/// Prefix of the names of unfinished files and folders, which remain if the process is killed. Nothing reads them, and
+/// they may be removed whenever no program is writing.
 pub(crate) const UNFINISHED: &str = ".vertifleet-";
 
 /// Reads a whole file of at most `longest` bytes.
@@ -36,8 +37,8 @@ pub(crate) const UNFINISHED: &str = ".vertifleet-";
 pub fn read_at_most(path: &Path, longest: u64) -> Result<Vec<u8>, Error> {
     let cannot = |cause| Error::CannotRead { origin: origin(path), cause };
     let mut text = Vec::new();
-    // One byte more than allowed tells a file that is too long from one that just fits, also where no length is known
-    // beforehand (a pipe).
+    // Reading one byte more than allowed tells a file that is too long from one that just fits, even where the length
+    // is not known beforehand (a pipe).
     File::open(path).map_err(cannot)?.take(longest + 1).read_to_end(&mut text).map_err(cannot)?;
     check_length(&text, longest, &origin(path))?;
     Ok(text)
@@ -51,7 +52,7 @@ pub(crate) fn check_length(text: &[u8], longest: u64, origin: &str) -> Result<()
     Ok(())
 }
 
-/// Makes a folder and those it lies in, where they are not there yet.
+/// Creates a folder and its missing parents.
 ///
 /// # Errors
 /// [`Error::CannotWrite`].
@@ -63,8 +64,7 @@ pub fn create_folder(path: &Path) -> Result<(), Error> {
     created.map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
 }
 
-/// Writes a whole file, so that `path`, whenever the program ends, has either what was there before or
-/// all of `contents`.
+/// Writes a whole file, so that whenever the program ends, `path` has either its former contents or all of `contents`.
 ///
 /// A link is followed. Where `path` is no plain file (a pipe, `/dev/stdout`), `contents` is simply written to it.
 ///
@@ -74,18 +74,19 @@ pub fn write_atomically(path: &Path, contents: &[u8]) -> Result<(), Error> {
     write(path, contents).map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
 }
 
-/// Waits for the files that are being written by [`write_atomically`]; as long as the result lives, no other is begun. For
-/// ending the process while its threads are at work, so that no file in between is left behind.
+/// Waits for the files that [`write_atomically`] is writing. While the guard lives, no other write begins. This lets
+/// the process end while its threads are at work without leaving an unfinished file behind.
 pub fn block_writes() -> RwLockWriteGuard<'static, ()> {
     WRITING.write().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Held while files are written that belong together.
+/// Returns the guard to hold while files that belong together are written.
 pub(crate) fn writing() -> RwLockReadGuard<'static, ()> {
     WRITING.read().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Refuses a link to a file that is not there: it would be replaced by the file, and where it leads would stay empty.
+/// Refuses a link to a file that does not exist: the new file would replace the link, and the link's target would stay
+/// empty.
 pub(crate) fn leads_somewhere(path: &Path) -> io::Result<()> {
     if path.is_symlink() && !path.exists() {
         let why = "it is a link to a file that is not there";
@@ -103,9 +104,9 @@ fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
     }
     let folder = folder_of(&target);
     fs::metadata(folder)?;
-    // Not for pipes, above: a process that waits for a pipe's reader may be ended.
+    // The lock is not held for pipes, above, so that a process that waits for a pipe's reader can be ended.
     let _writing = writing();
-    // The name of the file in between would only confuse a message, so the kind of error must do.
+    // The name of the temporary file would only confuse a message, so only the kind of the error is kept.
     let mut file = new_file_in(folder).map_err(|error| io::Error::from(error.kind()))?;
     file.write_all(contents)?;
     if let Some(former) = former {
@@ -115,7 +116,7 @@ fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// An unnamed-to-be file with the permissions of any other new file; by default it would be its owner's alone.
+/// A temporary file with the permissions of any other new file; by default only its owner could read it.
 fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(UNFINISHED);

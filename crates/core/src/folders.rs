@@ -1,4 +1,4 @@
-//! Folders that are written as a whole: all files of one run, or what was there before.
+//! Folders that are written as a whole: afterwards a folder has either all files of one run or its former contents.
 
 use std::fs::{self, Metadata};
 use std::io;
@@ -9,26 +9,26 @@ use crate::output_error::OutputError;
 use crate::outputs::folder_of;
 use crate::{Error, OutputKind};
 
-/// What a folder holds that this program wrote, and how to know one again.
+/// A kind of folder that this program writes, and how to recognise one.
 #[derive(Debug, Clone, Copy)]
 pub struct FolderKind {
-    /// What people call it, as in "no report".
+    /// The word for it in messages, as in "no report".
     pub name: &'static str,
-    /// A file that is in every one of them, and the kinds that it may be of.
+    /// The name of a file that every folder of this kind has, and the kinds that the file may be of.
     pub mark: (&'static str, &'static [OutputKind]),
-    /// Whether a file of this name may be in it.
+    /// Whether a folder of this kind may hold a file of this name.
     pub holds: fn(&str) -> bool,
 }
 
 impl FolderKind {
-    /// Whether all that is in the folder was written by this program, as far as names and the mark tell.
+    /// Whether everything in the folder was written by this program, as far as names and the mark tell.
     fn is_of(&self, folder: &Path) -> io::Result<bool> {
         let (mark, kinds) = self.mark;
         let mut empty = true;
         for entry in fs::read_dir(folder)? {
             let entry = entry?;
             let name = entry.file_name();
-            // The Finder leaves one in every folder that it shows.
+            // The Finder leaves a `.DS_Store` in every folder that it shows.
             let known = name.to_str().is_some_and(|name| (self.holds)(name) || name == ".DS_Store");
             if !known || !entry.file_type()?.is_file() {
                 return Ok(false);
@@ -40,11 +40,11 @@ impl FolderKind {
     }
 }
 
-/// Whether a folder of this kind may be put where this one is, if there is one: it is empty or of the same kind, and nothing in it
-/// is read-only, or `force` is given.
+/// Checks that a folder of this kind may replace the one at `path`, if there is one. It may if the old folder is empty
+/// or of the same kind and nothing in it is read-only, or if `force` is given.
 ///
 /// # Errors
-/// [`OutputError`], or [`Error::CannotWrite`] where no folder can be or something is in the way.
+/// [`OutputError`], or [`Error::CannotWrite`] where no folder can be written or something is in the way.
 pub fn check_folder(path: &Path, kind: &FolderKind, force: bool) -> Result<(), Error> {
     let cannot = |cause| Error::CannotWrite { origin: origin(path), cause };
     let Ok(former) = fs::metadata(path) else { return Ok(()) };
@@ -66,7 +66,7 @@ pub fn check_folder(path: &Path, kind: &FolderKind, force: bool) -> Result<(), E
     }
 }
 
-/// The first that is read-only of a folder and its files.
+/// The folder or the first of its files that is read-only.
 fn read_only_in(folder: &Path, former: &Metadata) -> io::Result<Option<PathBuf>> {
     if former.permissions().readonly() {
         return Ok(Some(folder.to_owned()));
@@ -80,7 +80,7 @@ fn read_only_in(folder: &Path, former: &Metadata) -> io::Result<Option<PathBuf>>
     Ok(None)
 }
 
-/// Why no folder can take this one's place, found before the work is done.
+/// The reason why no other folder can replace this one. It is looked for before the work is done.
 fn irreplaceable(path: &Path, former: &Metadata) -> Option<&'static str> {
     let target = path.canonicalize().ok()?;
     let here = std::env::current_dir().and_then(|here| here.canonicalize());
@@ -103,17 +103,17 @@ fn is_mounted(_: &Metadata, _: &Metadata) -> bool {
     false
 }
 
-/// Puts a folder with these files, by name, in the place of `path`: all of them, or everything is as it was before. A link is followed,
-/// and folders above that are not there are made.
+/// Replaces the folder at `path` by one with these files, given by name. Either all of them are written, or everything
+/// stays as it was before. A link is followed, and missing parents are created.
 ///
-/// A folder that was there is removed if it is of the same kind. Any other is kept under a name of its own, which is returned; that
-/// takes `force`.
+/// A former folder is removed if it is of the same kind. Any other is kept under another name, which is returned; that
+/// requires `force`.
 ///
-/// The new folder is made beside the old one and the two change places by two renames. A process that is killed just between them
-/// leaves both in a folder whose name begins with `.vertifleet-`.
+/// The new folder is made beside the old one, and two renames exchange them. A process that is killed just between the
+/// renames leaves both in a folder whose name begins with `.vertifleet-`.
 ///
 /// # Errors
-/// As [`check_folder`]; [`Error::CannotWrite`] where the disk is full, for example.
+/// The errors of [`check_folder`], and [`Error::CannotWrite`], for example where the disk is full.
 pub fn replace_folder(
     path: &Path,
     kind: &FolderKind,
@@ -128,7 +128,7 @@ pub fn replace_folder(
     let replaced = fs::create_dir_all(above).and_then(|()| replace(&target, kind, files));
     if replaced.is_err() {
         for folder in missing {
-            // Another program may have put something into it by now; then it stays.
+            // Another program may have put something into the folder by now; then it stays.
             let _ = fs::remove_dir(folder);
         }
     }
@@ -142,8 +142,8 @@ fn replace(
 ) -> io::Result<Option<PathBuf>> {
     let _writing = writing();
     let above = folder_of(target);
-    // Removed with all that is in it at the end, however that comes. The names of what is in between would only confuse a message,
-    // so the kind of error must do.
+    // This temporary folder is removed with all its contents when the function returns, also on an error. Its name
+    // would only confuse a message, so only the kind of the error is kept.
     let between = tempfile::Builder::new().prefix(UNFINISHED).tempdir_in(above);
     let between = between.map_err(|error| io::Error::from(error.kind()))?;
     let fresh = between.path().join("new");
@@ -166,7 +166,7 @@ fn replace(
     Ok(kept)
 }
 
-/// `out.old`, or the first such name that is free.
+/// `out.old`, or else the first free name of `out.old-2`, `out.old-3` and so on.
 fn free_name(target: &Path) -> PathBuf {
     let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let numbered = (2..).map(|number| target.with_file_name(format!("{name}.old-{number}")));

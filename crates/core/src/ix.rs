@@ -7,7 +7,7 @@ macro_rules! index {
         pub struct $name(pub u16);
 
         impl $name {
-            /// The index for slices.
+            /// The index as a `usize`, for slices.
             #[inline]
             pub fn at(self) -> usize {
                 usize::from(self.0)
@@ -16,7 +16,7 @@ macro_rules! index {
             /// The index of the entry at `position`.
             ///
             /// # Panics
-            /// If `position` exceeds [`u16::MAX`]; the readers refuse lists that long.
+            /// If `position` exceeds [`u16::MAX`]. The readers refuse lists that long.
             #[inline]
             pub fn new(position: usize) -> Self {
                 Self(u16::try_from(position).expect("the readers bound every list below 2^16"))

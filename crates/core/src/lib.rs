@@ -1,8 +1,8 @@
 //! The world as data: networks, scenarios, and days drawn from a seed.
 //!
-//! A [`Scenario`] is one operating day with everything exogenous in it, nothing left to be drawn; a [`Network`] is
-//! what days are drawn from. Both are read in two stages: raw text, then checked types that cannot hold nonsense.
-//! This crate knows no clock, no policy and no motion; its only randomness is the one that draws a day or a network.
+//! A [`Scenario`] is one operating day with everything exogenous in it and nothing left to be drawn. Days are drawn
+//! from a [`Network`]. Both are read in two stages: raw text, then checked types that cannot hold nonsense. This crate
+//! has no simulation clock, no policies and no motion. Its only randomness draws days and networks.
 //!
 //! ```
 //! use vertifleet_core::{DaySeed, Network};

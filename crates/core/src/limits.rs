@@ -1,7 +1,7 @@
-//! Bounds of every number in a network or scenario, in one place, and how a message states them.
+//! Bounds of every number in a network or scenario, in one place, and their wording in messages.
 //!
-//! They are wide: their purpose is that no sum of durations, seats or dollars leaves the range of its type, and that a
-//! slipped decimal point is found when the file is read and not as a strange result.
+//! The bounds are wide. They keep every sum of durations, seats or dollars within the range of its type, and they
+//! reveal a slipped decimal point when the file is read rather than as a strange result.
 
 use std::fmt::Debug;
 
@@ -35,7 +35,7 @@ impl Limits {
         Self { hint: Some(hint), ..self }
     }
 
-    /// Refuses a `value` that does not obey; `member` is asked for its name only then.
+    /// Refuses a `value` outside the limits. `member` is called for the member's name only then.
     pub(crate) fn check(
         &self,
         value: f64,
@@ -52,7 +52,7 @@ impl Limits {
         })
     }
 
-    /// Checks a number and gives it the type that holds every whole number within these limits.
+    /// Checks a number and converts it to a type that holds every whole number within these limits.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -69,7 +69,7 @@ impl Limits {
         Ok(T::try_from(value as u32).expect("the type holds every number within the limits"))
     }
 
-    /// What the rule that `value` breaks asks for, if it breaks one.
+    /// The requirement of the rule that `value` breaks, if it breaks one.
     fn broken(&self, value: f64) -> Option<String> {
         if !value.is_finite() {
             return Some("a finite number".to_owned());
@@ -87,7 +87,7 @@ impl Limits {
     }
 }
 
-/// A number as short as it can be without becoming another one: `110`, `0.64`, `1e300`.
+/// A number in the shortest form that reads back as the same number: `110`, `0.64`, `1e300`.
 pub(crate) fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude != 0.0 && !(1e-5..1e16).contains(&magnitude) {
@@ -106,11 +106,12 @@ pub(crate) mod entries {
     pub(crate) const CORRIDORS: usize = 65_536;
     pub(crate) const CLOSURES: usize = 10_000;
     pub(crate) const OUTAGES: usize = 10_000;
-    /// Cells of all demand tables together, so that a day fits in memory many times and in the longest file.
+    /// Cells of all demand tables together, bounded so that many copies of a day fit in memory and one fits in the
+    /// longest file.
     pub(crate) const DEMAND: usize = 4_000_000;
 }
 
-/// Seeds are below this, 2^53: every JSON reader holds such a whole number exactly.
+/// Seeds are below 2^53, because every JSON reader holds such whole numbers exactly.
 pub(crate) const SEED_LIMIT: u64 = 1 << 53;
 
 /// The latest time of day that operations and periods may name.
@@ -131,7 +132,7 @@ pub(crate) const STANDS: Limits = Limits::whole(1, 10_000)
 pub(crate) const CHARGERS: Limits = Limits::whole(1, 10_000)
     .hint("chargers counts the aircraft that charge at the vertiport or are on their way to it");
 
-/// A slot of delays is as long as the shortest journey at least, so that a day has a bounded number of them.
+/// A slot of delays lasts at least as long as the shortest journey, so that a day has a bounded number of slots.
 pub(crate) const SLOT_S: Limits = Limits::whole(60, 86_400);
 
 pub(crate) const SEATS: Limits =
@@ -149,7 +150,7 @@ pub(crate) const DISTANCE_MI: Limits = Limits::between(0.0, 1e4);
 pub(crate) const MONEY_USD: Limits = Limits::between(0.0, 1e6);
 pub(crate) const ENERGY_PRICE_USD: Limits =
     Limits::between(0.0, 1e3).hint("the price is in dollars per kWh");
-/// Dollars a passenger-mile, and what a fare is made from beside it; fares have bounds of their own.
+/// Tariffs in dollars a passenger-mile, and the numbers that turn costs into fares. The fares have bounds of their own.
 pub(crate) const TARIFF: Limits = Limits::between(0.0, 1e3);
 pub(crate) const FEATURE_SCALE: Limits =
     Limits::above_zero(1e9).hint("a learned policy sees each quantity divided by its scale");
@@ -157,15 +158,15 @@ pub(crate) const FLEET_COUNT: Limits = Limits::whole(1, 10_000);
 /// Mean and standard deviation of a period's demand; far enough below `PASSENGERS` for any draw to stay within it.
 pub(crate) const DEMAND_MEAN: Limits = Limits::between(0.0, 1e5);
 pub(crate) const DEMAND_SD: Limits = Limits::between(0.0, 1e4);
-/// Passengers of a whole day, and a network's total of them.
+/// Mean passengers of a pair in a whole day, and a network's total of them.
 pub(crate) const DAILY_DEMAND: Limits = Limits::between(0.0, 1e5);
 pub(crate) const SHARE_PERCENT: Limits = Limits::between(0.0, 100.0).hint("100 is the whole day");
 pub(crate) const WEIGHT: Limits = Limits::between(0.0, 1e6);
-/// Standard deviation as a share of the mean. Draws stay within `PASSENGERS`, as a normal deviation is below 10.
+/// Standard deviation as a share of the mean. Draws stay within `PASSENGERS`, because a normal deviation is below 10.
 pub(crate) const NOISE: Limits = Limits::between(0.0, 0.4)
     .hint("noise is a standard deviation as a share of the mean, 0.1 is 10 %");
-/// Passengers' variance beyond that of a Poisson draw, as a share of the mean's square. Far below the least, a gamma draw
-/// would be lost in rounding.
+/// The variance of passengers in excess of a Poisson draw's, as a share of the mean's square. A dispersion far below
+/// the least would be lost in the rounding of the gamma draw.
 pub(crate) const DISPERSION: Limits =
     Limits::between(1e-6, 10.0).hint("the variance is mean + dispersion x mean^2");
 pub(crate) const PROBABILITY: Limits =
@@ -187,7 +188,7 @@ mod tests {
         SLOT_S, SPEED_MPH, STANDS, entries,
     };
 
-    /// A number as the book writes it: `1,000,000`.
+    /// A number as it is written in the book: `1,000,000`.
     fn grouped(value: f64) -> String {
         let digits = format!("{}", value.abs());
         let groups: Vec<&[u8]> = digits.as_bytes().rchunks(3).rev().collect();
@@ -196,7 +197,7 @@ mod tests {
         format!("{}{}", if value < 0.0 { "-" } else { "" }, groups.join(","))
     }
 
-    /// Limits as the book states them.
+    /// Limits as they are written in the book.
     fn stated(Limits { least, most, above, whole, .. }: Limits) -> String {
         let most = grouped(most);
         match (above, whole) {

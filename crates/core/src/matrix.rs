@@ -40,7 +40,7 @@ impl<T> Matrix<T> {
         &self.cells
     }
 
-    /// All cells, row by row, for change in place.
+    /// All cells, row by row, to be changed in place.
     #[inline]
     pub fn cells_mut(&mut self) -> &mut [T] {
         &mut self.cells
@@ -54,7 +54,7 @@ impl<T> Matrix<T> {
 
     /// The rows, in order.
     pub fn rows(&self) -> impl Iterator<Item = &[T]> {
-        // `max(1)`: an empty table has no rows, and chunks of zero would panic.
+        // An empty table has no rows, and `chunks(0)` would panic.
         self.cells.chunks(self.size.max(1))
     }
 }

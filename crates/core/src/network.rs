@@ -1,4 +1,4 @@
-//! A network: what days are drawn from, all that is the same every day and how the rest is distributed.
+//! A network, from which days are drawn: everything that is the same every day, and how the rest is distributed.
 
 use std::path::{Path, PathBuf};
 
@@ -9,9 +9,9 @@ use crate::{
     nearest, network_file, parse, random_network,
 };
 
-/// What stands before the number of a random network.
+/// The prefix of the number of a random network.
 const RANDOM: &str = "random:";
-/// The networks inside the program, by name.
+/// The networks that are compiled into the program, by name.
 const SHIPPED: &[(&str, &str)] = &[
     ("paper", include_str!("../../../networks/paper.toml")),
     ("disrupted", include_str!("../../../networks/disrupted.toml")),
@@ -23,11 +23,12 @@ const SHIPPED: &[(&str, &str)] = &[
 #[derive(Debug, Clone)]
 pub struct Network {
     pub(crate) name: String,
-    /// The text that it was read from.
+    /// The text that the network was read from.
     pub(crate) toml: String,
-    /// The files that it was read from.
+    /// The files that the network was read from.
     pub(crate) files: Vec<PathBuf>,
-    /// All that is the same every day. Its aircraft stand anywhere that is allowed, and it has no passengers.
+    /// Everything that is the same every day. The idle day has no passengers, and its aircraft stand anywhere that is
+    /// allowed.
     pub(crate) idle_day: Scenario,
     pub(crate) demand: DemandModel,
     pub(crate) disturbances: DisturbanceModel,
@@ -38,7 +39,7 @@ impl Network {
     /// Reads and checks a network file.
     ///
     /// # Errors
-    /// The file, or the table of demand that it names, cannot be read, is too long, or breaks a rule of the format; the
+    /// The file, or the table of demand that it names, cannot be read, is too long, or breaks a rule of the format. The
     /// message names the member.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
@@ -50,8 +51,8 @@ impl Network {
         Ok(network)
     }
 
-    /// Reads and checks the text of a network file, which names no table beside it; `origin` stands for the file in
-    /// messages.
+    /// Reads and checks the text of a network file, which must not name a table beside it. `origin` stands for the file
+    /// in messages.
     ///
     /// # Errors
     /// The text is longer than 32 MiB or breaks a rule of the format; the message names the member.
@@ -73,11 +74,11 @@ impl Network {
         SHIPPED.iter().map(|(name, _)| *name)
     }
 
-    /// The shipped network of this name, the random network for comparison of this number (`random:7`), or else the network
-    /// file at this path.
+    /// Finds the shipped network of this name, the random comparison network of this number (`random:7`), or else reads
+    /// the network file at this path.
     ///
     /// # Errors
-    /// [`Error::UnknownNetwork`] if it is none of them, else as [`Network::read`].
+    /// [`Error::UnknownNetwork`] if it is none of these, and the errors of [`Network::read`].
     pub fn find(name_or_path: &str) -> Result<Self, Error> {
         if let Some(network) = Self::shipped(name_or_path) {
             return Ok(network);
@@ -99,23 +100,24 @@ impl Network {
         })
     }
 
-    /// The name by which [`find`](Self::find) knows the random network for comparison of this number.
+    /// The name by which [`find`](Self::find) finds the random comparison network of this number.
     pub fn random_name(number: u64) -> String {
         format!("{RANDOM}{number}")
     }
 
-    /// Its name; the days drawn from it are called `{name}-{seed}`.
+    /// The network's name. The days drawn from it are called `{name}-{seed}`.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The text of its network file, with the rows of its table of demand in it if it has one: reading it again gives the
-    /// same network.
+    /// The text of the network file, with the rows of its table of demand in it if it has one. Reading this text gives
+    /// the same network.
     pub fn toml(&self) -> &str {
         &self.toml
     }
 
-    /// The files that it was read from: its own and its table of demand; none if it is a shipped or a random network.
+    /// The files that the network was read from: the network file and its table of demand. Empty for a shipped or
+    /// random network.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
@@ -130,22 +132,22 @@ impl Network {
         &self.idle_day.aircraft_types
     }
 
-    /// Aircraft of all types together.
+    /// Number of aircraft of all types together.
     pub fn fleet_size(&self) -> usize {
         self.idle_day.aircraft.len()
     }
 
-    /// Clock of every day.
+    /// Times of operations, the same every day.
     pub fn operations(&self) -> &Operations {
         &self.idle_day.operations
     }
 
-    /// What learned policies divide their features by.
+    /// The divisors of the features of learned policies.
     pub fn feature_scales(&self) -> FeatureScales {
         self.feature_scales
     }
 
-    /// The means of demand by period (of Eq. 1 on `paper`), passengers: what the days' draws scatter around.
+    /// Mean passengers by period (of Eq. 1 on `paper`), around which the demand of days is drawn.
     pub fn mean_demand(&self) -> Vec<Matrix<f64>> {
         let vertiports = self.vertiports().len();
         let means = |period| self.demand.means(period, vertiports);

@@ -1,4 +1,4 @@
-//! The network file: TOML of format `vertifleet-network/1` to a checked [`Network`].
+//! Reads the network file, TOML of format `vertifleet-network/1`, into a checked [`Network`].
 
 use std::path::Path;
 
@@ -48,7 +48,7 @@ struct RawNetwork {
     feature_scales: RawFeatureScales,
 }
 
-/// Where aircraft stand when a day starts.
+/// The positions of aircraft when a day starts.
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum StartPositions {
@@ -56,7 +56,7 @@ enum StartPositions {
     Random,
 }
 
-/// So many aircraft of one type.
+/// A number of aircraft of one type.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of a fleet entry")]
 struct RawFleet {
@@ -65,7 +65,7 @@ struct RawFleet {
     count: f64,
 }
 
-/// Reads and checks the text of a network file; a table that it names is read from `folder`.
+/// Reads and checks the text of a network file. A table that it names is read from `folder`.
 pub(crate) fn network(text: &str, folder: Option<&Path>, origin: &str) -> Result<Network, Error> {
     let text = text.strip_prefix(parse::MARK).unwrap_or(text);
     parse::is_no_json(text, origin)?;
@@ -83,7 +83,7 @@ pub(crate) fn network(text: &str, folder: Option<&Path>, origin: &str) -> Result
 }
 
 impl RawNetwork {
-    /// The table that the file names, and where it is to be found.
+    /// The table of demand that the file names, with the hourly demand it belongs to and the folder to read it from.
     fn table<'a>(
         &'a self,
         folder: Option<&'a Path>,
@@ -92,7 +92,7 @@ impl RawNetwork {
         Some((hourly, hourly.table.as_deref()?, folder?))
     }
 
-    /// The network; `text` is what it was read from.
+    /// Checks the raw network; `text` is the text that it was read from.
     fn check(self, text: &str, origin: &str) -> Result<Network, Error> {
         let raw = self;
         name(&raw.name, origin)?;
@@ -151,7 +151,7 @@ impl RawNetwork {
     }
 }
 
-/// The demand models that a file may have.
+/// The demand models that a file may have, of which it must have exactly one.
 struct DemandModels {
     equation_1: Option<RawEquation1>,
     daily: Option<RawDailyDemand>,
@@ -160,7 +160,7 @@ struct DemandModels {
 }
 
 impl DemandModels {
-    /// The one that the file has.
+    /// Checks and returns the one that the file has.
     fn the_one(
         self,
         vertiports: &[Vertiport],
@@ -188,7 +188,7 @@ impl DemandModels {
     }
 }
 
-/// A network's name becomes part of names of days and files.
+/// Checks the name of a network, which becomes part of names of days and files.
 fn name(name: &str, origin: &str) -> Result<(), Error> {
     const RULE: &str =
         "1 to 40 letters a-z, digits, dots, dashes and underscores, the first a letter or digit";
@@ -203,7 +203,7 @@ fn name(name: &str, origin: &str) -> Result<(), Error> {
     Err(Error::BadId { origin: origin.to_owned(), member, rule: RULE, found })
 }
 
-/// The aircraft, `A01` on, each on the first stand that is free; a drawn day puts them elsewhere.
+/// The aircraft, numbered from `A01`, each on the first free stand; a drawn day places them elsewhere.
 fn fleet(
     raw: &[RawFleet],
     aircraft_types: &[AircraftType],

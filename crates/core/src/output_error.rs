@@ -1,18 +1,18 @@
-//! Refusals to write over what would be lost.
+//! Refusals to write over a file that would be lost.
 
 use crate::Code;
 use crate::code::{Coded, Exit};
 
-/// Why a command does not write to a file or folder. Nothing was done then.
+/// The reason why a command does not write to a file or folder. Nothing has been written then.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// V141. A file that a command is to write is one that it reads, perhaps by another name: a link leads there. Fix: name
-    /// another file for what is written. No flag allows it.
+    /// V141. A file that a command is to write is one that it reads, perhaps by another name that links to it. Fix:
+    /// name another file to write to. No flag allows it.
     #[error("{output}: cannot be written, because this command reads it (as {input})")]
     IsInput {
-        /// What was to be written.
+        /// The file that was to be written.
         output: String,
-        /// What the command reads, as it was named.
+        /// The file that the command reads, as it was named.
         input: String,
     },
 
@@ -25,17 +25,17 @@ pub enum OutputError {
         second: String,
     },
 
-    /// V143. A file or folder of this name is there, and it is none that this program wrote for the same purpose. Fix: name another
-    /// one, or say with `--force` (in Python `force=True`) that it may be replaced.
+    /// V143. A file or folder of this name exists, and this program did not write it for the same purpose. Fix: name
+    /// another one, or say with `--force` (in Python `force=True`) that it may be replaced.
     #[error("{origin}: is there already, and is no {kind} that this program wrote")]
     NotOurs {
         /// The file or folder.
         origin: String,
-        /// What would be written there.
+        /// The kind of file that would be written there.
         kind: &'static str,
     },
 
-    /// V144. A file of this name is there, and it is read-only. Fix: name another one, or say with `--force` (in Python
+    /// V144. A file of this name exists and is read-only. Fix: name another one, or say with `--force` (in Python
     /// `force=True`) that it may be replaced.
     #[error("{origin}: is there already, and is read-only")]
     ReadOnly {

@@ -1,8 +1,8 @@
-//! What a command may write to: nothing that it reads, nothing twice, and no file of others.
+//! Checks where a command may write: to no file that it reads, to no file twice, and to no file that others wrote.
 //!
-//! All of it is asked before any work is done. Files are told apart by what they are, not by how they are called: by
-//! device and inode on Unix, so that links are seen through, and by their canonical paths elsewhere. What is no plain file
-//! (a pipe, a terminal, `/dev/null`) holds nothing that could be lost, and may always be written to.
+//! All checks come before any work is done. Files are identified by device and inode on Unix, so that links are seen
+//! through, and by their canonical paths elsewhere. Anything but a plain file (a pipe, a terminal, `/dev/null`) holds
+//! nothing that could be lost, and may always be written to.
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
@@ -11,23 +11,23 @@ use std::path::{Path, PathBuf};
 use crate::output_error::OutputError;
 use crate::{Error, files};
 
-/// A kind of file that this program writes, and how to know one again.
+/// A kind of file that this program writes, and how to recognise one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OutputKind {
-    /// What people call it, as in "no scenario".
+    /// The word for it in messages, as in "no scenario".
     pub name: &'static str,
-    /// How many bytes of it say nothing of its kind: the length in front of a safetensors header.
+    /// Number of bytes to skip before `opening`: the length in front of a safetensors header.
     pub skipped: usize,
-    /// What every file of the kind that this program wrote has behind them.
+    /// The bytes after those, which begin every file of this kind that this program wrote.
     pub opening: &'static str,
 }
 
 impl OutputKind {
-    /// Whether this program wrote the file, as far as its beginning tells. An empty file holds nothing that could be lost, so it
-    /// counts as one.
+    /// Whether this program wrote the file, as far as its beginning tells. An empty file holds nothing that could be
+    /// lost, so it counts as one.
     ///
     /// # Errors
-    /// What the operating system says where the file cannot be read.
+    /// The operating system's error if the file cannot be read.
     pub fn is_of(&self, path: &Path) -> io::Result<bool> {
         let most = (self.skipped + self.opening.len()) as u64;
         let mut beginning = Vec::new();
@@ -37,8 +37,8 @@ impl OutputKind {
     }
 }
 
-/// Whether a file may be written where this one is, if there is one: it is of the kind that this program writes there, and not
-/// read-only, or `force` is given.
+/// Checks that a file may replace the one at `path`, if there is one. It may if the old file is of the kind that this
+/// program writes there and not read-only, or if `force` is given.
 ///
 /// # Errors
 /// [`OutputError`], or [`Error::CannotWrite`] where a folder is in the way.
@@ -47,7 +47,7 @@ pub fn check_output(path: &Path, kind: &OutputKind, force: bool) -> Result<(), E
     let cannot = |cause| Error::CannotWrite { origin: origin.clone(), cause };
     let Ok(former) = fs::metadata(path) else {
         files::leads_somewhere(path).map_err(cannot)?;
-        // A folder that is not there is found before the work is done rather than after it.
+        // A missing folder is found now rather than after the work is done.
         return fs::metadata(folder_of(path)).map(|_| ()).map_err(cannot);
     };
     if former.is_dir() {
@@ -65,7 +65,7 @@ pub fn check_output(path: &Path, kind: &OutputKind, force: bool) -> Result<(), E
     Ok(())
 }
 
-/// The files of one command: those that it reads, and those that it is going to write.
+/// The files of one command: those that it reads and those that it is going to write.
 #[derive(Debug, Default)]
 pub struct Outputs {
     force: bool,
@@ -74,23 +74,23 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Of a command that has no files yet. With `force`, files that this program did not write are replaced, and read-only ones; what
-    /// the command reads never is.
+    /// The outputs of a command that has no files yet. With `force`, read-only files and files that this program did
+    /// not write are replaced, but never a file that the command reads.
     pub fn new(force: bool) -> Self {
         Self { force, ..Self::default() }
     }
 
-    /// Whether files of others may be replaced.
+    /// Whether files that this program did not write may be replaced.
     pub fn force(&self) -> bool {
         self.force
     }
 
-    /// The command reads this file or folder.
+    /// Records that the command reads this file or folder.
     pub fn reads(&mut self, path: &Path) {
         self.read.extend(Place::of(path));
     }
 
-    /// The command prints results to stdout, which may have been led to a file.
+    /// Records that the command prints results to stdout, which may be redirected to a file.
     pub fn prints(&mut self) {
         let stdout = Path::new("/dev/stdout");
         if cfg!(unix) && fs::metadata(stdout).is_ok_and(|former| former.is_file()) {
@@ -100,16 +100,16 @@ impl Outputs {
         }
     }
 
-    /// The command is going to write this file.
+    /// Records that the command is going to write this file.
     ///
     /// # Errors
-    /// [`OutputError`] if the command reads the file or writes it already; else as [`check_output`].
+    /// [`OutputError`] if the command reads the file or writes it already, and the errors of [`check_output`].
     pub fn writes(&mut self, path: &Path, kind: &OutputKind) -> Result<(), Error> {
         self.claim(path, Place::is)?;
         check_output(path, kind, self.force)
     }
 
-    /// The command is going to put a folder of its own in this one's place, if there is one.
+    /// Records that the command is going to replace this folder, if there is one, by its own.
     ///
     /// # Errors
     /// [`OutputError`] if the command reads or writes the folder or something in it.
@@ -138,19 +138,20 @@ impl Outputs {
     }
 }
 
-/// Where a plain file or a folder is, or will be.
+/// The place of a plain file or a folder, which may not exist yet.
 #[derive(Debug, Clone)]
 struct Place {
-    /// As the user named it.
+    /// The path as the user named it.
     origin: String,
-    /// Device and inode of a file that is there, where the system has such.
+    /// Device and inode of an existing file, on systems that have them.
     node: Option<(u64, u64)>,
-    /// Without links and dots.
+    /// The path without links and dots.
     path: PathBuf,
 }
 
 impl Place {
-    /// Nothing for what is neither a plain file nor a folder: it can be read and written at once.
+    /// Returns `None` for anything that is neither a plain file nor a folder, because it can be read and written at
+    /// once.
     fn of(path: &Path) -> Option<Self> {
         let former = fs::metadata(path).ok();
         if former.as_ref().is_some_and(|former| !former.is_file() && !former.is_dir()) {

@@ -1,18 +1,18 @@
-//! Text to raw structs: JSON and TOML, with one shape of error that names member, line and column.
+//! Reads text into raw structs: JSON and TOML, with one shape of error that names member, line and column.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use crate::{Error, FileKind};
 
-/// The first line of every file of ours; other members may be anything until the format is known.
+/// The member that every file of ours has. Other members may be anything until the format is known.
 #[derive(Deserialize)]
 #[serde(expecting = "an object with a member `format`")]
 struct Header {
     format: Option<String>,
 }
 
-/// Reads JSON that says it has this format.
+/// Reads JSON that states this format.
 pub(crate) fn json<T: DeserializeOwned>(
     text: &[u8],
     format: &'static str,
@@ -23,7 +23,7 @@ pub(crate) fn json<T: DeserializeOwned>(
     json_value(text, origin)
 }
 
-/// Reads TOML that says it has this format.
+/// Reads TOML that states this format.
 pub(crate) fn toml<T: DeserializeOwned>(
     text: &str,
     format: &'static str,
@@ -42,7 +42,7 @@ pub(crate) fn without_mark(text: &[u8]) -> &[u8] {
     text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text)
 }
 
-/// Refuses a network file where a scenario is expected, whose text can only be JSON.
+/// Refuses a network file where a scenario is expected. The text of a scenario can only be JSON.
 pub(crate) fn is_no_network(text: &[u8], origin: &str) -> Result<(), Error> {
     let says_so = |line: &[u8]| {
         let value = line.trim_ascii_start().strip_prefix(b"format").map(<[u8]>::trim_ascii_start);
@@ -57,7 +57,7 @@ pub(crate) fn is_no_network(text: &[u8], origin: &str) -> Result<(), Error> {
     Err(Error::WrongKind { origin: origin.to_owned(), found, expected })
 }
 
-/// Refuses JSON where a network is expected: no TOML begins with a brace.
+/// Refuses JSON where a network is expected. No TOML begins with a brace.
 pub(crate) fn is_no_json(text: &str, origin: &str) -> Result<(), Error> {
     if !text.trim_ascii_start().starts_with('{') {
         return Ok(());
@@ -77,7 +77,7 @@ pub(crate) fn utf8<'a>(text: &'a [u8], origin: &str) -> Result<&'a str, Error> {
     })
 }
 
-/// At most the first `most` characters of a text from outside, for messages.
+/// The first `most` characters, at most, of a text from outside, for messages.
 pub(crate) fn shortened(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}...", &text[..end]),
@@ -103,7 +103,8 @@ fn json_value<T: DeserializeOwned>(text: &[u8], origin: &str) -> Result<T, Error
         let position = format!(" at line {line} column {}", error.column());
         let problem = message.strip_suffix(&position).unwrap_or(&message);
         let place = Place { origin, line, column };
-        // A number that no `f64` holds is called a mistake of syntax, but it has a member that can be named.
+        // `serde_json` reports a number that no `f64` holds as a syntax error, but it belongs to a member that can be
+        // named.
         if error.is_data() || problem == "number out of range" {
             place.wrong_member(path, problem)
         } else {
@@ -130,7 +131,7 @@ fn toml_value<T: DeserializeOwned>(text: &str, origin: &str) -> Result<T, Error>
     })
 }
 
-/// Where in a file something is wrong.
+/// The position of an error in a file.
 struct Place<'a> {
     origin: &'a str,
     line: usize,
@@ -148,7 +149,7 @@ impl Place<'_> {
         }
     }
 
-    /// `path` as `serde_path_to_error` prints it: a dot alone is the file as a whole.
+    /// `path` is in the form of `serde_path_to_error`, where a lone dot means the file as a whole.
     fn wrong_member(&self, path: &str, problem: &str) -> Error {
         let Self { origin, line, column } = *self;
         Error::WrongMember {
@@ -156,7 +157,7 @@ impl Place<'_> {
             line,
             column,
             member: if path == "." { String::new() } else { format!("{}: ", shortened(path, 100)) },
-            // The parsers' own word for a number; files are not written in terms of our types.
+            // The parsers name our type here, which means nothing to those who write files.
             problem: shortened(&problem.replace("expected f64", "expected a number"), 300),
         }
     }

@@ -1,7 +1,7 @@
-//! Networks drawn from a number: to learn on, and to show how a policy does on networks that it never saw.
+//! Networks drawn from a number, to learn on, and to measure a policy on networks that it never saw.
 //!
-//! They differ in all that a network file says: 5 to 30 vertiports, 10 to 150 aircraft, how far apart, how many stands and
-//! seats, how fast, how dear, and how much demand there is for what the fleet could carry, from half of it to tenfold.
+//! They differ in everything that a network file says: 5 to 30 vertiports, 10 to 150 aircraft, distances, stands,
+//! seats, speeds, prices, and demand from half to ten times what the fleet could carry.
 
 use std::fmt::Write;
 
@@ -9,15 +9,15 @@ use crate::{Network, Purpose};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Draws a network: all that a network file says. [`Network::find`] finds those for comparison by `random:NUMBER`.
+/// Draws a network file and reads it. [`Network::find`] finds the random comparison networks by `random:NUMBER`.
 ///
-/// Those of one purpose are never those of another, so what was trained on some can be judged on others.
+/// Different purposes never share a network, so a policy trained on some can be evaluated on others.
 pub fn random_network(purpose: Purpose, number: u64) -> Network {
     let text = text(purpose, number);
     Network::from_toml(&text, "a random network").expect("every number drawn is within its bounds")
 }
 
-/// The network's file.
+/// The text of the network file.
 fn text(purpose: Purpose, number: u64) -> String {
     let mut random = generator(purpose, number);
     let vertiports = random.random_range(5..=30_usize);
@@ -62,7 +62,8 @@ fn text(purpose: Purpose, number: u64) -> String {
     text
 }
 
-/// Vertiports in a square small enough for most pairs to be within range, with 1.1 to 1.6 stands an aircraft in all.
+/// Writes vertiports in a square small enough for most pairs to be within range, with 1.1 to 1.6 stands for each
+/// aircraft in all.
 fn write_vertiports(text: &mut String, vertiports: usize, fleet: usize, random: &mut ChaCha8Rng) {
     let side_mi = random.random_range(20.0..45.0);
     let stands = fleet as f64 * random.random_range(1.1..1.6);
@@ -77,7 +78,7 @@ fn write_vertiports(text: &mut String, vertiports: usize, fleet: usize, random: 
                 number = at + 1,
                 x_mi = random.random_range(0.0..side_mi),
                 y_mi = random.random_range(0.0..side_mi),
-                // Rounded up, so that together they are enough.
+                // Rounded up, so that the stands suffice together.
                 stands = (stands * weight / all).ceil(),
                 busy = at < busy,
             ),
@@ -85,7 +86,7 @@ fn write_vertiports(text: &mut String, vertiports: usize, fleet: usize, random: 
     }
 }
 
-/// Demand between half and ten times what the fleet may carry at about 0.8 flights an hour.
+/// Writes demand between half and ten times what the fleet can carry at about 0.8 flights an hour for each aircraft.
 fn write_demand(
     text: &mut String,
     (vertiports, fleet, seats, hours): (usize, usize, u32, u32),
@@ -93,7 +94,8 @@ fn write_demand(
 ) {
     let capacity = 0.8 * fleet as f64 * f64::from(seats);
     let abundance = 0.5 * 20.0_f64.powf(random.random_range(0.0..1.0));
-    // At least what makes a flight pay: few aircraft among many vertiports would find a passenger here and one there.
+    // The mean is at least enough for a flight to pay. Otherwise few aircraft among many vertiports would find single
+    // passengers scattered over many pairs.
     let mean =
         (abundance * capacity / (vertiports * (vertiports - 1)) as f64).max(0.7 * f64::from(seats));
     let spread = random.random_range(0.1..0.4);
@@ -117,7 +119,7 @@ fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
     text.write_fmt(what).expect("memory takes everything");
 }
 
-/// A stream of its own for each purpose.
+/// The random stream of a number; each purpose has streams of its own.
 fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(number);
     random.set_stream(match purpose {

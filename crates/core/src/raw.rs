@@ -1,7 +1,8 @@
-//! What scenario and network files have in common, as it is written: any number is allowed here, the next stage checks.
+//! The parts that scenario and network files share, as they are written. Any number is allowed here; the next stage
+//! checks it.
 //!
-//! Whole numbers are read as `f64` on purpose, so that `-1` or `2.5` stands is refused with the rule it breaks and not
-//! with a remark about types.
+//! Whole numbers are read as `f64` on purpose, so that `-1` or `2.5` stands are refused with the rule that they break
+//! and not with a message about types.
 
 use std::collections::HashMap;
 
@@ -72,7 +73,7 @@ impl RawVertiport {
     }
 }
 
-/// A vertiport's chargers as a count, where it has a pool of them.
+/// The number of a vertiport's chargers, if it has chargers beside its other stands.
 pub(crate) fn chargers(id: &str, raw: Option<f64>, origin: &str) -> Result<Option<u16>, Error> {
     let member = || format!("vertiport {id:?}: chargers");
     raw.map(|chargers| limits::CHARGERS.whole_number(chargers, origin, member)).transpose()
@@ -107,7 +108,7 @@ impl RawAircraftType {
     }
 }
 
-/// Checks the entries of a list one by one, `check` getting each with its position.
+/// Checks the entries of a list one by one; `check` gets each entry with its position.
 pub(crate) fn each<Raw, Checked>(
     entries: Vec<Raw>,
     mut check: impl FnMut(Raw, usize) -> Result<Checked, Error>,
@@ -115,28 +116,28 @@ pub(crate) fn each<Raw, Checked>(
     entries.into_iter().enumerate().map(|(at, raw)| check(raw, at)).collect()
 }
 
-/// Where in a list each id is.
+/// The position of each id in a list.
 pub(crate) struct Positions<'a> {
     list: &'static str,
     by_id: HashMap<&'a str, usize>,
 }
 
 impl<'a> Positions<'a> {
-    /// The positions of the vertiports, whose ids must differ.
+    /// The positions of the vertiports. Duplicate ids are refused.
     pub(crate) fn of_vertiports(vertiports: &'a [Vertiport], origin: &str) -> Result<Self, Error> {
         let ids = vertiports.iter().map(|vertiport| &vertiport.id);
         check::ids(origin, "vertiports", "vertiport", ids.clone())?;
         Ok(Self::of("vertiports", ids))
     }
 
-    /// The positions of the aircraft types, whose ids must differ.
+    /// The positions of the aircraft types. Duplicate ids are refused.
     pub(crate) fn of_types(kinds: &'a [AircraftType], origin: &str) -> Result<Self, Error> {
         let ids = kinds.iter().map(|kind| &kind.id);
         check::ids(origin, "aircraft_types", "aircraft type", ids.clone())?;
         Ok(Self::of("aircraft types", ids))
     }
 
-    /// The positions of the aircraft, whose ids must differ.
+    /// The positions of the aircraft. Duplicate ids are refused.
     pub(crate) fn of_aircraft(aircraft: &'a [Aircraft], origin: &str) -> Result<Self, Error> {
         let ids = aircraft.iter().map(|aircraft| &aircraft.id);
         check::ids(origin, "aircraft", "aircraft", ids.clone())?;

@@ -1,4 +1,4 @@
-//! Routes and disturbances of the scenario file, as they are written.
+//! Routes and disturbances of the scenario file as they are written.
 
 use serde::Deserialize;
 

@@ -1,4 +1,4 @@
-//! The scenario file, read: JSON of format `vertifleet-scenario/1` to a checked [`Scenario`].
+//! Reads the scenario file, JSON of format `vertifleet-scenario/1`, into a checked [`Scenario`].
 
 use std::path::Path;
 
@@ -68,7 +68,7 @@ struct RawScenario {
     outages: Vec<RawOutage>,
 }
 
-/// An entry of a table of fares, or a row of one of several tables.
+/// An entry of a single table of fares, or a row of one of several tables.
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "expected a number, or a row of numbers in a table for each period")]
 enum RawFare {
@@ -86,9 +86,10 @@ struct RawAircraft {
 }
 
 impl RawScenario {
-    /// The open form: ids become positions, rows become tables, counts become whole numbers.
+    /// Converts the file to the open form of a day: ids become positions, rows become tables, counts become whole
+    /// numbers.
     fn day(self, origin: &str) -> Result<Day, Error> {
-        // Positions are 16 bits wide, so lengths are checked before any is made.
+        // Positions are 16 bits wide, so lengths are checked before any position is made.
         let list = |member, found, most| check::entry_count(origin, member, found, most);
         list("vertiports", self.vertiports.len(), entries::VERTIPORTS)?;
         list("aircraft_types", self.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
@@ -166,7 +167,7 @@ impl RawAircraft {
     }
 }
 
-/// Rows to a square table.
+/// Converts rows to a square table.
 fn table(
     rows: Vec<Vec<f64>>,
     size: usize,
@@ -188,7 +189,7 @@ fn table(
     Ok(Matrix::from_rows(size, rows).expect("as many rows as columns, just checked"))
 }
 
-/// One table for all day, or several, one a period.
+/// Converts fares: one table for all day, or several, one for each period.
 fn fares(raw: Vec<Vec<RawFare>>, size: usize, origin: &str) -> Result<Fares, Error> {
     let by_period = raw.iter().flatten().any(|fare| matches!(fare, RawFare::Row(_)));
     let wrong = |member: String, expected: &str| Error::WrongShape {
@@ -214,7 +215,7 @@ fn fares(raw: Vec<Vec<RawFare>>, size: usize, origin: &str) -> Result<Fares, Err
     Ok(table(rows.collect(), size, "fare", origin)?.into())
 }
 
-/// A table of one period's demand, in whole passengers.
+/// Converts a table of one period's demand to whole passengers.
 fn passengers(table: &Matrix<f64>, member: &str, origin: &str) -> Result<Matrix<u32>, Error> {
     let mut rows = Vec::with_capacity(table.size());
     for (from, row) in table.rows().enumerate() {

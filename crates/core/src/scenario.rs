@@ -1,13 +1,13 @@
 //! One operating day: everything exogenous, nothing left to be drawn.
 //!
-//! [`Day`] is the open form that readers and draws fill in; [`Scenario`] is a day that passed [`Day::check`] and can
-//! no longer be changed, so every rule that `check.rs` states may be trusted.
+//! [`Day`] is the open form that readers and draws fill in. [`Scenario`] is a day that passed [`Day::check`] and can no
+//! longer be changed, so code may rely on every rule that `check.rs` states.
 
 use std::ops::Deref;
 
 use crate::{Disturbances, Fares, Matrix, Route, Time, TypeIx, VertiportIx};
 
-/// When decisions are taken and how long each part of a journey takes beside cruise and charging.
+/// When decisions are taken, and how long each part of a journey takes apart from cruise and charging.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Operations {
     /// First instant at which an aircraft may decide.
@@ -31,50 +31,50 @@ pub struct Vertiport {
     pub x_mi: f64,
     /// Position north, miles.
     pub y_mi: f64,
-    /// U_max: aircraft that may stand here or be on their way here (Eq. 16). Where `chargers` are separate, aircraft that
-    /// may wait here beside them.
+    /// U_max: the number of aircraft that may stand here or be on their way here (Eq. 16). Where `chargers` are counted
+    /// apart, the number of aircraft that may wait here beside them.
     pub stands: u16,
-    /// Places to land and charge, where they are a pool of their own: a flight here needs one from take-off on, and its
-    /// aircraft gives it back when it leaves, or holds and finds a stand.
+    /// Number of chargers, where they are counted apart from stands. A flight here needs a charger from take-off on;
+    /// the aircraft frees it when it leaves, or when it holds and finds a stand.
     pub chargers: Option<u16>,
-    /// Whether it belongs to V_B, the vertiports with high demand (Eq. 1).
+    /// Whether the vertiport belongs to V_B, the vertiports with high demand (Eq. 1).
     pub busy: bool,
-    /// Where it is on the globe, if that is known; for maps, and for warnings. Distances stand in the day.
+    /// Position on the globe, if it is known, for maps and warnings. Distances stand in the day.
     pub degrees: Option<Degrees>,
 }
 
 /// A place on the globe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Degrees {
-    /// Degrees, north is above 0.
+    /// Latitude in degrees; north is above 0.
     pub latitude: f64,
-    /// Degrees, east is above 0.
+    /// Longitude in degrees; east is above 0.
     pub longitude: f64,
 }
 
-/// What aircraft of one kind can do.
+/// The performance of one type of aircraft.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AircraftType {
     /// Unique name.
     pub id: String,
-    /// C: passengers a flight may carry.
+    /// C: number of passengers that a flight may carry.
     pub seats: u16,
     /// Cruise speed, miles per hour.
     pub speed_mph: f64,
     /// B_max: battery capacity, kWh.
     pub battery_kwh: f64,
-    /// e: energy a mile flown takes, kWh.
+    /// e: energy that a mile of flight takes, kWh.
     pub energy_kwh_per_mi: f64,
     /// P_max: charging power, kW.
     pub charge_kw: f64,
-    /// γ: share of the battery's capacity lost in an hour of flight, beside what flying takes. On a stand the
-    /// charger makes up for it.
+    /// γ: share of the battery's capacity lost in an hour of flight, beside the energy that flying takes. On a stand
+    /// the charger makes up for it.
     pub self_discharge_per_h: f64,
 }
 
 impl AircraftType {
-    /// Whether a full battery lasts for a flight of this energy (Eq. 12). Both are compared in whole milliwatt-hours, to the
-    /// nearest, so that a pair exactly at the end of the range can be flown whichever way a product rounds.
+    /// Whether a full battery lasts for a flight of this energy (Eq. 12). Both energies are rounded to whole
+    /// milliwatt-hours, so that a pair exactly at the end of the range can be flown whichever way a product rounds.
     pub fn lasts_for(&self, energy_kwh: f64) -> bool {
         let whole_mwh = |kwh: f64| (1e6 * kwh).round();
         whole_mwh(energy_kwh) <= whole_mwh(self.battery_kwh)
@@ -88,18 +88,18 @@ pub struct Aircraft {
     pub id: String,
     /// Its type.
     pub kind: TypeIx,
-    /// Where it stands, fully charged, when operations start.
+    /// The vertiport where it stands, fully charged, when operations start.
     pub at: VertiportIx,
 }
 
-/// One operating day in its open form; see [`Scenario`] for the checked one. Members are those of the scenario file.
+/// One operating day in its open form, with the members of the scenario file; see [`Scenario`] for the checked form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Day {
-    /// What people call the day, `paper-7`.
+    /// Name of the day, for example `paper-7`.
     pub name: String,
-    /// The seed it was drawn with; policies that draw at random mix it into their own.
+    /// The seed that the day was drawn with. Policies that draw at random mix it into their own.
     pub seed: u64,
-    /// Clock of the day.
+    /// Times of operations.
     pub operations: Operations,
     /// The vertiports, in file order.
     pub vertiports: Vec<Vertiport>,
@@ -109,15 +109,15 @@ pub struct Day {
     pub aircraft: Vec<Aircraft>,
     /// d_ij, miles.
     pub distance_mi: Matrix<f64>,
-    /// The pairs that may be flown; `None` for all.
+    /// The pairs that may be flown; `None` if all may be.
     pub corridors: Option<Vec<Route>>,
     /// P_ij, dollars a passenger, by the period in which a flight is decided.
     pub fare_usd: Fares,
     /// R_ij, dollars a passenger.
     pub passenger_cost_usd: Matrix<f64>,
-    /// What a flight costs with or without passengers, beside its energy; dollars a flight, all 0 in the paper.
+    /// Cost of a flight with or without passengers, beside its energy; dollars a flight, all 0 in the paper.
     pub flight_cost_usd: Matrix<f64>,
-    /// What each aircraft of the fleet costs whatever it does; dollars a day, 0 in the paper.
+    /// Cost of each aircraft of the fleet, whether or not it flies; dollars a day, 0 in the paper.
     pub aircraft_cost_usd: f64,
     /// Start of each demand period; the last one lasts for the rest of the day.
     pub periods: Vec<Time>,
@@ -125,13 +125,13 @@ pub struct Day {
     pub demand: Vec<Matrix<u32>>,
     /// E: price of electricity per period, dollars per kWh.
     pub energy_price_usd: Vec<f64>,
-    /// What is not known in advance.
+    /// The disturbances of the day.
     pub disturbances: Disturbances,
 }
 
 /// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, no vertiport has more aircraft than stands.
 ///
-/// Reads like a [`Day`]; to change one, take it apart with [`Scenario::into_day`] and check it again.
+/// A scenario can be read like a [`Day`]. To change one, take it apart with [`Scenario::into_day`] and check it again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario(Day);
 
@@ -141,30 +141,30 @@ impl Scenario {
         Self(day)
     }
 
-    /// The open form again, to change it.
+    /// Returns the open form, to change it.
     pub fn into_day(self) -> Day {
         self.0
     }
 
-    /// The demand period that contains `time`: the last one that has started.
+    /// The demand period that contains `time`, which is the last one that has started.
     #[inline]
     pub fn period_at(&self, time: Time) -> usize {
-        // A check guarantees that the first period starts no later than operations.
+        // `Day::check` guarantees that the first period starts no later than operations.
         self.periods.iter().rposition(|&start| start <= time).unwrap_or(0)
     }
 
-    /// Whether a pair may be flown: there are no corridors, or one of them leads that way.
+    /// Whether a pair may be flown, because there are no corridors or because one of them leads that way.
     pub fn is_corridor(&self, from: VertiportIx, to: VertiportIx) -> bool {
         let corridors = self.corridors.as_ref();
         corridors.is_none_or(|routes| routes.iter().any(|route| route.covers(from, to)))
     }
 
-    /// Whether any flight costs something with or without passengers, beside its energy.
+    /// Whether any flight has a cost that it has with or without passengers, beside its energy.
     pub fn has_flight_costs(&self) -> bool {
         self.flight_cost_usd.cells().iter().any(|&cost_usd| cost_usd != 0.0)
     }
 
-    /// What the whole fleet costs whatever it does, dollars.
+    /// Cost of the whole fleet, whether or not it flies, dollars.
     pub fn fleet_cost_usd(&self) -> f64 {
         self.aircraft.len() as f64 * self.aircraft_cost_usd
     }

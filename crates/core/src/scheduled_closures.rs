@@ -1,4 +1,4 @@
-//! `[[closures]]` of the network file: what is closed at the same times every day, as by a night curfew or a morning fog.
+//! `[[closures]]` of the network file: closures at the same times every day, such as a night curfew or a morning fog.
 
 use serde::Deserialize;
 
@@ -16,7 +16,7 @@ pub(crate) struct RawScheduledClosure {
     routes: Vec<RawRoute>,
     #[serde(default)]
     vertiports: Vec<String>,
-    /// What comes at the same time every day is no surprise, unless the file says so.
+    /// Closures that come at the same time every day are known in advance, unless the file says otherwise.
     #[serde(default = "announced")]
     known: bool,
 }
@@ -25,7 +25,7 @@ fn announced() -> bool {
     true
 }
 
-/// The closures of every day, route by route.
+/// The closures that every day has, route by route.
 pub(crate) fn closures(
     raw: Vec<RawScheduledClosure>,
     places: &Positions,
@@ -37,13 +37,13 @@ pub(crate) fn closures(
         let (start, end, known) = (raw.start, raw.end, raw.known);
         let routes = raw.routes(&format!("closures[{at}]"), places, vertiports, origin)?;
         closures.extend(routes.into_iter().map(|route| Closure { route, start, end, known }));
-        // Checked as the list grows: every vertiport of a closure is many routes.
+        // The length is checked as the list grows, because each vertiport of a closure stands for many routes.
         at_most(closures.len(), origin)?;
     }
     Ok(closures)
 }
 
-/// Refuses more closures than a day may have, those that are drawn included.
+/// Refuses more closures than a day may have, including those that are drawn.
 pub(crate) fn at_most(found: usize, origin: &str) -> Result<(), Error> {
     if found <= entries::CLOSURES {
         return Ok(());
@@ -53,7 +53,7 @@ pub(crate) fn at_most(found: usize, origin: &str) -> Result<(), Error> {
 }
 
 impl RawScheduledClosure {
-    /// The routes that it closes.
+    /// The routes that the entry closes.
     fn routes(
         self,
         member: &str,
@@ -84,7 +84,7 @@ impl RawScheduledClosure {
     }
 }
 
-/// The routes from and to every vertiport that is closed, each once.
+/// The routes from and to every closed vertiport, each once.
 fn routes_of(closed: &[bool]) -> impl Iterator<Item = Route> {
     let all = VertiportIx::all(closed.len());
     all.clone().filter(|one| closed[one.at()]).flat_map(move |from| {

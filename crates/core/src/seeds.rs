@@ -1,4 +1,4 @@
-//! Seeds of days, so that training, validation and comparison never meet the same day: each has a range of its own.
+//! Seeds of days. Training, validation and comparison have disjoint ranges, so that they never share a day.
 //!
 //! | purpose | seeds | made from |
 //! |---|---|---|
@@ -13,14 +13,14 @@ use crate::{Error, Scenario, limits};
 
 const VALIDATION: u64 = 1 << 40;
 const TRAINING: u64 = 1 << 41;
-/// Days of a training run; each run has this many seeds in a row.
+/// Number of days of a training run; each run has this many consecutive seeds.
 const RUN_DAYS: u64 = 1 << 28;
-/// Training runs that find room between `TRAINING` and 2^53.
+/// Number of training runs that fit between `TRAINING` and 2^53.
 const RUNS: u64 = 1 << 24;
 
 const _: () = assert!(TRAINING + RUNS * RUN_DAYS <= limits::SEED_LIMIT, "all runs fit below 2^53");
 
-/// What a day is drawn for.
+/// The purpose that a day is drawn for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Purpose {
     /// Days that results are reported on, chosen by the user's `--seed`.
@@ -35,7 +35,7 @@ impl Purpose {
     /// All purposes.
     pub const ALL: [Self; 3] = [Self::Comparison, Self::Validation, Self::Training];
 
-    /// The seeds that belong to this purpose and to no other.
+    /// The seeds of this purpose, which no other purpose has.
     pub const fn seeds(self) -> Range<u64> {
         match self {
             Self::Comparison => 0..VALIDATION,
@@ -45,7 +45,7 @@ impl Purpose {
     }
 }
 
-/// The seed of one day, below 2^53; it alone decides what [`Network::draw`](crate::Network::draw) gives.
+/// The seed of one day, below 2^53. It alone determines the day that [`Network::draw`](crate::Network::draw) returns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DaySeed(u64);
 
@@ -53,7 +53,7 @@ impl DaySeed {
     /// The day that the user's `--seed` names.
     ///
     /// # Errors
-    /// [`Error::SeedOutOfRange`] from 2^40 on.
+    /// [`Error::SeedOutOfRange`] if the seed is 2^40 or more.
     pub fn comparison(seed: u64) -> Result<Self, Error> {
         within("the seed", seed, VALIDATION)?;
         Ok(Self(seed))
@@ -62,7 +62,7 @@ impl DaySeed {
     /// Validation day number `index`.
     ///
     /// # Errors
-    /// [`Error::SeedOutOfRange`] from 2^40 on.
+    /// [`Error::SeedOutOfRange`] if `index` is 2^40 or more.
     pub fn validation(index: u64) -> Result<Self, Error> {
         within("the number of the validation day", index, TRAINING - VALIDATION)?;
         Ok(Self(VALIDATION + index))
@@ -71,26 +71,26 @@ impl DaySeed {
     /// Day number `day` of the training run with this seed.
     ///
     /// # Errors
-    /// [`Error::SeedOutOfRange`] for a run's seed from 2^24 on and a day from 2^28 on.
+    /// [`Error::SeedOutOfRange`] if the run's seed is 2^24 or more, or the day 2^28 or more.
     pub fn training(run_seed: u32, day: u64) -> Result<Self, Error> {
         within("the training run's seed", run_seed.into(), RUNS)?;
         within("the number of the training day", day, RUN_DAYS)?;
         Self::training_number(u64::from(run_seed) * RUN_DAYS + day)
     }
 
-    /// Training day number `number`, counted through the days of all runs; there are [`TRAINING_DAYS`](Self::TRAINING_DAYS).
+    /// Training day number `number`, counted through the days of all runs.
     ///
     /// # Errors
-    /// [`Error::SeedOutOfRange`] from there on.
+    /// [`Error::SeedOutOfRange`] if `number` is [`TRAINING_DAYS`](Self::TRAINING_DAYS) or more.
     pub fn training_number(number: u64) -> Result<Self, Error> {
         within("the number of the training day", number, Self::TRAINING_DAYS)?;
         Ok(Self(TRAINING + number))
     }
 
-    /// Days that there are for training.
+    /// Number of training days of all runs together.
     pub const TRAINING_DAYS: u64 = RUNS * RUN_DAYS;
 
-    /// The seed that a day says it was drawn from; a checked day has one within bounds.
+    /// The seed that a day says it was drawn from, which is within bounds for a checked day.
     pub(crate) fn of(day: &Scenario) -> Self {
         Self(day.seed)
     }
@@ -101,7 +101,7 @@ impl DaySeed {
         self.0
     }
 
-    /// What the day is drawn for.
+    /// The purpose that the day is drawn for.
     pub fn purpose(self) -> Purpose {
         match self.0 {
             ..VALIDATION => Purpose::Comparison,

@@ -1,9 +1,9 @@
-//! Where vertiports are, and how far apart: in the plane, or on the globe.
+//! The positions of vertiports and the distances between them, in the plane or on the globe.
 //!
-//! A network file places its vertiports either in miles on a plane or by latitude and longitude. From the latter, distances
-//! are great circles (haversine), and the plane is an equirectangular projection about the vertiports' middle, good for
-//! maps of a region and used for nothing else. Angles go through the `libm` crate, whose results do not depend on the
-//! machine as those of the system's library do.
+//! A network file places its vertiports either in miles on a plane or by latitude and longitude. With the latter,
+//! distances are great circles (haversine), and the plane is an equirectangular projection about the vertiports'
+//! middle; it is good enough for maps of a region and used for nothing else. Angles go through the `libm` crate,
+//! because the results of the system's library depend on the machine.
 
 use serde::Deserialize;
 
@@ -35,7 +35,7 @@ pub(crate) struct RawSite {
     busy: bool,
 }
 
-/// A position, in one of the two ways to give it.
+/// A position, given in one of two ways.
 #[derive(Clone, Copy)]
 enum Position {
     /// Miles east and north.
@@ -60,7 +60,8 @@ impl Sites {
         }
     }
 
-    /// Straight lines. Products, sum and root are exact to the last bit everywhere, which `hypot` is not.
+    /// Distances are straight lines. Products, sum and root are exact to the last bit on every machine, which `hypot`
+    /// is not.
     fn in_plane(vertiports: Vec<Vertiport>) -> Self {
         let distance_mi = Matrix::from_fn(vertiports.len(), |from, to| {
             let (from, to) = (&vertiports[from.at()], &vertiports[to.at()]);
@@ -70,7 +71,7 @@ impl Sites {
         Self { vertiports, distance_mi }
     }
 
-    /// Great circles.
+    /// Distances are great circles.
     fn on_globe(sites: Vec<(Vertiport, Position)>) -> Self {
         let degrees = |position| match position {
             Position::Plane(x_mi, y_mi) => (y_mi, x_mi),

@@ -1,9 +1,9 @@
-//! Asking work that takes long to end early: one handle, one answer.
+//! Asks long work to end early, with one handle and one answer.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Asks work to end, from any thread. All clones of a handle are one; a request cannot be taken back.
+/// A handle to ask work to end, from any thread. All clones share one request, which cannot be taken back.
 #[derive(Debug, Clone, Default)]
 pub struct Stop(Arc<AtomicBool>);
 
@@ -18,16 +18,16 @@ impl Stop {
         self.0.swap(true, Ordering::Relaxed)
     }
 
-    /// Whether the work shall end.
+    /// Whether the work is asked to end.
     #[inline]
     pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// For work that ends by `?`.
+    /// Returns an error once the work is asked to end, for work that ends by `?`.
     ///
     /// # Errors
-    /// [`Stopped`] once the work shall end.
+    /// [`Stopped`] once the work is asked to end.
     #[inline]
     pub fn check(&self) -> Result<(), Stopped> {
         if self.is_requested() { Err(Stopped) } else { Ok(()) }

@@ -1,4 +1,4 @@
-//! What passengers pay and what carrying them costs, from the network file's tariffs.
+//! Fares, costs and energy prices from the network file's tariffs.
 
 use serde::Deserialize;
 
@@ -78,7 +78,7 @@ impl RawTariffs {
         })
     }
 
-    /// What a flight costs with or without passengers, dollars: so much a flight and so much a mile.
+    /// Cost of a flight with or without passengers, dollars: an amount for each flight and an amount for each mile.
     pub(crate) fn flight_costs_usd(&self, distance_mi: &Matrix<f64>) -> Matrix<f64> {
         Matrix::from_fn(distance_mi.size(), |from, to| {
             if from == to {
@@ -88,13 +88,13 @@ impl RawTariffs {
         })
     }
 
-    /// What each aircraft costs whatever it does, dollars a day.
+    /// Cost of each aircraft, whether or not it flies, dollars a day.
     pub(crate) fn aircraft_cost_usd(&self) -> f64 {
         self.aircraft_cost_usd_per_day
     }
 
-    /// P_ij = R_ij (base + weight Qbar_ij / max Qbar), and so much a mile beside it, times the period's factor, and the
-    /// boarding fee; dollars a passenger.
+    /// P_ij = (R_ij (base + weight Qbar_ij / max Qbar) + fare per mile x d_ij) x the period's factor + boarding fee;
+    /// dollars a passenger.
     pub(crate) fn fares_usd(
         &self,
         distance_mi: &Matrix<f64>,

@@ -1,4 +1,4 @@
-//! Time of day in whole seconds since midnight (no fractions anywhere in the world's clock).
+//! Time of day in whole seconds since midnight. No clock in this project has fractions of a second.
 
 use std::fmt;
 use std::ops::Add;
@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Seconds since midnight; past midnight it goes on (`25:10:00`).
+/// Seconds since midnight. Times continue past midnight (`25:10:00`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Time(u32);
 
@@ -23,13 +23,13 @@ impl Time {
         self.0
     }
 
-    /// Hours since midnight.
+    /// Hours since midnight, with fractions.
     #[inline]
     pub fn hours(self) -> f64 {
         f64::from(self.0) / 3600.0
     }
 
-    /// Seconds from `earlier` to this time, 0 if it is not earlier.
+    /// Seconds from `earlier` to this time, or 0 if `earlier` is not earlier.
     #[inline]
     pub const fn since(self, earlier: Self) -> u32 {
         self.0.saturating_sub(earlier.0)
@@ -60,7 +60,8 @@ pub struct NotATime(pub String);
 impl FromStr for Time {
     type Err = NotATime;
 
-    /// Reads `HH:MM:SS`; hours may have one digit and may pass 24 (at most four digits), minutes and seconds are two digits below 60.
+    /// Reads `HH:MM:SS`. Hours may have one digit and may pass 24 (at most four digits); minutes and seconds are two
+    /// digits below 60.
     fn from_str(text: &str) -> Result<Self, NotATime> {
         let wrong = || NotATime(text.chars().take(40).collect());
         let number = |part: &str, digits: std::ops::RangeInclusive<usize>| {

@@ -1,11 +1,12 @@
-//! What is allowed in a scenario or a network but hardly meant: found on request, never a reason to refuse the file.
+//! Things that a scenario or a network may have but that are hardly meant. They are found on request, and no file is
+//! refused for them.
 
 use std::fmt;
 
 use crate::sites::great_circle_mi;
 use crate::{AircraftType, Code, Degrees, Network, Scenario, VertiportIx};
 
-/// Something in a scenario or a network that is allowed but hardly meant.
+/// A property of a scenario or a network that is allowed but hardly meant.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// V120. A full battery does not take the aircraft from where it starts to any other vertiport, so that it stands
@@ -15,7 +16,7 @@ pub enum Warning {
         aircraft: String,
         /// Its type.
         kind: String,
-        /// Where it starts.
+        /// The vertiport where it starts.
         at: String,
     },
 
@@ -24,12 +25,12 @@ pub enum Warning {
     OutOfReach {
         /// The vertiport.
         vertiport: String,
-        /// What makes it so, or likely does.
+        /// The cause, or the likely one.
         cause: Cause,
     },
 }
 
-/// Why a vertiport is out of reach.
+/// The reason why a vertiport is out of reach.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cause {
     /// No corridor leads to or from it, though others are near enough.
@@ -39,11 +40,11 @@ pub enum Cause {
         /// Miles to the nearest other vertiport.
         nearest_mi: f64,
     },
-    /// It lies too far from all others, and would not with another sign or in another order of its degrees.
+    /// It lies too far from all others, but would not if a degree had another sign or the two were exchanged.
     Misplaced {
         /// Miles to the nearest other vertiport.
         nearest_mi: f64,
-        /// Where it likely is.
+        /// The likely position.
         likely: Degrees,
     },
 }
@@ -88,14 +89,14 @@ impl fmt::Display for Cause {
 }
 
 impl Network {
-    /// What is allowed in this network but hardly meant, in file order: what is so on every day of it.
+    /// The warnings of this network, in file order: those that hold on every day of it.
     pub fn warnings(&self) -> Vec<Warning> {
         self.idle_day.out_of_reach()
     }
 }
 
 impl Scenario {
-    /// What is allowed in this scenario but hardly meant, in file order.
+    /// The warnings of this scenario, in file order.
     pub fn warnings(&self) -> Vec<Warning> {
         let stranded = self.aircraft.iter().filter(|aircraft| {
             let kind = &self.aircraft_types[aircraft.kind.at()];
@@ -109,7 +110,7 @@ impl Scenario {
         self.out_of_reach().into_iter().chain(stranded).collect()
     }
 
-    /// The vertiports that no aircraft can reach or leave. One alone has no other to be reached from.
+    /// The vertiports that no aircraft can reach or leave. A network of a single vertiport has none.
     fn out_of_reach(&self) -> Vec<Warning> {
         let fleet: Vec<&AircraftType> = self
             .aircraft_types
@@ -134,7 +135,7 @@ impl Scenario {
             .collect()
     }
 
-    /// Why no aircraft can reach or leave a vertiport.
+    /// The reason why no aircraft can reach or leave a vertiport.
     fn cause(&self, vertiport: VertiportIx, fleet: &[&AircraftType]) -> Cause {
         let reaches = |mi| fleet.iter().any(|kind| self.reaches(kind, mi));
         let ways = |other| {
@@ -167,8 +168,8 @@ impl Scenario {
         self.is_corridor(from, to) && self.reaches(kind, self.distance_mi[(from, to)])
     }
 
-    /// Whether a full battery lasts for a flight: e d_ij and the self-discharge of the journey, in whole
-    /// seconds.
+    /// Whether a full battery lasts for a flight, which takes e d_ij and the self-discharge of the journey. Cruise is
+    /// rounded to whole seconds.
     fn reaches(&self, kind: &AircraftType, distance_mi: f64) -> bool {
         let cruise_s = (3600.0 * distance_mi / kind.speed_mph).round();
         let windows_s = self.operations.takeoff_s + self.operations.landing_s;
@@ -178,7 +179,8 @@ impl Scenario {
     }
 }
 
-/// Places that people mean when they write these degrees: a sign that is missing or too many, the two exchanged.
+/// The positions that these degrees may have been meant for, with a sign missing or added, or the two degrees
+/// exchanged.
 fn slips(Degrees { latitude, longitude }: Degrees) -> [Degrees; 5] {
     [
         Degrees { latitude, longitude: -longitude },

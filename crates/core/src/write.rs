@@ -1,4 +1,4 @@
-//! The scenario file, written: one entry or matrix row a line, numbers as short as they read back.
+//! Writes the scenario file, with one line for each entry or matrix row, and numbers as short as they read back.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -10,7 +10,7 @@ use crate::{
 };
 
 impl Scenario {
-    /// How a scenario file that this program wrote begins, of any version of the format.
+    /// The beginning of every scenario file that this program wrote, in any version of the format.
     pub const FILE: OutputKind = OutputKind {
         name: "scenario",
         skipped: 0,
@@ -20,12 +20,12 @@ impl Scenario {
     /// Writes the scenario file whole or not at all.
     ///
     /// # Errors
-    /// [`Error::CannotWrite`]; what was there before is still there then.
+    /// [`Error::CannotWrite`]; the former file is still there then.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         files::write_atomically(path.as_ref(), self.to_json().as_bytes())
     }
 
-    /// The text of the scenario file. Read again, it gives the same scenario, bit for bit.
+    /// The text of the scenario file. Reading it gives the same scenario, bit for bit.
     pub fn to_json(&self) -> String {
         let mut members = vec![
             ("format", text(read::FORMAT)),
@@ -126,7 +126,7 @@ impl Scenario {
         lines(self.aircraft.iter().map(aircraft), 2)
     }
 
-    /// The members of the disturbances that the day has.
+    /// The members for the disturbances that the day has.
     fn disturbances_json(&self) -> Vec<(&'static str, String)> {
         let Disturbances { forecast, takeoff_delays, closures, outages } = &self.disturbances;
         let mut members = Vec::new();
@@ -161,7 +161,7 @@ impl Scenario {
         members
     }
 
-    /// The members of a route; the way back is mentioned where it is meant.
+    /// The members of a route. The way back is written only if the route includes it.
     fn route_json(&self, route: Route) -> String {
         let id = |vertiport: VertiportIx| text(&self.vertiports[vertiport.at()].id);
         let back = if route.both_ways { r#", "both_ways": true"# } else { "" };
@@ -169,7 +169,7 @@ impl Scenario {
     }
 }
 
-/// Passengers of each period.
+/// The table of passengers of each period.
 fn passengers(tables: &[Matrix<u32>]) -> String {
     lines(tables.iter().map(|period| table(period, 4, u32::to_string)), 2)
 }

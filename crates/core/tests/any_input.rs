@@ -1,4 +1,4 @@
-//! The readers on input that nobody meant: nothing panics, and whatever is accepted obeys every rule.
+//! Gives the readers arbitrary input: they never panic, and everything that they accept obeys every rule.
 
 use proptest::prelude::{Just, Strategy, any, prop, prop_oneof, proptest};
 use proptest::test_runner::Config;
@@ -6,7 +6,7 @@ use vertifleet_core::{DaySeed, Network, Scenario};
 
 const SCENARIO: &str = include_str!("data/small.json");
 const NETWORK: &str = include_str!("data/small.toml");
-/// The same with costs, places, and demand by hour and pair.
+/// The same files with costs, positions on the globe, and demand by hour and pair.
 const FULL_SCENARIO: &str = include_str!("data/full.json");
 const FULL_NETWORK: &str = include_str!("data/full.toml");
 const TABLE: &str =
@@ -71,7 +71,7 @@ fn mutation() -> impl Strategy<Value = Mutation> {
     ]
 }
 
-/// Where in a text there are runs of digits, dots and signs.
+/// The runs of digits, dots and signs in a text.
 fn numbers(text: &[u8]) -> Vec<std::ops::Range<usize>> {
     let part = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-');
     let mut found: Vec<std::ops::Range<usize>> = Vec::new();
@@ -120,7 +120,7 @@ fn mutated(text: &str, mutations: &[Mutation]) -> Vec<u8> {
     text
 }
 
-/// Whatever was accepted passes the checks again and reads back as written.
+/// Checks that an accepted scenario passes the checks again and reads back as it was written.
 fn obeys_every_rule(scenario: &Scenario) {
     let checked = scenario.clone().into_day().check("again").expect("it was accepted before");
     let text = checked.to_json();
@@ -145,7 +145,7 @@ fn read_network(text: &[u8]) {
     }
 }
 
-/// The readers take what the mutations start from.
+/// Checks that the readers accept the files that the mutations start from.
 #[test]
 fn the_full_files_are_read() {
     let scenario = Scenario::from_json(FULL_SCENARIO.as_bytes(), "full.json").expect("a scenario");

@@ -1,4 +1,5 @@
-//! What goes beyond the paper: files hold it, networks draw it, and it leaves everything else as it was.
+//! Tests of the parts of days that go beyond the paper: files hold them, networks draw them, and everything else stays
+//! as it was.
 
 use vertifleet_core::{
     AircraftIx, ClosedTimes, Closure, Coded, Day, DaySeed, Disturbances, Fares, Network, Outage,
@@ -19,7 +20,8 @@ closures = [
 outages = { probability = 0.2, least_s = 3600, most_s = 14400 }
 "#;
 
-/// A curfew at two vertiports, before and after the hours in which they may be used, and a fog that nobody knows of.
+/// A curfew at two vertiports, before and after the hours in which they may be used, and a fog that is not known in
+/// advance.
 const CLOSURES: &str = r#"
 [[closures]]
 start = "00:00:00"
@@ -192,10 +194,10 @@ fn disturbances_are_as_frequent_and_as_large_as_the_network_says() {
     assert!((share(closed, DAYS as f64) - 0.5).abs() < 5.0 * 0.025, "{closed}");
     assert!((share(out, DAYS as f64 * 40.0) - 0.2).abs() < 5.0 * 0.0032, "{out}");
     assert!((share(late, f64::from(count)) - 0.3).abs() < 5.0 * 0.0033, "{late}");
-    // An exponential of mean 300 cut off at 900: 300 (1 - e^-3).
+    // The mean of an exponential draw of mean 300 cut off at 900 is 300 (1 - e^-3).
     let mean_s = late_s as f64 / f64::from(late);
     assert!((mean_s - 300.0 * (1.0 - (-3.0_f64).exp())).abs() < 15.0, "{mean_s}");
-    // One in ten doubled.
+    // One vertiport in ten has double demand.
     assert!((actual / forecast - 1.1).abs() < 0.01, "{}", actual / forecast);
 }
 
@@ -277,7 +279,8 @@ fn disrupted_is_paper_with_disturbances() {
     assert_eq!(disrupted, paper);
 }
 
-/// FHWA, Highway Statistics 2006, table NT-3: vehicle trips of a Wednesday by the hour in which they start, from midnight on.
+/// Source: FHWA, Highway Statistics 2006, table NT-3: vehicle trips of a Wednesday by the hour in which they start,
+/// from midnight on.
 const NT_3_WEDNESDAY: [u32; 24] = [
     147, 82, 83, 36, 249, 639, 1607, 3893, 2994, 2294, 2600, 2967, 3166, 3032, 3321, 3888, 3959,
     4377, 3746, 2819, 2061, 1559, 783, 381,
@@ -299,7 +302,7 @@ fn the_hours_of_new_york_have_the_shares_of_a_wednesday() {
     }
 }
 
-/// As `networks/new-york.toml` says.
+/// The numbers are those that `networks/new-york.toml` states.
 #[test]
 fn the_pairs_of_new_york_are_2_to_40_miles_apart_and_18_on_the_mean() {
     let day = shipped("new-york").draw(seed(1));
@@ -321,7 +324,7 @@ fn a_network_closes_what_it_says_at_the_same_times_every_day() {
         let mut day = closed.draw(seed(number)).into_day();
         let closures = std::mem::take(&mut day.disturbances.closures);
         assert_eq!(day, open.draw(seed(number)).into_day(), "all else is as it is without");
-        // 7 routes lead to V3, 7 to V5, and one joins the two.
+        // 7 routes lead to V3, and 7 to V5; one route joins the two.
         assert_eq!(closures.len(), 13 + 1 + 7 + 1);
         let all = ClosedTimes::of(&closures, 8);
         let known = ClosedTimes::of(closures.iter().filter(|closure| closure.known), 8);
@@ -362,7 +365,7 @@ fn a_network_closes_no_more_routes_than_a_day_may() {
                    vertiports = [\"V1\", \"V2\", \"V3\", \"V4\", \"V5\", \"V6\", \"V7\"]\n";
     let text =
         |count| PAPER.replace("[feature_scales]", &(closure.repeat(count) + "[feature_scales]"));
-    // 28 routes each.
+    // Each closure has 28 routes.
     assert_eq!(network(&text(357)).draw(seed(1)).disturbances.closures.len(), 9_996);
     let error = Network::from_toml(&text(358), "net.toml").expect_err("10,024 routes");
     assert_eq!(error.code().to_string(), "V108");

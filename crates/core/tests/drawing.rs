@@ -1,4 +1,5 @@
-//! Days drawn from networks: Eq. 1 holds, seeds mean what they say, the `paper` network is what the model page says.
+//! Days drawn from networks: Eq. 1 holds, seeds mean what they should, and `paper` is the network that the model page
+//! describes.
 
 #![expect(
     clippy::float_cmp,
@@ -33,7 +34,7 @@ fn a_shipped_name_and_its_file_are_one_network() {
     assert_eq!(file.draw(seed(3)), name.draw(seed(3)));
 }
 
-/// Regenerate with `INSTA_UPDATE=always cargo test -p vertifleet-core --test drawing`; a change here means that every
+/// Regenerate with `INSTA_UPDATE=always cargo test -p vertifleet-core --test drawing`. A change here means that every
 /// published figure and shipped model refers to other days.
 #[test]
 fn day_7_of_paper_is_this_one() {
@@ -97,14 +98,15 @@ fn fares_of_paper_are_two_to_two_and_a_half_times_the_cost() {
         scenario.fare_usd.in_period(0)[(at(from), at(to))]
             / scenario.passenger_cost_usd[(at(from), at(to))]
     };
-    // Means of the day: busy pairs (2 x 100 + 11 x 50) / 13, to or from busy ones (100 + 12 x 30) / 13, others 30.
+    // The means of the day are (2 x 100 + 11 x 50) / 13 for busy pairs, (100 + 12 x 30) / 13 to or from busy
+    // vertiports, and 30 for the others.
     assert!((ratio(0, 1) - 2.5).abs() < 1e-12);
     assert!((ratio(0, 4) - (2.0 + 0.5 * 460.0 / 750.0)).abs() < 1e-12);
     assert!((ratio(4, 0) - (2.0 + 0.5 * 460.0 / 750.0)).abs() < 1e-12);
     assert!((ratio(4, 5) - (2.0 + 0.5 * 390.0 / 750.0)).abs() < 1e-12);
 }
 
-/// Eq. 1 written a second time, row by row as in the paper: mean and standard deviation.
+/// Eq. 1 written a second time, row by row as in the paper. The result is mean and standard deviation.
 fn row_of_equation_1(from_busy: bool, to_busy: bool, hour: u32) -> (f64, f64) {
     let (peak_1, peak_2) = (hour == 8, hour == 16);
     let rows = [
@@ -122,7 +124,7 @@ fn demand_has_the_means_and_deviations_of_equation_1() {
     let network = paper();
     let days: Vec<_> = (0..DAYS).map(|number| network.draw(seed(number))).collect();
     let means = network.mean_demand();
-    // Pooled by row and hour: a cell alone has 300 draws, too few for a tight bound.
+    // Draws are pooled by row and hour: a single cell has 300 draws, too few for a tight bound.
     let mut rows: Vec<((bool, bool, u32), Vec<f64>)> = Vec::new();
     for (period, start) in days[0].periods.iter().enumerate() {
         for from in VertiportIx::all(8) {
@@ -137,7 +139,7 @@ fn demand_has_the_means_and_deviations_of_equation_1() {
                 let (mean, sd) = row_of_equation_1(key.0, key.1, key.2);
                 assert_eq!(means[period][(from, to)], mean);
                 let of_cell = draws.clone().sum::<f64>() / DAYS as f64;
-                // Five standard errors, over 728 cells: a miss by chance in one run of 2,000; seeds are fixed.
+                // Five standard errors over 728 cells are missed by chance in one run of 2,000; the seeds are fixed.
                 assert!(
                     (of_cell - mean).abs() < 5.0 * sd / (DAYS as f64).sqrt(),
                     "{key:?} {of_cell}"

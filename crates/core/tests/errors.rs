@@ -1,4 +1,4 @@
-//! Every expected error, provoked by the smallest change to a good file: its code, its message, its hint.
+//! Every expected error is provoked by the smallest change to a good file, with its code, message and hint.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -37,7 +37,7 @@ const SCENARIO_CHANGES: &[Change] = &[
     ("[0.2, 0.31]", "[0.2, -0.31]"),
     (r#""seed": 1"#, r#""seed": 9007199254740992"#),
     (r#""seed": 1"#, r#""seed": -1"#),
-    // Text that is no JSON, and members.
+    // Text that is not JSON, and members.
     ("[0, 7, 3]", "[0, 7, 3"),
     ("[0, 7, 3]", "[0, 7, 1e999]"),
     ("[0.2, 0.31]\n}", "[0.2, 0.31]\n} again"),
@@ -54,7 +54,7 @@ const SCENARIO_CHANGES: &[Change] = &[
     ("[48.1, 0, 80.5]", "[48.1, 0]"),
     ("[4, 0, 6]", "[4, 0, 6, 0]"),
     ("[0.2, 0.31]", "[0.2]"),
-    // Ids and what must agree.
+    // Ids, and members that must agree.
     (r#""id": "B""#, r#""id": "A""#),
     (r#""id": "A02""#, r#""id": "A01""#),
     (r#""at": "B""#, r#""at": "D""#),
@@ -66,7 +66,7 @@ const SCENARIO_CHANGES: &[Change] = &[
     (r#"["06:00:00", "08:00:00"]"#, r#"["06:00:01", "08:00:00"]"#),
     (r#"["06:00:00", "08:00:00"]"#, r#"["06:00:00", "06:00:00"]"#),
     ("[8, 0, 0]", "[8, 0, 1]"),
-    // Costs beside those of the paper, and places.
+    // Costs beyond those of the paper, and positions on the globe.
     ("[0.2, 0.31]", "[0.2, 0.31],\n  \"aircraft_cost\": -1"),
     ("[0.2, 0.31]", "[0.2, 0.31],\n  \"flight_cost\": [[0, 1], [1, 0]]"),
     ("[0.2, 0.31]", "[0.2, 0.31],\n  \"flight_cost\": [[0, 1, 2], [1, 0, -3], [2, 3, 0]]"),
@@ -182,7 +182,7 @@ const NETWORK_CHANGES: &[Change] = &[
     ),
 ];
 
-/// What stands in the place of the good network's `[demand]`.
+/// Replacements for the good network's `[demand]`.
 const HOURLY_DEMANDS: &[&str] = &[
     "pairs = []\ntable = \"demand.csv\"",
     "",
@@ -219,7 +219,7 @@ const TABLES: &[&str] = &[
     "period,from,to,passengers\n06:00:00,A,B,1\n8:00:00,A,B,1\n6:00:00,A,B,2",
 ];
 
-/// The good network with hourly demand.
+/// The good network with hourly demand instead of its own.
 fn hourly(members: &str) -> String {
     let begin = NETWORK.find("[demand]").expect("a demand model");
     let end = NETWORK.find("[feature_scales]").expect("what follows it");
@@ -227,7 +227,7 @@ fn hourly(members: &str) -> String {
     format!("{}[hourly_demand]\n{periods}\n{members}\n\n{}", &NETWORK[..begin], &NETWORK[end..])
 }
 
-/// The error of a table beside the good network. Its path is left out of it.
+/// The error of a table beside the good network, with the path of the temporary folder removed.
 fn error_of_table(folder: &std::path::Path, table: &[u8]) -> Option<Error> {
     std::fs::write(folder.join("demand.csv"), table).expect("a free folder");
     std::fs::write(folder.join("net.toml"), hourly("table = \"demand.csv\""))

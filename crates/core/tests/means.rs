@@ -1,4 +1,5 @@
-//! The mean asked is the mean drawn, however thin demand is: every demand model but Eq. 1, which is the paper's.
+//! The mean of the draws is the mean asked for, however thin demand is, for every demand model but Eq. 1, which rounds
+//! as in the paper.
 
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario, VertiportIx};
 
@@ -6,7 +7,7 @@ const SMALL: &str = include_str!("data/small.toml");
 const NEW_YORK: &str = include_str!("../../../networks/new-york.toml");
 const DAYS: u64 = 10_000;
 
-/// The small network with these members in the place of its demand.
+/// The small network with another demand model.
 fn with_demand(demand: &str) -> Network {
     let begin = SMALL.find("[demand]").expect("a demand model");
     let end = SMALL.find("[feature_scales]").expect("what follows it");
@@ -14,7 +15,7 @@ fn with_demand(demand: &str) -> Network {
     Network::from_toml(&text, "net.toml").expect("a valid network")
 }
 
-/// The passengers from A to B in the first period of many days.
+/// The passengers from A to B in the first period of each day.
 fn drawn(network: &Network) -> Vec<f64> {
     let (from, to) = (VertiportIx::new(0), VertiportIx::new(1));
     let day = |number| network.draw(DaySeed::comparison(number).expect("a small seed"));
@@ -36,7 +37,7 @@ fn each_distribution_draws_the_mean_that_is_asked() {
         ("distribution = \"poisson\"", |mean| mean),
         ("distribution = \"negative-binomial\"\ndispersion = 0.5", |mean| mean + 0.5 * mean * mean),
         ("distribution = \"negative-binomial\"\ndispersion = 3", |mean| mean + 3.0 * mean * mean),
-        // The variance of the normal draw, and what rounding by chance adds at most.
+        // These are the variance of the normal draw plus the most that rounding by chance adds.
         ("noise = 0", |_| 0.25),
         ("noise = 0.1", |mean| 0.01 * mean * mean + 0.25),
         ("distribution = \"normal\"\nnoise = 0.4", |mean| 0.16 * mean * mean + 0.25),
@@ -79,14 +80,14 @@ fn uniform_demand_has_its_mean() {
     assert!((found - 1.5).abs() <= 4.0 * (variance / DAYS as f64).sqrt(), "{found}");
 }
 
-/// Rounded to the nearest, 150 passengers a day were 12, 400 were 230, 1,000 were 883.
+/// A regression test: rounding to the nearest made 150 passengers a day 12, 400 became 230, and 1,000 became 883.
 #[test]
 fn new_york_has_so_many_passengers_a_day_as_are_asked() {
     assert!(NEW_YORK.contains("passengers = 8000\n"));
     for asked in [150.0, 400.0, 1_000.0, 8_000.0] {
         let text = NEW_YORK.replace("passengers = 8000\n", &format!("passengers = {asked:.0}\n"));
         let network = Network::from_toml(&text, "net.toml").expect("a valid network");
-        // The shares of the hours of operations; the rest of the day is night.
+        // 0.969 is the share of the hours of operations; the rest of the day is night.
         let asked = 0.969 * asked;
         let days: Vec<_> = (0..300)
             .map(|number| network.draw(DaySeed::comparison(number).expect("a small seed")))
@@ -95,7 +96,7 @@ fn new_york_has_so_many_passengers_a_day_as_are_asked() {
             demand.iter().flat_map(Matrix::cells).map(|&passengers| f64::from(passengers)).sum()
         };
         let forecast = |day: &Scenario| total(day.disturbances.forecast.as_ref().expect("one"));
-        // One hour in 50 brings a site half as many again.
+        // In one hour of 50, demand from a vertiport surges by half.
         for (asked, all) in [
             (asked, days.iter().map(forecast).collect::<Vec<f64>>()),
             (1.01 * asked, days.iter().map(|day| total(&day.demand)).collect()),
@@ -108,7 +109,7 @@ fn new_york_has_so_many_passengers_a_day_as_are_asked() {
     }
 }
 
-/// A surge of 30 % makes 1.3 passengers of one, and rounding to the nearest would make one of them again.
+/// A surge by 30 % turns 1 passenger into 1.3, which rounding to the nearest would turn into 1 again.
 #[test]
 fn a_surge_of_few_passengers_is_as_large_as_it_should_be() {
     for (forecast, noise) in [(1, 0.02), (2, 0.0), (3, 0.2)] {

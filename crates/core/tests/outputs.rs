@@ -1,4 +1,4 @@
-//! What may be written to: every refusal with its code, and nothing that is lost by a write.
+//! Where commands may write: every refusal with its code, and no write that loses a file.
 
 use std::fs;
 use std::path::Path;

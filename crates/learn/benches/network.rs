@@ -1,4 +1,4 @@
-//! The networks' speed: one decision, decisions in batches, and a chunk of an update, each on one thread.
+//! The networks' speed for one decision, for decisions in batches, and for a chunk of an update, each on one thread.
 
 mod work;
 
@@ -7,7 +7,7 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use work::{Decisions, Learner, network};
 
-/// Time per decision alone and in a batch.
+/// The time per decision, alone and in a batch.
 fn decisions(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("decisions");
     for name in ["gcaps", "mlp"] {
@@ -28,7 +28,7 @@ fn decisions(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A gradient step on 2,048 decisions by size of the chunks: forward, backward, adding up, Adam.
+/// A gradient step on 2,048 decisions, by the size of the chunks: forward pass, backward pass, sum of gradients, Adam.
 fn updates(criterion: &mut Criterion) {
     const DECISIONS: usize = 2048;
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");

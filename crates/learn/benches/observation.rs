@@ -1,4 +1,5 @@
-//! Decisions per second with the observation of §IV.A written for each, whole days with uniformly random choices.
+//! Decisions per second over whole days of uniformly random choices, with the observation of §IV.A written for each
+//! decision.
 
 use std::hint::black_box;
 use std::sync::Arc;

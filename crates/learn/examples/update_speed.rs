@@ -1,11 +1,11 @@
-//! Decisions per second that `gcaps` learns from: gradient steps as PPO takes them, for comparison with
-//! `benches/pytorch_update.py`, which runs this.
+//! Decisions per second that `gcaps` learns from, in gradient steps as PPO takes them. `benches/pytorch_update.py`
+//! runs this example and compares it with PyTorch.
 //!
 //! ```text
 //! update_speed [decisions per step] [decisions per chunk] [seconds]
 //! ```
 //!
-//! Uses as many threads as `RAYON_NUM_THREADS` says.
+//! It uses as many threads as `RAYON_NUM_THREADS` says.
 
 #[path = "../benches/work/mod.rs"]
 mod work;

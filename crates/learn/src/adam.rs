@@ -1,4 +1,5 @@
-//! Adam with stable-baselines3's constants (betas 0.9 and 0.999, epsilon 1e-5), and the clipping before it.
+//! Adam with stable-baselines3's constants (betas 0.9 and 0.999, epsilon 1e-5), and the gradient clipping that
+//! precedes it.
 
 const BETA_1: f32 = 0.9;
 const BETA_2: f32 = 0.999;
@@ -17,11 +18,11 @@ impl Adam {
         Self { first: vec![0.0; parameters], second: vec![0.0; parameters], steps: 0 }
     }
 
-    /// One step against the gradient.
+    /// Takes one step against the gradient.
     pub(crate) fn step(&mut self, params: &mut [f32], gradient: &[f32], learning_rate: f32) {
         self.steps += 1;
         let steps = i32::try_from(self.steps).unwrap_or(i32::MAX);
-        // In double precision: 0.999^t loses its distance to 1 in single.
+        // This needs double precision: in single precision, 1 - 0.999^t loses most of its digits.
         let correction_1 = (1.0 - f64::from(BETA_1).powi(steps)) as f32;
         let correction_2 = (1.0 - f64::from(BETA_2).powi(steps)) as f32;
         let rate = learning_rate / correction_1;
@@ -37,7 +38,8 @@ impl Adam {
 
 /// Shrinks the gradient to `max_norm` where it is longer, as PyTorch's `clip_grad_norm_` does.
 pub(crate) fn clip_norm(gradient: &mut [f32], max_norm: f32) {
-    // Sums of a few thousand entries each keep single precision honest and the loop fast.
+    // Each partial sum has a few thousand entries: few enough for single precision to stay accurate, and the loop is
+    // fast.
     let squares: f64 = gradient
         .chunks(4096)
         .map(|chunk| f64::from(chunk.iter().map(|slope| slope * slope).sum::<f32>()))

@@ -1,100 +1,100 @@
-//! What can go wrong with settings, weights and checkpoints: codes V301 and on.
+//! Errors in settings, weights and checkpoints: codes V301 and up.
 
 use vertifleet_core::{Code, Coded, Exit, Stopped};
 
-/// An expected failure of training or of loading what training left.
+/// An expected failure of training, or of loading what a training run wrote.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// V301: there is no preset of that name for the policy.
+    /// V301: the policy has no preset with this name.
     #[error("there is no preset {name:?}: presets of this policy are {known}")]
     UnknownPreset {
-        /// The name asked for.
+        /// The name that was asked for.
         name: String,
-        /// All names.
+        /// All names of presets.
         known: &'static str,
     },
-    /// V302: there is no setting of that name.
+    /// V302: there is no setting with this name.
     #[error("there is no setting {name:?}: settings are {known}")]
     UnknownSetting {
-        /// The name asked for.
+        /// The name that was asked for.
         name: String,
-        /// All names.
+        /// All names of settings.
         known: String,
     },
-    /// V303: a setting's value does not fit it.
+    /// V303: a value does not fit its setting.
     #[error("setting {name:?}: {rule}")]
     BadSetting {
-        /// The setting.
+        /// The name of the setting.
         name: String,
-        /// What its value breaks.
+        /// The rule that the value breaks.
         rule: String,
     },
     /// V304: a weight file is damaged or of another kind.
     #[error("{origin}: no usable weights: {rule}")]
     BadWeights {
-        /// The file.
+        /// The name of the file.
         origin: String,
-        /// What differs.
+        /// What is wrong with the file.
         rule: String,
     },
-    /// V305: weights and day are of different networks.
+    /// V305: the weights and the day belong to different networks.
     #[error(
         "the weights were trained on network {network:?} with {trained} vertiports, but {scenario:?} has {found}"
     )]
     WrongNetwork {
-        /// Network of the weights.
+        /// The network of the weights.
         network: String,
-        /// Its number of vertiports.
+        /// The number of vertiports that the weights fit.
         trained: usize,
-        /// The day.
+        /// The name of the day.
         scenario: String,
-        /// The day's number of vertiports.
+        /// The number of vertiports of the day.
         found: usize,
     },
-    /// V306: a checkpoint is damaged or of another run.
+    /// V306: a checkpoint is damaged or belongs to another run.
     #[error("the checkpoint does not fit: {rule}")]
     BadCheckpoint {
-        /// What differs.
+        /// What is wrong with the checkpoint.
         rule: String,
     },
-    /// V307: no trained policy of that name comes with the program for that network.
+    /// V307: no trained policy with this name is shipped for the network.
     #[error("no policy {policy:?} is shipped for network {network:?}: shipped are {known}")]
     NotShipped {
-        /// The policy asked for.
+        /// The policy that was asked for.
         policy: String,
-        /// The network.
+        /// The network that was asked for.
         network: String,
-        /// All that are shipped.
+        /// All shipped policies.
         known: String,
     },
     /// V308: a learning curve is damaged.
     #[error("{origin}: line {line}: no row of a learning curve: {rule}")]
     BadCurve {
-        /// The file.
+        /// The name of the file.
         origin: String,
-        /// Line, from 1.
+        /// The line, counted from 1.
         line: u64,
         /// What is wrong.
         rule: String,
     },
-    /// V309: a training run left the numbers: some weight is infinite or no number. Fix: train with a smaller
-    /// `learning_rate`, from the last checkpoint or anew.
+    /// V309: training diverged, and a weight is infinite or NaN. Fix: train with a smaller `learning_rate`, from the
+    /// last checkpoint or from the start.
     #[error("training diverged in update {update}: a weight is no finite number any more")]
     Diverged {
-        /// The update, from 1.
+        /// The update, counted from 1.
         update: u64,
     },
-    /// V311: a run is to begin in a folder where an earlier one of the same policy was set aside. Fix: go on with it by `--resume` (in
-    /// Python `resume=True`), name another folder, or remove the checkpoint.
+    /// V311: a run was to start in a folder that holds the checkpoint of an earlier run of the same policy. Fix:
+    /// resume that run with `--resume` (in Python `resume=True`), name another folder, or remove the checkpoint.
     #[error("{checkpoint} is there already, of an earlier run")]
     EarlierRun {
-        /// The earlier run's checkpoint.
+        /// The checkpoint of the earlier run.
         checkpoint: String,
     },
     /// V408: the work was asked to stop before it was done.
     #[error("{Stopped}")]
     Stopped,
-    /// A file, a network or a seed.
+    /// An error in a file, a network or a seed.
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 }

@@ -1,21 +1,21 @@
-//! What a learned policy sees (§IV.A): node features, aircraft state, mask; and the share of the day left, for the
-//! value head alone.
+//! The observation of `gcaps` and `mlp` (§IV.A): node features, aircraft state and mask, and the share of the day that
+//! is left, which only the value head sees.
 //!
-//! A node i shows U_i, U_max, d_i, r_i, P_i1..P_iN, R_i1..R_iN; d_i and r_i are what is left of the current period's
-//! demand from and to i. The aircraft shows E, its vertiport (one-hot), its battery, and g_x1..g_xN. Every number is
-//! divided by a fixed scale of the network file.
+//! The features of node i are U_i, U_max, d_i, r_i, P_i1..P_iN, R_i1..R_iN, where d_i and r_i are what is left of the
+//! current period's demand from and to i. The features of the aircraft are E, its vertiport (one-hot), its battery,
+//! and g_x1..g_xN. Every number is divided by a fixed scale from the network file.
 
 use vertifleet_core::{FeatureScales, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 use crate::nn::{Inputs, Shape};
 
-/// The shape of the features of a network with `vertiports` vertiports.
+/// The shape of the features for a network with `vertiports` vertiports.
 pub fn shape(vertiports: usize) -> Shape {
     Shape { vertiports, node_features: 2 * vertiports + 4, aircraft_features: 2 * vertiports + 2 }
 }
 
-/// The features of a batch of decisions, rows side by side.
+/// The features of a batch of decisions, with the rows side by side.
 #[derive(Debug, Clone)]
 pub struct Observations {
     shape: Shape,
@@ -27,7 +27,7 @@ pub struct Observations {
 }
 
 impl Observations {
-    /// Room for `rows` decisions.
+    /// Allocates `rows` rows.
     pub fn new(shape: Shape, rows: usize) -> Self {
         Self {
             shape,
@@ -44,10 +44,10 @@ impl Observations {
         self.rows
     }
 
-    /// The first `batch` rows, as the networks take them.
+    /// The first `batch` rows as the input of a network.
     ///
     /// # Panics
-    /// If there are fewer rows.
+    /// Panics if there are fewer rows.
     pub fn inputs(&self, batch: usize) -> Inputs<'_> {
         let Shape { vertiports, node_features, aircraft_features } = self.shape;
         Inputs {
@@ -59,7 +59,7 @@ impl Observations {
         }
     }
 
-    /// Copies one row of `source` into row `row` of this.
+    /// Copies one row of `source` into row `row` of these observations.
     pub fn copy_row(&mut self, row: usize, source: &Self, source_row: usize) {
         fn copy<T: Copy>(to: &mut [T], row: usize, from: &[T], source_row: usize, width: usize) {
             to[row * width..][..width].copy_from_slice(&from[source_row * width..][..width]);
@@ -74,13 +74,13 @@ impl Observations {
     /// Writes the features of a decision into row `row`.
     ///
     /// # Panics
-    /// If the view is of a network with another number of vertiports, or there is no such row.
+    /// Panics if the view's network has another number of vertiports, or if there is no such row.
     pub fn write(&mut self, row: usize, decision: &Decision, view: &View<'_>, scales: &Scales) {
         let Shape { vertiports, node_features, aircraft_features } = self.shape;
         let nodes =
             &mut self.nodes[row * vertiports * node_features..][..vertiports * node_features];
         let aircraft = &mut self.aircraft[row * aircraft_features..][..aircraft_features];
-        self.clock[row] = scales.write((nodes, aircraft), decision, *view);
+        self.clock[row] = scales.write(nodes, aircraft, decision, *view);
 
         let mask = &mut self.mask[row * vertiports..][..vertiports];
         mask.fill(0);
@@ -90,7 +90,7 @@ impl Observations {
     }
 }
 
-/// The factors by which features are multiplied: one over the network file's scales.
+/// The factors that features are multiplied by: the reciprocals of the network file's scales.
 #[derive(Debug, Clone, Copy)]
 pub struct Scales {
     stands: f32,
@@ -117,13 +117,15 @@ impl From<FeatureScales> for Scales {
 }
 
 impl Scales {
-    /// Writes the features of a decision: of the nodes `[N x F]`, of the aircraft `[G]`. Returns the share of the day left.
+    /// Writes the features of a decision, those of the nodes into `[N x F]` and those of the aircraft into `[G]`.
+    /// Returns the share of the day that is left.
     ///
     /// # Panics
-    /// If the room is for a network with another number of vertiports.
+    /// Panics if the slices have the size of a network with another number of vertiports.
     pub fn write(
         &self,
-        (nodes, aircraft): (&mut [f32], &mut [f32]),
+        nodes: &mut [f32],
+        aircraft: &mut [f32],
         decision: &Decision,
         view: View<'_>,
     ) -> f32 {
@@ -137,7 +139,7 @@ impl Scales {
     }
 }
 
-/// δ_i of every node.
+/// Writes δ_i of every node.
 fn write_nodes(nodes: &mut [f32], view: View<'_>, scales: &Scales) {
     let vertiports = view.vertiports();
     let left = view.demand_left_in(view.period());
@@ -158,7 +160,7 @@ fn write_nodes(nodes: &mut [f32], view: View<'_>, scales: &Scales) {
     }
 }
 
-/// ψ_k. Every take-off is with a full battery (Eq. 14), so the charge shown is the capacity.
+/// Writes ψ_k. Every take-off is with a full battery (Eq. 14), so the charge that is written is the capacity.
 fn write_aircraft(aircraft: &mut [f32], decision: &Decision, view: View<'_>, scales: &Scales) {
     let vertiports = view.vertiports();
     let kind = view.kind(decision.aircraft);

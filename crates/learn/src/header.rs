@@ -1,4 +1,5 @@
-//! The header of a weight file: what the weights are of and where they came from. Headers of earlier versions are read too.
+//! The header of a weight file, which describes the weights and says where they came from. Headers of earlier formats
+//! are read too.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -9,57 +10,58 @@ use crate::run::TrainingPlan;
 use crate::settings::TrainingSettings;
 use crate::{features, gcaps_x};
 
-/// The format that is written.
+/// The format of the files that are written.
 pub(crate) const FORMAT: &str = "vertifleet-weights/2";
-/// Earlier formats: of weights that fit one number of vertiports, and of weights that fit any.
+/// Earlier formats: for weights that fit one number of vertiports, and for weights that fit any number.
 const FORMER: [&str; 2] = ["vertifleet-weights/1", "vertifleet-weights-any/1"];
 
-/// What is in every header beside the format.
+/// The members that every header has beside the format.
 const MEMBERS: [&str; 8] =
     ["network", "policy", "shape", "feature_scales", "settings", "seed", "commit", "steps"];
 
-/// What weights are of and where they came from.
+/// Describes weights and says where they came from.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Header {
     format: &'static str,
-    /// Network that the weights were trained on; of `gcaps-x`, the network that the run was for, beside random ones.
+    /// The network that the weights were trained on. Weights of `gcaps-x` were trained on random networks as well.
     pub network: String,
     /// The policy's kind and sizes.
     pub policy: Architecture,
-    /// Numbers of vertiports and features.
+    /// The number of vertiports and the numbers of features.
     pub shape: FeatureShape,
-    /// What features are divided by; none where they are relative to the day, as those of `gcaps-x` are.
+    /// What the features are divided by; `None` for `gcaps-x`, whose features are relative to the day.
     pub feature_scales: Option<FeatureScales>,
-    /// Training settings; none where the weights were trained by another program in a way that these have no words for.
+    /// The training settings; `None` if another program trained the weights in a way that these settings cannot
+    /// describe.
     pub settings: Option<TrainingSettings>,
-    /// Seed of the training run, where it is known.
+    /// The seed of the training run, if it is known.
     pub seed: Option<u32>,
-    /// Commit of the program that trained them.
+    /// The commit of the program that trained the weights.
     pub commit: String,
-    /// Decisions learned from when these weights were kept.
+    /// The number of decisions that had been learned from when these weights were kept.
     pub steps: u64,
 }
 
-/// Sizes of what a policy sees.
+/// Sizes of the observations of a policy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FeatureShape {
-    /// N, the number of vertiports that the weights fit; none where they fit any.
+    /// N, the number of vertiports that the weights fit; `None` if they fit any number.
     pub vertiports: Option<usize>,
-    /// F, features of a node.
+    /// F, the number of features of a node.
     pub node_features: usize,
-    /// G, features of the aircraft.
+    /// G, the number of features of the aircraft.
     pub aircraft_features: usize,
 }
 
 impl From<Shape> for FeatureShape {
-    /// Of weights that fit one number of vertiports.
+    /// The shape of weights that fit one number of vertiports.
     fn from(Shape { vertiports, node_features, aircraft_features }: Shape) -> Self {
         Self { vertiports: Some(vertiports), node_features, aircraft_features }
     }
 }
 
-/// A header as the file holds it.
+/// A header as it stands in the file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawHeader {
@@ -93,12 +95,12 @@ impl Header {
         }
     }
 
-    /// The same when so many decisions were learned from.
+    /// The same header after learning from this many decisions.
     pub(crate) fn after(&self, steps: u64) -> Self {
         Self { steps, ..self.clone() }
     }
 
-    /// The header in a file.
+    /// Parses the header of a file.
     pub(crate) fn read(mut header: Map<String, Value>) -> Result<Self, String> {
         let format = header.remove("format").unwrap_or_default();
         let format = format.as_str().unwrap_or_default();
@@ -107,7 +109,7 @@ impl Header {
         } else if format != FORMAT {
             return Err(format!("format must be {FORMAT:?}, found {format:?}"));
         }
-        // What is not known is null, and not left out.
+        // A value that is not known must be null; it must not be left out.
         if let Some(missing) = MEMBERS.iter().find(|&&member| !header.contains_key(member)) {
             return Err(format!("header: missing member {missing:?}"));
         }
@@ -129,9 +131,9 @@ impl Header {
         Ok(header)
     }
 
-    /// Shape and scales are those of the policy's kind.
+    /// Checks that the shape and the scales fit the kind of policy.
     fn check(&self) -> Result<(), String> {
-        // Sizes beyond all reason are refused before anything is reckoned with them.
+        // Absurd sizes must be refused before any arithmetic with them.
         self.network_of_layers(1)?;
         let fits_any = matches!(self.policy, Architecture::GcapsX(_));
         if fits_any == self.shape.vertiports.is_some() {
@@ -157,7 +159,7 @@ impl Header {
         Ok(())
     }
 
-    /// The layers; for so many vertiports where the weights fit any number.
+    /// The network of layers; `vertiports` counts only if the weights fit any number.
     pub(crate) fn network_of_layers(&self, vertiports: usize) -> Result<nn::NeuralNetwork, String> {
         let FeatureShape { vertiports: fits, node_features, aircraft_features } = self.shape;
         let vertiports = fits.unwrap_or(vertiports);
@@ -166,7 +168,8 @@ impl Header {
     }
 }
 
-/// Renames the members that earlier formats had other names for. Weights that fit any number of vertiports had no scales.
+/// Renames the members that had other names in earlier formats. Weights that fit any number of vertiports had no
+/// scales.
 fn modernise(header: &mut Map<String, Value>) {
     header.entry("feature_scales").or_insert(Value::Null);
     for (former, name) in [("course", "settings"), ("decisions", "steps")] {

@@ -1,11 +1,11 @@
-//! How the files that a training leaves are known again: each says first what it is.
+//! How the program recognises the files that a training run writes: each begins with its own format.
 
 use vertifleet_core::OutputKind;
 
 use crate::nn::Architecture;
 
-/// The beginning of a safetensors file whose header says first that it has a format of this name, of any version. A macro, since
-/// texts are put together while the program is compiled.
+/// The beginning of a safetensors file whose header starts with a format of this name, in any version. It is a macro
+/// because the text is put together at compile time.
 macro_rules! opening {
     ($format:literal) => {
         concat!(r#"{"__metadata__":{"vertifleet":"{\"format\":\""#, $format)
@@ -13,21 +13,21 @@ macro_rules! opening {
 }
 
 const fn tensors(name: &'static str, opening: &'static str) -> OutputKind {
-    // The length of the header comes first.
+    // The first 8 bytes are the length of the header.
     OutputKind { name, skipped: 8, opening }
 }
 
-/// The weights of a policy.
+/// The weight file of a policy.
 pub const WEIGHTS: OutputKind = tensors("weight file", opening!("vertifleet-weights"));
-/// What a run goes on from.
+/// The file from which a run is resumed.
 pub(crate) const CHECKPOINT: OutputKind = tensors("checkpoint", opening!("vertifleet-checkpoint"));
-/// The learning curve of a run by PPO, and of one by imitation.
+/// The learning curves, of a run by PPO and of a run by imitation.
 const PPO_CURVE: OutputKind =
     OutputKind { name: "learning curve", skipped: 0, opening: "update,steps,days,mean_reward," };
 const IMITATION_CURVE: OutputKind =
     OutputKind { name: "learning curve", skipped: 0, opening: "round,decisions,agreement,lift," };
 
-/// The learning curve of a policy's run.
+/// The kind of learning curve that a run of this policy writes.
 pub(crate) fn curve(policy: &Architecture) -> &'static OutputKind {
     match policy {
         Architecture::GcapsX(_) => &IMITATION_CURVE,
@@ -43,7 +43,7 @@ mod tests {
 
     use super::{CHECKPOINT, IMITATION_CURVE, PPO_CURVE, WEIGHTS};
 
-    /// The kinds that a file of the project is taken for.
+    /// The kinds of output that a file of the repository is recognised as.
     fn kinds(file: &str) -> Vec<OutputKind> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
         let is_of = |kind: &OutputKind| kind.is_of(&path).expect("a file of the project");

@@ -1,4 +1,5 @@
-//! A trained network as a policy: the feasible vertiport with the highest logit (§IV.B, greedy decoding).
+//! A trained network of layers as a policy: it chooses the feasible vertiport with the highest logit (§IV.B, greedy
+//! decoding).
 
 use vertifleet_core::VertiportIx;
 use vertifleet_policy::{Policy, PolicyError};
@@ -8,10 +9,10 @@ use crate::features::{Observations, Scales};
 use crate::model::Model;
 use crate::nn::{self, Weights, Workspace};
 
-/// Decisions per inference; larger batches gain nothing.
+/// Decisions per inference; larger batches are not faster.
 const BATCH: usize = 256;
 
-/// Decides by a trained network. Deterministic; among equal logits the vertiport listed first wins.
+/// Decides by a trained network. It is deterministic: among equal logits the first vertiport wins.
 pub struct Learned {
     net: nn::NeuralNetwork,
     scales: Scales,
@@ -24,7 +25,7 @@ impl Learned {
     /// The policy of a model.
     ///
     /// # Panics
-    /// If the model fits any number of vertiports: then it is not this policy that decides by it.
+    /// Panics if the model fits any number of vertiports; [`GcapsX`](crate::GcapsX) decides by such a model.
     pub fn new(model: &Model) -> Self {
         let header = model.header();
         let vertiports = header.shape.vertiports.expect("weights of one number of vertiports");

@@ -1,7 +1,9 @@
-//! Learned policies (§IV): features, the networks of layers, the two ways to learn, weights, checkpoints, and the shipped models.
+//! Learned policies (§IV): features, networks of layers, the two ways to learn, weights, checkpoints, and the shipped
+//! models.
 //!
-//! This crate builds on `vertifleet-policy`. A [`Model`] is a policy's weights and where they came from; a [`TrainingPlan`] starts a
-//! [`TrainingRun`], which learns by PPO or by imitation of roll-outs; a [`RunFolder`] keeps what a run leaves.
+//! This crate builds on `vertifleet-policy`. A [`Model`] holds a policy's weights and says where they came from; a
+//! [`TrainingPlan`] starts a [`TrainingRun`], which learns by PPO or by imitation of roll-outs; a [`RunFolder`] writes
+//! the files of a run.
 //!
 //! ```
 //! use std::sync::Arc;

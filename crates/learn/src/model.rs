@@ -1,8 +1,8 @@
-//! A trained policy: its weights, what they are of and where they came from; and the file that holds all of that.
+//! A trained policy and its file: the weights, a description of them, and where they came from.
 //!
-//! A file stands for itself: architecture, features and settings are in its header, so a policy can be run from it without the
-//! network file it was trained on. Weights of `gcaps` and `mlp` fit networks with one number of vertiports, those of `gcaps-x` fit
-//! any.
+//! A file is complete in itself: architecture, features and settings are in its header, so the policy runs without the
+//! network file that it was trained on. Weights of `gcaps` and `mlp` fit networks with one number of vertiports;
+//! weights of `gcaps-x` fit any number.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,9 +18,9 @@ use crate::learned::Learned;
 use crate::nn;
 use crate::tensor_file;
 
-/// No weight file of ours comes near; larger ones are not read.
+/// Larger files are not read. No weight file of this program comes near this size.
 const LIMIT_BYTES: u64 = 512 << 20;
-/// Weights that fit any number of vertiports have the same shapes for all; the layout is made for this one.
+/// Weights that fit any number of vertiports have the same shapes for every number; the layout is made for this one.
 const SOME_VERTIPORTS: usize = 2;
 
 /// A trained policy: its header and its parameters.
@@ -35,7 +35,8 @@ impl Model {
     /// A model with this header and these parameters.
     ///
     /// # Errors
-    /// A rule that the header breaks, or that the parameters do: they must be as many as the network has, and finite.
+    /// Returns the rule that is broken if the header is not valid, or if the parameters are not finite or not as many
+    /// as the network has.
     pub fn new(header: Header, params: Vec<f32>) -> Result<Self, String> {
         let net = header.network_of_layers(SOME_VERTIPORTS)?;
         if params.len() != net.layout().len() {
@@ -51,7 +52,7 @@ impl Model {
         }
     }
 
-    /// What the weights are of and where they came from.
+    /// Describes the weights and says where they came from.
     pub fn header(&self) -> &Header {
         &self.header
     }
@@ -66,16 +67,16 @@ impl Model {
         &self.params
     }
 
-    /// Where each tensor lies among the parameters.
+    /// The place of each tensor among the parameters.
     pub fn layout(&self) -> &nn::Layout {
         self.net.layout()
     }
 
-    /// The network of layers for a day with so many vertiports. Weights that fit one number only have it for that one, whatever is
-    /// asked.
+    /// The network of layers for a day with `vertiports` vertiports. If the weights fit one number only, the network
+    /// is for that number, whatever `vertiports` is.
     ///
     /// # Panics
-    /// If weights that fit any number are asked for none, or for more than 4,096.
+    /// Panics if the weights fit any number and `vertiports` is 0 or above 4,096.
     pub fn net(&self, vertiports: usize) -> nn::NeuralNetwork {
         match self.header.shape.vertiports {
             Some(_) => self.net.clone(),
@@ -83,13 +84,13 @@ impl Model {
         }
     }
 
-    /// The weights as passes take them.
+    /// The weights in the form that passes take.
     pub fn weights(&self) -> nn::Weights {
         self.net.weights(self.params.clone())
     }
 
-    /// A policy that decides by this model. `gcaps-x` rolls out so many of its best choices before it decides, from 2 on; 1 decides at
-    /// once, and so do the other kinds.
+    /// A policy that decides by this model. With `most_rolled_out` of 2 or more, `gcaps-x` rolls that many of its best
+    /// choices out before it decides; with 1 it decides at once, as the other kinds always do.
     pub fn policy(&self, most_rolled_out: usize) -> Box<dyn Policy> {
         match self.header.shape.vertiports {
             Some(_) => Box::new(Learned::new(self)),
@@ -100,7 +101,7 @@ impl Model {
     /// Whether the model can decide on this day.
     ///
     /// # Errors
-    /// [`Error::WrongNetwork`] if the day has another number of vertiports than the weights fit.
+    /// Returns [`Error::WrongNetwork`] if the day has another number of vertiports than the weights fit.
     pub fn check_fits(&self, scenario: &Scenario) -> Result<(), Error> {
         let found = scenario.vertiports.len();
         match self.header.shape.vertiports {
@@ -112,7 +113,7 @@ impl Model {
         }
     }
 
-    /// The file's bytes.
+    /// The bytes of the weight file.
     pub fn to_bytes(&self) -> Vec<u8> {
         let tensors = self.layout().tensors().iter().map(|tensor| {
             let entries = &self.params[tensor.offset..][..tensor.len()];
@@ -121,10 +122,10 @@ impl Model {
         tensor_file::to_bytes(&self.header, tensors)
     }
 
-    /// Writes the file, whole or not at all.
+    /// Writes the weight file, whole or not at all.
     ///
     /// # Errors
-    /// If the folder cannot be written to.
+    /// Returns an error if the folder cannot be written to.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
         Ok(vertifleet_core::write_atomically(path, &self.to_bytes())?)
     }
@@ -132,17 +133,17 @@ impl Model {
     /// Reads a weight file.
     ///
     /// # Errors
-    /// If it cannot be read, is no weight file, or its tensors are not those of the policy its header names; the error says what
-    /// differs.
+    /// Returns an error if the file cannot be read, is not a weight file, or has other tensors than the policy that
+    /// its header names; the error says what differs.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let bytes = vertifleet_core::read_at_most(path, LIMIT_BYTES)?;
         Self::from_bytes(&bytes, &path.display().to_string())
     }
 
-    /// Reads a weight file's bytes; `origin` names them in errors.
+    /// Parses the bytes of a weight file; `origin` names the file in errors.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// The same as those of [`read`](Self::read).
     pub fn from_bytes(bytes: &[u8], origin: &str) -> Result<Self, Error> {
         parse(bytes).map_err(|rule| Error::BadWeights { origin: origin.to_owned(), rule })
     }
@@ -151,7 +152,7 @@ impl Model {
 fn parse(bytes: &[u8]) -> Result<Model, String> {
     let header = Header::read(tensor_file::header(bytes)?)?;
     let net = header.network_of_layers(SOME_VERTIPORTS)?;
-    // A header may promise more weights than any memory holds; the file has to have them.
+    // A header may claim more weights than fit in memory, so first check that the file is long enough for them.
     if net.layout().len() > bytes.len() / 4 {
         return Err(format!("{} weights do not fit in the file", net.layout().len()));
     }
@@ -159,7 +160,7 @@ fn parse(bytes: &[u8]) -> Result<Model, String> {
     Model::new(header, params(net.layout(), &file)?)
 }
 
-/// The parameters in the layout's order; an error says which tensor is not as the layout has it.
+/// The parameters in the layout's order. The error names the tensor that differs from the layout.
 fn params(layout: &nn::Layout, file: &SafeTensors<'_>) -> Result<Vec<f32>, String> {
     let mut found: BTreeMap<String, TensorView<'_>> = file.tensors().into_iter().collect();
     let mut params = Vec::with_capacity(layout.len());

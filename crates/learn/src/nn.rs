@@ -1,10 +1,10 @@
-//! The policies' networks, forward and backward: pure functions of slices, no simulator, no randomness but the first
-//! weights'.
+//! The policies' networks of layers, forward and backward: pure functions of slices, without the simulator and without
+//! randomness except for the first weights.
 //!
-//! All of a network's weights are one flat vector that a [`Layout`] describes, so the optimiser, clipping and files
-//! need to know no layer. A [`NeuralNetwork`] is immutable and shared; what a pass needs is a [`Workspace`], allocated once
-//! for the largest batch. Everything here runs on one thread: callers cut batches into chunks, one workspace and
-//! [`Gradient`] each, and add the gradients up in a fixed order.
+//! All weights of a network are one flat vector that a [`Layout`] describes, so the optimiser, the clipping and the
+//! files need not know the layers. A [`NeuralNetwork`] is immutable and shared; a pass works in a [`Workspace`], which
+//! is allocated once for the largest batch. Everything here runs on one thread: callers cut batches into chunks, give
+//! each a workspace and a [`Gradient`], and add the gradients up in a fixed order.
 
 mod architecture;
 mod batch;

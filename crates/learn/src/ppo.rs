@@ -1,4 +1,4 @@
-//! Proximal policy optimisation, for policies of one network.
+//! Proximal policy optimisation, for the policies that fit one number of vertiports.
 
 mod advantage;
 mod buffer;

@@ -1,11 +1,11 @@
-//! A training run: what is asked for, how it goes on, and what it leaves.
+//! A training run: what it is asked to do, how it advances, and what it leaves.
 //!
-//! There are two ways to learn, [PPO](crate::ppo) for policies of one network and [imitation](crate::imitation) for `gcaps-x`. To
-//! those who start a run they are one: a [`TrainingRun`] that is advanced until it is done, and that can be set aside and resumed.
-//! A [`RunFolder`] does so and keeps its files.
+//! There are two ways to learn, [PPO](crate::ppo) for policies of one network and [imitation](crate::imitation) for
+//! `gcaps-x`. Callers see one interface: a [`TrainingRun`] is advanced until it is done, and can be set aside and
+//! resumed. A [`RunFolder`] does that and writes the files.
 //!
-//! Training days, validation days and the days people compare on come from disjoint ranges of seeds (`DaySeed`), so no run can
-//! ever learn or choose on a day it is later judged by.
+//! Training days, validation days and comparison days come from disjoint ranges of seeds (`DaySeed`), so no run can
+//! ever learn or choose on a day that it is later compared on.
 
 pub(crate) mod checkpoint;
 mod curve;
@@ -31,71 +31,73 @@ use crate::settings::TrainingSettings;
 /// What a training run is asked to do.
 #[derive(Debug, Clone)]
 pub struct TrainingPlan {
-    /// Network whose days are learned from; by imitation, beside days of random networks.
+    /// The network whose days are learned from; imitation also learns from days of random networks.
     pub network: Arc<Network>,
-    /// The policy's kind and sizes.
+    /// The kind of the policy, with its sizes.
     pub policy: Architecture,
-    /// Settings of the way in which such a policy learns.
+    /// The settings of the way to learn that this policy uses.
     pub settings: TrainingSettings,
-    /// Seed of the run: first weights, days and choices follow from it.
+    /// The seed of the run; first weights, days and choices follow from it.
     pub seed: u32,
-    /// Commit of the program, for the weights' header.
+    /// The commit of the program, for the header of the weights.
     pub commit: String,
 }
 
-/// A run under way. It is advanced by an update of PPO or by a round of imitation at a time.
+/// A run in progress. It advances by one update of PPO or one round of imitation at a time.
 pub trait TrainingRun: Send {
-    /// Whether all that was asked for has been learned.
+    /// Whether everything that was asked for has been learned.
     fn is_done(&self) -> bool;
 
     /// How much of the work is done.
     fn work(&self) -> Work;
 
-    /// Learns a little more, and adds a row to the curve. `worked` is told of every so many units of work as they are done.
+    /// Learns one update or round, and adds a row to the curve. `worked` is called with the number of units of work
+    /// done since its last call.
     ///
     /// # Errors
-    /// [`Error::Stopped`] soon after `stop` is requested, [`Error::Diverged`] if a weight is infinite or no number, or if training
-    /// days run out. After a stop the run stands as it did before.
+    /// Returns [`Error::Stopped`] soon after `stop` is requested, [`Error::Diverged`] if a weight is infinite or NaN,
+    /// or an error if the training days run out. After a stop the run is as it was before the call.
     fn advance(&mut self, stop: &Stop, worked: &(dyn Fn(u64) + Sync)) -> Result<(), Error>;
 
     /// The learning curve so far.
     fn curve(&self) -> Curve;
 
-    /// The policy as it would be kept now: of PPO, the weights that did best on the validation days so far.
+    /// The policy that would be kept now. With PPO, it has the weights that did best on the validation days so far.
     fn model(&self) -> Model;
 
-    /// Sets the run aside, the file whole or not at all.
+    /// Writes a checkpoint, whole or not at all.
     ///
     /// # Errors
-    /// If the file cannot be written.
+    /// Returns an error if the file cannot be written.
     fn write_checkpoint(&self, path: &Path) -> Result<(), Error>;
 }
 
 /// How much of a run's work is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Work {
-    /// Units done.
+    /// Number of units done.
     pub done: u64,
-    /// Units of the whole run.
+    /// Number of units of the whole run.
     pub total: u64,
-    /// What the units are.
+    /// The name of the units.
     pub units: &'static str,
 }
 
 impl TrainingPlan {
-    /// A run before its first step.
+    /// Starts a run.
     ///
     /// # Errors
-    /// If settings and policy do not go together, a setting is out of its bounds, the policy's sizes do not fit, or the seed is out
-    /// of range.
+    /// Returns an error if settings and policy do not go together, if a setting is out of its bounds, if the policy's
+    /// sizes do not fit, or if the seed is out of range.
     pub fn start(self) -> Result<Box<dyn TrainingRun>, Error> {
         self.begin(None)
     }
 
-    /// A run that goes on from a checkpoint, bit for bit as if it had never stopped.
+    /// Resumes a run from a checkpoint, bit for bit as if it had never stopped.
     ///
     /// # Errors
-    /// As [`start`](Self::start), or if the checkpoint cannot be read, is damaged or of another run.
+    /// The same as those of [`start`](Self::start), and an error if the checkpoint cannot be read, is damaged or
+    /// belongs to another run.
     pub fn resume(self, checkpoint: &Path) -> Result<Box<dyn TrainingRun>, Error> {
         self.begin(Some(checkpoint))
     }
@@ -124,26 +126,26 @@ impl TrainingPlan {
     }
 }
 
-/// What makes a run the run that it is: a checkpoint goes on only where all of this is the same.
+/// What identifies a run: a checkpoint can be resumed only if all of this is the same.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunIdentity {
     pub(crate) network: String,
-    /// Changes when the network's days do.
+    /// A number that changes when the network's days do.
     pub(crate) network_fingerprint: u32,
     pub(crate) policy: Architecture,
     pub(crate) settings: TrainingSettings,
     pub(crate) seed: u32,
 }
 
-/// A number that changes when the network's days do: the checksum of one of them, and of the feature scales.
+/// A number that changes when the network's days do: a checksum of one of them and of the feature scales.
 fn network_fingerprint(network: &Network) -> Result<u32, Error> {
     let day = network.draw(DaySeed::validation(0)?);
     let scales = serde_json::to_string(&network.feature_scales()).expect("numbers");
     Ok(crc32c::crc32c_append(crc32c::crc32c(day.to_json().as_bytes()), scales.as_bytes()))
 }
 
-/// Refuses weights of which one is infinite or no number after an update, counted from 1.
+/// Refuses weights that are infinite or NaN after an update, which is counted from 1.
 pub(crate) fn check_finite(params: &[f32], update: u64) -> Result<(), Error> {
     if params.iter().all(|weight| weight.is_finite()) {
         return Ok(());

@@ -1,4 +1,4 @@
-//! What is asked of a training run beside network, policy and seed: the settings of one of the two ways to learn.
+//! The settings of a training run, which are those of one of the two ways to learn.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::imitation::ImitationSettings;
 use crate::nn::Architecture;
 use crate::ppo::PpoSettings;
 
-/// The settings of a training run: of PPO for a policy of one network, of imitation for `gcaps-x`.
+/// The settings of a training run: those of PPO for a policy of one network, those of imitation for `gcaps-x`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum TrainingSettings {
@@ -20,10 +20,10 @@ pub enum TrainingSettings {
 }
 
 impl TrainingSettings {
-    /// A policy's preset of that name: `default`, or `paper` (Table 2) for a policy that learns by PPO.
+    /// The policy's preset with this name: `default`, or `paper` (Table 2) for a policy that learns by PPO.
     ///
     /// # Errors
-    /// If there is no such preset.
+    /// Returns an error if there is no such preset.
     pub fn preset(policy: &Architecture, name: &str) -> Result<Self, Error> {
         let known = match (policy, name) {
             (Architecture::GcapsX(_), "default") => Self::Imitation(ImitationSettings::default()),
@@ -40,10 +40,10 @@ impl TrainingSettings {
         Ok(known)
     }
 
-    /// Changes settings by their names, as `--set name=value` does; all of them, or none if one does not fit.
+    /// Changes settings by name, as `--set name=value` does. If one does not fit, none is changed.
     ///
     /// # Errors
-    /// If there is no such setting, or a value does not fit it or the others.
+    /// Returns an error if there is no such setting, or if a value does not fit it or the other settings.
     pub fn set<'a>(
         &mut self,
         pairs: impl IntoIterator<Item = (&'a str, &'a str)>,
@@ -60,7 +60,7 @@ impl TrainingSettings {
         Ok(())
     }
 
-    /// The settings of a policy's training, as a file holds them.
+    /// Parses the settings of a policy's training from a file.
     pub(crate) fn read(policy: &Architecture, value: Value) -> Result<Self, String> {
         let read = match policy {
             Architecture::GcapsX(_) => serde_json::from_value(value).map(Self::Imitation),
@@ -79,7 +79,7 @@ impl TrainingSettings {
     }
 }
 
-/// Settings with one changed by its name.
+/// The settings with one of them changed by name.
 fn with_member<S: Serialize + DeserializeOwned>(
     settings: &S,
     name: &str,
@@ -90,7 +90,7 @@ fn with_member<S: Serialize + DeserializeOwned>(
         let known = members.keys().cloned().collect::<Vec<_>>().join(", ");
         return Err(Error::UnknownSetting { name: name.to_owned(), known });
     }
-    // A value is a JSON number where it reads as one, a word otherwise.
+    // A value is parsed as JSON if that succeeds, and taken as a word otherwise.
     let parsed = serde_json::from_str(value).unwrap_or_else(|_| value.into());
     members.insert(name.to_owned(), parsed);
     serde_json::from_value(members.into())
@@ -104,7 +104,7 @@ fn members(settings: &impl Serialize) -> Map<String, Value> {
     }
 }
 
-/// The first setting in which two differ, with its value in either.
+/// The first setting in which two differ, with both values.
 pub(crate) fn first_difference(
     own: &impl Serialize,
     other: &impl Serialize,

@@ -1,20 +1,20 @@
-//! The trained policies that come with the program, inside it, so that it runs from any folder.
+//! The trained policies that are shipped inside the program, so that it runs from any folder.
 
 use crate::error::Error;
 use crate::model::Model;
 use crate::run::Curve;
 
-/// A trained policy and how its training went.
+/// A trained policy with the learning curves of its training.
 #[derive(Debug, Clone)]
 pub struct Shipped {
     /// The policy.
     pub model: Model,
-    /// Its learning curve, then those of runs with other seeds.
+    /// Its learning curve, followed by those of runs with other seeds.
     pub curves: Vec<Curve>,
 }
 
 struct Files {
-    /// None where the policy decides on every network.
+    /// `None` if the policy decides on every network.
     network: Option<&'static str>,
     policy: &'static str,
     weights: &'static [u8],
@@ -46,10 +46,10 @@ const FILES: [Files; 3] = [
     },
 ];
 
-/// The shipped policy of that name for a network; `gcaps-x` is for all of them.
+/// The shipped policy with this name for a network; `gcaps-x` is shipped for all networks.
 ///
 /// # Errors
-/// [`Error::NotShipped`] if there is none.
+/// Returns [`Error::NotShipped`] if there is none.
 pub fn shipped(policy: &str, network: &str) -> Result<Shipped, Error> {
     let is_meant =
         |files: &&Files| files.policy == policy && files.network.is_none_or(|only| only == network);

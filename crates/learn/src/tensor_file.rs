@@ -1,4 +1,4 @@
-//! What weight files and checkpoints have in common: safetensors with one JSON header and tensors of 32-bit numbers.
+//! The common format of weight files and checkpoints: safetensors with one JSON header and tensors of 32-bit numbers.
 
 use std::collections::HashMap;
 
@@ -6,10 +6,10 @@ use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-/// The header's name among the file's metadata.
+/// The name of the header among the file's metadata.
 const HEADER: &str = "vertifleet";
 
-/// The bytes of a file with this header and these tensors: name, shape, entries.
+/// The bytes of a file with this header and these tensors, each given by name, shape and entries.
 pub(crate) fn to_bytes<'a>(
     header: &impl Serialize,
     tensors: impl IntoIterator<Item = (&'a str, Vec<usize>, &'a [f32])>,

@@ -1,5 +1,5 @@
-//! What the networks promise whatever their weights: batches do not mix, masks hold, vertiports are no more than their
-//! features, gradients of chunks add up.
+//! Properties that the networks have with any weights: the rows of a batch do not mix, masks hold, vertiports differ
+//! only by their features, and gradients of chunks add up.
 
 use vertifleet_learn::nn::{
     Architecture, GcapsSettings, Inputs, MlpSettings, NeuralNetwork, Shape, Slopes,
@@ -14,7 +14,7 @@ fn networks() -> [NeuralNetwork; 2] {
     })
 }
 
-/// Numbers in [-1, 1) without much of a pattern.
+/// Numbers in [-1, 1) that show no obvious pattern.
 fn spread(len: usize, pace: f32) -> Vec<f32> {
     (0..len).map(|at| (at as f32 * pace).fract() * 2.0 - 1.0).collect()
 }
@@ -50,7 +50,7 @@ impl Decisions {
     }
 }
 
-/// First weights; those of the logits enlarged, so that differences between vertiports would show.
+/// First weights, with those of the logits enlarged so that differences between vertiports show.
 fn weights(net: &NeuralNetwork) -> Vec<f32> {
     let mut params = net.init(3);
     for tensor in net.layout().tensors() {
@@ -61,7 +61,7 @@ fn weights(net: &NeuralNetwork) -> Vec<f32> {
     params
 }
 
-/// Logits and values.
+/// The logits and the values.
 fn answers(net: &NeuralNetwork, params: &[f32], inputs: Inputs<'_>) -> (Vec<f32>, Vec<f32>) {
     let mut workspace = net.workspace(inputs.batch);
     net.forward(&net.weights(params.to_vec()), inputs, &mut workspace);
@@ -77,8 +77,8 @@ fn assert_close(found: &[f32], expected: &[f32], tolerance: f32) {
     }
 }
 
-/// A batch of one goes through other kernels of the matrix product than larger ones, which add up in another order; so
-/// the answers agree to rounding, not to the bit, and rounding grows with the logits.
+/// A batch of one uses other kernels of the matrix product than larger batches do, and these add up in another order.
+/// So the answers agree to rounding, not to the bit, and the rounding error grows with the logits.
 #[test]
 fn a_decision_in_a_batch_is_answered_as_if_alone() {
     let decisions = Decisions::new(64);
@@ -144,7 +144,7 @@ fn relabelled_vertiports_have_relabelled_logits_in_gcaps() {
     assert!(logits.iter().any(|logit| highest - logit > 1e-2), "logits that tell vertiports apart");
 }
 
-/// The gradient of 12 or fewer decisions, `chunk` at a time.
+/// The gradient of at most 12 decisions, computed `chunk` at a time.
 fn gradient(
     net: &NeuralNetwork,
     params: &[f32],

@@ -1,12 +1,13 @@
-//! The networks against PyTorch: outputs and gradients of an independent model, written literally after Eq. 18-21.
+//! Compares the networks with PyTorch: outputs and gradients of an independent model, written literally from Eq.
+//! 18-21.
 //!
 //! `reference/make_reference.py` regenerates the stored values; weights and inputs come from a formula on whole
-//! numbers that is written down there and here.
+//! numbers that is implemented both there and here.
 
 use serde_json::Value;
 use vertifleet_learn::nn::{Architecture, Inputs, NeuralNetwork, Shape, Slopes, Tensor};
 
-/// Numbers in [-1, 1) that the name and their index decide.
+/// Numbers in [-1, 1) that follow from a name and their index.
 fn noise(name: &str, len: usize) -> Vec<f32> {
     let start = name
         .bytes()
@@ -36,7 +37,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().expect("an array").iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
-/// Within `tolerance` of the larger of 1 and the reference.
+/// Checks that a number agrees within `tolerance` of the larger of 1 and the reference.
 fn assert_close(what: &str, found: f64, expected: f64, tolerance: f64) {
     let error = (found - expected).abs() / expected.abs().max(1.0);
     assert!(error < tolerance, "{what}: {found} is not {expected}");

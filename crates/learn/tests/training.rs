@@ -1,4 +1,5 @@
-//! What a training run promises, whichever way it learns: the same weights on any number of threads, and after any interruption.
+//! Properties of a training run by either way to learn: the weights are the same on any number of threads and after
+//! any interruption.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -67,7 +68,7 @@ fn finished(mut run: Box<dyn TrainingRun>) -> Box<dyn TrainingRun> {
     run
 }
 
-/// Everything that a run leaves, to the bit.
+/// Everything that a run leaves, to be compared bit for bit.
 fn remains(run: &dyn TrainingRun) -> (Vec<u8>, Vec<u8>, Curve) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("checkpoint");
@@ -119,7 +120,7 @@ fn a_run_that_is_stopped_stands_as_before_and_goes_on() {
     }
 }
 
-/// The run of the files in `tests/former`, which an earlier version left after so many of its rows.
+/// The run whose files in `tests/former` an earlier version left, after some of its rows.
 fn former(policy: Architecture) -> TrainingPlan {
     let (network, settings) = if matches!(policy, Architecture::GcapsX(_)) {
         let end = ("operations.end".to_owned(), "06:30:00".into());
@@ -208,7 +209,7 @@ fn a_checkpoint_of_another_run_is_refused() {
     }
 }
 
-/// A file with a part of its text replaced by another of the same length.
+/// A file with a part of its text replaced by another text of the same length.
 fn replaced(bytes: &[u8], from: &str, to: &str) -> Vec<u8> {
     let at = bytes.windows(from.len()).position(|window| window == from.as_bytes());
     let mut bytes = bytes.to_vec();
@@ -288,7 +289,7 @@ fn damaged_weights_are_refused_and_never_a_panic() {
     for at in (0..3000).step_by(7) {
         let mut changed = bytes.clone();
         changed[at] ^= 0x15;
-        // Some members of the header may take another value; what matters is that nothing panics.
+        // Some members of the header may take another value; the test only checks that nothing panics.
         let _ = Model::from_bytes(&changed, "changed");
     }
 }

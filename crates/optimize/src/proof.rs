@@ -100,7 +100,7 @@ impl Proof {
     /// there is none at all yet, the first one is waited for, no longer than for most of a second past the limit.
     pub fn best_in_time(self, begun: Instant, limit: Duration) -> Option<Bound> {
         let latest = limit + GRACE;
-        while self.best().is_none() && begun.elapsed() < latest && !self.wait(GLANCE) {}
+        while self.best().is_none() && begun.elapsed() < latest && !self.wait(POLL_INTERVAL) {}
         self.outcome()
     }
 
@@ -155,7 +155,7 @@ impl Watch for Shared {
 
 /// How long past its limit a plan waits for a first bound, and how often it looks.
 const GRACE: Duration = Duration::from_millis(800);
-const GLANCE: Duration = Duration::from_millis(10);
+const POLL_INTERVAL: Duration = Duration::from_millis(10);
 /// Less than anyone would plan for.
 const CENT_USD: f64 = 0.01;
 

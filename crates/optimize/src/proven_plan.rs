@@ -10,7 +10,7 @@ use crate::proof::Proof;
 use crate::{Bound, Error};
 
 /// How often a stop is looked for while the rest of a proof is waited for.
-const GLANCE: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// A plan, and the best bound that was proven meanwhile; none where there was no time for one, or the day is too large for any.
 #[derive(Debug, Clone)]
@@ -52,7 +52,7 @@ pub fn plan_with_proof(
     let bound = match settings.budget {
         Budget::Time(limit) => proof.best_in_time(begun, limit),
         Budget::Steps(_) => {
-            while !proof.wait(GLANCE) && !stop.is_requested() {}
+            while !proof.wait(POLL_INTERVAL) && !stop.is_requested() {}
             proof.outcome()
         }
     };

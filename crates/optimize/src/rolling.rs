@@ -38,6 +38,6 @@ impl Policy for Rolling {
         let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
         prices.refresh(*view, decision.time);
         let listed = self.shortlist.rank_with_empty_flights(prices, *view, decision);
-        Ok(self.evaluator.best_choice(prices, (*view, decision), listed))
+        Ok(self.evaluator.best_choice(prices, *view, decision, listed))
     }
 }

@@ -1,5 +1,5 @@
-//! How long prices of a `paper` day take to find, to find anew, and to decide by, and a whole day of 100 vertiports and
-//! 2,000 aircraft.
+//! The time to find the prices of a `paper` day, to find them anew and to decide by them, and to play a whole day of
+//! 100 vertiports and 2,000 aircraft.
 
 use std::fmt::Write;
 use std::hint::black_box;
@@ -43,8 +43,8 @@ fn prices(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// 100 vertiports spread evenly over 45 x 45 miles, with 26 stands each, and 2,000 aircraft; all else as in `paper`, but for
-/// demand that a fleet of this size can just about carry.
+/// 100 vertiports spread evenly over 45 x 45 miles, with 26 stands each, and 2,000 aircraft. Everything else is as in
+/// `paper`, except for a demand that a fleet of this size can just about carry.
 fn large_network() -> Network {
     let paper = include_str!("../../../networks/paper.toml");
     let (head, _) = paper.split_once("[[vertiports]]").expect("paper lists its vertiports");

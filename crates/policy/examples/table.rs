@@ -1,10 +1,11 @@
-//! How far the features of §IV.A carry without a network: a table of 72 numbers, learned by an evolution strategy.
+//! Measures how far the features of §IV.A suffice without a network of layers: a table of 72 numbers is learned by an
+//! evolution strategy.
 //!
-//! An aircraft at i scores each feasible j by the flight's profit per hour, plus a number of the pair, plus a number of j
-//! times U_j. The networks see all of it and more, but for the demand of the single pair, which hardly ever binds on
-//! `paper`. What the table reaches on validation days is therefore within their reach, and what they miss of it is lost in
-//! learning, not in what they are shown. (Salimans et al. 2017, "Evolution strategies as a scalable alternative to
-//! reinforcement learning".)
+//! An aircraft at i scores each feasible j by the flight's profit per hour, plus a number of the pair, plus a number of
+//! j times U_j. The networks of layers see all of these inputs and more, except for the demand of a single pair, which
+//! hardly ever binds on `paper`. The reward that the table reaches on validation days is therefore within their reach,
+//! and where they earn less, the learning is at fault and not the features. (Salimans et al. 2017, "Evolution
+//! strategies as a scalable alternative to reinforcement learning".)
 //!
 //! Run: `cargo run --release -p vertifleet-policy --example table`
 
@@ -19,17 +20,17 @@ use vertifleet_policy::{Policy, PolicyError, play};
 use vertifleet_sim::{Decision, Simulation, View};
 
 const GENERATIONS: usize = 600;
-/// Directions tried in a generation, each forwards and backwards.
+/// Number of directions tried in a generation, each forwards and backwards.
 const DIRECTIONS: usize = 64;
 const DAYS_A_GENERATION: usize = 16;
 const TRAINING_DAYS: u64 = 2_000;
 const VALIDATION_DAYS: u64 = 100;
-/// How far a direction leads; scores are profits per hour in hundreds of dollars.
+/// Length of a step in a trial direction; scores are profits per hour in hundreds of dollars.
 const SPREAD: f64 = 0.08;
 const STEP: f64 = 0.06;
 const MOMENTUM: f64 = 0.8;
 
-/// Numbers of the pairs, row by row, then of the vertiports.
+/// One number for each pair, row by row, then one for each vertiport.
 #[derive(Clone)]
 struct Table {
     vertiports: usize,
@@ -75,7 +76,7 @@ fn moved(table: &Table, direction: &[f64], by: f64) -> Table {
     Table { vertiports: table.vertiports, numbers: numbers.collect() }
 }
 
-/// The slope of the mean reward in every number, in units of the rewards' spread.
+/// The slope of the mean reward in every number, in units of the rewards' standard deviation.
 fn slope(table: &Table, days: &[Arc<Scenario>], rng: &mut SplitMix64) -> Vec<f64> {
     let mut draw = || StandardNormal.sample(rng);
     let directions: Vec<Vec<f64>> =

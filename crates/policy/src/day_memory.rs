@@ -1,9 +1,9 @@
-//! What a policy remembers of the day that it plays.
+//! The memory of a policy about the day that it plays.
 
 use vertifleet_sim::{DayKey, Decision, View};
 
-/// A memory of one day at a time. Asked about several days by turns, it forgets each for the next, which costs time and
-/// never mixes them up.
+/// A memory of one day at a time. If a policy plays several days by turns, the memory of each is dropped for the next,
+/// which costs time but never mixes days up.
 #[derive(Debug, Clone)]
 pub struct DayMemory<T> {
     kept: Option<Kept<T>>,
@@ -12,7 +12,7 @@ pub struct DayMemory<T> {
 #[derive(Debug, Clone)]
 struct Kept<T> {
     day: DayKey,
-    /// Index of the latest decision asked about.
+    /// Index of the latest decision that was asked for.
     decision: u32,
     memory: T,
 }
@@ -24,7 +24,7 @@ impl<T> Default for DayMemory<T> {
 }
 
 impl<T> DayMemory<T> {
-    /// The memory of the day of a decision; a new one if that day is another than the one before, or begins again.
+    /// The memory of a decision's day. It is made anew if the day is not the one before, or starts again.
     pub fn of_day(
         &mut self,
         view: View<'_>,

@@ -1,4 +1,5 @@
-//! Draws that need no memory: a function of seed, day and decision, so days may be played in any order and batch.
+//! Random draws without state: each is a function of seed, day and decision, so days may be played in any order and
+//! batch.
 
 use rand::{Rng, SeedableRng};
 use rand_xoshiro::SplitMix64;

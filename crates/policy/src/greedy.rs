@@ -1,16 +1,17 @@
-//! `greedy`: the flight with the highest profit per hour from take-off to ready.
+//! `greedy`: takes the flight with the highest profit per hour from take-off to ready.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, View};
 
 use crate::{Policy, PolicyError};
 
-/// Looks one flight ahead. Holds if no flight earns anything; among equals the vertiport listed first wins.
+/// Looks one flight ahead. Holds if no flight earns anything. Of equally good flights, it takes the one to the
+/// vertiport listed first.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Greedy;
 
 impl Greedy {
-    /// The feasible flight with the highest profit per hour; a hold if none earns anything.
+    /// The feasible flight with the highest profit per hour, or a hold if no flight earns anything.
     #[inline]
     pub(crate) fn flight_or_hold(view: View<'_>, decision: &Decision) -> VertiportIx {
         let kind = view.kind(decision.aircraft);

@@ -1,7 +1,8 @@
 //! The [`Policy`] trait, the policies that need no learning, and how a day is played with one.
 //!
-//! This crate builds on `vertifleet-sim`. A policy sees a day through a `View` alone. [`Greedy`] and [`Lookahead`] are rules of one and two
-//! flights, [`BidPricePolicy`] decides by [`DayPrices`], and a [`RolloutEvaluator`] judges choices by roll-outs.
+//! This crate builds on `vertifleet-sim`. A policy sees a day only through a `View`. [`Greedy`] and [`Lookahead`] are
+//! rules that look one and two flights ahead, [`BidPricePolicy`] decides by [`DayPrices`], and a [`RolloutEvaluator`]
+//! evaluates choices by roll-outs.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -40,7 +41,7 @@ pub use lookahead::Lookahead;
 pub use play::{PlayError, play};
 pub use policy::{Policy, PolicyError};
 pub use priced::BidPricePolicy;
-pub use prices::DayPrices;
+pub use prices::{DayPrices, PricedChoice};
 pub use random::Random;
 pub use replay::Replay;
 pub use rollouts::{RolloutEvaluator, RolloutSettings, fleet_worth_usd, noise};

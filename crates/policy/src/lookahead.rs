@@ -1,19 +1,19 @@
-//! `lookahead`: the first of the two flights in a row that together earn the most per hour.
+//! `lookahead`: takes the first flight of the two in a row that together earn the most per hour.
 
 use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 use crate::{Policy, PolicyError};
 
-/// Looks two flights ahead: this one, and the best one from where it ends, with the demand forecast for then.
+/// Looks two flights ahead: this flight, and the best one from its destination, with the demand forecast for that time.
 ///
-/// Who will stand where by then is not known, so the second flight goes to a vertiport that has a stand free now, or back to the
-/// one that this flight leaves; by a route that is not closed unexpectedly now, nor known to be closed by then. Holds if no flight earns anything; among equals the vertiport listed first
-/// wins.
+/// The occupancy of stands by then is not known, so the second flight goes to a vertiport that has a free stand now, or
+/// back to the one that this flight leaves. Its route must not be closed unexpectedly now, nor be known to be closed by
+/// then. Holds if no flight earns anything. Of equally good flights, it takes the one to the vertiport listed first.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Lookahead;
 
-/// Money over time.
+/// The profit of one or more flights, and the time they take.
 #[derive(Clone, Copy)]
 struct Prospect {
     profit_usd: f64,
@@ -43,7 +43,8 @@ impl Prospect {
     }
 }
 
-/// The rate of a flight and the best one after it; of the flight alone where that is better or the day is over by then.
+/// The profit per second of a flight and the best one after it, or of the flight alone if that is higher or the day is
+/// over by then.
 fn best_rate(view: View<'_>, kind: TypeIx, decision: &Decision, to: VertiportIx) -> f64 {
     let first = Prospect::of_flight(view, decision.time, kind, (decision.at, to));
     let ready = decision.time + view.leg(kind, decision.at, to).block_s();

@@ -4,7 +4,7 @@ use vertifleet_sim::{Refusal, Simulation, TraceRow};
 
 use crate::{Policy, PolicyError};
 
-/// Why a day could not be played to its end.
+/// The reason why a day could not be played to its end.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PlayError {
     /// The policy has no answer.
@@ -15,10 +15,10 @@ pub enum PlayError {
     Refused(#[from] Refusal),
 }
 
-/// Plays what is left of the day; `record` sees every decision carried out, in order.
+/// Plays the rest of the day. `record` is called with every decision that was carried out, in order.
 ///
 /// # Errors
-/// [`PlayError`] if the policy has no answer or an infeasible one; the day stands at that decision then.
+/// [`PlayError`] if the policy has no answer or an infeasible one. The day then stands at that decision.
 pub fn play<P: Policy + ?Sized>(
     simulation: &mut Simulation,
     policy: &mut P,

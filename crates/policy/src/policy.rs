@@ -1,30 +1,30 @@
-//! The one interface behind which every way of deciding stands.
+//! The interface of every policy.
 
 use vertifleet_core::{Time, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 /// Decides where an aircraft flies next.
 ///
-/// A choice depends on the decision, the view and the policy's own settings, and on nothing that the policy did on another
-/// day. So days that are played from their first decision to their last have the same outcome in any order, on any number
-/// of threads. Most policies remember nothing, and can play many days by turns with that outcome too. One that looks
-/// ahead may remember the day it is playing ([`DayMemory`](crate::DayMemory)), to go on from what it worked out before; it
-/// must be able to take up any day in its middle without.
+/// A choice depends on the decision, the view and the policy's own settings, and on nothing that the policy did on
+/// another day. Days that are played from their first decision to their last therefore have the same outcome in any
+/// order and on any number of threads. Most policies remember nothing and can also play many days by turns with the
+/// same outcome. A policy that looks ahead may remember the day that it is playing ([`DayMemory`](crate::DayMemory)),
+/// to continue from its earlier results; it must be able to start in the middle of any day without that memory.
 pub trait Policy: Send {
-    /// Chooses a vertiport of [`View::feasible`]; the aircraft's own vertiport means hold.
+    /// Chooses a vertiport of [`View::feasible`], where the aircraft's own vertiport means hold.
     ///
     /// # Errors
-    /// [`PolicyError`] if the policy has no answer, as a replay of another day's trace has none.
+    /// [`PolicyError`] if the policy has no answer, as for example when it replays another day's trace.
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError>;
 
-    /// Chooses for many days at once, one choice pushed per decision asked. Learned policies answer a batch much
-    /// faster than its parts; the rest answer one by one.
+    /// Chooses for many days at once, and pushes one choice for each decision. Learned policies answer a batch much
+    /// faster than its parts; the other policies answer one by one.
     ///
-    /// Views borrow their days, so a list of them cannot outlive a step in which the days move on; an iterator spares
-    /// the caller to make one anew for every step.
+    /// Views borrow their days, so a list of them could not outlive a step in which the days move on. Taking an
+    /// iterator spares the caller from making a new list for every step.
     ///
     /// # Errors
-    /// As [`choose`](Self::choose), for the first decision that has no answer.
+    /// The errors of [`choose`](Self::choose), for the first decision that has no answer.
     fn choose_batch(
         &mut self,
         asked: &mut dyn Iterator<Item = (Decision, View<'_>)>,
@@ -37,31 +37,31 @@ pub trait Policy: Send {
     }
 }
 
-/// A policy that has no answer.
+/// The reason why a policy has no answer.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PolicyError {
-    /// The caller asked to stop.
+    /// The policy was asked to stop.
     #[error("it was stopped")]
     Stopped,
     /// The trace ends before the day does.
     #[error("the trace has {rows} rows, but the day asks for another decision at {time}")]
     TraceTooShort {
-        /// Rows of the trace.
+        /// Number of rows of the trace.
         rows: usize,
-        /// When the day asks.
+        /// Time of the next decision.
         time: Time,
     },
-    /// The trace's next row is about another aircraft or another time.
+    /// The trace's next row has another aircraft or another time than the decision.
     #[error(
         "row {row} of the trace is aircraft {found_aircraft:?} at {found_time}, but aircraft {aircraft:?} decides at {time}",
         found_aircraft = found.0, found_time = found.1, aircraft = asked.0, time = asked.1
     )]
     TraceOfAnotherDay {
-        /// Row, counted from 1 below the header.
+        /// Number of the row, from 1 below the header.
         row: usize,
-        /// What the row says; the aircraft by its id.
+        /// Aircraft, by its id, and time of the row.
         found: (String, Time),
-        /// What the day asks; the aircraft by its id.
+        /// Aircraft, by its id, and time of the decision.
         asked: (String, Time),
     },
 }

@@ -1,12 +1,13 @@
-//! `prices`: the choice that is worth most at the prices of the day, which are found anew every quarter of an hour.
+//! `prices`: takes the choice that is worth most at the bid prices of the day, which are found anew every quarter of an
+//! hour.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, View};
 
 use crate::{DayMemory, DayPrices, Policy, PolicyError};
 
-/// Decides by bid prices ([`DayPrices`]): a flight's profit, what it is worth to be ready where and when it ends, less what
-/// its passengers and its stand cost.
+/// Decides by bid prices ([`DayPrices`]): a choice is worth its flight's profit plus the worth of being ready where and
+/// when it ends, less the prices of its passengers and of its stand.
 #[derive(Debug, Clone, Default)]
 pub struct BidPricePolicy {
     day: DayMemory<DayPrices>,

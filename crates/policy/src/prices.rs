@@ -1,11 +1,11 @@
-//! Prices of what is scarce, for the rest of a day: what a stand costs when, what the right to carry a passenger costs, and
-//! what it is worth, at these prices, to be ready somewhere.
+//! Prices of scarce resources for the rest of a day: the price of a stand at each time, the price of the right to carry
+//! a passenger, and the worth, at these prices, of being ready somewhere.
 //!
-//! If every aircraft pays for the stands that it takes and the passengers that it carries, each can look after itself, and
-//! at the right prices the fleet shares what there is (Lagrangian relaxation of Eq. 16 and of the demand; revenue management
-//! calls them bid prices). Prices are found by search (`prices/volume.rs`) over what the fleet would do at given prices
-//! (`prices/relaxation.rs`). They come from what a [`View`] shows, so the future enters as its forecast. They guide and bound
-//! nothing: the certified bound is another crate's.
+//! If every aircraft pays for the stands that it takes and the passengers that it carries, each can decide by itself,
+//! and at the right prices the fleet shares the scarce resources (Lagrangian relaxation of Eq. 16 and of the demand;
+//! revenue management calls the prices bid prices). Prices are found by search (`prices/volume.rs`) over the decisions
+//! of the fleet at given prices (`prices/relaxation.rs`). They are computed from a [`View`], so the future enters as
+//! its forecast. They guide decisions and prove no bound: the certified upper bound is in another crate.
 
 mod base_rule;
 mod clock;
@@ -25,34 +25,43 @@ use relaxation::Relaxation;
 use units::units_usd;
 use volume::{Effort, Volume};
 
-/// Passes over the day where there are no prices yet, and length of the first step. Days of up to about 60 vertiports have
-/// all the passes, here and below up to 30; on larger ones more would take longer than a dispatcher can wait.
+/// Effort where there are no prices yet. Days of up to about 60 vertiports have all these passes, and those of up to 30
+/// all the passes of `AGAIN`; on larger days more passes would take longer than a dispatcher can wait.
 const FIRST: Effort = Effort { passes: 500, hops: 480_000_000, step: 1.0 };
-/// The same where there are some. Longer steps leave good prices behind: days earned 0.8 % less with 1.0.
+/// Effort where there are prices already. Longer steps leave good prices behind: days earned 0.8 % less with 1.0.
 const AGAIN: Effort = Effort { passes: 150, hops: 37_000_000, step: 0.1 };
-/// Seconds after which prices are found anew. On days of `paper` 5 minutes earned no more.
+/// Seconds after which prices are found anew. On days of `paper`, 5 minutes earned no more.
 const RENEWAL_S: u32 = 900;
-/// Seconds after which the rule by which the fleet decides is chosen anew.
+/// Seconds after which the base rule is chosen anew.
 const BASE_RULE_RENEWAL_S: u32 = 3_600;
 
-/// Prices for the rest of a day, and what they say about every choice.
+/// Prices for the rest of a day, and the worth of every choice at them.
 #[derive(Debug, Clone)]
 pub struct DayPrices {
     relaxation: Relaxation,
     volume: Volume,
     units_usd: Vec<f64>,
     made_at: Time,
-    /// Openings and closings of routes that the prices know.
+    /// The unexpected openings and closings of routes that the prices take into account.
     route_changes: usize,
     stake_usd: f64,
     base_rule: BaseRule,
     base_rule_made_at: Time,
-    /// Room to play the rest of the day out in.
+    /// Memory to play the rest of the day out in.
     room: Option<Imagined>,
 }
 
+/// A feasible choice and what it is worth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PricedChoice {
+    /// What the choice is worth, dollars.
+    pub worth_usd: f64,
+    /// The vertiport to fly to; to hold, the one where the aircraft is.
+    pub to: VertiportIx,
+}
+
 impl DayPrices {
-    /// Prices from `now`, the view's moment, to the end of its day.
+    /// Finds prices from `now`, which is the view's time, to the end of its day.
     pub fn of(view: View<'_>, now: Time) -> Self {
         let relaxation = Relaxation::of(view);
         let mut prices = Self {
@@ -71,8 +80,9 @@ impl DayPrices {
         prices
     }
 
-    /// Keeps up with the day: after a quarter of an hour, and at once when a route closes or opens unexpectedly, prices are found
-    /// anew from these ones, with the fleet and the demand as they are by then. `now` is the view's moment, later on the same day.
+    /// Updates the prices as the day goes on. After a quarter of an hour, and at once when a route closes or opens
+    /// unexpectedly, they are found anew, starting from the old ones, with the current fleet and demand. `now` is the
+    /// view's time, later on the same day.
     pub fn refresh(&mut self, view: View<'_>, now: Time) {
         let changes = view.route_changes();
         if now >= self.made_at + RENEWAL_S || changes != self.route_changes {
@@ -98,35 +108,35 @@ impl DayPrices {
         self.base_rule_made_at = now;
     }
 
-    /// What an aircraft of a type that is ready at a vertiport at a time may still earn, less what it pays for stands and
-    /// passengers, dollars; 0 past the end of operations. `time` is not before the view's moment.
+    /// Dollars that an aircraft of a type that is ready at a vertiport at a time may still earn, less its payments for
+    /// stands and passengers; 0 past the end of operations. `time` must not be before the view's time.
     pub fn worth_usd(&self, kind: TypeIx, vertiport: VertiportIx, time: Time) -> f64 {
         self.relaxation.values().worth_usd(kind, vertiport, time.seconds())
     }
 
-    /// What a stand costs from one time to another, dollars.
+    /// Price of a stand from one time to another, dollars.
     pub fn rent_usd(&self, vertiport: VertiportIx, from: Time, until: Time) -> f64 {
         self.relaxation.values().rent_usd(vertiport, from.seconds(), until.seconds())
     }
 
-    /// What the right to carry one more passenger of a demand period costs, dollars.
+    /// Price of the right to carry one more passenger of a demand period, dollars.
     pub fn passenger_usd(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
         self.relaxation.passenger_usd(period, from, to)
     }
 
-    /// Profit of a typical full flight of a type, dollars: the unit in which differences in worth are small or large.
+    /// Profit of a typical full flight of a type, dollars: the unit in which differences in worth are large or small.
     pub fn unit_usd(&self, kind: TypeIx) -> f64 {
         self.units_usd[kind.at()]
     }
 
-    /// What is at stake in a decision of the rest of the day: what the fleet may still earn over the decisions that it takes for
-    /// that, dollars. 0 where nothing can be earned.
+    /// The stake of a decision in the rest of the day, dollars: the profit that the fleet may still earn, divided by
+    /// the number of decisions that it takes for that. 0 where nothing can be earned.
     pub fn stake_usd(&self) -> f64 {
         self.stake_usd
     }
 
-    /// What a feasible choice is worth: what its flight earns, what follows from being ready at its end, less what the
-    /// passengers and the stand until then cost; dollars.
+    /// Worth of a feasible choice, dollars: the profit of its flight and the worth of being ready at its end, less the
+    /// prices of its passengers and of the stand until then.
     #[inline]
     pub fn choice_usd(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
         let Decision { time, aircraft, at: from, .. } = *decision;
@@ -141,26 +151,27 @@ impl DayPrices {
         view.flight_profit_usd(time, kind, (from, to), waiting) + way_on_usd(ready.seconds())
     }
 
-    /// The choice of the rule by which the fleet decides at these prices: the feasible choice that is worth most, the
-    /// vertiport listed first among equals, unless another rule is expected to earn more over the rest of the day.
+    /// The choice of the base rule: the feasible choice that is worth most, and of equals the vertiport listed first,
+    /// unless another rule is expected to earn more over the rest of the day.
     #[inline]
     pub fn best_choice(&self, view: View<'_>, decision: &Decision) -> VertiportIx {
         self.base_rule.choice(self, view, decision)
     }
 
-    /// The choices that the rule by which the fleet decides leaves open, each with what it is worth, dollars.
+    /// The choices that the base rule permits, each with its worth in dollars.
     #[inline]
     pub(crate) fn open_choices<'a>(
         &'a self,
         view: View<'a>,
         decision: &'a Decision,
-    ) -> impl Iterator<Item = (f64, VertiportIx)> + 'a {
+    ) -> impl Iterator<Item = PricedChoice> + 'a {
         let only = (self.base_rule == BaseRule::Greedy).then(|| self.best_choice(view, decision));
         let feasible = view.feasible(decision);
         let open = move |&to: &VertiportIx| match only {
             Some(only) => to == only,
             None => self.base_rule.allows(view, decision, to),
         };
-        feasible.iter().filter(open).map(move |to| (self.choice_usd(view, decision, to), to))
+        let priced = move |to| PricedChoice { worth_usd: self.choice_usd(view, decision, to), to };
+        feasible.iter().filter(open).map(priced)
     }
 }

@@ -1,4 +1,4 @@
-//! `random`: Feas-RND (§V.B), uniform over the feasible decisions, hold included.
+//! `random`: Feas-RND (§V.B), uniform over the feasible choices, hold included.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, View};
@@ -7,15 +7,15 @@ use crate::{Policy, PolicyError, draw};
 
 /// Draws uniformly from the mask.
 ///
-/// The draw is a function of the policy's seed, the day's seed and the number of the decision, so it needs no memory
-/// and comes out the same however days are batched.
+/// The draw is a function of the policy's seed, the day's seed and the number of the decision. It needs no memory, and
+/// does not depend on how days are batched.
 #[derive(Debug, Clone, Copy)]
 pub struct Random {
     seed: u64,
 }
 
 impl Random {
-    /// The policy whose draws follow `seed`.
+    /// A policy that draws by `seed`.
     pub fn new(seed: u64) -> Self {
         Self { seed }
     }

@@ -1,4 +1,4 @@
-//! `replay`: the decisions of a trace once more.
+//! `replay`: repeats the decisions of a trace.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use vertifleet_sim::{Decision, Trace, View};
 
 use crate::{Policy, PolicyError};
 
-/// Answers each decision with the row that the trace has for it.
+/// Answers each decision with the trace's row for it.
 #[derive(Debug, Clone)]
 pub struct Replay {
     trace: Arc<Trace>,
@@ -38,7 +38,7 @@ impl Policy for Replay {
     }
 }
 
-/// The aircraft's id; its position where another day's trace has more aircraft than this day.
+/// The aircraft's id, or its position if another day's trace has more aircraft than this day.
 fn aircraft_id(aircraft: AircraftIx, view: View<'_>) -> String {
     view.aircraft_id(aircraft).map_or_else(|| format!("#{}", aircraft.0), str::to_owned)
 }

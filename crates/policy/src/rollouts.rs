@@ -1,55 +1,56 @@
-//! Roll-outs: a choice is played on for a while in the simulator, where every aircraft decides by bid prices. What the fleet has
-//! earned and is worth by then says how good the choice was.
+//! Roll-outs: a choice is played on for a while in the simulator, with every aircraft following the base rule. The
+//! value of the choice is the fleet's profit until then and its worth at that time.
 //!
-//! One roll-out says little, because the next hour depends on which aircraft happens to be ready a second before another. So a
-//! choice is rolled out several times while the values of all choices are perturbed by a little noise, the same noise for every
-//! choice that is compared. Its value is the mean.
+//! A single roll-out says little, because the next hour depends on which aircraft happens to be ready a second before
+//! another. A choice is therefore rolled out several times, with the worth of all choices perturbed by a little noise,
+//! which is the same for every choice that is compared. The value is the mean.
 
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
 
 use crate::prices::is_empty_flight;
-use crate::{DayPrices, draw};
+use crate::{DayPrices, PricedChoice, draw};
 
-/// How choices are rolled out.
+/// Settings of roll-outs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RolloutSettings {
-    /// How far each is played on, seconds.
+    /// Duration of each roll-out, seconds.
     pub horizon_s: u32,
-    /// Roll-outs of each choice; the mean over all counts.
+    /// Number of roll-outs of each choice, whose mean is the value.
     #[serde(alias = "courses")]
     pub rollouts: u32,
-    /// Size of the noise, as a share of what is [at stake](DayPrices::stake_usd) in a decision.
+    /// Size of the noise, as a share of the [stake](DayPrices::stake_usd) of a decision.
     pub noise: f64,
-    /// Weight of what the choice is worth at the prices to the aircraft alone.
+    /// Weight of the choice's worth at the prices to the aircraft alone.
     #[serde(alias = "own")]
     pub price_weight: f64,
 }
 
-/// About how many vertiports all roll-outs of a decision may look at together; on large days there are fewer roll-outs.
+/// The approximate number of vertiports that all roll-outs of a decision may look at. On large days there are fewer
+/// roll-outs.
 const MOST_LOOKS: usize = 2_000_000;
-/// Seconds from one decision of an aircraft to its next, about.
+/// The approximate time from one decision of an aircraft to its next, seconds.
 const DECISION_APART_S: usize = 2_400;
-/// By how many standard errors another choice must be better than the one that is worth most at the prices.
+/// Number of standard errors by which another choice must be better than the one that is worth most at the prices.
 const DOUBT: f64 = 0.5;
 
-/// Rolls choices out. It keeps its memory from decision to decision.
+/// Evaluates choices by roll-outs. It reuses its memory from decision to decision.
 #[derive(Debug, Clone)]
 pub struct RolloutEvaluator {
     settings: RolloutSettings,
-    /// A day on which a choice was made, and a roll-out that goes on from there.
+    /// An imagined day on which a choice was made, and in `rollout` one that continues from there.
     begun: Option<Imagined>,
     rollout: Option<Imagined>,
-    /// What each roll-out of each choice comes to, choice by choice, dollars.
+    /// The value of each roll-out of each choice, choice by choice, dollars.
     rollouts_usd: Vec<f64>,
     values_usd: Vec<f64>,
-    /// Choices that seem better than the first of the list, and by how much, dollars.
-    better: Vec<(f64, VertiportIx)>,
+    /// The choices that seem better than the first of the list, with the difference in dollars.
+    better: Vec<PricedChoice>,
 }
 
 impl RolloutEvaluator {
-    /// An evaluator that has seen no decision yet.
+    /// An evaluator that has evaluated nothing yet.
     pub fn new(settings: RolloutSettings) -> Self {
         Self {
             settings,
@@ -61,54 +62,54 @@ impl RolloutEvaluator {
         }
     }
 
-    /// What each choice of a list is worth if every aircraft decides by prices, dollars, in the list's order. The list holds
-    /// feasible choices with what they are worth at the prices.
+    /// The value of each choice of a list if every aircraft follows the base rule, dollars, in the list's order. The
+    /// list holds feasible choices with their worth at the prices.
     pub fn values_usd(
         &mut self,
         prices: &DayPrices,
-        (view, decision): (View<'_>, &Decision),
-        listed: &[(f64, VertiportIx)],
+        view: View<'_>,
+        decision: &Decision,
+        listed: &[PricedChoice],
     ) -> &[f64] {
-        let rollouts = self.roll_out(prices, (view, decision), listed);
+        let rollouts = self.roll_out(prices, view, decision, listed);
         self.values_usd.clear();
-        for (&(priced_usd, _), rollouts_usd) in
-            listed.iter().zip(self.rollouts_usd.chunks_exact(rollouts))
-        {
+        for (choice, rollouts_usd) in listed.iter().zip(self.rollouts_usd.chunks_exact(rollouts)) {
             let mean_usd = rollouts_usd.iter().sum::<f64>() / rollouts as f64;
-            self.values_usd.push(self.settings.price_weight * priced_usd + mean_usd);
+            self.values_usd.push(self.settings.price_weight * choice.worth_usd + mean_usd);
         }
         &self.values_usd
     }
 
-    /// The best choice of a list whose first is the best at the prices: that one, unless another is better beyond doubt. A
-    /// flight without passengers must also earn more than the first choice when the whole rest of the day is played out, since
-    /// it costs money now for what the prices promise later.
+    /// The best choice of a list whose first is the best at the prices. It is the first, unless another is better
+    /// beyond doubt. A flight without passengers must also earn more than the first choice when the whole rest of the
+    /// day is played out, since it costs money now for a worth that prices only promise for later.
     pub fn best_choice(
         &mut self,
         prices: &DayPrices,
-        (view, decision): (View<'_>, &Decision),
-        listed: &[(f64, VertiportIx)],
+        view: View<'_>,
+        decision: &Decision,
+        listed: &[PricedChoice],
     ) -> VertiportIx {
-        let (first_usd, first) = listed[0];
+        let PricedChoice { worth_usd: first_usd, to: first } = listed[0];
         if listed.len() == 1 {
             return first;
         }
-        let rollouts = self.roll_out(prices, (view, decision), listed);
+        let rollouts = self.roll_out(prices, view, decision, listed);
         let (first_rollouts_usd, others_usd) = self.rollouts_usd.split_at(rollouts);
         self.better.clear();
-        for (&(priced_usd, to), rollouts_usd) in
+        for (&PricedChoice { worth_usd: priced_usd, to }, rollouts_usd) in
             listed[1..].iter().zip(others_usd.chunks_exact(rollouts))
         {
             let surely_usd = surely_more_usd(rollouts_usd, first_rollouts_usd);
             let better_usd = self.settings.price_weight * (priced_usd - first_usd) + surely_usd;
             if better_usd > 0.0 {
-                self.better.push((better_usd, to));
+                self.better.push(PricedChoice { worth_usd: better_usd, to });
             }
         }
-        self.better.sort_by(|one, other| other.0.total_cmp(&one.0));
+        self.better.sort_by(|one, other| other.worth_usd.total_cmp(&one.worth_usd));
         let mut first_day_usd = None;
         for at in 0..self.better.len() {
-            let to = self.better[at].1;
+            let to = self.better[at].to;
             if !is_empty_flight(view, decision, to) {
                 return to;
             }
@@ -121,18 +122,19 @@ impl RolloutEvaluator {
         first
     }
 
-    /// Plays the roll-outs of all choices; returns how many each has.
+    /// Plays the roll-outs of all choices, and returns their number for each choice.
     fn roll_out(
         &mut self,
         prices: &DayPrices,
-        (view, decision): (View<'_>, &Decision),
-        listed: &[(f64, VertiportIx)],
+        view: View<'_>,
+        decision: &Decision,
+        listed: &[PricedChoice],
     ) -> usize {
         let Self { settings, begun, rollout, rollouts_usd, .. } = self;
         let until = decision.time + settings.horizon_s;
         let rollouts = settings.rollouts(prices, view, listed.len());
         rollouts_usd.clear();
-        for &(_, to) in listed {
+        for &PricedChoice { to, .. } in listed {
             let begun = view.imagined_in(begun);
             begun.apply(to).expect("only feasible choices are tried");
             for number in 0..rollouts {
@@ -143,7 +145,7 @@ impl RolloutEvaluator {
         rollouts as usize
     }
 
-    /// What the day earns if this choice is taken and the fleet then decides at the prices to the end.
+    /// The profit of the day if this choice is taken and the fleet then follows the base rule to the end.
     fn day_usd(&mut self, prices: &DayPrices, view: View<'_>, to: VertiportIx) -> f64 {
         let day = view.imagined_in(&mut self.begun);
         day.apply(to).expect("only feasible choices are tried");
@@ -155,7 +157,8 @@ impl RolloutEvaluator {
     }
 }
 
-/// By how much the mean of some rollouts is above that of others with the same noise, less what may be chance, dollars.
+/// The difference in dollars of the mean of some roll-outs to that of others with the same noise, less a margin for
+/// chance.
 fn surely_more_usd(rollouts_usd: &[f64], others_usd: &[f64]) -> f64 {
     let count = rollouts_usd.len() as f64;
     let differences = || rollouts_usd.iter().zip(others_usd).map(|(one, other)| one - other);
@@ -165,7 +168,7 @@ fn surely_more_usd(rollouts_usd: &[f64], others_usd: &[f64]) -> f64 {
     mean_usd - DOUBT * error_usd
 }
 
-/// A copy of a roll-out, in the memory of another.
+/// Copies a roll-out into the memory of another.
 fn copied<'room>(begun: &Imagined, room: &'room mut Option<Imagined>) -> &'room mut Imagined {
     if let Some(room) = room {
         room.clone_from(begun);
@@ -174,8 +177,8 @@ fn copied<'room>(begun: &Imagined, room: &'room mut Option<Imagined>) -> &'room 
 }
 
 impl RolloutSettings {
-    /// Roll-outs of each of so many choices: one where nothing is at stake, so that noise would change nothing, and fewer than
-    /// asked for on large days.
+    /// Number of roll-outs of each choice: one if nothing is at stake, so that noise would change nothing, and fewer
+    /// than the settings say on large days.
     fn rollouts(&self, prices: &DayPrices, view: View<'_>, choices: usize) -> u32 {
         if prices.stake_usd() == 0.0 {
             return 1;
@@ -186,7 +189,7 @@ impl RolloutSettings {
             .map_or(self.rollouts, |most| self.rollouts.min(most.max(1)))
     }
 
-    /// Plays a roll-out to a time. Returns what the fleet has earned and is worth then.
+    /// Plays a roll-out to a time. Returns the fleet's profit until then plus its worth at that time.
     fn played_usd(
         &self,
         prices: &DayPrices,
@@ -199,17 +202,18 @@ impl RolloutSettings {
             if next.time > until {
                 return rollout.ledger().profit_usd() + fleet_worth_usd(prices, view, next.time);
             }
-            let choice = self.perturbed_choice(prices, (view, &next), number);
+            let choice = self.perturbed_choice(prices, view, &next, number);
             rollout.apply(choice).expect("every choice is from the mask");
         }
         rollout.ledger().profit_usd()
     }
 
-    /// The choice that is worth most at the prices and a noise. The first roll-out has none.
+    /// The choice whose worth at the prices, perturbed by noise, is highest. The first roll-out has no noise.
     fn perturbed_choice(
         &self,
         prices: &DayPrices,
-        (view, decision): (View<'_>, &Decision),
+        view: View<'_>,
+        decision: &Decision,
         rollout: u32,
     ) -> VertiportIx {
         if rollout == 0 {
@@ -217,8 +221,8 @@ impl RolloutSettings {
         }
         let noise_usd = self.noise * prices.stake_usd();
         let mut best = (f64::NEG_INFINITY, decision.at);
-        for (usd, to) in prices.open_choices(view, decision) {
-            let usd = usd + noise_usd * noise(rollout, decision, to);
+        for PricedChoice { worth_usd, to } in prices.open_choices(view, decision) {
+            let usd = worth_usd + noise_usd * noise(rollout, decision, to);
             if usd > best.0 {
                 best = (usd, to);
             }
@@ -227,8 +231,8 @@ impl RolloutSettings {
     }
 }
 
-/// Noise that belongs to a roll-out, the aircraft and time of a decision, and a vertiport: about normal, with mean 0 and
-/// deviation 1 (the sum of four uniform numbers).
+/// Noise that belongs to a roll-out, the aircraft and time of a decision, and a vertiport: approximately normal with
+/// mean 0 and standard deviation 1 (the sum of four uniform numbers).
 #[inline]
 pub fn noise(rollout: u32, decision: &Decision, to: VertiportIx) -> f64 {
     let key = u64::from(decision.aircraft.0) << 32 | u64::from(decision.time.seconds());
@@ -237,7 +241,8 @@ pub fn noise(rollout: u32, decision: &Decision, to: VertiportIx) -> f64 {
     (f64::from(sum) / 65_536.0 - 2.0) * 3.0_f64.sqrt()
 }
 
-/// What it is worth that every aircraft is where it is, less the rent of its stand from now until it is ready, dollars.
+/// The worth of the positions of all aircraft, less the rent of each stand from now until its aircraft is ready,
+/// dollars.
 pub fn fleet_worth_usd(prices: &DayPrices, view: View<'_>, now: Time) -> f64 {
     let worth_usd = |aircraft: AircraftIx| {
         let (place, ready) = (view.places()[aircraft.at()], view.ready_at(aircraft));

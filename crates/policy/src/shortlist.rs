@@ -1,45 +1,47 @@
-//! Which choices deserve a closer look than the bid prices alone.
+//! The choices that deserve a closer look than the bid prices alone.
 
-use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, View};
 
-use crate::DayPrices;
 use crate::prices::is_empty_flight;
+use crate::{DayPrices, PricedChoice};
 
-/// The choices worth a closer look: those that are worth most at the prices.
+/// The shortlist of a decision: the choices that are worth most at the prices.
 #[derive(Debug, Clone, Default)]
 pub struct Shortlist {
-    /// What each is worth at the prices, dollars; the best first, among equals the vertiport listed first.
-    ranked: Vec<(f64, VertiportIx)>,
+    /// The choices with their worth at the prices, dollars: the best first, and of equals the vertiport listed first.
+    ranked: Vec<PricedChoice>,
 }
 
 impl Shortlist {
-    /// Choices kept at most.
+    /// The most choices that are kept.
     pub const MOST: usize = 5;
-    /// How much worse than the best a choice that is kept may be, in [units](DayPrices::unit_usd).
+    /// The most by which a kept choice may be worth less than the best, in [units](DayPrices::unit_usd).
     const TOO_BAD: f64 = 0.5;
 
-    /// Ranks the choices that are open at the prices and keeps those that come near the best one. Of flights without passengers
-    /// only the best choice of all may be one: what another would lead to, the prices alone know, and they put it second.
+    /// Ranks the choices that the base rule permits and keeps those that are nearly as good as the best one. A flight
+    /// without passengers is kept only if it is the best choice: its gain comes later and is known from the prices
+    /// alone, and they prefer another choice.
     pub fn rank(
         &mut self,
         prices: &DayPrices,
         view: View<'_>,
         decision: &Decision,
-    ) -> &[(f64, VertiportIx)] {
+    ) -> &[PricedChoice] {
         self.rank_open(prices, view, decision);
-        let best = self.ranked[0].1;
-        self.ranked.retain(|&(_, to)| to == best || !is_empty_flight(view, decision, to));
+        let best = self.ranked[0].to;
+        self.ranked
+            .retain(|choice| choice.to == best || !is_empty_flight(view, decision, choice.to));
         self.keep_near(prices, view, decision)
     }
 
-    /// The same with every flight without passengers, for an evaluator that [confirms](crate::RolloutEvaluator::best_choice) them.
+    /// Ranks choices like [`rank`](Self::rank), but keeps flights without passengers, for an evaluator that
+    /// [confirms](crate::RolloutEvaluator::best_choice) them.
     pub fn rank_with_empty_flights(
         &mut self,
         prices: &DayPrices,
         view: View<'_>,
         decision: &Decision,
-    ) -> &[(f64, VertiportIx)] {
+    ) -> &[PricedChoice] {
         self.rank_open(prices, view, decision);
         self.keep_near(prices, view, decision)
     }
@@ -47,8 +49,8 @@ impl Shortlist {
     fn rank_open(&mut self, prices: &DayPrices, view: View<'_>, decision: &Decision) {
         self.ranked.clear();
         self.ranked.extend(prices.open_choices(view, decision));
-        // A stable sort: among equals the vertiport listed first.
-        self.ranked.sort_by(|one, other| other.0.total_cmp(&one.0));
+        // The sort is stable, so of equals the vertiport listed first comes first.
+        self.ranked.sort_by(|one, other| other.worth_usd.total_cmp(&one.worth_usd));
     }
 
     fn keep_near(
@@ -56,10 +58,11 @@ impl Shortlist {
         prices: &DayPrices,
         view: View<'_>,
         decision: &Decision,
-    ) -> &[(f64, VertiportIx)] {
+    ) -> &[PricedChoice] {
         let too_bad_usd = Self::TOO_BAD * prices.unit_usd(view.kind(decision.aircraft));
-        let least_usd = self.ranked[0].0 - too_bad_usd;
-        let near = self.ranked.iter().take(Self::MOST).take_while(|choice| choice.0 >= least_usd);
+        let least_usd = self.ranked[0].worth_usd - too_bad_usd;
+        let near =
+            self.ranked.iter().take(Self::MOST).take_while(|choice| choice.worth_usd >= least_usd);
         let count = near.count();
         self.ranked.truncate(count);
         &self.ranked

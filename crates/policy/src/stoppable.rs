@@ -1,15 +1,15 @@
-//! A policy that answers until it is asked to stop: how a day that is being played is stopped.
+//! A policy that answers until it is asked to stop, so that a day that is being played can be stopped.
 
 use vertifleet_core::{Stop, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 use crate::{Policy, PolicyError};
 
-/// Another policy, as long as the flag is not raised; [`PolicyError::Stopped`] from then on.
+/// Answers like another policy until a stop is requested, and with [`PolicyError::Stopped`] from then on.
 pub struct Stoppable<'a, P: ?Sized> {
-    /// Who answers.
+    /// The policy that answers.
     pub policy: &'a mut P,
-    /// Raised, from any thread, to stop.
+    /// The handle that requests the stop, from any thread.
     pub stop: &'a Stop,
 }
 

@@ -1,4 +1,4 @@
-//! Policies that know when routes will be closed reckon with it.
+//! Policies take closures that are known in advance into account.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use vertifleet_core::{
 use vertifleet_policy::{BidPricePolicy, DayPrices, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
-/// A day of `paper` with so many aircraft and ample stands.
+/// A day of `paper` with a given number of aircraft and ample stands.
 fn day(seed: u64, aircraft: usize) -> Day {
     let network = Network::shipped("paper").expect("a shipped network");
     let mut day = network.draw(DaySeed::validation(seed).expect("a seed")).into_day();
@@ -29,7 +29,7 @@ fn checked(day: Day) -> Arc<Scenario> {
     Arc::new(day.check("a day with closures").expect("a day"))
 }
 
-/// What `prices` earns, and where its aircraft end the day.
+/// The profit of `prices`, and the vertiports where its aircraft end the day.
 fn played(day: &Arc<Scenario>) -> (f64, Vec<VertiportIx>) {
     let mut simulation = Simulation::new(Arc::clone(day));
     let mut trace = Trace::default();
@@ -45,7 +45,7 @@ fn alone_and_with_room_an_aircraft_earns_what_its_prices_say_of_a_day_with_known
     for seed in 0..6 {
         let mut day = day(seed, 1);
         let start = day.operations.start;
-        // At odd times, so that they begin and end within slots.
+        // Odd times, so that closures begin and end within slots.
         close(&mut day, VertiportIx(0), start + 5_000, start + 12_345, true);
         close(&mut day, VertiportIx(4), start + 20_000, start + 31_111, true);
         for at in [1, 2, 3] {
@@ -57,7 +57,7 @@ fn alone_and_with_room_an_aircraft_earns_what_its_prices_say_of_a_day_with_known
         let prices = DayPrices::of(simulation.view(), start);
         let said_usd = prices.worth_usd(TypeIx(0), day.aircraft[AircraftIx(0).at()].at, start);
         let (profit_usd, _) = played(&day);
-        // Worth is linear within a slot of three minutes, also where a closure begins or ends in it.
+        // Worth is linear within a slot of three minutes, even if a closure begins or ends in it.
         let off = (profit_usd - said_usd).abs() / said_usd;
         assert!(off < 0.03, "day {seed}: {profit_usd} earned, {said_usd} said");
     }
@@ -110,7 +110,7 @@ fn nothing_is_worth_less_before_an_unknown_closure_begins() {
 
 #[test]
 fn no_flight_counts_on_a_route_in_the_slots_in_which_it_is_known_to_be_closed() {
-    // One aircraft that can only stay, or fly once the curfew is over: until then nothing can be lost by waiting.
+    // An aircraft that can only hold until the curfew is over loses nothing by waiting until then.
     let mut day = day(3, 1);
     let (start, at) = (day.operations.start, day.aircraft[0].at);
     let opens = start + 3_600 + 47 * 60;
@@ -122,7 +122,7 @@ fn no_flight_counts_on_a_route_in_the_slots_in_which_it_is_known_to_be_closed() 
     simulation.next_decision().expect("the day is young");
     let prices = DayPrices::of(simulation.view(), start);
     let worth = |minute: u32| prices.worth_usd(TypeIx(0), at, start + 60 * minute);
-    // Holds last 15 minutes, so that who is ready at 0 and who is at 90 minutes is asked at 1:45, and again at 2:00.
+    // Holds last 15 minutes, so an aircraft that is ready at 0 or at 90 minutes decides again at 1:45 and at 2:00.
     assert_eq!(worth(0), worth(90));
     assert_eq!(worth(90), worth(105));
     assert!(worth(105) <= worth(108), "whoever is ready when routes open flies at once");

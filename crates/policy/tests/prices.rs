@@ -1,4 +1,4 @@
-//! What prices of the day promise, and the rule that decides by them.
+//! Properties of prices, and of the rule that decides by them.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use vertifleet_policy::{BidPricePolicy, DayPrices, Greedy, Policy, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 use vertifleet_testkit::paper_day;
 
-/// The day with other numbers of aircraft and stands.
+/// The day with another number of aircraft and of stands.
 fn changed(seed: u64, aircraft: usize, stands: u16) -> Arc<Scenario> {
     let mut day = Scenario::clone(&paper_day(seed)).into_day();
     day.aircraft.truncate(aircraft);
@@ -26,14 +26,15 @@ fn prices_of(day: &Arc<Scenario>) -> DayPrices {
     DayPrices::of(Simulation::new(Arc::clone(day)).view(), day.operations.start)
 }
 
-/// What all stands of a day cost together.
+/// The price of all stands of a day together.
 fn all_rents_usd(day: &Scenario, prices: &DayPrices) -> f64 {
     let (start, end) = (day.operations.start, day.operations.end);
     let vertiports = VertiportIx::all(day.vertiports.len());
     vertiports.map(|vertiport| prices.rent_usd(vertiport, start, end)).sum()
 }
 
-/// A day of one aircraft, which no route leads away from until some seconds after the start, and which holds for 300 s.
+/// A day of one aircraft that holds for 300 s, with every route from its vertiport closed for the first `closed_s`
+/// seconds.
 fn shut_in(seed: u64, closed_s: u32) -> Arc<Scenario> {
     let mut day = Scenario::clone(&changed(seed, 1, 1)).into_day();
     let (start, from) = (day.operations.start, day.aircraft[0].at);
@@ -52,7 +53,7 @@ fn nobody_counts_on_a_route_that_is_closed() {
     let decision = simulation.next_decision().expect("the day is young");
     let prices = DayPrices::of(simulation.view(), decision.time);
     let worth = |place, after_s| prices.worth_usd(TypeIx(0), place, decision.time + after_s);
-    // Nothing leads away in the first two hours, so all of them are lost, and no more than they.
+    // All flights away are assumed impossible in the first two hours, so exactly these hours are lost.
     assert_eq!(worth(decision.at, 0), worth(decision.at, 7_200 - 300));
     assert!(worth(decision.at, 0) > 500.0, "routes open again some time");
     let elsewhere = VertiportIx((decision.at.0 + 1) % 8);
@@ -116,7 +117,7 @@ fn alone_and_with_room_an_aircraft_earns_what_its_prices_say() {
         let said_usd =
             prices_of(&alone).worth_usd(TypeIx(0), alone.aircraft[AircraftIx(0).at()].at, start);
         let (_, profit_usd) = played(&alone, &mut BidPricePolicy::default());
-        // Worth is linear within a slot of three minutes, and no waiting is worth anything here.
+        // Worth is linear within a slot of three minutes, and waiting is worth nothing here.
         let off = (profit_usd - said_usd).abs() / said_usd;
         assert!(off < 0.01, "day {seed}: {profit_usd} earned, {said_usd} said");
     }
@@ -146,7 +147,7 @@ fn a_day_has_one_outcome_whatever_was_played_before() {
 
 #[test]
 fn days_played_by_turns_are_not_mixed_up() {
-    // Of the same seed, so that nothing but the days themselves tells them apart.
+    // Both days have the same seed, so that only the days themselves tell them apart.
     let days = [changed(9, 40, 6), changed(9, 40, 7)];
     let mut simulations = days.clone().map(Simulation::new);
     let mut policy = BidPricePolicy::default();
@@ -154,7 +155,7 @@ fn days_played_by_turns_are_not_mixed_up() {
         for simulation in &mut simulations {
             let decision = simulation.next_decision().expect("the day is young");
             let turn = policy.choose(&decision, &simulation.view());
-            // What this policy remembers of the other day does not matter.
+            // The policy's memory of the other day must not matter.
             let fresh = BidPricePolicy::default().choose(&decision, &simulation.view());
             assert_eq!(turn, fresh);
             simulation.apply(turn.expect("an answer")).expect("a choice from the mask");
@@ -162,7 +163,7 @@ fn days_played_by_turns_are_not_mixed_up() {
     }
 }
 
-/// The day with so many passengers of each pair and period as there were hundreds.
+/// The day with a fiftieth of the passengers of each pair and period, rounded down.
 fn thin(seed: u64) -> Arc<Scenario> {
     let mut day = Scenario::clone(&paper_day(seed)).into_day();
     for demand in day.demand.iter_mut().flat_map(vertifleet_core::Matrix::cells_mut) {

@@ -1,4 +1,4 @@
-//! What the rules promise, on days of the `paper` network.
+//! Properties of the rules, on days of the `paper` network.
 
 use std::sync::Arc;
 
@@ -69,7 +69,7 @@ fn a_replay_of_another_day_gets_stuck_and_says_where() {
     assert_eq!(error, Err(PlayError::NoAnswer(expected)));
 }
 
-/// Asks a policy and an oracle the same question at every decision of a greedy day.
+/// Calls `ask` at every decision of a day that is played by greedy.
 fn on_every_decision(day: &Arc<Scenario>, mut ask: impl FnMut(&Decision, &View<'_>)) {
     let mut simulation = Simulation::new(Arc::clone(day));
     while let Some(decision) = simulation.next_decision() {
@@ -97,12 +97,13 @@ fn greedy_takes_the_highest_profit_per_hour() {
         };
         let choice = Greedy.choose(decision, view).expect("greedy always answers");
         let best = view.feasible(decision).iter().map(rate).fold(f64::NEG_INFINITY, f64::max);
-        // Whole seconds move a rate by a few parts in ten thousand.
+        // Rounding to whole seconds changes a rate by a few parts in ten thousand.
         assert!(rate(choice) >= best - 1e-3 * best.abs(), "{} is below {best}", rate(choice));
     });
 }
 
-/// A day on which a third of all routes close for two hours at some time or other, every other one of them known to.
+/// A day on which a third of all routes close for two hours at various times; every other one of these closures is
+/// known.
 fn day_with_closures(seed: u64) -> Arc<Scenario> {
     let mut day = Scenario::clone(&paper_day(seed)).into_day();
     let all = VertiportIx::all(day.vertiports.len());

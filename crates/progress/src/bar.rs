@@ -1,5 +1,5 @@
-//! A progress bar with time left, on stderr, for people who watch. Nothing is drawn where stderr is no terminal, and
-//! nothing for work that is over in a moment.
+//! A progress bar with the time left, on stderr. It is not drawn if stderr is not a terminal, or for work that is done
+//! in a moment.
 
 use std::convert::Infallible;
 use std::fmt::Write;
@@ -11,14 +11,14 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-/// How long work must last before it gets a bar.
+/// How long work must last before its bar appears.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// How often a bar is drawn anew while nothing else changes, so that its times go on.
+/// How often a bar is drawn again while nothing else changes, so that its times advance.
 const TICK: Duration = Duration::from_secs(1);
 const TEMPLATE: &str =
     "{bar:30} {human_pos}/{human_len} {prefix}  {elapsed} gone, {left} left  {msg}";
 
-/// A bar that appears once the work has lasted a while, and goes away with this value.
+/// A bar that appears once the work has lasted a while, and disappears when it is dropped.
 pub struct Bar {
     drawn: ProgressBar,
     pace: Arc<Mutex<Pace>>,
@@ -26,7 +26,7 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// A bar over `total` units of work that take about the same time each; `units` names them.
+    /// Creates a bar over `total` units of work that take about the same time each; `units` names them.
     pub fn new(total: u64, units: impl Into<String>) -> Self {
         let pace = Arc::new(Mutex::new(Pace::begin(total)));
         let shown = Arc::clone(&pace);
@@ -45,26 +45,26 @@ impl Bar {
         Self { drawn: bar, pace, _alive: alive }
     }
 
-    /// `units` more are done.
+    /// Records that `units` more are done.
     pub fn advance(&self, units: u64) {
         locked(&self.pace).advance(units, Instant::now());
         self.drawn.inc(units);
     }
 
-    /// Work already done in an earlier run, not counted into the time left.
+    /// Records units that an earlier run did, which do not count for the time left.
     pub fn already_done(&self, units: u64) {
         locked(&self.pace).skip(units);
         self.drawn.set_position(units);
     }
 
-    /// Says something beside the bar.
+    /// Shows a message beside the bar.
     pub fn say(&self, message: String) {
         self.drawn.set_message(message);
     }
 }
 
 impl Bar {
-    /// Takes the bar away; it does not come back.
+    /// Removes the bar for good.
     pub(crate) fn clear(&self) {
         self.drawn.finish_and_clear();
     }
@@ -76,7 +76,7 @@ impl Drop for Bar {
     }
 }
 
-/// Draws a bar once it has lasted a while. Nothing is left behind where what is returned goes away sooner.
+/// Draws a bar once it has lasted a while, unless the returned value is dropped sooner.
 fn appear_late(bar: ProgressBar) -> Sender<Infallible> {
     let (alive, gone) = channel();
     thread::spawn(move || {
@@ -93,10 +93,10 @@ fn locked(pace: &Mutex<Pace>) -> MutexGuard<'_, Pace> {
     pace.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The mean time of a unit so far. The bar's own estimate forgets a unit within seconds, and units may last minutes.
+/// The mean time of a unit so far. The bar's own estimate forgets a unit within seconds, but units may last minutes.
 struct Pace {
     begun: Instant,
-    /// When the last unit was done.
+    /// The time at which the last unit was done.
     last: Instant,
     done: u64,
     remaining: u64,
@@ -114,12 +114,12 @@ impl Pace {
         self.last = now;
     }
 
-    /// Units that are not to be done.
+    /// Takes `units` off what remains without counting them as done.
     fn skip(&mut self, units: u64) {
         self.remaining = self.remaining.saturating_sub(units);
     }
 
-    /// Not known before the first unit is done.
+    /// The time left, which is not known before the first unit is done.
     fn time_left(&self, now: Instant) -> Option<Duration> {
         if self.done == 0 {
             return None;

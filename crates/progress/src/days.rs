@@ -1,11 +1,11 @@
-//! Bars of work that plays many days with many policies.
+//! Progress bars for work that plays many days with many policies.
 
 use vertifleet_study::Watch;
 
 use crate::Bar;
 
-/// A bar for each policy, since a day of one may take a million times as long as that of another: how long those take that come
-/// later is not known.
+/// One bar for each policy. A single bar could not show the time left, since one policy may need a million times as
+/// long for a day as another, and the later policies' times are not known yet.
 pub struct Bars;
 
 impl Watch for Bars {

@@ -1,4 +1,4 @@
-//! How far long work is, on the terminal.
+//! Shows the progress of long work on the terminal.
 
 mod bar;
 mod days;

@@ -1,4 +1,5 @@
-//! The bar of a search for a schedule: how much of what it may take is gone, and how good the best schedule is.
+//! The progress bar of a search for a schedule: the share of its budget that is used, and how good the best schedule
+//! is.
 
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -11,12 +12,12 @@ use vertifleet_optimize::{Bound, SearchProgress};
 
 use crate::Bar;
 
-/// Units of the bar.
+/// Number of units of the bar.
 const WHOLE: u64 = 100;
-/// How often the bar of a search with a limit of time moves on, whatever the search does meanwhile.
+/// How often the bar of a search with a time limit advances, even if the search reports nothing.
 const TICK: Duration = Duration::from_millis(250);
 
-/// Shows a search while this value lives.
+/// Shows the progress of a search until it is dropped.
 pub struct SearchBar {
     shown: Arc<Shown>,
     _alive: Option<Sender<Infallible>>,
@@ -28,7 +29,7 @@ struct Shown {
 }
 
 impl SearchBar {
-    /// The bar of a search that begins; `units` names hundredths of what it may take, which is time where there is a limit of it.
+    /// Creates the bar of a search; `units` names hundredths of its budget, which is time if there is a time limit.
     pub fn new(units: &str, limit: Option<Duration>) -> Self {
         let bar = Bar::new(WHOLE, units);
         let shown = Arc::new(Shown { bar, done: AtomicU64::new(0) });
@@ -36,7 +37,7 @@ impl SearchBar {
         Self { shown, _alive: alive }
     }
 
-    /// Says how far the search is, and how far from the bound where that is known.
+    /// Shows how far the search is, and the gap to the bound if the bound is known.
     pub fn show(&mut self, now: &SearchProgress, bound: Option<&Bound>) {
         self.shown.advance_to(now.share);
         self.shown.bar.say(match bound {
@@ -53,7 +54,7 @@ impl SearchBar {
 
 impl Drop for SearchBar {
     fn drop(&mut self) {
-        // The thread that moves it on may live a moment longer.
+        // The thread that advances the bar may live a moment longer, so the bar is removed here.
         self.shown.bar.clear();
     }
 }
@@ -67,7 +68,7 @@ impl Shown {
     }
 }
 
-/// Moves a bar on until what is returned goes away: parts of a search may take seconds and say nothing.
+/// Advances a bar with the time until the returned value is dropped, because a search may report nothing for seconds.
 fn move_with_time(shown: Arc<Shown>, limit: Duration) -> Sender<Infallible> {
     let (alive, gone) = channel();
     let begun = Instant::now();

@@ -1,10 +1,10 @@
-//! The schedule checker: an independent verdict on a complete schedule, every broken rule named.
+//! The schedule checker: an independent verdict on a complete schedule, which names every broken rule.
 //!
-//! Written from the rules alone (paper §III, Eq. 2-16). It shares no code with the simulator, not even how
-//! a duration is rounded, so that a mistake in one of the two shows as a disagreement. A schedule is judged row by row
-//! against what the rules make of the *stated* row before it, so that one mistake is one finding and not a hundred.
+//! The checker is written from the rules alone (paper §III, Eq. 2-16). It shares no code with the simulator, not even
+//! the rounding of durations, so that a mistake in one of the two shows as a disagreement. Each row is judged against
+//! the *stated* row before it, so that one mistake gives one finding and not a hundred.
 //!
-//! One file a family of rules; [`Rule`] lists them all.
+//! Each file checks one family of rules; [`Rule`] lists them all.
 
 mod amounts;
 mod decisions;
@@ -27,7 +27,7 @@ use expected::Expected;
 pub use report::{Finding, Report, Totals};
 pub use rule::Rule;
 
-/// Judges a complete schedule of a day. Takes any trace, also one of another scenario, and never panics.
+/// Judges a complete schedule of a day. It accepts any trace, even one of another scenario, and never panics.
 pub fn check(scenario: &Scenario, trace: &Trace) -> Report {
     let mut findings = report::Findings::default();
     order::check(scenario, trace, &mut findings);

@@ -1,4 +1,4 @@
-//! Routes that are closed at the moment, as the day goes on, and those that are known to close later.
+//! The routes that are closed at the moment, as the day goes on, and those that are known to close later.
 
 use std::sync::Arc;
 
@@ -7,30 +7,32 @@ use vertifleet_core::{ClosedTimes, Closure, Scenario, Time, VertiportIx};
 use crate::VertiportSet;
 use crate::room::clone_into_room;
 
-/// The closures of a day, up to now.
+/// The closures of a day up to the present.
 #[derive(Debug)]
 pub(crate) struct Closures {
-    /// All that stays the same; shared by all who imagine the day from some moment on.
+    /// Everything that stays the same, shared by all imagined days.
     day: Arc<DayClosures>,
-    /// The changes before this one have happened.
+    /// Index of the next change; the changes before it have happened.
     next: usize,
     /// Whether unknown closures stay as they are from now on.
     no_surprises: bool,
-    /// Unknown closures that have begun or ended.
+    /// How often an unknown closure has begun or ended.
     surprises: usize,
-    /// Unknown closures in force by route, `[from][to]` row by row: they may overlap.
+    /// Number of unknown closures in force on each route, `[from][to]` row by row; closures may overlap.
     in_force: Vec<u16>,
-    /// By vertiport: where flights from it may not go now, because of unknown closures, and of known ones.
+    /// By vertiport, the destinations that are closed now because of unknown closures, and in `scheduled` those closed
+    /// by known ones.
     unexpected: Vec<VertiportSet>,
     scheduled: Vec<VertiportSet>,
 }
 
 clone_into_room!(Closures { day, next, no_surprises, surprises, in_force, unexpected, scheduled });
 
-/// The closures of a day, laid out.
+/// The closures of a day as changes in order of time.
 #[derive(Debug)]
 struct DayClosures {
-    /// Every beginning and end of an unknown closure, every closing and opening of a route by known ones, in order of time.
+    /// Every beginning and end of an unknown closure, and every closing and opening of a route by known ones, in order
+    /// of time.
     changes: Vec<Change>,
     known: ClosedTimes,
 }
@@ -67,7 +69,8 @@ impl DayClosures {
                 }
             }
         }
-        // Closings first: a closure without duration closes before it opens, and counts never fall below 0.
+        // Beginnings come first, so that a closure without duration closes before it opens and counts never fall below
+        // 0.
         changes.sort_by_key(|change| (change.time, !change.closes));
         Self { changes, known }
     }
@@ -79,7 +82,7 @@ fn pairs(size: usize) -> impl Iterator<Item = (VertiportIx, VertiportIx)> {
 }
 
 impl Closures {
-    /// A day's closures before it begins; next to no memory is taken on a day without.
+    /// The closures of a day before it begins. On a day without closures this takes almost no memory.
     pub(crate) fn of(scenario: &Scenario) -> Self {
         let day = DayClosures::of(scenario);
         let size = if day.changes.is_empty() { 0 } else { scenario.vertiports.len() };
@@ -94,7 +97,7 @@ impl Closures {
         }
     }
 
-    /// Carries out what happens up to and at `time`.
+    /// Carries out the changes up to and at `time`.
     pub(crate) fn advance(&mut self, time: Time) {
         while let Some(&change) = self.day.changes.get(self.next)
             && change.time <= time
@@ -110,7 +113,7 @@ impl Closures {
         }
     }
 
-    /// An unknown closure begins or ends.
+    /// Carries out the beginning or end of an unknown closure.
     fn surprise(&mut self, closes: bool, from: VertiportIx, to: VertiportIx) {
         self.surprises += 1;
         let in_force = &mut self.in_force[from.at() * self.unexpected.len() + to.at()];
@@ -125,18 +128,18 @@ impl Closures {
         }
     }
 
-    /// From now on unknown closures neither begin nor end.
+    /// Stops unknown closures from beginning or ending from now on.
     pub(crate) fn expect_no_surprises(&mut self) {
         self.no_surprises = true;
     }
 
-    /// Unknown closures that have begun or ended.
+    /// How often an unknown closure has begun or ended so far.
     #[inline]
     pub(crate) fn surprises_so_far(&self) -> usize {
         self.surprises
     }
 
-    /// When known closures close routes, all day.
+    /// The times at which known closures close routes, over the whole day.
     #[inline]
     pub(crate) fn known(&self) -> &ClosedTimes {
         &self.day.known
@@ -148,14 +151,14 @@ impl Closures {
         self.unexpected.is_empty()
     }
 
-    /// Where flights from a vertiport may not go now.
+    /// The destinations to which flights from a vertiport are closed now.
     #[cold]
     pub(crate) fn from(&self, from: VertiportIx) -> VertiportSet {
         let scheduled = self.scheduled.get(from.at()).copied().unwrap_or(VertiportSet::EMPTY);
         scheduled.or(&self.unexpected_from(from))
     }
 
-    /// The same because of unknown closures.
+    /// The destinations that are closed now because of unknown closures.
     #[cold]
     pub(crate) fn unexpected_from(&self, from: VertiportIx) -> VertiportSet {
         self.unexpected.get(from.at()).copied().unwrap_or(VertiportSet::EMPTY)

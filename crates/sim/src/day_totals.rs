@@ -1,27 +1,28 @@
-//! A finished day in numbers, defined once for every place that shows them.
+//! The numbers of a finished day, defined once for every place that shows them.
 
 use serde::{Deserialize, Serialize};
 
 use crate::Ledger;
 
-/// A finished day in numbers: what `simulate --json`, the rows of `days.csv` and the columns in Python are made of, by these names.
+/// The numbers of a finished day. `simulate --json`, the rows of `days.csv` and the columns in Python use the same
+/// names.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct DayTotals {
     /// Revenue less all costs (Eq. 5), dollars.
     pub profit_usd: f64,
     /// Fares paid (Eq. 4), dollars.
     pub revenue_usd: f64,
-    /// What carrying passengers costs (Eq. 2), dollars.
+    /// Cost of carrying passengers (Eq. 2), dollars.
     pub passenger_cost_usd: f64,
-    /// What charging costs (Eq. 3), dollars.
+    /// Cost of charging (Eq. 3), dollars.
     pub energy_cost_usd: f64,
-    /// What flights cost with or without passengers, beside their energy; dollars.
+    /// Cost of flights with or without passengers, beside their energy; dollars.
     #[serde(default)]
     pub flight_cost_usd: f64,
-    /// What the fleet costs whatever it does, dollars.
+    /// Cost of the fleet, whether or not it flies, dollars.
     #[serde(default)]
     pub aircraft_cost_usd: f64,
-    /// Energy charged.
+    /// Energy charged, kWh.
     pub energy_kwh: f64,
     /// The reward's denominator: all of the day's demand at full fare, dollars (§III.H).
     pub potential_usd: f64,

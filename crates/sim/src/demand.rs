@@ -1,11 +1,11 @@
-//! Passengers still waiting, per demand period and pair of vertiports.
+//! Passengers who still wait, per demand period and pair of vertiports.
 
 use vertifleet_core::{Matrix, Scenario, VertiportIx};
 
 use crate::room::clone_into_room;
 
-/// What is left of the day's demand, as far as it is known: the actual one of periods that have begun, the forecast of the
-/// others. A flight takes its passengers at the moment it is decided.
+/// The rest of the day's demand as far as it is known: actual demand in periods that have begun, and the forecast in
+/// later ones. A flight takes its passengers at the moment it is decided.
 #[derive(Debug)]
 pub(crate) struct Demand {
     vertiports: usize,
@@ -20,7 +20,7 @@ impl Demand {
     /// The demand of a day before its first flight.
     pub(crate) fn of(scenario: &Scenario) -> Self {
         let known = scenario.disturbances.forecast.as_ref().unwrap_or(&scenario.demand);
-        // Table by table: of all that a new day needs, this is the most.
+        // The tables are copied one by one, because they are most of what a new day has to copy.
         let left: Vec<u32> = known.iter().map(Matrix::cells).collect::<Vec<_>>().concat();
         let sum = |table: &Matrix<u32>| {
             table.cells().iter().map(|&waiting| u64::from(waiting)).sum::<u64>()
@@ -31,7 +31,7 @@ impl Demand {
         demand
     }
 
-    /// A period begins: its actual demand is known from now on.
+    /// Begins a period, whose actual demand is known from now on.
     pub(crate) fn begin(&mut self, period: usize, actual: &Matrix<u32>) {
         let pairs = self.vertiports * self.vertiports;
         self.left[period * pairs..][..pairs].copy_from_slice(actual.cells());
@@ -55,7 +55,7 @@ impl Demand {
         &self.left[period * pairs..][..pairs]
     }
 
-    /// Takes as many passengers as want to fly and fit in `seats`; says how many.
+    /// Takes as many passengers as want to fly and fit in `seats`, and returns their number.
     #[inline]
     pub(crate) fn board(
         &mut self,
@@ -71,7 +71,7 @@ impl Demand {
         boarded
     }
 
-    /// Passengers of the whole day, before the first flight.
+    /// Number of passengers of the whole day, before the first flight.
     pub(crate) fn total(&self) -> u64 {
         self.total
     }

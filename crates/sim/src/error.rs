@@ -1,4 +1,4 @@
-//! Why a decision is refused. A refused decision changes nothing.
+//! The reasons why a decision is refused. A refused decision changes nothing.
 
 /// The rule that a decision outside the mask breaks. Aircraft and vertiports are named by their ids.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -9,9 +9,9 @@ pub enum Refusal {
     /// The scenario has no vertiport at that position.
     #[error("there is no vertiport at position {position}: the scenario has {vertiports}")]
     NoSuchVertiport {
-        /// The position chosen, from 0.
+        /// The position that was chosen, from 0.
         position: u16,
-        /// Vertiports of the scenario.
+        /// Number of vertiports of the scenario.
         vertiports: usize,
     },
     /// A full battery does not reach the destination (Eq. 12).
@@ -21,15 +21,15 @@ pub enum Refusal {
     OutOfRange {
         /// The aircraft that decides.
         aircraft: String,
-        /// The vertiport chosen.
+        /// The vertiport that was chosen.
         to: String,
     },
-    /// The scenario has corridors, and none of them leads that way.
+    /// The scenario has corridors, and none of them leads to the destination.
     #[error("aircraft {aircraft:?} cannot fly to vertiport {to:?}: no corridor leads there")]
     NoCorridor {
         /// The aircraft that decides.
         aircraft: String,
-        /// The vertiport chosen.
+        /// The vertiport that was chosen.
         to: String,
     },
     /// The route is closed at the moment.
@@ -37,17 +37,17 @@ pub enum Refusal {
     Closed {
         /// The aircraft that decides.
         aircraft: String,
-        /// The vertiport chosen.
+        /// The vertiport that was chosen.
         to: String,
     },
-    /// Every stand of the destination is taken or promised (Eq. 16); every charger where they are a pool of their own.
+    /// Every stand of the destination is taken or promised (Eq. 16), or every charger where chargers are counted apart.
     #[error(
         "aircraft {aircraft:?} cannot fly to vertiport {to:?}: every stand or charger is taken or promised to an aircraft on its way"
     )]
     NoStandFree {
         /// The aircraft that decides.
         aircraft: String,
-        /// The vertiport chosen.
+        /// The vertiport that was chosen.
         to: String,
     },
 }

@@ -1,15 +1,16 @@
-//! The rest of a day as a policy may imagine it at a decision: to play out what a choice would lead to.
+//! The rest of a day as a policy may imagine it at a decision, to play out what a choice would lead to.
 
 use vertifleet_core::VertiportIx;
 
 use crate::{Decision, Ledger, Refusal, Simulation, TraceRow, View};
 
-/// A day that goes on from a decision as expected: demand comes as forecast, flights take off on time, aircraft are ready
-/// when they are expected to be, and known closures begin and end at their times. Of the others none begins any more, and one
-/// that is in force stays so. Made by
-/// [`View::imagined`]; the day it was made from does not change, and nothing that is not known yet can be learned from it.
+/// A day that continues from a decision as expected: demand comes as forecast, flights take off on time, aircraft are
+/// ready when they are expected to be, and known closures begin and end at their times. Unknown closures no longer
+/// begin, and those in force stay in force. An imagined day is made by [`View::imagined`]. The day that it was made
+/// from does not change, and the imagined day reveals nothing that is not known yet.
 ///
-/// [`Clone::clone_from`] copies a course that has begun into the room of another and takes no memory if both are of one day.
+/// [`Clone::clone_from`] copies one imagined day into the memory of another, and allocates none if both are of the same
+/// day.
 #[derive(Debug)]
 pub struct Imagined(Simulation);
 
@@ -35,13 +36,13 @@ impl Imagined {
         self.0.expect_no_surprises();
     }
 
-    /// As [`Simulation::next_decision`].
+    /// The same as [`Simulation::next_decision`].
     #[inline]
     pub fn next_decision(&mut self) -> Option<Decision> {
         self.0.next_decision()
     }
 
-    /// As [`Simulation::apply`].
+    /// The same as [`Simulation::apply`].
     ///
     /// # Errors
     /// [`Refusal`] names the rule that the choice breaks; nothing has changed then.
@@ -50,13 +51,13 @@ impl Imagined {
         self.0.apply(choice)
     }
 
-    /// What a policy may look at.
+    /// The view of a policy.
     #[inline]
     pub fn view(&self) -> View<'_> {
         self.0.view()
     }
 
-    /// The account of the real day so far and the imagined one since.
+    /// The account of the real day so far and of the imagined one since.
     #[inline]
     pub fn ledger(&self) -> &Ledger {
         self.0.ledger()

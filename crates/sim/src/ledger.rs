@@ -1,10 +1,10 @@
-//! The day's account (Eq. 2-5): what came in, what it cost, and what was flown for it.
+//! The day's account (Eq. 2-5): revenue, costs, and the flights behind them.
 
 use vertifleet_core::Scenario;
 
 use crate::TraceRow;
 
-/// Running totals of a day. Dollars, kWh, counts.
+/// Running totals of a day, in dollars, kWh and counts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ledger {
     /// R^T (Eq. 4).
@@ -13,9 +13,9 @@ pub struct Ledger {
     pub passenger_cost_usd: f64,
     /// C^C (Eq. 3).
     pub energy_cost_usd: f64,
-    /// What flights cost with or without passengers, beside their energy.
+    /// Cost of flights with or without passengers, beside their energy.
     pub flight_cost_usd: f64,
-    /// What the fleet costs whatever it does, entered when the day begins.
+    /// Cost of the fleet, whether or not it flies, entered when the day begins.
     pub aircraft_cost_usd: f64,
     /// Energy flown, which is the energy charged.
     pub energy_kwh: f64,
@@ -39,7 +39,8 @@ impl Ledger {
         Self { aircraft_cost_usd: scenario.fleet_cost_usd(), ..Self::default() }
     }
 
-    /// z (Eq. 5): revenue less passenger cost less energy cost, and less what flights and aircraft cost beside them; dollars.
+    /// z (Eq. 5): revenue less passenger cost and energy cost, and less the cost of flights and aircraft beside them;
+    /// dollars.
     #[inline]
     pub fn profit_usd(&self) -> f64 {
         self.revenue_usd
@@ -55,7 +56,7 @@ impl Ledger {
         self.flights + self.holds
     }
 
-    /// Enters a flight of `distance_mi` with `seats` on board.
+    /// Enters a flight over `distance_mi` with `seats` on board.
     #[inline]
     pub(crate) fn enter_flight(&mut self, row: &TraceRow, distance_mi: f64, seats: u16) {
         self.revenue_usd += row.revenue_usd;

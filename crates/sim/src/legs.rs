@@ -1,15 +1,16 @@
-//! What a flight between two vertiports takes: time, energy, charge (Eq. 7, 9, 13-15), worked out once a day.
+//! The time, energy and charging of a flight between two vertiports (Eq. 7, 9, 13-15), computed once a day.
 
 use vertifleet_core::{AircraftType, Operations, Scenario, TypeIx, VertiportIx};
 
 use crate::VertiportSet;
 
-/// What one aircraft type needs to fly from one vertiport to another.
+/// The flight of one aircraft type from one vertiport to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leg {
-    /// Energy of the flight, kWh: e d_ij and the battery's own losses; charged again after landing (Eq. 13, 15).
+    /// Energy of the flight, kWh: e d_ij and the battery's own losses. It is charged again after landing (Eq. 13, 15).
     pub energy_kwh: f64,
-    /// g_ij: mean power drawn from the battery over the journey, kW (the reading that makes Eq. 13 and 17 agree).
+    /// g_ij: mean power drawn from the battery over the journey, kW (the interpretation under which Eq. 13 and 17
+    /// agree).
     pub mean_power_kw: f64,
     /// Seconds from the decision to arrival: take-off, cruise, landing (Eq. 7).
     pub flight_s: u32,
@@ -39,8 +40,8 @@ impl Leg {
     }
 }
 
-/// To the nearest second, halves up. A leg that no battery lasts for may take absurdly long; the bound keeps sums of its
-/// parts within `u32`, and it cannot be flown.
+/// Rounds to the nearest second, halves up. A leg that no battery lasts for may take absurdly long. It cannot be flown,
+/// and the bound keeps the sums of its parts within `u32`.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -61,7 +62,7 @@ pub struct Legs {
 }
 
 impl Legs {
-    /// Works out every leg of a day.
+    /// Computes every leg of a day.
     pub fn of(scenario: &Scenario) -> Self {
         let vertiports = scenario.vertiports.len();
         let mut legs = Vec::with_capacity(scenario.aircraft_types.len() * vertiports * vertiports);

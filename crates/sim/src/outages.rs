@@ -1,25 +1,26 @@
-//! Aircraft that stay on the ground after a landing, and what of it can be known.
+//! Aircraft that stay on the ground after a landing, and when it is known how long.
 
 use vertifleet_core::{AircraftIx, Scenario, Time};
 
 use crate::room::clone_into_room;
 
-/// The landing of an aircraft that has not landed since it last stood still; no outage lasts that long.
+/// The landing time of an aircraft that has held since it landed, or has not landed yet. No outage lasts that long.
 const NONE: Time = Time::from_seconds(u32::MAX);
 
-/// The outages of a day by aircraft, and the landings that they may concern.
+/// The outages of a day by aircraft, and the landings that they may affect.
 #[derive(Debug)]
 pub(crate) struct Outages {
-    /// First and last instant of each outage with its aircraft, in order of aircraft.
+    /// Aircraft, first instant and end of each outage, in order of aircraft.
     all: Vec<(AircraftIx, Time, Time)>,
-    /// Each aircraft's latest landing, decided or done, with the time at which it is charged. Empty on a day without.
+    /// Each aircraft's latest landing, whether decided or done, with the time at which it is charged. Empty on a day
+    /// without outages.
     landings: Vec<(Time, Time)>,
 }
 
 clone_into_room!(Outages { all, landings });
 
 impl Outages {
-    /// A day's outages.
+    /// The outages of a day before it begins.
     pub(crate) fn of(scenario: &Scenario) -> Self {
         let outages = scenario.disturbances.outages.iter();
         let mut all: Vec<_> =
@@ -30,7 +31,7 @@ impl Outages {
         Self { all, landings: vec![(NONE, start); fleet] }
     }
 
-    /// Whether the day has any.
+    /// Whether the day has no outages.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.all.is_empty()
@@ -42,13 +43,13 @@ impl Outages {
         own.map(|&(_, start, end)| (start, end))
     }
 
-    /// Enters a landing that is charged at `charged`; says when the aircraft is ready.
+    /// Enters a landing after which the aircraft is charged at `charged`, and returns the time at which it is ready.
     pub(crate) fn land(&mut self, aircraft: AircraftIx, arrival: Time, charged: Time) -> Time {
         self.landings[aircraft.at()] = (arrival, charged);
         self.ready(aircraft, NONE)
     }
 
-    /// Enters a hold that is over at `ready`: it ends no outage and meets none.
+    /// Enters a hold that is over at `ready`. No outage affects it.
     #[cold]
     pub(crate) fn hold(&mut self, aircraft: AircraftIx, ready: Time) {
         if let Some(landing) = self.landings.get_mut(aircraft.at()) {
@@ -56,7 +57,7 @@ impl Outages {
         }
     }
 
-    /// When an aircraft will be ready, reckoned with the outages that have begun by `now`.
+    /// The time at which an aircraft will be ready, considering the outages that have begun by `now`.
     pub(crate) fn ready(&self, aircraft: AircraftIx, now: Time) -> Time {
         let (arrival, charged) = self.landings[aircraft.at()];
         let known = self

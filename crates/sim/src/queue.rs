@@ -1,7 +1,7 @@
-//! Who decides next: a tournament over all aircraft by (time, aircraft index), the total order of events.
+//! The order of decisions: a tournament over all aircraft by (time, aircraft index), the total order of events.
 //!
-//! Each inner node holds the earlier of its two children, so the winner stands at the root and one aircraft's new time
-//! costs one branch-free walk to the top.
+//! Each inner node holds the earlier of its two children, so the winner stands at the root, and a new time for one
+//! aircraft costs one branch-free walk to the top.
 
 use vertifleet_core::{AircraftIx, Time};
 
@@ -10,21 +10,21 @@ use crate::room::clone_into_room;
 /// The time at which each aircraft of a fleet will be ready, earliest first.
 #[derive(Debug)]
 pub(crate) struct ReadyQueue {
-    /// Root at 1, children of `n` at `2n` and `2n + 1`, aircraft from `first_leaf` on.
+    /// The root is at 1, the children of `n` are at `2n` and `2n + 1`, and the aircraft begin at `first_leaf`.
     nodes: Vec<u64>,
     first_leaf: usize,
 }
 
 clone_into_room!(ReadyQueue { nodes, first_leaf });
 
-/// Orders by time, then by aircraft index.
+/// A key that orders by time, then by aircraft index.
 #[inline]
 fn key(aircraft: AircraftIx, ready_at: Time) -> u64 {
     u64::from(ready_at.seconds()) << 16 | u64::from(aircraft.0)
 }
 
 impl ReadyQueue {
-    /// All of `aircraft_count` aircraft ready at the same time.
+    /// A queue of `aircraft_count` aircraft that are all ready at the same time.
     pub(crate) fn new(aircraft_count: usize, ready_at: Time) -> Self {
         let first_leaf = aircraft_count.next_power_of_two().max(2);
         let mut queue = Self { nodes: vec![u64::MAX; 2 * first_leaf], first_leaf };
@@ -42,7 +42,7 @@ impl ReadyQueue {
         }
     }
 
-    /// The aircraft that is ready first, the lowest index among equals, and its time.
+    /// The aircraft that is ready first, with its time. Of several, it is the one with the lowest index.
     #[inline]
     pub(crate) fn earliest(&self) -> (AircraftIx, Time) {
         let winner = self.nodes[1];
@@ -51,7 +51,7 @@ impl ReadyQueue {
         (AircraftIx(winner as u16), Time::from_seconds((winner >> 16) as u32))
     }
 
-    /// When the aircraft will be ready.
+    /// The time at which the aircraft will be ready.
     #[inline]
     pub(crate) fn ready_at(&self, aircraft: AircraftIx) -> Time {
         #[expect(clippy::cast_possible_truncation, reason = "undoes `key`")]

@@ -1,4 +1,4 @@
-//! One day in motion: asks for decisions in their order and carries them out.
+//! The simulation of one day: it asks for decisions in their order and carries them out.
 
 use std::sync::Arc;
 
@@ -12,43 +12,44 @@ use crate::room::clone_into_room;
 use crate::stands::Stands;
 use crate::{DayTotals, Ledger, Legs, Refusal, TraceRow, VertiportSet, View};
 
-/// An aircraft that is ready for take-off and needs a vertiport to fly to; its own means *hold*.
+/// An aircraft that is ready for take-off and needs a vertiport to fly to. Its own vertiport means *hold*.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Decision {
-    /// Now.
+    /// The time of the decision, which is now.
     pub time: Time,
-    /// Who decides.
+    /// The aircraft that decides.
     pub aircraft: AircraftIx,
-    /// Where it stands.
+    /// The vertiport where it stands.
     pub at: VertiportIx,
-    /// Decisions taken before this one today.
+    /// The number of decisions taken before this one today.
     pub index: u32,
 }
 
-/// A day being flown. Same scenario and same decisions, same course, bit for bit.
+/// A day that is being flown. The same scenario with the same decisions gives the same day, bit for bit.
 #[derive(Debug)]
 pub struct Simulation {
     scenario: Arc<Scenario>,
-    /// Shared by all who imagine the day from some moment on.
+    /// Shared by all imagined days.
     legs: Arc<Legs>,
     stands: Stands,
     demand: Demand,
     queue: ReadyQueue,
-    /// Where each aircraft stands or will land.
+    /// The vertiport where each aircraft stands or will land.
     place: Vec<VertiportIx>,
     ledger: Ledger,
     closures: Closures,
     outages: Outages,
-    /// Whether anything unexpected may yet happen; never on an imagined day, where unknown closures stay as they are
-    /// and outages count in `queue` only.
+    /// Whether anything unexpected may still happen. Always false on an imagined day, where unknown closures stay as
+    /// they are and outages are already contained in `queue`.
     surprises: bool,
-    /// Whether anything may happen by itself: a surprise, or a known closure, which imagined days have too.
+    /// Whether anything may happen without a decision: a surprise, or a known closure, which imagined days have too.
     eventful: bool,
-    /// Time of the latest decision asked for, the start of operations before the first; not kept without surprises.
+    /// Time of the latest decision asked for, or the start of operations before the first. Not updated without
+    /// surprises.
     now: Time,
-    /// The latest demand period whose actual demand is known; not kept without surprises.
+    /// The latest demand period whose actual demand is known. Not updated without surprises.
     known_period: usize,
-    /// Demand period of the latest decision asked for; time never runs back.
+    /// Demand period of the latest decision asked for. Time never runs back.
     period: usize,
     potential_usd: f64,
 }
@@ -93,7 +94,7 @@ impl Simulation {
         }
     }
 
-    /// The decision to be taken now, or `None` once no aircraft has one left. Asking again changes nothing.
+    /// The decision to be taken now, or `None` once no aircraft has one left. Calling it again changes nothing.
     #[inline]
     pub fn next_decision(&mut self) -> Option<Decision> {
         let (aircraft, time) = self.queue.earliest();
@@ -114,7 +115,8 @@ impl Simulation {
         })
     }
 
-    /// What comes to be known up to and at `time`: the demand of periods that have begun, routes that close or open.
+    /// Reveals what becomes known up to and at `time`: the demand of periods that have begun, and routes that close or
+    /// open.
     #[cold]
     fn discover(&mut self, time: Time) {
         self.closures.advance(time);
@@ -128,10 +130,10 @@ impl Simulation {
         }
     }
 
-    /// Sends the aircraft that decides now to `choice`; its own vertiport means hold. Returns what that came to.
+    /// Sends the aircraft that decides now to `choice`, where its own vertiport means hold. Returns what came of it.
     ///
     /// # Errors
-    /// [`Refusal`] names the rule that the choice breaks; nothing has changed then.
+    /// [`Refusal`] names the rule that the choice breaks. Nothing has changed then.
     #[inline]
     pub fn apply(&mut self, choice: VertiportIx) -> Result<TraceRow, Refusal> {
         let decision = self.next_decision().ok_or(Refusal::DayOver)?;
@@ -230,7 +232,7 @@ impl Simulation {
         row
     }
 
-    /// When a flight arrives and its aircraft is ready, if it should be at these times.
+    /// Arrival and ready times of a flight with its delay and outages, given the times without them.
     #[cold]
     fn disturbed(&mut self, decision: &Decision, arrival: Time, ready: Time) -> (Time, Time) {
         let Decision { time, aircraft, at: from, .. } = *decision;
@@ -244,7 +246,7 @@ impl Simulation {
         (arrival, self.outages.land(aircraft, arrival, ready))
     }
 
-    /// E in the period that contains `time`, which is no earlier than now; dollars per kWh.
+    /// E in the period that contains `time`, which must not be before now; dollars per kWh.
     #[inline]
     pub(crate) fn energy_price_at(&self, time: Time) -> f64 {
         let later = &self.scenario.periods[self.period + 1..];
@@ -252,7 +254,8 @@ impl Simulation {
         self.scenario.energy_price_usd[self.period + periods_on]
     }
 
-    /// The vertiports the deciding aircraft may choose: its own, and each other within range that has a stand free.
+    /// The vertiports that the deciding aircraft may choose: its own, and every other within range that has a free
+    /// stand.
     #[inline]
     pub(crate) fn feasible(&self, decision: &Decision) -> VertiportSet {
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
@@ -264,7 +267,7 @@ impl Simulation {
         mask
     }
 
-    /// When an aircraft can be expected to be ready, as far as anybody knows now.
+    /// The time at which an aircraft is expected to be ready, as far as is known now.
     #[inline]
     pub(crate) fn expected_ready(&self, aircraft: AircraftIx) -> Time {
         if !self.surprises || self.outages.is_empty() {
@@ -273,7 +276,7 @@ impl Simulation {
         self.outages.ready(aircraft, self.now)
     }
 
-    /// From now on everything goes as it can be expected to.
+    /// Lets everything go as expected from now on.
     pub(crate) fn expect_no_surprises(&mut self) {
         if self.surprises && !self.outages.is_empty() {
             let (outages, now) = (&self.outages, self.now);
@@ -284,7 +287,7 @@ impl Simulation {
         self.eventful = !self.closures.known().is_empty();
     }
 
-    /// What a policy may look at.
+    /// The view of a policy.
     #[inline]
     pub fn view(&self) -> View<'_> {
         View::of(self)
@@ -296,7 +299,7 @@ impl Simulation {
         &self.ledger
     }
 
-    /// The day's numbers so far; those of the day once it is over.
+    /// The day's numbers so far, which are final once the day is over.
     pub fn totals(&self) -> DayTotals {
         DayTotals::new(&self.ledger, self.potential_usd, self.demand.total())
     }
@@ -307,7 +310,7 @@ impl Simulation {
         self.potential_usd
     }
 
-    /// The day that is flown.
+    /// The scenario of the day.
     #[inline]
     pub fn scenario(&self) -> &Arc<Scenario> {
         &self.scenario

@@ -1,20 +1,21 @@
-//! Stands: how many aircraft each vertiport holds or has promised a place to (Eq. 16).
+//! Stands: how many aircraft each vertiport holds or has promised a stand to (Eq. 16).
 //!
-//! A place is taken at take-off *towards* a vertiport and freed at take-off *from* it, so the bound holds at every
-//! instant and two aircraft can never race for the last one.
+//! A stand is taken at take-off *towards* a vertiport and freed at take-off *from* it, so the bound holds at every
+//! instant, and two aircraft can never compete for the last stand.
 //!
-//! A vertiport may have two pools: *chargers*, which flights need, and *stands* to wait on. A hold moves an aircraft from
-//! its charger to a stand if one is free. Everywhere else stands are the only pool, and flights need them.
+//! A vertiport may have two pools: *chargers*, which flights need, and *stands* to wait on. A hold moves an aircraft
+//! from its charger to a stand if one is free. Everywhere else stands are the only pool, and flights need them. In this
+//! file, *place* means a charger in the former case and a stand in the latter.
 
 use vertifleet_core::{AircraftIx, Scenario, VertiportIx};
 
 use crate::VertiportSet;
 use crate::room::clone_into_room;
 
-/// U_i and U_max of every vertiport, and which of them can promise a place.
+/// U_i and U_max of every vertiport, and the vertiports that can promise a place.
 #[derive(Debug)]
 pub(crate) struct Stands {
-    /// Aircraft on places that flights need, or in the air towards one.
+    /// Number of aircraft on places that flights need, or in the air towards one.
     taken: Vec<u16>,
     limit: Vec<u16>,
     open: VertiportSet,
@@ -23,11 +24,11 @@ pub(crate) struct Stands {
 
 clone_into_room!(Stands { taken, limit, open, parking });
 
-/// The stands of vertiports that have chargers too.
+/// The stands of vertiports that also have chargers.
 #[derive(Debug)]
 struct Parking {
     taken: Vec<u16>,
-    /// 0 where stands are the only pool.
+    /// Number of such stands; 0 where stands are the only pool.
     limit: Vec<u16>,
     /// Whether each aircraft waits on a stand beside the chargers.
     waits: Vec<bool>,
@@ -36,7 +37,7 @@ struct Parking {
 clone_into_room!(Parking { taken, limit, waits });
 
 impl Stands {
-    /// The places as the fleet's start positions take them: on stands.
+    /// The places at the start of the day: every aircraft is on a stand.
     pub(crate) fn at_start(scenario: &Scenario) -> Self {
         let vertiports = &scenario.vertiports;
         let limit: Vec<u16> = vertiports
@@ -69,19 +70,20 @@ impl Stands {
         Self { taken, limit, open, parking }
     }
 
-    /// Aircraft on places that flights need, or in the air towards one, by vertiport.
+    /// Number of aircraft on places that flights need, or in the air towards one, by vertiport.
     #[inline]
     pub(crate) fn taken(&self) -> &[u16] {
         &self.taken
     }
 
-    /// The places that flights need, by vertiport.
+    /// Number of places that flights need, by vertiport.
     #[inline]
     pub(crate) fn limit(&self) -> &[u16] {
         &self.limit
     }
 
-    /// Aircraft that wait on stands beside chargers, and such stands; 0 where stands are the only pool.
+    /// Number of aircraft that wait on stands beside chargers, and number of such stands; both 0 where stands are the
+    /// only pool.
     pub(crate) fn parked(&self, vertiport: VertiportIx) -> (u16, u16) {
         let parking = self.parking.as_ref();
         parking.map_or((0, 0), |parking| {
@@ -110,7 +112,7 @@ impl Stands {
         self.open.insert(from);
     }
 
-    /// Frees the stand of an aircraft that waits on one beside chargers; `false` if it does not.
+    /// Frees the stand of an aircraft that waits on one beside chargers. Returns `false` if it does not wait on one.
     #[cold]
     fn leave_stand(&mut self, aircraft: AircraftIx, from: VertiportIx) -> bool {
         let Some(parking) = &mut self.parking else { return false };
@@ -119,7 +121,7 @@ impl Stands {
         waits
     }
 
-    /// An aircraft holds: from a charger it moves to a stand, if one is free.
+    /// Lets an aircraft hold: it moves from a charger to a stand, if one is free.
     #[inline]
     pub(crate) fn hold(&mut self, aircraft: AircraftIx, at: VertiportIx) {
         if self.parking.is_some() {

@@ -1,7 +1,8 @@
-//! The trace: every decision of a day, one CSV row each, in the order they were taken.
+//! The trace: every decision of a day, one CSV row each, in the order in which they were taken.
 //!
 //! A trace is a complete schedule: it can be replayed and judged without the program that made it. Numbers are written
-//! in the fewest digits that read back as the same `f64`, so that what is read sums up bit for bit.
+//! in the fewest digits that read back as the same `f64`, so that sums over a trace that was read are the same bit for
+//! bit.
 
 mod error;
 mod read;
@@ -11,8 +12,8 @@ use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 
 pub use error::TraceError;
 
-/// The members of a row, in the order of the file's columns. The last is there only on days on which a flight costs
-/// something beside its energy.
+/// The members of a row, in the order of the file's columns. The last one exists only on days on which flights have a
+/// cost beside their energy.
 const COLUMNS: [&str; 12] = [
     "time",
     "aircraft",
@@ -33,45 +34,45 @@ fn columns(scenario: &Scenario) -> &'static [&'static str] {
     if scenario.has_flight_costs() { &COLUMNS } else { &COLUMNS[..COLUMNS.len() - 1] }
 }
 
-/// One decision and what it came to. A hold goes from a vertiport to itself, carries and costs nothing, arrives when
-/// it is decided and is ready once the hold is over.
+/// One decision and what came of it. A hold goes from a vertiport to itself, has no passengers and no costs, arrives
+/// when it is decided, and is ready once the hold is over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TraceRow {
-    /// When the aircraft decided.
+    /// The time of the decision.
     pub time: Time,
-    /// Who decided.
+    /// The aircraft that decided.
     pub aircraft: AircraftIx,
-    /// Where it stood.
+    /// The vertiport where it stood.
     pub from: VertiportIx,
-    /// Where it flies; `from` means that it holds.
+    /// The vertiport that it flies to; `from` means that it holds.
     pub to: VertiportIx,
     /// Passengers on board.
     pub passengers: u16,
-    /// What they pay, dollars.
+    /// Fares paid, dollars.
     pub revenue_usd: f64,
-    /// What carrying them costs, dollars.
+    /// Cost of carrying the passengers, dollars.
     pub passenger_cost_usd: f64,
-    /// Energy of the flight, charged again after landing, kWh.
+    /// Energy of the flight, which is charged again after landing, kWh.
     pub energy_kwh: f64,
-    /// What charging costs, dollars.
+    /// Cost of charging, dollars.
     pub energy_cost_usd: f64,
-    /// What the flight costs with or without passengers, beside its energy; dollars.
+    /// Cost of the flight with or without passengers, beside its energy; dollars.
     pub flight_cost_usd: f64,
-    /// When the flight ends.
+    /// The time at which the flight ends.
     pub arrival: Time,
-    /// When the aircraft can decide again.
+    /// The time at which the aircraft can decide again.
     pub ready: Time,
 }
 
-/// The decisions of one day, in the order they were taken.
+/// The decisions of one day, in the order in which they were taken.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trace {
-    /// One row a decision.
+    /// One row for each decision.
     pub rows: Vec<TraceRow>,
 }
 
 impl TraceRow {
-    /// What the flight earns: fares less passenger cost, energy cost and its own cost; dollars.
+    /// Profit of the flight: fares less passenger cost, energy cost and flight cost; dollars.
     #[inline]
     pub fn profit_usd(&self) -> f64 {
         self.revenue_usd - self.passenger_cost_usd - self.energy_cost_usd - self.flight_cost_usd

@@ -1,17 +1,17 @@
-//! A set of vertiports as a few machine words, so that masks cost a handful of instructions and no memory.
+//! A set of vertiports as a few machine words, so that masks cost a handful of instructions and no allocation.
 
 use vertifleet_core::VertiportIx;
 
 const WORDS: usize = 4;
 
-/// A set of vertiports. Holds any of the 256 that a scenario may have.
+/// A set of vertiports. It can hold all 256 that a scenario may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct VertiportSet {
     words: [u64; WORDS],
 }
 
 impl VertiportSet {
-    /// The set of no vertiport.
+    /// The empty set.
     pub const EMPTY: Self = Self { words: [0; WORDS] };
 
     #[inline]
@@ -27,14 +27,14 @@ impl VertiportSet {
         self.words[word] |= bit;
     }
 
-    /// Takes a vertiport out.
+    /// Removes a vertiport.
     #[inline]
     pub fn remove(&mut self, vertiport: VertiportIx) {
         let (word, bit) = Self::place(vertiport);
         self.words[word] &= !bit;
     }
 
-    /// Whether the vertiport is in the set; an index that no scenario has never is.
+    /// Whether the vertiport is in the set. An index that no scenario has never is.
     #[inline]
     pub fn contains(&self, vertiport: VertiportIx) -> bool {
         let (word, bit) = Self::place(vertiport);
@@ -48,7 +48,7 @@ impl VertiportSet {
         Self { words: std::array::from_fn(|word| self.words[word] & other.words[word]) }
     }
 
-    /// The vertiports that are in one of the sets or in both.
+    /// The vertiports that are in at least one of the sets.
     #[inline]
     #[must_use]
     pub fn or(&self, other: &Self) -> Self {
@@ -65,7 +65,7 @@ impl VertiportSet {
     /// Number of vertiports in the set.
     #[inline]
     pub fn len(&self) -> u32 {
-        // Most networks fit one word; skipping empty words spares the rest their count.
+        // Most networks fit one word; empty words are skipped to save counting their bits.
         self.words.iter().map(|&word| if word == 0 { 0 } else { word.count_ones() }).sum()
     }
 

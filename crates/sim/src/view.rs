@@ -1,4 +1,4 @@
-//! What a policy may look at when it decides: the present, the forecast, and what any flight would take.
+//! The view of a policy at a decision: the present, the forecast, and what any flight would take.
 
 use std::sync::Arc;
 
@@ -6,14 +6,14 @@ use vertifleet_core::{AircraftIx, AircraftType, ClosedTimes, Scenario, Time, Typ
 
 use crate::{Decision, Imagined, Leg, Simulation, VertiportSet};
 
-/// The state of the network at the moment of a decision. Borrowed; costs nothing to make.
+/// The state of the day at the moment of a decision. It is borrowed and costs nothing to make.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
     simulation: &'a Simulation,
 }
 
-/// Tells one day from every other, and shows nothing of it. Two keys are equal if they are of the same scenario in memory;
-/// while a key lives, no other day can take its place.
+/// Distinguishes a day from every other without revealing anything of it. Two keys are equal if they belong to the same
+/// scenario in memory. While a key lives, no other day can take the scenario's address.
 #[derive(Debug, Clone)]
 pub struct DayKey(Arc<Scenario>);
 
@@ -42,7 +42,7 @@ impl<'a> View<'a> {
         self.simulation.feasible(decision)
     }
 
-    /// The id of an aircraft, for people; none if the day has no such aircraft.
+    /// The id of an aircraft, for messages; `None` if the day has no such aircraft.
     pub fn aircraft_id(&self, aircraft: AircraftIx) -> Option<&'a str> {
         self.scenario().aircraft.get(aircraft.at()).map(|aircraft| aircraft.id.as_str())
     }
@@ -53,82 +53,83 @@ impl<'a> View<'a> {
         self.scenario().aircraft[aircraft.at()].kind
     }
 
-    /// What aircraft of a type can do.
+    /// The properties of a type of aircraft.
     #[inline]
     pub fn aircraft_type(&self, kind: TypeIx) -> &'a AircraftType {
         &self.aircraft_types()[kind.at()]
     }
 
-    /// The types of aircraft there are.
+    /// All types of aircraft.
     #[inline]
     pub fn aircraft_types(&self) -> &'a [AircraftType] {
         &self.scenario().aircraft_types
     }
 
-    /// What a flight takes.
+    /// The leg of one type between two vertiports.
     #[inline]
     pub fn leg(&self, kind: TypeIx, from: VertiportIx, to: VertiportIx) -> &'a Leg {
         self.simulation.legs().leg(kind, from, to)
     }
 
-    /// What flights from a vertiport to each take.
+    /// The legs of one type from a vertiport to each vertiport.
     #[inline]
     pub fn legs_from(&self, kind: TypeIx, from: VertiportIx) -> &'a [Leg] {
         self.simulation.legs().legs_from(kind, from)
     }
 
-    /// The other vertiports that a corridor leads to and a full battery reaches, routes that are closed now included.
+    /// The other vertiports that a corridor leads to and a full battery reaches, including those to which the route is
+    /// closed now.
     #[inline]
     pub fn within_range(&self, kind: TypeIx, from: VertiportIx) -> &'a VertiportSet {
         self.simulation.legs().within_range(kind, from)
     }
 
-    /// Where flights from a vertiport may not go now, because the route is closed.
+    /// The vertiports to which flights from a vertiport are closed now.
     #[inline]
     pub fn closed(&self, from: VertiportIx) -> VertiportSet {
         self.simulation.closures().from(from)
     }
 
-    /// The same because of closures that were not known before they began. How long they last is not known.
+    /// The vertiports closed now by closures that were not known before they began. How long these last is not known.
     #[inline]
     pub fn closed_unexpectedly(&self, from: VertiportIx) -> VertiportSet {
         self.simulation.closures().unexpected_from(from)
     }
 
-    /// When routes are closed that are known to be, all day. Unknown closures are not among these, also while they
-    /// are in force.
+    /// The times of known closures, over the whole day. Unknown closures are never among them, even while they are in
+    /// force.
     #[inline]
     pub fn known_closures(&self) -> &'a ClosedTimes {
         self.simulation.closures().known()
     }
 
-    /// How often routes have closed or opened so far without anybody knowing beforehand: while it stays the same, what is closed
-    /// is what was to be expected.
+    /// How often routes have closed or opened so far by unknown closures. While this number stays the same, the routes
+    /// that are closed are those that were expected to be.
     #[inline]
     pub fn route_changes(&self) -> usize {
         self.simulation.closures().surprises_so_far()
     }
 
-    /// Where each aircraft stands or will land.
+    /// The vertiport where each aircraft stands or will land.
     #[inline]
     pub fn places(&self) -> &'a [VertiportIx] {
         self.simulation.places()
     }
 
-    /// When the aircraft can be expected to decide next. An outage counts once it has begun.
+    /// The time at which the aircraft is expected to decide next. An outage counts once it has begun.
     #[inline]
     pub fn ready_at(&self, aircraft: AircraftIx) -> Time {
         self.simulation.expected_ready(aircraft)
     }
 
-    /// U_i of every vertiport: aircraft standing there or in the air towards it. Where chargers are a pool of their own, those
-    /// who have one or are on their way to one.
+    /// U_i of every vertiport: the number of aircraft standing there or in the air towards it. Where chargers are
+    /// counted apart, the number of those that have a charger or are on their way to one.
     #[inline]
     pub fn stands_taken(&self) -> &'a [u16] {
         self.simulation.stands().taken()
     }
 
-    /// The demand period of now.
+    /// The current demand period.
     #[inline]
     pub fn period(&self) -> usize {
         self.simulation.period()
@@ -140,20 +141,20 @@ impl<'a> View<'a> {
         self.scenario().period_at(time)
     }
 
-    /// When each demand period begins, in order.
+    /// The start of each demand period, in order.
     #[inline]
     pub fn period_starts(&self) -> &'a [Time] {
         &self.scenario().periods
     }
 
-    /// Passengers who still want to fly from one vertiport to another in a period: of those who are there in a period that has
-    /// begun, of those who are forecast in a later one.
+    /// Passengers who still want to fly from one vertiport to another in a period: actual passengers in a period that
+    /// has begun, forecast passengers in a later one.
     #[inline]
     pub fn demand_left(&self, period: usize, from: VertiportIx, to: VertiportIx) -> u32 {
         self.simulation.demand().left(period, from, to)
     }
 
-    /// The same for all pairs of a period, `[from][to]` row by row.
+    /// The passengers of [`demand_left`](Self::demand_left) for all pairs of a period, `[from][to]` row by row.
     #[inline]
     pub fn demand_left_in(&self, period: usize) -> &'a [u32] {
         self.simulation.demand().period(period)
@@ -171,13 +172,13 @@ impl<'a> View<'a> {
         self.scenario().passenger_cost_usd.row(from)
     }
 
-    /// What a flight costs with or without passengers, beside its energy; dollars, from one vertiport to each.
+    /// Cost of a flight with or without passengers, beside its energy; dollars, from one vertiport to each.
     #[inline]
     pub fn flight_costs_usd(&self, from: VertiportIx) -> &'a [f64] {
         self.scenario().flight_cost_usd.row(from)
     }
 
-    /// What the fleet costs whatever it does, dollars a day.
+    /// Cost of the fleet, whether or not it flies, dollars a day.
     pub fn fleet_cost_usd(&self) -> f64 {
         self.scenario().fleet_cost_usd()
     }
@@ -194,8 +195,8 @@ impl<'a> View<'a> {
         &self.scenario().energy_price_usd
     }
 
-    /// What a flight decided at `time` (not before now) would earn with `waiting` passengers there if it is on time: dollars,
-    /// fares less passenger cost less energy at the price of its arrival less what any flight costs.
+    /// Profit in dollars of a flight decided at `time` (not before now) if it is on time and `waiting` passengers want
+    /// to fly: fares less passenger cost, less energy at the price of its arrival, less the flight cost.
     #[inline]
     pub fn flight_profit_usd(
         &self,
@@ -220,26 +221,27 @@ impl<'a> View<'a> {
         self.scenario().operations.start
     }
 
-    /// Last instant of decisions.
+    /// Last instant at which decisions are taken.
     #[inline]
     pub fn day_end(&self) -> Time {
         self.scenario().operations.end
     }
 
-    /// Seconds a hold lasts.
+    /// Duration of a hold, seconds.
     #[inline]
     pub fn hold_s(&self) -> u32 {
         self.scenario().operations.hold_s
     }
 
-    /// U_max of a vertiport: its stands, or its chargers where they are a pool of their own. A flight needs one of them.
+    /// U_max of a vertiport: the number of its stands, or of its chargers where they are counted apart. A flight needs
+    /// one.
     #[inline]
     pub fn stands(&self, vertiport: VertiportIx) -> u16 {
         self.simulation.stands().limit()[vertiport.at()]
     }
 
-    /// Aircraft that wait on stands of a vertiport where chargers are a pool of their own, and how many such stands there are;
-    /// both 0 everywhere else.
+    /// Number of aircraft that wait on stands of a vertiport where chargers are counted apart, and number of these
+    /// stands; both 0 at other vertiports.
     pub fn parked(&self, vertiport: VertiportIx) -> (u16, u16) {
         self.simulation.stands().parked(vertiport)
     }
@@ -249,7 +251,8 @@ impl<'a> View<'a> {
         Imagined::of(self.simulation)
     }
 
-    /// The same in the room of an earlier course, which is written over; takes no memory if that was of the same day.
+    /// Does the same in the memory of an earlier imagined day, which is overwritten. Allocates nothing if that was of
+    /// the same day.
     pub fn imagined_in<'room>(&self, room: &'room mut Option<Imagined>) -> &'room mut Imagined {
         if let Some(imagined) = room {
             imagined.restart(self.simulation);
@@ -257,13 +260,13 @@ impl<'a> View<'a> {
         room.get_or_insert_with(|| self.imagined())
     }
 
-    /// The day itself, to be told from every other.
+    /// A key that distinguishes this day from every other.
     #[inline]
     pub fn day(&self) -> DayKey {
         DayKey(Arc::clone(self.simulation.scenario()))
     }
 
-    /// The seed the day was drawn with.
+    /// The seed that the day was drawn with.
     #[inline]
     pub fn day_seed(&self) -> u64 {
         self.scenario().seed

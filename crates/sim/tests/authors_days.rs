@@ -1,9 +1,9 @@
-//! Days of the paper's authors' public environment, replayed aircraft by aircraft: with their rules as settings, the simulator
-//! sells their tickets and earns their profit.
+//! Replays days of the paper's authors' public environment, aircraft by aircraft. With the authors' rules as settings,
+//! the simulator sells the same tickets and earns the same profit.
 //!
-//! The days lie outside the repository, in `../shared/data` beside it (repository `iamstevepaul/UAM_fleet_Scheduling`, its first
-//! 20 committed test days, each played once with feasible random decisions); where they are absent there is nothing to
-//! compare and the test says so. `networks/as-coded.toml` has the same settings.
+//! The days lie outside the repository, in `../shared/data` beside it (repository `iamstevepaul/UAM_fleet_Scheduling`,
+//! its first 20 committed test days, each played once with feasible random decisions). Where they are absent there is
+//! nothing to compare, and the test prints that. `networks/as-coded.toml` has the same settings.
 
 use std::collections::VecDeque;
 use std::path::Path;
@@ -16,11 +16,11 @@ use vertifleet_sim::{Refusal, Simulation, Trace};
 
 const DAYS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/authors-days.json");
 
-/// Their flights carry a full cabin or nobody: where fewer than 4 are left they sell no ticket. That is the same as a demand of
-/// whole cabins.
+/// The authors' flights carry a full cabin or no passengers: where fewer than 4 passengers are left, no ticket is sold.
+/// That is equivalent to rounding demand down to whole cabins.
 const SEATS: u32 = 4;
 
-/// One aircraft's decision: from, to, and when in hours.
+/// One aircraft's decision: origin, destination, and time in hours.
 type Move = (VertiportIx, VertiportIx, f64);
 
 fn number(value: &Value) -> f64 {
@@ -66,20 +66,20 @@ fn scenario(day: &Value, number_of_day: usize) -> Arc<Scenario> {
     Arc::new(ours.check("authors' day").expect("a day within the rules"))
 }
 
-/// What a replay came to.
+/// The result of a replay.
 #[derive(Debug, Default)]
 struct Replayed {
     tickets_usd: f64,
     profit_usd: f64,
-    /// Decisions that came in another order than the authors', by our clock.
+    /// Number of decisions that came in another order than the authors', by our clock.
     swapped: usize,
     /// The largest difference between the two clocks at a decision, seconds.
     furthest_s: f64,
     decisions: usize,
 }
 
-/// Every aircraft takes its own decisions in their order, when our clock asks it. Where two decisions have changed places so that
-/// the charger that one frees comes too late for the other, it says at which vertiport and when.
+/// Lets every aircraft take its own decisions in their order, when our clock asks it. Where two decisions have changed
+/// places, so that one of them frees a charger too late for the other, the error says at which vertiport and when.
 fn replay(day: &Value, scenario: &Arc<Scenario>) -> Result<Replayed, (VertiportIx, Time)> {
     let mut moves: Vec<VecDeque<(usize, Move)>> = vec![VecDeque::new(); scenario.aircraft.len()];
     for (order, one) in list(&day["moves"]).iter().enumerate() {

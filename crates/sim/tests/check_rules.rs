@@ -1,4 +1,4 @@
-//! Every rule of the checker on a schedule worked out by hand: kept, and broken by the smallest edit there is.
+//! Every rule of the checker on a schedule worked out by hand, both kept and broken by the smallest possible edit.
 
 mod check_day;
 
@@ -16,14 +16,14 @@ fn names(report: &Report) -> Vec<&'static str> {
     report.broken.keys().map(|rule| rule.name()).collect()
 }
 
-/// Moves a decision and all that follows from it.
+/// Moves a decision and the times that follow from it.
 fn shift(row: &mut TraceRow, seconds: u32) {
     for time in [&mut row.time, &mut row.arrival, &mut row.ready] {
         *time = *time + seconds;
     }
 }
 
-/// Sets passengers and the money that goes with them, at a fare of 50 and a cost of 26.
+/// Sets the passengers and their fares and costs, at a fare of 50 and a cost of 26.
 fn carry(row: &mut TraceRow, passengers: u16) {
     row.passengers = passengers;
     row.revenue_usd = 50.0 * f64::from(passengers);
@@ -34,7 +34,7 @@ fn route(from: u16, to: u16) -> Route {
     Route { from: VertiportIx(from), to: VertiportIx(to), both_ways: false }
 }
 
-/// Breaks one rule and, where the second value is `false`, unavoidably others with it.
+/// Breaks one rule. Returns `false` if that unavoidably breaks others too.
 fn break_rule(rule: Rule, day: &mut Day, rows: &mut Vec<TraceRow>) -> bool {
     match rule {
         Rule::KnownIds => {
@@ -73,7 +73,7 @@ fn break_rule(rule: Rule, day: &mut Day, rows: &mut Vec<TraceRow>) -> bool {
         Rule::ReadyTime => rows[4].ready = Time::from_seconds(rows[4].ready.seconds() - 1),
         Rule::Energy => rows[0].energy_kwh += 0.001,
         Rule::Range => {
-            // Holds 45 kWh and not 45.0117; loses as much as before.
+            // The battery holds 45 kWh and not 45.0117; its losses are unchanged.
             let kind = &mut day.aircraft_types[0];
             kind.self_discharge_per_h *= kind.battery_kwh / 45.005;
             kind.battery_kwh = 45.005;
@@ -97,7 +97,7 @@ fn break_rule(rule: Rule, day: &mut Day, rows: &mut Vec<TraceRow>) -> bool {
                 vec![Closure { route: route(0, 2), start, end, known: false }];
         }
         Rule::TakeoffDelay => {
-            // Row 4 leaves V3 in the second hour, late by a minute; its energy is paid at the same price then.
+            // Row 4 leaves V3 in the second hour, a minute late; the price of its energy stays the same.
             let delay_s = vec![vec![0, 0, 0], vec![0, 0, 60], vec![0, 0, 0]];
             day.disturbances.takeoff_delays = Some(TakeoffDelays { slot_s: 3600, delay_s });
             rows[4].ready = rows[4].ready + 60;
@@ -191,7 +191,7 @@ fn a_place_is_not_left_by_more_aircraft_than_are_there() {
     assert_eq!(stands.expect("nobody was at V3").detail, "leaves -1 aircraft at V3");
 }
 
-/// An aircraft waits on a stand where it can, so that its charger is free for another.
+/// An aircraft waits on a stand if it can, so that its charger is free for another.
 #[test]
 fn a_hold_gives_the_charger_back_where_a_stand_is_free() {
     let with = |stands| {
@@ -200,7 +200,7 @@ fn a_hold_gives_the_charger_back_where_a_stand_is_free() {
         day.vertiports[2].chargers = Some(2);
         day
     };
-    // Both aircraft come to V3; A1 holds there and flies on.
+    // Both aircraft fly to V3; A1 holds there and flies on.
     for stands in [1, 2] {
         assert!(judge(with(stands), &schedule()).is_valid());
     }

@@ -1,4 +1,5 @@
-//! Simulator and checker, written apart, agree: what the one plays the other passes, and not with one row edited.
+//! Simulator and checker, written independently, agree: the checker passes what the simulator plays, and refuses it
+//! with one row edited.
 
 use std::sync::Arc;
 
@@ -14,7 +15,7 @@ use vertifleet_sim::{DayTotals, Simulation, Trace, TraceRow};
 use vertifleet_testkit::extended_day;
 use vertifleet_testkit::small_day;
 
-/// Plays a day at random: each draw picks among the feasible vertiports, round and round.
+/// Plays a day at random. Each draw chooses among the feasible vertiports; the draws are used cyclically.
 fn play(day: &Arc<Scenario>, draws: &[u32]) -> (DayTotals, Trace) {
     let mut simulation = Simulation::new(Arc::clone(day));
     let mut trace = Trace::default();
@@ -31,8 +32,8 @@ fn draws() -> impl Strategy<Value = Vec<u32>> {
     prop::collection::vec(any::<u32>(), 1..40)
 }
 
-/// The day with distances in tenths of a mile and speeds at which many a cruise lasts a whole number of seconds and a
-/// half: what people type, and where two ways to work out a duration may round apart.
+/// The day with distances in tenths of a mile, and speeds at which many cruises last a whole number of seconds and a
+/// half. Users type such numbers, and two ways to compute a duration may round them differently.
 fn in_round_numbers(day: &Arc<Scenario>) -> Arc<Scenario> {
     let mut day = Scenario::clone(day).into_day();
     for distance_mi in day.distance_mi.cells_mut() {
@@ -45,7 +46,7 @@ fn in_round_numbers(day: &Arc<Scenario>) -> Arc<Scenario> {
     Arc::new(day.check("day in round numbers").expect("a day within the rules"))
 }
 
-/// The day with every distance so far from the end of its type's range, in millionths of a mile, and little more demand than that.
+/// The day with every distance at the end of the first type's range but for `off` millionths of a mile.
 fn at_the_end_of_the_range(day: &Arc<Scenario>, off: &[f64]) -> Arc<Scenario> {
     let mut day = Scenario::clone(day).into_day();
     let kind = &day.aircraft_types[0];
@@ -58,7 +59,7 @@ fn at_the_end_of_the_range(day: &Arc<Scenario>, off: &[f64]) -> Arc<Scenario> {
     Arc::new(day.check("day at the end of the range").expect("a day within the rules"))
 }
 
-/// One thing done to one row of a schedule.
+/// One edit of one row of a schedule.
 #[derive(Debug, Clone, Copy)]
 enum Edit {
     OneMorePassenger,
@@ -71,7 +72,7 @@ enum Edit {
     SwappedWith(Index),
 }
 
-/// Which of a row's times is edited.
+/// The time of a row that is edited.
 #[derive(Debug, Clone, Copy)]
 enum Clock {
     Decision,
@@ -103,7 +104,7 @@ fn edits() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// Carries an edit out; `false` if it would leave the schedule as it was.
+/// Carries an edit out. Returns `false` if it would leave the schedule unchanged.
 fn carry_out(edit: Edit, day: &Scenario, rows: &mut Vec<TraceRow>, at: usize) -> bool {
     let row = &mut rows[at];
     match edit {
@@ -138,7 +139,7 @@ fn carry_out(edit: Edit, day: &Scenario, rows: &mut Vec<TraceRow>, at: usize) ->
     true
 }
 
-/// Equal but for the order in which sums were taken.
+/// Whether two sums are equal but for the order of their terms.
 fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1.0)
 }

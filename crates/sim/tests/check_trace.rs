@@ -1,4 +1,4 @@
-//! Trace files: what is written reads back bit for bit, what cannot be read is named, and nothing panics.
+//! Trace files: a written trace reads back bit for bit, errors name what cannot be read, and nothing panics.
 
 mod check_day;
 
@@ -35,7 +35,7 @@ fn a_trace_reads_as_the_files_page_says() {
     "#);
 }
 
-/// From V1 to V3 a flight costs 7.25 $, and every aircraft 100 $ a day.
+/// A flight from V1 to V3 costs $7.25, and every aircraft $100 a day.
 #[test]
 fn a_day_with_flight_costs_has_a_column_for_them() {
     let mut day = scenario().into_day();
@@ -165,7 +165,7 @@ fn every_error_has_its_own_code() {
     assert_eq!(codes, ["V204", "V205", "V206", "V207", "V208"]);
 }
 
-/// Any row at all, also of aircraft and vertiports that do not exist.
+/// Any row at all, including those of aircraft and vertiports that do not exist.
 fn any_row() -> impl Strategy<Value = TraceRow> {
     let index = || prop::strategy::Union::new([(0_u16..4).boxed(), any::<u16>().boxed()]);
     let time = || {
@@ -191,7 +191,7 @@ fn any_row() -> impl Strategy<Value = TraceRow> {
     )
 }
 
-/// Rows that a file can hold: of this scenario, with amounts that are not negative.
+/// Rows that a file can hold: with ids of this scenario and amounts that are not negative.
 fn storable_row() -> impl Strategy<Value = TraceRow> {
     let amount =
         || any::<f64>().prop_filter("a finite number", |n| n.is_finite()).prop_map(f64::abs);

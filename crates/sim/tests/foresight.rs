@@ -1,4 +1,4 @@
-//! Nobody sees the future: what a decision's view shows does not change when what comes later is changed.
+//! Policies do not see the future: the view of a decision does not change when later events are changed.
 
 use std::sync::Arc;
 
@@ -61,11 +61,11 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     shown
 }
 
-/// The rest of the day as it can be imagined, each aircraft going to the last vertiport of its mask.
+/// The rest of the day as it can be imagined, with the choices made by a fixed rule.
 fn played_out(view: View<'_>) -> String {
     let mut fresh = view.imagined();
     let rest = played_on(&mut fresh);
-    // In the room of a course that is over it is the same.
+    // It is the same when it is imagined in the memory of an earlier imagined day.
     assert_eq!(played_on(view.imagined_in(&mut Some(fresh))), rest);
     rest
 }
@@ -89,7 +89,7 @@ fn no_method_of_the_view_is_forgotten_here() {
     }
 }
 
-/// The day with everything changed that nobody can know at `now`.
+/// The day with everything changed that cannot be known at `now`.
 fn with_another_future(day: &Scenario, now: Time, change: u32) -> Arc<Scenario> {
     let mut day = day.clone().into_day();
     let forecast = day.disturbances.forecast.get_or_insert_with(|| day.demand.clone());
@@ -131,7 +131,7 @@ fn with_another_future(day: &Scenario, now: Time, change: u32) -> Arc<Scenario> 
     Arc::new(day.check("another future").expect("a day within the rules"))
 }
 
-/// What is shown at the decisions of a day, `count` of them at most, and the time of the last.
+/// The views at the first `count` decisions of a day, at most, and the time of the last of them.
 fn course(day: &Arc<Scenario>, draws: &[u32], count: usize) -> (Vec<Vec<String>>, Time) {
     let mut simulation = Simulation::new(Arc::clone(day));
     let (mut course, mut now) = (Vec::new(), day.operations.start);
@@ -160,7 +160,7 @@ proptest! {
         known.disturbances.forecast.get_or_insert_with(|| day.demand.clone());
         let known = Arc::new(known.check("known").expect("a day within the rules"));
         let (shown, now) = course(&known, &draws, count);
-        // No further: whether there is another decision is the future's affair.
+        // Only as many decisions are compared, because whether there is another one depends on the future.
         let (again, _) = course(&with_another_future(&known, now, change), &draws, shown.len());
         prop_assert!(shown == again);
     }
@@ -177,7 +177,7 @@ proptest! {
         day.disturbances.closures = closures;
         let day = Arc::new(day.check("no surprises").expect("a day within the rules"));
         let mut simulation = Simulation::new(Arc::clone(&day));
-        // What has begun before the first decision is seen at it.
+        // Changes that come before the first decision are seen at it.
         simulation.next_decision();
         let mut imagined = simulation.view().imagined();
         while let Some(decision) = simulation.next_decision() {

@@ -1,4 +1,4 @@
-//! What holds on every day under any decisions.
+//! Properties that hold on every day under any decisions.
 
 use std::sync::Arc;
 
@@ -8,7 +8,8 @@ use vertifleet_sim::{Refusal, Simulation, TraceRow};
 
 use vertifleet_testkit::extended_day;
 
-/// Plays a day; each draw picks among the feasible vertiports, round and round. `each` sees every step.
+/// Plays a day, with each draw choosing among the feasible vertiports; the draws are used cyclically. `each` is called
+/// after every step.
 fn play(
     day: &Arc<Scenario>,
     draws: &[u32],

@@ -1,4 +1,4 @@
-//! Imagining the rest of a day takes memory the first time only.
+//! Imagining the rest of a day allocates memory only the first time.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use vertifleet_sim::{Imagined, Simulation};
 
 use vertifleet_testkit::extended_day;
 
-/// Plays a course to its end, each aircraft going to a vertiport of its mask.
+/// Plays an imagined day to its end, with choices made by a fixed rule.
 fn play_on(imagined: &mut Imagined) -> f64 {
     while let Some(decision) = imagined.next_decision() {
         let mask = imagined.view().feasible(&decision);
@@ -30,7 +30,7 @@ proptest! {
         let first = measure(|| room = Some(Simulation::new(another).view().imagined()));
         prop_assert!(first.count_total > 0, "the first one does, or nothing was measured");
         let mut simulation = Simulation::new(Arc::clone(&day));
-        // The room of another day is made to fit.
+        // The memory of another day is resized to fit.
         simulation.view().imagined_in(&mut room);
         let mut other = room.clone();
         while let Some(decision) = simulation.next_decision() {

@@ -1,4 +1,4 @@
-//! Writes a report of made-up results, to look at the page and the figures without a simulation.
+//! Writes a report of made-up results, to show the page and the figures without a simulation.
 //!
 //! `cargo run -p vertifleet-study --example sample_report -- FOLDER`
 

@@ -1,4 +1,4 @@
-//! A comparison from what is asked for to its records: which competitors, on which days, measured against what.
+//! A comparison: from the request, which names competitors, days and a bound, to the records.
 
 use std::sync::Arc;
 
@@ -13,8 +13,8 @@ use crate::own_days::OwnDays;
 use crate::record::ComparisonRecords;
 use crate::study::{Study, Watch};
 
-/// Some days of a network and the competitors that will play them; everything that can be found wrong beforehand has been looked
-/// for.
+/// Some days of a network and the competitors that will play them. Everything that can be checked beforehand has been
+/// checked.
 pub struct Comparison {
     network: String,
     origin: NetworkOrigin,
@@ -24,11 +24,11 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// So many days of a network from `first_seed` on, each with its upper bound where a step is given.
+    /// Draws `days` days of a network from `first_seed` on; with a `step`, each of them gets an upper bound.
     ///
     /// # Errors
-    /// If there is no such policy or day, two policies have one name, or a policy cannot play these days; [`Error::Stopped`]
-    /// soon after `stop` is raised.
+    /// Returns an error if there is no such policy or day, if two policies have the same name, or if a policy cannot
+    /// play these days; [`Error::Stopped`] soon after `stop` is requested.
     pub fn new(
         network: &Network,
         selection: &Selection<'_>,
@@ -49,10 +49,11 @@ impl Comparison {
         })
     }
 
-    /// Days of the user's own, each with its upper bound where a step is given.
+    /// Takes the user's own days; with a `step`, each of them gets an upper bound.
     ///
     /// # Errors
-    /// If there is no such policy, two policies have one name, or a policy cannot play one of these days.
+    /// Returns an error if there is no such policy, if two policies have the same name, or if a policy cannot play one
+    /// of these days.
     pub fn of_own(
         days: OwnDays,
         selection: &Selection<'_>,
@@ -69,18 +70,19 @@ impl Comparison {
         self.study.days()
     }
 
-    /// What is allowed but hardly meant, such as shipped weights on a changed copy of their network (V310).
+    /// Warnings about what is allowed but probably not intended, such as shipped weights on a changed copy of their
+    /// network (V310).
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         self.study.competitors.iter().filter_map(|competitor| {
             competitor.policy()?.warning(&competitor.name, &self.network, self.origin)
         })
     }
 
-    /// Plays all days with every policy; `command` is what the study says it was made with.
+    /// Plays all days with every policy; `command` is the command line that the study records.
     ///
     /// # Errors
-    /// [`Error::Stopped`] soon after `stop` is raised; else if a day is too large for its bound, or a policy cannot play
-    /// one to its end.
+    /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a day is too large for its bound or
+    /// a policy cannot play one to its end.
     pub fn run(
         self,
         command: String,
@@ -89,7 +91,8 @@ impl Comparison {
     ) -> Result<ComparisonRecords, Error> {
         let Self { network, origin, study, first_seed, days_from } = self;
         let policies = study.play(stop, watch)?;
-        // How a policy learned on another network says nothing of these days. None was trained on days of the user's own.
+        // The learning curve of a policy trained on another network says nothing about these days, and no policy was
+        // trained on the user's own days.
         let is_at_home =
             |competitor: &&Competitor| days_from.is_none() && competitor.was_trained_on(&network);
         let at_home = || study.competitors.iter().filter(is_at_home);
@@ -115,7 +118,7 @@ fn draw(
     stop: &Stop,
 ) -> Result<Vec<Arc<Scenario>>, Error> {
     let seed = |day: u32| DaySeed::comparison(first.saturating_add(u64::from(day)));
-    // The last seed first, so that nothing is drawn where not everything can be.
+    // The last seed is checked first, so that no day is drawn if one of them cannot be.
     seed(days.saturating_sub(1))?;
     let draw = |day: u32| {
         if stop.is_requested() {

@@ -1,4 +1,4 @@
-//! Competitors of a study: policies by their names, and the planner as a reference that knows the days.
+//! The competitors of a study: policies by name, and the planner as a reference that knows the days.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -13,26 +13,27 @@ use crate::policy_spec::{PolicySource, PolicySpec, ResolveFor};
 use crate::record::{LearningCurve, ValidationCurves};
 use crate::resolved_policy::{ResolvedPolicy, starting_policies};
 
-/// Steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; on other days as many as
-/// are as much work. There is no time limit, so that the plan is the same everywhere.
+/// Number of steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; other
+/// days get as many steps as are the same amount of work. There is no time limit, so the plan is the same on every
+/// machine.
 const PLAN_STEPS: u64 = 200_000;
 
-/// A policy or the planner, with the name that it has in the study.
+/// A policy or the planner, with its name in the study.
 pub struct Competitor {
-    /// Its name, which no other competitor has.
+    /// Its name, which is unique in the study.
     pub name: String,
     pub(crate) kind: Kind,
 }
 
-/// How a competitor comes to its decisions.
+/// How a competitor decides.
 pub(crate) enum Kind {
-    /// While the day goes on.
+    /// It decides while the day is played.
     Policy(ResolvedPolicy),
-    /// With the whole day known: a reference for policies.
+    /// It knows the whole day: a reference for policies.
     Planner(Planner),
 }
 
-/// The planner, with as many steps on a day of `paper` and the seed of its search.
+/// The planner, with its number of steps on a day of `paper` and the seed of its search.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Planner {
     pub(crate) paper_steps: u64,
@@ -40,8 +41,8 @@ pub(crate) struct Planner {
 }
 
 impl Planner {
-    /// The whole schedule of a day that is known; some schedule soon once `stop` is raised. Days take turns on the threads, so
-    /// each plan needs but one search.
+    /// Plans a known day; if `stop` is requested, it returns the best schedule so far soon. The days of a study
+    /// already fill the threads, so each plan uses only one search.
     pub(crate) fn plan(&self, day: &Arc<Scenario>, stop: &Stop) -> Trace {
         let budget = Budget::Steps(steps_of_equal_work(day, self.paper_steps));
         let settings = SearchSettings { budget, searches: 1, seed: self.seed };
@@ -51,21 +52,22 @@ impl Planner {
     }
 }
 
-/// The competitors that are asked for.
+/// The competitors of a study as the user names them.
 pub struct Selection<'a> {
-    /// Names, in the order of the results.
+    /// The names, in the order of the results.
     pub policies: &'a [String],
-    /// What names stand for, where that is given.
+    /// What names refer to, for those names that come with weights or a policy.
     pub models: &'a [(String, PolicySource)],
-    /// Seed of the random policy and of the planner's search.
+    /// The seed of the random policy and of the planner's search.
     pub seed: u64,
 }
 
 impl Selection<'_> {
-    /// All competitors, for days of the network of this name.
+    /// Finds all competitors, for days of the network with this name.
     ///
     /// # Errors
-    /// If there is no such policy, weights cannot be read, names and weights do not go together, or two have one name.
+    /// Returns an error if there is no such policy, if weights cannot be read, if names and weights do not go
+    /// together, or if two competitors have the same name.
     pub fn resolve(&self, network: &str) -> Result<Vec<Competitor>, Error> {
         let parse = |name: &String| PolicySpec::parse(name);
         let specs: Vec<PolicySpec> = self.policies.iter().map(parse).collect::<Result<_, _>>()?;
@@ -107,10 +109,11 @@ impl Selection<'_> {
 }
 
 impl Competitor {
-    /// Whether it can take part on days like this one.
+    /// Checks that it can play days like this one.
     ///
     /// # Errors
-    /// If its weights are of another network, or the day has what the planner does not know.
+    /// Returns an error if its weights belong to another network, or if the day has a feature that the planner does
+    /// not support.
     pub fn check_fits(&self, scenario: &Scenario) -> Result<(), Error> {
         match &self.kind {
             Kind::Policy(policy) => policy.check_fits(scenario),
@@ -125,7 +128,7 @@ impl Competitor {
         }
     }
 
-    /// What it does, in one short sentence.
+    /// Describes what it does, in one short sentence.
     pub(crate) fn description(&self) -> String {
         match &self.kind {
             Kind::Policy(policy) => policy.description(),
@@ -136,18 +139,18 @@ impl Competitor {
         }
     }
 
-    /// Whether it was trained on days of the network of this name.
+    /// Whether it was trained on days of the network with this name.
     pub(crate) fn was_trained_on(&self, network: &str) -> bool {
         self.policy().and_then(ResolvedPolicy::trained_on) == Some(network)
     }
 
-    /// Its learning curve on the training days, where it has one.
+    /// Its learning curve on the training days, if it has one.
     pub(crate) fn learning_curve(&self) -> Option<LearningCurve> {
         let points = self.policy()?.training_rewards();
         (!points.is_empty()).then(|| LearningCurve { name: self.name.clone(), points })
     }
 
-    /// How it did on the validation days while it was trained, a run a seed.
+    /// Its rewards on the validation days during training, one curve per run.
     pub(crate) fn validation_curves(&self) -> Option<ValidationCurves> {
         let runs = self.policy()?.validation_rewards();
         (!runs.is_empty()).then(|| ValidationCurves { name: self.name.clone(), runs })

@@ -1,11 +1,11 @@
-//! `days.csv`: every policy's every day, one row each, for other computations.
+//! `days.csv`: one row for every policy and day, for use in other programs.
 
 use crate::record::{ComparisonRecords, DayRecord};
 
-/// The study's days as CSV with a header row; policies in the order in which they were named.
+/// The days of the study as CSV with a header row; policies in the order in which they were named.
 ///
 /// # Panics
-/// Never: writing rows of numbers and text to memory cannot fail, and a study has a day.
+/// Never panics: writing rows of numbers and text to memory cannot fail, and a study has at least one day.
 pub(crate) fn text(study: &ComparisonRecords) -> String {
     let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
     let days = || {

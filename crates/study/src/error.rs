@@ -1,36 +1,37 @@
-//! What can go wrong between the records and the written report, with stable codes (V4xx).
+//! Errors between the records and the written report, with stable codes (V4xx).
 
 use std::path::PathBuf;
 
 use vertifleet_core::{Code, Coded, Exit};
 use vertifleet_policy::{PlayError, PolicyError};
 
-/// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for machines and the error index.
+/// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for programs and for the
+/// error index.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A file that cannot be written (V102), as `vertifleet-core` says it.
+    /// A file that cannot be written (V102); the error is one of `vertifleet-core`.
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
-    /// Weights that do not fit or do not load (V3xx), as `vertifleet-learn` says it.
+    /// Weights that do not fit or do not load (V3xx); the error is one of `vertifleet-learn`.
     #[error(transparent)]
     Learn(#[from] vertifleet_learn::Error),
 
-    /// A day that is too large for a bound, or cannot be planned (V5xx), as `vertifleet-optimize` says it.
+    /// A day that is too large for a bound, or cannot be planned (V5xx); the error is one of `vertifleet-optimize`.
     #[error(transparent)]
     Optimize(#[from] vertifleet_optimize::Error),
 
-    /// A trace to be replayed (V2xx), as `vertifleet-sim` says it.
+    /// A trace that cannot be replayed (V2xx); the error is one of `vertifleet-sim`.
     #[error(transparent)]
     Trace(#[from] vertifleet_sim::TraceError),
 
-    /// V401. The report's folder cannot be made. Cause: missing rights, or a file where the folder should be. Fix: name
-    /// another folder.
+    /// V401. The folder of the report cannot be created. Cause: missing permissions, or a file in place of the folder.
+    /// Fix: name another folder.
     #[error("{}: cannot make the folder of the report: {cause}", path.display())]
     CannotMakeFolder {
-        /// The folder.
+        /// The path of the folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// The error of the operating system.
         cause: std::io::Error,
     },
 
@@ -42,99 +43,100 @@ pub enum Error {
         /// Number of days.
         days: usize,
     },
-    /// V403. Two policies did not meet the same days in the same order, so that their results cannot be paired.
-    /// Cause: records of different runs were mixed. Fix: run all policies in one comparison.
+    /// V403. Two policies did not play the same days in the same order, so their results cannot be paired. Cause:
+    /// records of different runs were mixed. Fix: run all policies in one comparison.
     #[error(
         "policy {policy:?}, day {position}: found {found}, but {first_policy:?} has {expected}"
     )]
     Unpaired {
         /// The policy whose days differ.
         policy: String,
-        /// The policy that it was compared with.
+        /// The policy that its days were compared with.
         first_policy: String,
         /// Position of the first day that differs.
         position: usize,
-        /// The day there.
+        /// The day found there.
         found: String,
-        /// The day that should be there.
+        /// The day expected there.
         expected: String,
     },
     /// V404. Two policies of one comparison have the same name. Cause: a policy was named twice. Fix: name each once.
     #[error("policy {name:?} is named twice")]
     DuplicatePolicy {
-        /// The name.
+        /// The name that two policies have.
         name: String,
     },
-    /// V405. A result is not a finite number. Cause: a policy or a scenario with values beyond any day's. Fix: check
-    /// the scenario; if it is sound, report the day as a defect.
+    /// V405. A result is not a finite number. Cause: a policy or a scenario with values that no real day has. Fix:
+    /// check the scenario; if it is sound, report the day as a defect.
     #[error("policy {policy:?}, day {day:?}: {member} must be a finite number, found {value}")]
     NotFinite {
-        /// The policy.
+        /// The name of the policy.
         policy: String,
-        /// The day.
+        /// The name of the day.
         day: String,
-        /// Which result.
+        /// The name of the result.
         member: &'static str,
-        /// The value found.
+        /// The value that was found.
         value: f64,
     },
 
-    /// V406. A policy could not play a day to its end. Cause: a replay of another day's trace, or a policy that chose
-    /// what is not feasible. Fix: replay a trace only on its own day; let a function of your own choose where the mask is 1; report
-    /// any other policy as a defect.
+    /// V406. A policy could not play a day to its end. Cause: a replay of another day's trace, or a policy that made a
+    /// choice that is not feasible. Fix: replay a trace only on its own day; let a function of your own choose where
+    /// the mask is 1; report any other policy as a defect.
     #[error("policy {policy:?} cannot play {day}: {cause}")]
     Stuck {
-        /// The policy.
+        /// The name of the policy.
         policy: String,
-        /// The day.
+        /// The name of the day.
         day: String,
-        /// Where it got stuck.
+        /// Why the policy could not continue.
         cause: PlayError,
     },
 
-    /// V407. Policies and models are asked for that do not go together. Cause and fix are in the message and its hint.
+    /// V407. The request names policies and models that do not go together. Cause and fix are in the message and its
+    /// hint.
     #[error("{rule}")]
     Asked {
-        /// What does not go together.
+        /// The rule that is broken.
         rule: String,
-        /// What helps.
+        /// How to fix it.
         hint: &'static str,
     },
 
-    /// V408. It was stopped before it was done. Nothing was written.
+    /// V408. The study was stopped before it was done. Nothing was written.
     #[error("stopped before all days were played")]
     Stopped,
 
-    /// V409. Parts of a study do not go together. Cause: they are of different comparisons, or days are missing between them.
-    /// Fix: join all parts of one comparison, in the order of their days.
+    /// V409. Parts of a study do not go together. Cause: they belong to different comparisons, or days are missing
+    /// between them. Fix: join all parts of one comparison, in the order of their days.
     #[error("the parts do not go together: {rule}")]
     PartsDiffer {
-        /// What differs.
+        /// The rule that is broken.
         rule: String,
     },
 
-    /// V410. Days of one's own cannot be compared. Cause: there is none, they have different vertiports, or two have one name. Fix:
-    /// compare days of one network, each with a `name` of its own.
+    /// V410. The user's own days cannot be compared. Cause: there are none, they have different vertiports, or two
+    /// have the same name. Fix: compare days of one network, each with a `name` of its own.
     #[error("the days do not go together: {rule}")]
     DaysDiffer {
-        /// What differs.
+        /// The rule that is broken.
         rule: String,
     },
 
-    /// V307. No policy has this name. Cause: it is mistyped. Fix: give one of the names that the message lists.
+    /// V307. No policy has this name. Cause: a typing error. Fix: give one of the names that the message lists.
     #[error("there is no policy {name:?}: known are {known}")]
     UnknownPolicy {
-        /// What was asked for.
+        /// The name that was asked for.
         name: String,
-        /// The names that there are.
+        /// The known names.
         known: String,
-        /// The one that was meant, if it can be guessed, as a question.
+        /// The name that was probably intended, if there is a similar one, as a question.
         meant: Option<String>,
     },
 }
 
 impl Error {
-    /// That a policy could not play a day to its end, or was stopped.
+    /// The error for a policy that could not play a day to its end or was stopped.
     pub fn of_play(policy: &str, day: &str, cause: PlayError) -> Self {
         match cause {
             PlayError::NoAnswer(PolicyError::Stopped) => Self::Stopped,

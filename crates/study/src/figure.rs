@@ -1,8 +1,8 @@
 //! The figures of a comparison as SVG: learning curves (Fig. 3 and on validation days), reward (Fig. 4), profit (Fig. 5), share of the bound, day by day.
 //!
 //! Every figure names its marks in words and tells its series apart by marker, dash or place as well as by colour, so
-//! that it reads the same in grey. Colours are set twice: as attributes for the file on its own, and as classes that a
-//! page's style sheet may override for a dark background.
+//! that it reads the same in grey. Colours are set twice: as attributes, for the SVG file by itself, and as classes,
+//! which the style sheet of a page may override for a dark background.
 
 mod axis;
 mod box_plot;
@@ -20,7 +20,7 @@ pub(crate) use palette::style_sheet;
 pub(crate) use png::png;
 pub(crate) use share_by_size::share_by_size;
 
-/// One picture with what a page says about it.
+/// A picture with the text that a page shows with it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Figure {
     /// File name without ending, for example `figure-5-profit`.
@@ -31,7 +31,7 @@ pub struct Figure {
     pub svg: String,
 }
 
-/// Every figure that the summary has numbers for, in the order in which a reader wants them.
+/// Every figure that the summary has numbers for, in the order of the report.
 pub fn all(summary: &ComparisonReport) -> Vec<Figure> {
     let figures = [
         Some(box_plot::daily_profit(summary)),

@@ -1,4 +1,5 @@
-//! What every figure promises: it is well-formed, its texts are inside, it makes a PNG, and it says what is what.
+//! Properties of every figure: it is well-formed, its texts stay inside, it can be converted to PNG, and it names what
+//! it shows.
 
 use vertifleet_sim::DayTotals;
 
@@ -11,14 +12,14 @@ use crate::record::{
 };
 use crate::summary::ComparisonReport;
 
-/// Names that a user could give, none of them friendly to XML.
+/// A name that a user could give, with characters that XML treats specially or forbids.
 const HOSTILE: &str = "a<b>&\"c'\u{0}\u{ffff} with a name much longer than any row";
 
 fn summary(names: &[&str], days: u32) -> ComparisonReport {
     ComparisonReport::of(&study(names, days)).expect("a sound study")
 }
 
-/// The same with an upper bound of every day.
+/// The same study with an upper bound for every day.
 fn bounded(names: &[&str], days: u32) -> ComparisonReport {
     let mut study = study(names, days);
     study.bound_step_s = Some(180);
@@ -33,7 +34,7 @@ fn study(names: &[&str], days: u32) -> ComparisonRecords {
         name: name.to_owned(),
         description: String::new(),
         days: (0..days).map(|day| record(policy, day)).collect(),
-        // One that knows the day is among any three.
+        // One of every three is a reference that knows the day.
         decision_ns: (policy % 3 != 2).then(LatencySummary::default),
     });
     let curves = names.iter().zip(0u32..).map(|(&name, policy)| LearningCurve {

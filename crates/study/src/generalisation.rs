@@ -1,7 +1,8 @@
-//! One day each of many networks: how policies do where they were not tuned, and whether size matters.
+//! One day of each of many networks, to show how policies do on networks that they were not tuned for, and whether
+//! size matters.
 //!
-//! What a policy earns on one network cannot be averaged with what it earns on another, so the measure is the share of the
-//! day's certified bound. Every network counts once.
+//! Profits on different networks cannot be averaged, so the measure is the share of the day's upper bound. Every
+//! network counts once.
 
 mod headline;
 mod networks_csv;
@@ -23,18 +24,19 @@ use crate::study::{Study, Watch};
 
 pub use summary::{FORMAT, GeneralisationReport, NetworkShare, Outcome, PolicyShare};
 
-/// Random networks with a day of each, and the competitors that will play them; everything that can be found wrong beforehand has
-/// been looked for.
+/// Random networks with a day of each, and the competitors that will play them. Everything that can be checked
+/// beforehand has been checked.
 pub struct Generalisation {
     study: Study,
     step: Step,
 }
 
 impl Generalisation {
-    /// The first so many random networks, each with the day that has its number.
+    /// Takes the first `networks` random networks, and of each the day that has the network's number.
     ///
     /// # Errors
-    /// If there is no such policy, two policies have one name, or a policy cannot play networks of any size.
+    /// Returns an error if there is no such policy, if two policies have the same name, or if a policy cannot play
+    /// networks of any size.
     pub fn new(selection: &Selection<'_>, networks: u32, step: Step) -> Result<Self, Error> {
         let competitors = selection.resolve("random")?;
         let draw = |number| {
@@ -50,11 +52,11 @@ impl Generalisation {
         self.study.days()
     }
 
-    /// Bounds all days and plays them with every policy; `command` is what the study says it was made with.
+    /// Bounds all days and plays them with every policy; `command` is the command line that the study records.
     ///
     /// # Errors
-    /// [`Error::Stopped`] soon after `stop` is raised; else if a day is too large for its bound, or a policy cannot play
-    /// one to its end.
+    /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a day is too large for its bound or
+    /// a policy cannot play one to its end.
     pub fn run(
         self,
         command: String,
@@ -72,28 +74,28 @@ impl Generalisation {
     }
 }
 
-/// What playing a day each of many networks leaves behind.
+/// The records of playing one day of each of many networks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GeneralisationRecords {
-    /// Length of the steps of the days' upper bounds, in seconds.
+    /// The length of the slices of the upper bounds, in seconds.
     pub bound_step_s: u32,
-    /// Command that made the study, as it would be typed.
+    /// The command line of the study.
     pub command: String,
-    /// The networks, as many as there are days.
+    /// The networks, one for each day.
     pub networks: Vec<NetworkRecord>,
-    /// Every policy's day of each network, in the networks' order, each with its upper bound. The others are measured against
-    /// the first.
+    /// The records of every policy, with one day for each network, in the order of the networks, and with the upper
+    /// bounds. The other policies are measured against the first.
     pub policies: Vec<PolicyRecord>,
 }
 
-/// A network that a day was drawn from.
+/// The network that a day was drawn from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NetworkRecord {
-    /// Name by which every command finds it.
+    /// The name by which commands find it.
     pub name: String,
     /// Number of vertiports.
     pub vertiports: usize,
-    /// Aircraft of all types together.
+    /// Number of aircraft of all types together.
     pub aircraft: usize,
 }
 

@@ -1,10 +1,10 @@
-//! The comparison in one or two sentences, made from its numbers.
+//! The result of the comparison in one or two sentences.
 
 use crate::numbers::{counted, dollars, grouped, p_statement, signed_dollars};
 use crate::origin::NetworkOrigin;
 use crate::summary::{ComparisonReport, PairedDifference, PolicySummary};
 
-/// What the best policy earns, and whether its lead over the reference is more than chance.
+/// Says how much the best policy earns, and whether its lead over the reference is more than chance.
 pub(crate) fn text(summary: &ComparisonReport) -> String {
     let best = summary.best();
     let earns = format!(
@@ -20,7 +20,7 @@ pub(crate) fn text(summary: &ComparisonReport) -> String {
     }
 }
 
-/// `100 unseen days of the “paper” network`.
+/// A text such as `100 unseen days of the “paper” network`.
 fn days(summary: &ComparisonReport) -> String {
     let changed = summary.network_origin == NetworkOrigin::Changed;
     let copy = if changed { "a changed copy of " } else { "" };
@@ -40,7 +40,7 @@ fn days(summary: &ComparisonReport) -> String {
     }
 }
 
-/// `, 95.2 % of the proven upper bound`, where bounds were asked for.
+/// A text such as `, 95.2 % of the proven upper bound`, if bounds were asked for.
 fn of_bound(policy: &PolicySummary) -> String {
     policy.bound_share.map_or_else(String::new, |share| {
         format!(", {} % of the proven upper bound", grouped(100.0 * share.mean, 1))
@@ -69,7 +69,7 @@ fn lead(summary: &ComparisonReport, comparison: &PairedDifference) -> String {
     }
 }
 
-/// `1.3 % more than`, or in dollars where a share of the other mean says nothing.
+/// A text such as `1.3 % more than`, or one in dollars if a share of the other mean says nothing.
 fn share(difference: f64, other_mean: f64) -> String {
     if difference == 0.0 {
         "as much as".to_owned()

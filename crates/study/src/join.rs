@@ -1,24 +1,27 @@
-//! Parts of a study that were played apart, on other machines perhaps, put together again.
+//! Joins parts of a study that were played separately, perhaps on different machines.
 
 use crate::error::Error;
 use crate::record::{ComparisonRecords, LatencySummary, PolicyRecord};
 
 impl ComparisonRecords {
-    /// The study of all days of some parts, each of which goes on with the day after the last of the part before it.
+    /// Joins parts into the study of all of their days. Each part must begin with the day after the last day of the
+    /// part before it.
     ///
-    /// The records are those of a study that was never parted. The times per decision cannot be: the parts' percentiles do not
-    /// say what those of all decisions are, so each is the highest of the parts', which no part exceeded.
+    /// The records are the same as those of one study of all days, except for the times per decision: the percentiles
+    /// of all decisions do not follow from those of the parts, so each is the highest of the parts' percentiles, which
+    /// no part exceeded.
     ///
     /// # Errors
-    /// [`Error::Empty`] if there are no parts; [`Error::PartsDiffer`] if they are not of one network and the same policies, or
-    /// days are missing or come twice.
+    /// Returns [`Error::Empty`] if there are no parts, and [`Error::PartsDiffer`] if they do not have the same network
+    /// and policies, or if days are missing or occur twice.
     pub fn join(parts: Vec<Self>) -> Result<Self, Error> {
         let mut parts = parts.into_iter();
         let mut whole = parts.next().ok_or(Error::Empty { policies: 0, days: 0 })?;
         for part in parts {
             whole.check_goes_on(&part)?;
             whole.days += part.days;
-            // Found on the days of a part: one of them may have missed that the network was changed.
+            // The origin was determined from the days of a part, and one part may have missed that the network was
+            // changed.
             whole.network_origin = whole.network_origin.with(part.network_origin);
             for (policy, part) in whole.policies.iter_mut().zip(part.policies) {
                 policy.decision_ns = slower(policy.decision_ns, part.decision_ns);
@@ -32,7 +35,7 @@ impl ComparisonRecords {
         let names = |study: &Self| -> Vec<String> {
             study.policies.iter().map(|policy: &PolicyRecord| policy.name.clone()).collect()
         };
-        // No day has a seed that high; a study read from elsewhere may say so.
+        // No day has a seed that high, but a study that was read from a file may claim so.
         let next_seed = self.seed.map(|seed| seed.saturating_add(self.days as u64));
         let rule = if part.network != self.network {
             format!("network {:?} after {:?}", part.network, self.network)

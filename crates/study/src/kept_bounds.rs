@@ -1,5 +1,5 @@
-//! Where bounds are kept between runs: `vertifleet` in the user's cache folder, as the XDG base directory specification
-//! (freedesktop.org, version 0.8) names it.
+//! The cache of bounds between runs: the folder `vertifleet` in the user's cache folder, as the XDG base directory
+//! specification (freedesktop.org, version 0.8) defines it.
 
 use std::env;
 use std::path::PathBuf;
@@ -12,15 +12,16 @@ use vertifleet_optimize::{Step, cached_upper_bound, upper_bound_unless};
 use crate::error::Error;
 use crate::run::BoundedDay;
 
-/// The folder of kept bounds, where there can be one.
+/// The folder of cached bounds, if there is one.
 pub struct KeptBounds {
     folder: Option<PathBuf>,
 }
 
 impl KeptBounds {
-    /// `$XDG_CACHE_HOME/vertifleet`, or `.cache/vertifleet` in the home folder. Nothing is kept where neither is known.
+    /// The cache in `$XDG_CACHE_HOME/vertifleet`, or `.cache/vertifleet` in the home folder. Without either, nothing
+    /// is cached.
     pub fn of_this_user() -> Self {
-        // The specification asks that relative paths be ignored.
+        // The specification requires that relative paths be ignored.
         let absolute =
             |name| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
         let caches =
@@ -28,10 +29,11 @@ impl KeptBounds {
         Self { folder: caches.map(|caches| caches.join("vertifleet")) }
     }
 
-    /// The days with their upper bounds; `bounded` is called after each, from any thread.
+    /// Computes the upper bounds of the days; `bounded` is called after each day, from any thread.
     ///
     /// # Errors
-    /// If a day is too large for a bound with this step; [`Error::Stopped`] if `stopped` is raised meanwhile.
+    /// Returns an error if a day is too large for a bound with this step; [`Error::Stopped`] if `stopped` is requested
+    /// meanwhile.
     pub fn days(
         &self,
         scenarios: Vec<Arc<Scenario>>,
@@ -40,7 +42,7 @@ impl KeptBounds {
         bounded: &(impl Fn() + Sync),
     ) -> Result<Vec<BoundedDay>, Error> {
         let bound = |scenario: Arc<Scenario>| {
-            // A bound that is kept is not stopped, but there may be many of them.
+            // Reading a cached bound does not check for a stop, and there may be many of them.
             if stopped.is_requested() {
                 return Err(Error::Stopped);
             }
@@ -52,7 +54,8 @@ impl KeptBounds {
         scenarios.into_par_iter().map(bound).collect()
     }
 
-    /// The bound of a day, dollars, unless `stopped` is raised. A folder that cannot be written to is no reason to go without.
+    /// The upper bound of a day in dollars; `None` if `stopped` is requested. If the cache folder cannot be written
+    /// to, the bound is computed without it.
     fn upper_bound_usd(
         &self,
         scenario: &Scenario,

@@ -1,10 +1,10 @@
-//! Many policies on many days: statistics, figures, report.
+//! Studies of many policies on many days: statistics, figures and reports.
 //!
-//! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`PolicySpec`] knows what the name of a policy means, [`competitor`]
-//! which policies a study has. There are two studies, [`comparison`] of policies on the days of one network, and [`generalisation`]
-//! over a day each of many networks: both go from what is asked for to records, have [`run`] play the days, and are shown by
-//! [`report`]. [`ComparisonReport`] turns records into statistics. Presentation computes nothing, and statistics know nothing of
-//! pages.
+//! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`PolicySpec`] gives the names of policies their
+//! meaning, and [`competitor`] finds the policies of a study. There are two studies: [`comparison`], of policies on
+//! the days of one network, and [`generalisation`], over one day of each of many networks. Both go from the request to
+//! records, let [`run`] play the days, and are written by [`report`]. [`ComparisonReport`] turns records into
+//! statistics. The presentation computes nothing, and the statistics do not depend on the presentation.
 //!
 //! ```
 //! use vertifleet_core::{Network, Stop};

@@ -1,4 +1,4 @@
-//! Numbers as people read them: thousands grouped, signs set, p-values and times rounded. Shared by table, figures, page.
+//! Formats numbers for people: grouped thousands, signs, rounded p-values and times. Table, figures and page share it.
 
 /// Rounds to `decimals` and groups the thousands: `-28,747`.
 pub(crate) fn grouped(value: f64, decimals: usize) -> String {
@@ -18,7 +18,7 @@ pub(crate) fn grouped(value: f64, decimals: usize) -> String {
     text + fraction
 }
 
-/// As [`grouped`], with a plus sign before positive values.
+/// Like [`grouped`], with a plus sign before positive values.
 pub(crate) fn signed(value: f64, decimals: usize) -> String {
     let text = grouped(value, decimals);
     if value > 0.0 && text.bytes().any(|digit| matches!(digit, b'1'..=b'9')) {
@@ -37,18 +37,18 @@ pub(crate) fn dollars(value: f64) -> String {
     }
 }
 
-/// The true minus sign for a number that was written for a terminal.
+/// Replaces the hyphen of a number that was written for a terminal by a true minus sign.
 pub(crate) fn typeset(number: &str) -> String {
     number.replace('-', "−")
 }
 
-/// As [`dollars`], with a plus sign before positive values.
+/// Like [`dollars`], with a plus sign before positive values.
 pub(crate) fn signed_dollars(value: f64) -> String {
     let text = dollars(value);
     if signed(value, 0).starts_with('+') { format!("+{text}") } else { text }
 }
 
-/// A p-value to three decimals, or that it is below them.
+/// A p-value to three decimals, or a statement that it is below them.
 pub(crate) fn p_value(p: Option<f64>) -> String {
     match p {
         None => "n/a".to_owned(),
@@ -76,12 +76,12 @@ pub(crate) fn duration(nanoseconds: u64) -> String {
     format!("{scaled:.decimals$} {unit}")
 }
 
-/// The length of a bound's steps, which are of whole minutes: `3 min`.
+/// The length of a bound's slices, which is a number of whole minutes: `3 min`.
 pub(crate) fn minutes(seconds: u32) -> String {
     format!("{} min", seconds / 60)
 }
 
-/// A noun with its number: `1 day`, `100 days`.
+/// A number with its noun: `1 day`, `100 days`.
 pub(crate) fn counted(count: usize, singular: &str, plural: &str) -> String {
     format!("{} {}", grouped(count as f64, 0), if count == 1 { singular } else { plural })
 }

@@ -1,7 +1,7 @@
-//! Whether the days of a study are those of a shipped network, or of one that only bears its name.
+//! Whether the days of a study come from a shipped network, or from a network that only has the name of one.
 //!
-//! People who want more aircraft copy `networks/paper.toml`, change a number and leave the name as it is. What is known
-//! of the shipped network, the published figures above all, then says nothing about the copy.
+//! Users who want more aircraft copy `networks/paper.toml`, change a number and leave the name as it is. What is known
+//! about the shipped network, above all the published figures, then says nothing about the copy.
 
 use std::sync::Arc;
 
@@ -9,20 +9,20 @@ use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{Network, Scenario};
 
-/// Where the network of some days comes from.
+/// The origin of the network of some days.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NetworkOrigin {
-    /// The program ships it.
+    /// The program ships the network.
     Shipped,
-    /// The program ships a network of that name, but draws other days from it.
+    /// The program ships a network with this name, but draws other days from it.
     Changed,
-    /// The program ships no network of that name.
+    /// The program ships no network with this name.
     Own,
 }
 
 impl NetworkOrigin {
-    /// The origin of the network of that name that these days are said to be of.
+    /// The origin of the network with this name, judged by days that are said to come from it.
     pub fn of<'a>(network: &str, days: impl IntoIterator<Item = &'a Scenario>) -> Self {
         match Network::shipped(network) {
             None => Self::Own,
@@ -31,7 +31,7 @@ impl NetworkOrigin {
         }
     }
 
-    /// As [`of`](Self::of) for many days, on all threads.
+    /// Like [`of`](Self::of), for many days and on all threads.
     pub(crate) fn of_all(network: &str, days: &[Arc<Scenario>]) -> Self {
         match Network::shipped(network) {
             None => Self::Own,
@@ -40,7 +40,7 @@ impl NetworkOrigin {
         }
     }
 
-    /// The origin of all days together, some of which have this one and some another.
+    /// The origin of all days together, if some have this origin and some the other.
     pub(crate) fn with(self, other: Self) -> Self {
         if self == other { self } else { Self::Changed }
     }

@@ -1,8 +1,9 @@
-//! Days of one's own to compare policies on, in place of days that are drawn from a seed: scenario files, or scenarios that are at
-//! hand already.
+//! The user's own days to compare policies on, instead of days drawn from a seed: scenario files, or scenarios in
+//! memory.
 //!
-//! What is measured on them is averaged and compared pair by pair, so they must go together: the same vertiports in the same
-//! order, and every day a name of its own. Fleet, demand, tariffs, times and disturbances may differ from day to day.
+//! Results are averaged and compared pair by pair, so the days must go together: they must have the same vertiports in
+//! the same order, and each must have a name of its own. Fleet, demand, tariffs, times and disturbances may differ
+//! from day to day.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -15,20 +16,20 @@ use crate::error::Error;
 use crate::origin::NetworkOrigin;
 use crate::policy_spec::network_of;
 
-/// Days of one's own that go together.
+/// The user's own days, which go together.
 #[derive(Debug, Clone)]
 pub struct OwnDays {
     pub(crate) scenarios: Vec<Arc<Scenario>>,
-    /// Where they came from, for people.
+    /// Where the days came from, as text.
     pub(crate) from: String,
 }
 
 impl OwnDays {
-    /// The scenario files at these paths, in their order; a folder stands for all of its files whose names end in `.json`, in the
-    /// order of their names.
+    /// Reads the scenario files at these paths, in their order. A folder stands for all of its files whose names end
+    /// in `.json`, in the order of their names.
     ///
     /// # Errors
-    /// If a file cannot be read or is no scenario; else as [`of`](Self::of).
+    /// Returns an error if a file cannot be read or is not a scenario, and the errors of [`of`](Self::of).
     pub fn read(paths: &[PathBuf]) -> Result<Self, Error> {
         let files = files(paths)?;
         let read = |path: &PathBuf| Ok(Arc::new(Scenario::read(path)?));
@@ -36,10 +37,11 @@ impl OwnDays {
         Self::of(scenarios, folders(paths, &files))
     }
 
-    /// These days; `from` says where they came from.
+    /// Takes these days; `from` says where they came from.
     ///
     /// # Errors
-    /// [`Error::DaysDiffer`] if there is none of them, they have different vertiports, or two have one name.
+    /// Returns [`Error::DaysDiffer`] if there are no days, if they have different vertiports, or if two have the same
+    /// name.
     pub fn of(scenarios: Vec<Arc<Scenario>>, from: String) -> Result<Self, Error> {
         let differ = |rule: String| Err(Error::DaysDiffer { rule });
         let Some(first) = scenarios.first() else {
@@ -68,17 +70,18 @@ impl OwnDays {
         self.scenarios.iter().map(Arc::as_ref)
     }
 
-    /// The days, and where they came from.
+    /// The days, with the text that says where they came from.
     pub fn into_parts(self) -> (Vec<Arc<Scenario>>, String) {
         (self.scenarios, self.from)
     }
 
-    /// The network whose name they all bear, as `paper-7` bears that of `paper`; else where they came from.
+    /// The name of the network that all days share, as `paper-7` has that of `paper`; otherwise where the days came
+    /// from.
     pub fn network(&self) -> &str {
         self.shared_network().unwrap_or(&self.from)
     }
 
-    /// Whether they are of a shipped network.
+    /// Whether the days come from a shipped network.
     pub(crate) fn origin(&self) -> NetworkOrigin {
         self.shared_network()
             .map_or(NetworkOrigin::Own, |network| NetworkOrigin::of_all(network, &self.scenarios))
@@ -91,7 +94,7 @@ impl OwnDays {
     }
 }
 
-/// The files that are meant.
+/// The files that the paths stand for.
 fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
     for path in paths {
@@ -112,7 +115,7 @@ fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let entries = fs::read_dir(folder).map_err(cannot)?;
     let paths = entries.map(|entry| Ok(entry?.path())).collect::<Result<Vec<PathBuf>, _>>();
     let mut paths = paths.map_err(cannot)?;
-    // A hidden file is one that is not finished, or none of the user's.
+    // A hidden file is an unfinished one, or one that the user did not make.
     let hidden =
         |path: &Path| path.file_name().is_some_and(|name| name.as_encoded_bytes()[0] == b'.');
     paths.retain(|path| path.extension().is_some_and(|end| end == "json") && !hidden(path));
@@ -120,14 +123,14 @@ fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(paths)
 }
 
-/// Folders as they were named, and those of files that were.
+/// The folders as they were named, and the folders of named files.
 fn folders(paths: &[PathBuf], files: &[PathBuf]) -> String {
     let folder = |path: &PathBuf| {
         let folder = if path.is_dir() { path } else { path.parent().unwrap_or(path) };
         let folder = if folder.as_os_str().is_empty() { Path::new("./") } else { folder };
         folder.display().to_string()
     };
-    // Where there are no files, people want to know of the folder that they named.
+    // If there are no files, the message must name the folders that the user gave.
     let meant = if files.is_empty() { paths } else { files };
     let mut names: Vec<String> = Vec::new();
     for name in paths.iter().filter(|path| path.is_dir()).chain(meant).map(folder) {

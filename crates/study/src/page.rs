@@ -1,7 +1,8 @@
 //! `report.html`: one page that opens offline, follows the reader's light or dark setting, and prints.
 //!
-//! The template escapes every text that it is given; only the figures and the style sheet, which are ours, go in as
-//! they are. Nothing is loaded from anywhere: style and figures are inside, links point to files beside the page.
+//! The template escapes every text that it is given; only the figures and the style sheet, which the program itself
+//! makes, are inserted as they are. The page loads nothing: style and figures are inside, and links point to files
+//! beside the page.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -15,7 +16,7 @@ use crate::published::{NOTE, PublishedResult};
 use crate::statistics::Estimate;
 use crate::summary::{ComparisonReport, PolicySummary};
 
-/// The whole page.
+/// The page as HTML.
 pub(crate) fn text(summary: &ComparisonReport, figures: &[Figure]) -> String {
     let body = html! {
         (opening(summary))
@@ -30,7 +31,7 @@ pub(crate) fn text(summary: &ComparisonReport, figures: &[Figure]) -> String {
     document(&format!("Vertifleet comparison: {}", summary.network), &body)
 }
 
-/// A page with this title and what stands on it.
+/// A page with this title and body.
 pub(crate) fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
@@ -89,7 +90,7 @@ fn opening(summary: &ComparisonReport) -> Markup {
     }
 }
 
-/// Whose network it is.
+/// A remark about the origin of the network.
 fn origin(origin: NetworkOrigin) -> &'static str {
     match origin {
         NetworkOrigin::Shipped => "as shipped",
@@ -98,7 +99,7 @@ fn origin(origin: NetworkOrigin) -> &'static str {
     }
 }
 
-/// `4 policies and 1 reference`.
+/// A text such as `4 policies and 1 reference`.
 fn contenders(summary: &ComparisonReport) -> String {
     let references = summary.policies.iter().filter(|policy| policy.is_offline()).count();
     let policies = summary.policies.len() - references;
@@ -319,7 +320,7 @@ fn closing(figures: &[Figure]) -> Markup {
     }
 }
 
-/// The figures' files, each after a semicolon.
+/// Links to the files of the figures, each after a semicolon.
 pub(crate) fn links(figures: &[Figure]) -> Markup {
     html! {
         @for figure in figures {

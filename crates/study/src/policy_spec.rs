@@ -1,6 +1,7 @@
-//! How a policy is named: [`PolicySpec::parse`] reads the name, [`PolicySpec::resolve`] finds the weights or the trace behind it.
+//! The names of policies: [`PolicySpec::parse`] reads a name, and [`PolicySpec::resolve`] finds the weights or the
+//! trace that it refers to.
 //!
-//! Every command and the Python package name policies in this one way.
+//! All commands and the Python package name policies in this way.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -18,18 +19,18 @@ use crate::resolved_policy::ResolvedPolicy;
 /// The policy whose weights fit networks of any size.
 const ANY_SIZE: &str = "gcaps-x";
 
-/// Names that commands take as they are.
+/// The names that need no further information.
 const NAMES: [&str; 9] =
     ["random", "greedy", "lookahead", "prices", "rolling", ANY_SIZE, "gcaps", "mlp", "plan"];
 
-/// A policy as its name says it, before anything is read.
+/// A policy as its name describes it, before any file is read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PolicySpec {
     name: String,
     kind: Kind,
 }
 
-/// What a name says.
+/// The meaning of a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Kind {
     Random,
@@ -37,7 +38,7 @@ enum Kind {
     Lookahead,
     BidPrices,
     Rolling,
-    /// The planner, which is no policy: it knows the day.
+    /// The planner, which is not a policy because it knows the day.
     Planner,
     /// The trace in this file.
     Replay(PathBuf),
@@ -45,14 +46,14 @@ enum Kind {
         architecture: &'static str,
         most_rolled_out: usize,
     },
-    /// A name of the user's own for weights or a function that come with it.
+    /// A name that the user chose for weights or a function.
     Own,
 }
 
-/// What a name stands for, where its user says so.
+/// What a name refers to, if the user says so.
 #[derive(Debug, Clone)]
 pub enum PolicySource {
-    /// Weights in a file, with the learning curves that may lie beside it.
+    /// Weights in a file, with the learning curves that may stand beside it.
     File(PathBuf),
     /// Weights that have been read.
     Model(Arc<Model>),
@@ -60,7 +61,7 @@ pub enum PolicySource {
     Own(PolicyFactory),
 }
 
-/// Makes a policy, as often as there are threads that need one.
+/// Makes policies, one for each thread that needs one.
 #[derive(Clone)]
 pub struct PolicyFactory(pub Arc<dyn Fn() -> Box<dyn Policy> + Send + Sync>);
 
@@ -73,18 +74,18 @@ impl fmt::Debug for PolicyFactory {
 /// The days that a policy is resolved for.
 #[derive(Debug, Clone, Copy)]
 pub enum ResolveFor<'a> {
-    /// One day, which a trace may be of.
+    /// One day, which a trace may belong to.
     Day(&'a Scenario),
-    /// Days of the network of this name.
+    /// Days of the network with this name.
     DaysOf(&'a str),
 }
 
 impl PolicySpec {
-    /// Reads a name, as `greedy`, `gcaps-x:rollouts=3` or `replay:day.csv`. One that is not known may be the user's own, for what
-    /// [`resolve`](Self::resolve) is given with it.
+    /// Reads a name such as `greedy`, `gcaps-x:rollouts=3` or `replay:day.csv`. A name that is not known may be one of
+    /// the user's own, for the source that is given to [`resolve`](Self::resolve).
     ///
     /// # Errors
-    /// [`Error::Asked`] if what stands behind `gcaps-x:` cannot be.
+    /// Returns [`Error::Asked`] if the text after `gcaps-x:` is not valid.
     pub fn parse(name: &str) -> Result<Self, Error> {
         let kind = match name {
             "random" => Kind::Random,
@@ -113,18 +114,19 @@ impl PolicySpec {
         &self.name
     }
 
-    /// Whether the planner is meant, which knows the day and is no policy.
+    /// Whether this is the planner, which knows the day and is not a policy.
     pub fn is_planner(&self) -> bool {
         self.kind == Kind::Planner
     }
 
-    /// Whether what is given under this name is meant: the own name, or `gcaps-x` for `gcaps-x:rollouts=3`.
+    /// Whether a source that is given under `name` belongs to this policy. `gcaps-x` also belongs to
+    /// `gcaps-x:rollouts=3`.
     pub fn takes(&self, name: &str) -> bool {
         let is_architecture = |kind: &Kind| matches!(kind, Kind::Learned { architecture, .. } if *architecture == name);
         self.name == name || is_architecture(&self.kind)
     }
 
-    /// The trace that is replayed, where one is.
+    /// The trace that is replayed, if this is a replay.
     pub fn replayed(&self) -> Option<&Path> {
         match &self.kind {
             Kind::Replay(path) => Some(path),
@@ -132,11 +134,12 @@ impl PolicySpec {
         }
     }
 
-    /// Finds the policy: of what is given with the name, or else a rule, a trace, or weights that the program ships. `seed` is that of
-    /// the random policy.
+    /// Finds the policy: from the given source, or else a rule, a trace, or weights that the program ships. `seed` is
+    /// for the random policy.
     ///
     /// # Errors
-    /// If there is no such policy, weights or trace cannot be read, or name and weights do not go together. The planner is no policy.
+    /// Returns an error if there is no such policy, if weights or trace cannot be read, or if name and weights do not
+    /// go together. The planner is not a policy.
     pub fn resolve(
         &self,
         source: Option<&PolicySource>,
@@ -177,7 +180,8 @@ impl PolicySpec {
         }
     }
 
-    /// The policy of what is given with the name. Where the name is that of an architecture, the weights must be of it.
+    /// The policy of the given source. If the name is that of an architecture, the weights must be of that
+    /// architecture.
     fn given(&self, source: &PolicySource, days: ResolveFor<'_>) -> Result<ResolvedPolicy, Error> {
         let (model, origin) = match source {
             PolicySource::File(path) => (Arc::new(Model::read(path)?), path.display().to_string()),
@@ -196,7 +200,8 @@ impl PolicySpec {
             }
             most = most_rolled_out;
         }
-        // How it learned is told beside results of many days; of one day's, a curve that cannot be read must not be in the way.
+        // Learning curves are shown beside results of many days only. For one day, a curve that cannot be read must
+        // not cause an error.
         let curves = match (source, days) {
             (PolicySource::File(path), ResolveFor::DaysOf(_)) => Curve::read_beside(path)?,
             _ => Vec::new(),
@@ -220,7 +225,7 @@ impl PolicySpec {
     }
 }
 
-/// How many choices `gcaps-x` rolls out, of what stands behind its colon.
+/// Parses the number of choices that `gcaps-x` rolls out from the text after its colon.
 fn parse_rollouts(name: &str, options: &str) -> Result<usize, Error> {
     let most = options.strip_prefix("rollouts=").and_then(|most| most.parse().ok());
     most.filter(|most| (2..=GcapsX::MOST_ROLLED_OUT).contains(most)).ok_or_else(|| Error::Asked {
@@ -238,7 +243,7 @@ impl ResolveFor<'_> {
     }
 }
 
-/// The network a day was drawn from, by its name: `paper` of `paper-7`.
+/// The name of the network that a day was drawn from: `paper` for `paper-7`.
 pub(crate) fn network_of(scenario: &Scenario) -> &str {
     scenario.name.strip_suffix(&format!("-{}", scenario.seed)).unwrap_or(&scenario.name)
 }

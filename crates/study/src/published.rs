@@ -1,26 +1,26 @@
-//! The figures that §V.B of the paper publishes, and why they stand beside ours without being a target.
+//! The figures that §V.B of the paper publishes, and why they stand beside our results without being a target.
 
 use serde::Serialize;
 
 use crate::origin::NetworkOrigin;
 
-/// Name of the shipped network that follows the paper, the only one that the published figures say anything about.
+/// The name of the shipped network that follows the paper; the published figures apply to no other network.
 const PAPER_NETWORK: &str = "paper";
 
-/// One method of §V.B on its authors' 100 test days.
+/// The results of one method in §V.B on the authors' 100 test days.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PublishedResult {
-    /// Name in the paper.
+    /// Its name in the paper.
     pub name: &'static str,
-    /// Our policy of the same kind.
+    /// The name of our policy of the same kind.
     pub policy: &'static str,
     /// Mean daily profit, in dollars.
     pub profit_usd: f64,
     /// Standard deviation of the daily profit, in dollars.
     pub standard_deviation_usd: f64,
-    /// Mean number of trips a day.
+    /// Mean number of flights a day.
     pub flights: f64,
-    /// Episode reward at the end of training (Fig. 3), where the text gives it.
+    /// Reward at the end of training (Fig. 3), if the text of the paper gives it.
     pub reward_at_convergence: Option<f64>,
 }
 
@@ -51,7 +51,7 @@ const RESULTS: [PublishedResult; 3] = [
     },
 ];
 
-/// How to read the published figures, one paragraph each.
+/// Explains how to read the published figures, one paragraph each.
 pub const NOTE: [&str; 3] = [
     "The two halves of this table do not measure the same thing, and the published margins are no target here. The \
      published figures follow exactly from the result files in the authors’ public repository \
@@ -64,7 +64,8 @@ pub const NOTE: [&str; 3] = [
      it earns beside the random and the greedy rule on the same unseen days.",
 ];
 
-/// The published results that concern this network: those of §V.B for `paper` as it is shipped, none for any other.
+/// The published results that apply to this network: those of §V.B for `paper` as it is shipped, and none for any
+/// other.
 pub fn results_for(network: &str, origin: NetworkOrigin) -> &'static [PublishedResult] {
     if network == PAPER_NETWORK && origin == NetworkOrigin::Shipped { &RESULTS } else { &[] }
 }

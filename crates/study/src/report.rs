@@ -1,5 +1,5 @@
-//! How studies are shown: as text, as JSON, and as a folder with a page, figures and tables. The folder is replaced as a whole, so
-//! that a page never stands beside figures of another run.
+//! How studies are shown: as text, as JSON, and as a folder with a page, figures and tables. The folder is replaced as
+//! a whole, so a page never stands beside the figures of another run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,45 +12,46 @@ use crate::record::ComparisonRecords;
 use crate::summary::ComparisonReport;
 use crate::{days_csv, figure, page, table};
 
-/// A file of a report: its name and what it holds.
+/// A file of a report: its name and its content.
 pub type File = (String, Vec<u8>);
 
-/// What a study leaves behind, which can be shown.
+/// The records of a study, in the forms in which they are shown.
 pub trait Records {
-    /// The study as a table for a terminal. No line end after the last line.
+    /// The study as a table for a terminal, without a line end after the last line.
     ///
     /// # Errors
-    /// [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies on the same days.
+    /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies
+    /// on the same days.
     fn text(&self) -> Result<String, Error>;
 
-    /// Its numbers for machines.
+    /// The numbers of the study as JSON.
     ///
     /// # Errors
-    /// As [`text`](Self::text).
+    /// The same as those of [`text`](Self::text).
     fn json(&self) -> Result<String, Error>;
 
-    /// The files of its report, of which `report.html` is the page.
+    /// The files of the study's report; `report.html` is the page.
     ///
     /// # Errors
-    /// As [`text`](Self::text).
+    /// The same as those of [`text`](Self::text).
     fn files(&self) -> Result<Vec<File>, Error>;
 }
 
-/// Where a report was written.
+/// The places where a report was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Written {
     /// The page.
     pub page: PathBuf,
-    /// Where a folder is kept that was there before and held something else.
+    /// The new place of a folder that was in the way and held something else.
     pub kept: Option<PathBuf>,
 }
 
-/// What stands first in the numbers for machines, of any version of the format.
+/// The kind of a `summary.json` that begins with this format, in any version.
 const fn summary_of(opening: &'static str) -> OutputKind {
     OutputKind { name: "report", skipped: 0, opening }
 }
 
-/// A folder that holds a report of a comparison or of many networks, and nothing else.
+/// A folder that holds a report of either study and nothing else.
 pub(crate) const FOLDER: FolderKind = FolderKind {
     name: "report",
     mark: (
@@ -68,11 +69,12 @@ pub(crate) const FOLDER: FolderKind = FolderKind {
     },
 };
 
-/// Whether a report may be written to this folder, asked before the days are played: it can be made, is empty or holds an earlier
-/// report, or `force` is given. Leaves no folder behind that was not there.
+/// Checks, before the days are played, that a report may be written to this folder: it can be created, is empty, or
+/// holds an earlier report, or `force` is given. A folder that did not exist before does not exist afterwards.
 ///
 /// # Errors
-/// [`Error::CannotMakeFolder`], or [`Error::Core`] for a folder that holds something else (V143) or is read-only (V144).
+/// Returns [`Error::CannotMakeFolder`], or [`Error::Core`] for a folder that holds something else (V143) or is
+/// read-only (V144).
 pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
     let missing =
         folder.ancestors().take_while(|path| !path.as_os_str().is_empty() && !path.exists());
@@ -80,18 +82,19 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
     let made = fs::create_dir_all(folder)
         .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause });
     for path in missing {
-        // Another program may have put something into it by now; then it stays.
+        // Another program may have put something into the folder by now; then it stays.
         let _ = fs::remove_dir(path);
     }
     made?;
     Ok(vertifleet_core::check_folder(folder, &FOLDER, force)?)
 }
 
-/// Writes the whole report of a study into `folder`, or nothing; the folder is made if it is not there. An earlier report in it
-/// is replaced, and what else may be there is kept beside it, which takes `force`.
+/// Writes the whole report of a study into `folder`, or nothing; the folder is created if it does not exist. An
+/// earlier report in it is replaced; with `force`, a folder with other content is kept beside it.
 ///
 /// # Errors
-/// As [`check_folder`]; [`Error::Core`] (V102) where it cannot be written, or as [`Records::text`]. Everything is as it was then.
+/// The same as those of [`check_folder`] and [`Records::text`], and [`Error::Core`] (V102) if the report cannot be
+/// written. After an error everything is as it was.
 pub fn write(study: &impl Records, folder: &Path, force: bool) -> Result<Written, Error> {
     let files = study.files()?;
     check_folder(folder, force)?;
@@ -121,7 +124,7 @@ impl Records for ComparisonRecords {
     }
 }
 
-/// The figures, each as SVG and as PNG, by the names of their files.
+/// The figures, each as SVG and as PNG, with the names of their files.
 pub(crate) fn pictures(figures: &[Figure]) -> Vec<File> {
     let both = |figure: &Figure| {
         [

@@ -1,4 +1,4 @@
-//! A policy with all that it needs to decide, which is built as often as there are threads that need one.
+//! A policy with everything that it needs to decide; each thread that needs the policy builds its own.
 
 use std::sync::Arc;
 
@@ -28,25 +28,25 @@ pub enum ResolvedPolicy {
     BidPrices,
     /// [`Rolling`].
     Rolling,
-    /// One of the user's own.
+    /// A policy of the user's own.
     Own(PolicyFactory),
     /// [`Replay`] of a trace.
     Replay(Arc<Trace>),
-    /// A policy that has learned.
+    /// A learned policy.
     Learned {
         /// Its weights.
         model: Arc<Model>,
-        /// How many choices `gcaps-x` rolls out; 1 decides at once, as the others do.
+        /// How many choices `gcaps-x` rolls out; with 1 it decides at once, as the others always do.
         most_rolled_out: usize,
-        /// Of the run that these weights are of, then of runs with other seeds.
+        /// The learning curve of the run of these weights, followed by those of runs with other seeds.
         curves: Vec<Curve>,
-        /// Whether the program ships them.
+        /// Whether the program ships the weights.
         is_shipped: bool,
     },
 }
 
 impl ResolvedPolicy {
-    /// One policy of this kind.
+    /// Builds a policy of this kind.
     pub fn build(&self) -> Box<dyn Policy> {
         match self {
             Self::Random(seed) => Box::new(Random::new(*seed)),
@@ -60,10 +60,10 @@ impl ResolvedPolicy {
         }
     }
 
-    /// Plays a day to its end; `name` is the policy's in an error.
+    /// Plays a day to its end; `name` is the policy's name in an error.
     ///
     /// # Errors
-    /// [`Error::Stuck`] if the policy cannot; [`Error::Stopped`] soon after `stop` is raised.
+    /// Returns [`Error::Stuck`] if the policy cannot play the day; [`Error::Stopped`] soon after `stop` is requested.
     pub fn play(
         &self,
         name: &str,
@@ -79,10 +79,10 @@ impl ResolvedPolicy {
         Ok((trace, simulation.totals()))
     }
 
-    /// Whether the policy can play this day.
+    /// Checks that the policy can play this day.
     ///
     /// # Errors
-    /// [`Error::Learn`] if its weights are of another network.
+    /// Returns [`Error::Learn`] if its weights belong to another network.
     pub fn check_fits(&self, scenario: &Scenario) -> Result<(), Error> {
         match self {
             Self::Learned { model, .. } => Ok(model.check_fits(scenario)?),
@@ -90,14 +90,15 @@ impl ResolvedPolicy {
         }
     }
 
-    /// [`warning`](Self::warning) for one day.
+    /// The [`warning`](Self::warning) for one day.
     pub fn warning_for(&self, name: &str, day: &Scenario) -> Option<String> {
         let network = network_of(day);
         self.warning(name, network, NetworkOrigin::of(network, [day]))
     }
 
-    /// V310: what to say where shipped weights decide on a network that only bears the name of theirs. Cause: the network
-    /// was copied and changed, or the scenario was. Fix: train weights on it, or take it that these know the other one.
+    /// V310: the warning for shipped weights that decide on a network that only has the name of their own. Cause: the
+    /// network or the scenario was copied and changed. Fix: train weights on the changed network, or accept that these
+    /// weights were trained on the other one.
     pub(crate) fn warning(
         &self,
         name: &str,
@@ -114,7 +115,7 @@ impl ResolvedPolicy {
         })
     }
 
-    /// What the policy does, in one short sentence.
+    /// Describes what the policy does, in one short sentence.
     pub(crate) fn description(&self) -> String {
         match self {
             Self::Random(_) => "draws evenly among the feasible vertiports (Feas-RND)".to_owned(),
@@ -140,7 +141,7 @@ impl ResolvedPolicy {
         }
     }
 
-    /// Name of the network whose days it was trained on, if it was.
+    /// The name of the network whose days it was trained on, if it was trained.
     pub(crate) fn trained_on(&self) -> Option<&str> {
         match self {
             Self::Learned { model, .. } => Some(&model.header().network),
@@ -148,7 +149,8 @@ impl ResolvedPolicy {
         }
     }
 
-    /// Steps and mean episode reward on the training days; none of a policy that does not learn from rewards.
+    /// Decisions learned from and mean reward on the training days; empty for a policy that does not learn from
+    /// rewards.
     pub(crate) fn training_rewards(&self) -> Vec<(u64, f64)> {
         match self {
             Self::Learned { curves, .. } => {
@@ -158,11 +160,11 @@ impl ResolvedPolicy {
         }
     }
 
-    /// Decisions learned from and mean reward on the validation days, run by run; none of a policy that was not trained, or not
-    /// validated while it was.
+    /// Decisions learned from and mean reward on the validation days, run by run; empty for a policy that was not
+    /// trained, or not validated during its training.
     pub(crate) fn validation_rewards(&self) -> Vec<Vec<(u64, f64)>> {
         let mut runs: Vec<Vec<(u64, f64)>> = match self {
-            // With roll-outs it decides in another way than in its training.
+            // With roll-outs the policy decides in another way than it did in training, so the curves do not apply.
             Self::Learned { curves, most_rolled_out: 1, .. } => {
                 curves.iter().map(Curve::validation_rewards).collect()
             }
@@ -173,8 +175,8 @@ impl ResolvedPolicy {
     }
 }
 
-/// The learned policies that the program ships for a day's network, and those for every network: with the rules, all from
-/// whose days a plan can set out.
+/// The learned policies that the program ships for a day's network and for every network. Together with the rules,
+/// these are the policies from whose days a search for a plan can start.
 pub fn starting_policies(scenario: &Scenario) -> Vec<StartingPolicy> {
     let names = ["gcaps-x", "gcaps", "mlp"];
     let shipped = names.into_iter().filter_map(|name| {

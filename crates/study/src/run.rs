@@ -1,7 +1,8 @@
-//! Plays every policy on every day of a comparison, on all threads that there are.
+//! Plays every policy on every day of a comparison, on all available threads.
 //!
-//! A policy plays a day the same way whatever else it plays, so the records are the same on any number of threads.
-//! Only the times per decision are measurements of this machine, taken while its other threads play too.
+//! A policy plays a day the same way regardless of the rest of the comparison, so the records are the same on any
+//! number of threads. Only the times per decision are measurements of this machine, taken while its other threads are
+//! busy too.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -18,24 +19,25 @@ use crate::resolved_policy::ResolvedPolicy;
 
 /// A day of a comparison.
 pub struct BoundedDay {
-    /// What every policy meets.
+    /// The scenario that every policy plays.
     pub scenario: Arc<Scenario>,
-    /// What no schedule of it earns more than, dollars, where that is asked for.
+    /// Its upper bound in dollars, if one was asked for.
     pub upper_bound_usd: Option<f64>,
 }
 
 impl BoundedDay {
-    /// A day whose bound is not asked for.
+    /// A day without an upper bound.
     pub fn unbounded(scenario: Arc<Scenario>) -> Self {
         Self { scenario, upper_bound_usd: None }
     }
 }
 
-/// Plays all days with every competitor, one after the other. `begin` is given the name of the one that begins, and gives what is
-/// called after each of its days, from any thread.
+/// Plays all days with every competitor, one competitor after the other. `begin` is called with the name of the
+/// competitor that begins, and returns the function that is called after each of its days, from any thread.
 ///
 /// # Errors
-/// [`Error::Stuck`] if a policy cannot play a day to its end; [`Error::Stopped`] soon after `stop` is raised.
+/// Returns [`Error::Stuck`] if a policy cannot play a day to its end; [`Error::Stopped`] soon after `stop` is
+/// requested.
 pub fn run<Played: Fn() + Sync>(
     days: &[BoundedDay],
     competitors: &[Competitor],
@@ -59,7 +61,8 @@ pub fn run<Played: Fn() + Sync>(
     competitors.iter().map(&mut play).collect()
 }
 
-/// Plays all days with a policy that decides while they go on, one policy a thread, and times its decisions.
+/// Plays all days with a policy that decides while they are played, one policy per thread, and measures the time of
+/// its decisions.
 fn play_policy(
     name: &str,
     policy: &ResolvedPolicy,
@@ -80,7 +83,7 @@ fn play_policy(
     Ok((records, latency(nanoseconds.concat())))
 }
 
-/// Plans all days, each with all of it known, and plays what was planned.
+/// Plans all days, each with the whole day known, and plays the plans.
 fn play_plans(
     name: &str,
     planner: &Planner,
@@ -112,7 +115,7 @@ fn play_day(name: &str, policy: &mut dyn Policy, day: &BoundedDay) -> Result<Day
     })
 }
 
-/// A policy whose every choice is timed, one by one as a dispatcher would ask, until it is stopped.
+/// A policy whose every choice is timed by itself, as a dispatcher would ask for it, until a stop is requested.
 struct Timed<'a> {
     policy: Stoppable<'a, dyn Policy>,
     nanoseconds: Vec<u64>,
@@ -127,7 +130,7 @@ impl Policy for Timed<'_> {
     }
 }
 
-/// Median and 99th percentile as values that did occur (nearest rank); zero if nothing was decided.
+/// The median and the 99th percentile as times that did occur (nearest rank); zero if there were no decisions.
 fn latency(mut nanoseconds: Vec<u64>) -> LatencySummary {
     nanoseconds.sort_unstable();
     let at_rank = |percent: usize| {
@@ -152,7 +155,7 @@ mod tests {
     fn competitors() -> Vec<Competitor> {
         let kinds = [
             ("random", Kind::Policy(ResolvedPolicy::Random(7))),
-            // Too few steps to find more than it begins with, but that is no matter here.
+            // With one step the planner finds nothing better than its start, which does not matter here.
             ("plan", Kind::Planner(Planner { paper_steps: 1, seed: 7 })),
             ("greedy", Kind::Policy(ResolvedPolicy::Greedy)),
         ];

@@ -1,18 +1,18 @@
 //! Descriptive statistics and the paired t-test (§V.B), on plain slices.
 //!
-//! Nothing here is ever NaN or infinite for finite values: what is not defined (a standard deviation of one value, the
-//! t statistic of differences that do not vary) is `None`.
+//! For finite values, no result is NaN or infinite: an undefined result (a standard deviation of one value, the t
+//! statistic of differences that do not vary) is `None`.
 
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Probability that a confidence interval holds the true mean.
+/// The probability that a confidence interval contains the true mean.
 const CONFIDENCE: f64 = 0.95;
 
-/// Below this p-value a difference counts as one (§V.B).
+/// A difference with a p-value below this is significant (§V.B).
 const SIGNIFICANCE: f64 = 0.05;
 
-/// A mean with what is known about how far it can be trusted.
+/// A mean with its standard deviation and confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Estimate {
     /// Arithmetic mean; 0 if there are no values.
@@ -35,13 +35,13 @@ impl Estimate {
         Self { mean, standard_deviation, half_width_95 }
     }
 
-    /// Lower and upper end of the 95 % interval, where there is one.
+    /// The lower and upper end of the 95 % interval, if there is one.
     pub fn interval_95(&self) -> Option<(f64, f64)> {
         self.half_width_95.map(|half| (self.mean - half, self.mean + half))
     }
 }
 
-/// Arithmetic mean; 0 of no values.
+/// The arithmetic mean; 0 if there are no values.
 pub fn mean(values: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
 }
@@ -52,7 +52,7 @@ pub fn standard_deviation(values: &[f64]) -> Option<f64> {
     if rest.is_empty() {
         return None;
     }
-    // A sum of equal values need not be divisible by their number without rounding: say zero where it is zero.
+    // The mean of equal values may differ from them by rounding, so a deviation of zero is returned explicitly.
     if rest.iter().all(|value| value.total_cmp(first).is_eq()) {
         return Some(0.0);
     }
@@ -89,7 +89,8 @@ impl BoxSummary {
         let reach = 1.5 * (third_quartile - first_quartile);
         let inside =
             |value: f64| value >= first_quartile - reach && value <= third_quartile + reach;
-        // With few values a quartile can lie beyond the last value inside the reach; a whisker never ends in its box.
+        // With few values, a quartile can lie beyond the last value within reach; a whisker must not end inside the
+        // box.
         let low_whisker = sorted.iter().copied().find(|&value| inside(value))?.min(first_quartile);
         let high_whisker =
             sorted.iter().copied().rfind(|&value| inside(value))?.max(third_quartile);
@@ -134,7 +135,7 @@ impl PairedTest {
     /// Tests first against second, pair by pair.
     ///
     /// # Panics
-    /// If the two slices differ in length: then the values are not paired.
+    /// Panics if the two slices differ in length, because then the values are not paired.
     pub fn of(first: &[f64], second: &[f64]) -> Self {
         assert_eq!(first.len(), second.len(), "paired values come in pairs");
         let differences: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
@@ -166,7 +167,7 @@ impl PairedTest {
 }
 
 fn two_sided_p(t: f64, degrees_of_freedom: f64) -> f64 {
-    // The upper tail itself, not one minus the rest of it: small p-values keep their digits.
+    // This takes the upper tail itself, not one minus the lower part, so that small p-values keep their digits.
     (2.0 * students_t(degrees_of_freedom).sf(t.abs())).min(1.0)
 }
 

@@ -2,8 +2,8 @@
 
 use super::{BoxSummary, Estimate, PairedTest, mean, standard_deviation, t_quantile};
 
-/// Extra hours of sleep with two drugs, ten patients: Student, "The probable error of a mean", Biometrika 6 (1908), as
-/// in R's `sleep`. `t.test(..., paired = TRUE)` of R's manual gives t = -4.0621, df = 9, p = 0.002833.
+/// Extra hours of sleep with two drugs for ten patients: Student, "The probable error of a mean", Biometrika 6 (1908),
+/// the data set `sleep` of R. For `t.test(..., paired = TRUE)`, R's manual gives t = -4.0621, df = 9, p = 0.002833.
 const FIRST_DRUG: [f64; 10] = [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0];
 const SECOND_DRUG: [f64; 10] = [1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4];
 
@@ -53,7 +53,7 @@ fn quantiles_of_students_t_match_scipy() {
     }
 }
 
-/// `base + step * ((factor * i) % 100) + slope * i`, i = 0 ... 99: values that any tool can make again.
+/// `base + step * ((factor * i) % 100) + slope * i` for i = 0 ... 99: values that any tool can reproduce.
 fn made_up(base: f64, step: f64, factor: u32, slope: f64) -> Vec<f64> {
     (0..100u32)
         .map(|i| base + step * f64::from((factor * i) % 100) + slope * f64::from(i))

@@ -1,4 +1,4 @@
-//! What all studies have in common: competitors play days, which may be bounded first.
+//! The common part of all studies: competitors play days, which may be bounded first.
 
 use std::sync::Arc;
 
@@ -11,17 +11,17 @@ use crate::kept_bounds::KeptBounds;
 use crate::record::PolicyRecord;
 use crate::run::{BoundedDay, run};
 
-/// What is told how far a study is. Each member is asked for something to call after every day, from any thread.
+/// Follows the progress of a study. Each method returns a function that is called after every day, from any thread.
 pub trait Watch {
-    /// What is called after a day.
+    /// The function that is called after a day.
     type Bar: Fn() + Sync;
-    /// So many days are being bounded.
+    /// Called before this many days are bounded.
     fn bounds(&self, days: usize) -> Self::Bar;
-    /// So many days are being played by this policy; `position` of `policies`, from 1.
+    /// Called before this policy plays this many days; it is number `position` of `policies`, from 1.
     fn policy(&self, name: &str, position: usize, policies: usize, days: usize) -> Self::Bar;
 }
 
-/// Watches nothing.
+/// Ignores the progress.
 #[derive(Debug, Clone, Copy)]
 pub struct Unwatched;
 
@@ -37,17 +37,18 @@ impl Watch for Unwatched {
     }
 }
 
-/// Days and the competitors that will play them, each of which can play each.
+/// Days and the competitors that will play them. Every competitor can play every day.
 pub(crate) struct Study {
     pub(crate) competitors: Vec<Competitor>,
     pub(crate) scenarios: Vec<Arc<Scenario>>,
-    /// Step of the days' upper bounds, where those are asked for.
+    /// The step of the days' upper bounds, if bounds are asked for.
     pub(crate) bound_step: Option<Step>,
 }
 
 impl Study {
     /// # Errors
-    /// [`Error::Empty`] if there is no competitor or no day; else if a competitor cannot play one of the days.
+    /// Returns [`Error::Empty`] if there is no competitor or no day, and an error if a competitor cannot play one of
+    /// the days.
     pub(crate) fn new(
         competitors: Vec<Competitor>,
         scenarios: Vec<Arc<Scenario>>,
@@ -66,7 +67,7 @@ impl Study {
         self.scenarios.iter().map(Arc::as_ref)
     }
 
-    /// Bounds all days, if that is asked for, and plays them with every competitor, one after the other.
+    /// Bounds all days, if that is asked for, and plays them with every competitor, one competitor after the other.
     pub(crate) fn play(&self, stop: &Stop, watch: &impl Watch) -> Result<Vec<PolicyRecord>, Error> {
         let Self { competitors, scenarios, bound_step } = self;
         let (number, scenarios) = (scenarios.len(), scenarios.clone());

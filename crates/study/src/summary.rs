@@ -1,6 +1,6 @@
-//! A study in numbers: what `summary.json` and `--json` hold, and what table, figures and page show.
+//! The statistics of a comparison: `summary.json` and `--json` contain them, and table, figures and page show them.
 //!
-//! The one place where records become statistics. Everything that presents reads a [`ComparisonReport`] and computes nothing.
+//! Records become statistics only here. All presentation reads a [`ComparisonReport`] and computes nothing.
 
 use serde::Serialize;
 use vertifleet_sim::DayNumber;
@@ -16,56 +16,57 @@ use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
 /// Name and version of the format of `summary.json`.
 pub const FORMAT: &str = "vertifleet-comparison/1";
 
-/// A comparison of policies, summed up.
+/// The statistics of a comparison of policies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ComparisonReport {
     /// Always [`FORMAT`].
     pub format: &'static str,
-    /// Version of the program, which is that of every crate of the workspace.
+    /// Version of the program, which all crates of the workspace share.
     pub program_version: &'static str,
-    /// Command that made the study.
+    /// The command line of the study.
     pub command: String,
-    /// Name of the network.
+    /// The name of the network.
     pub network: String,
-    /// Whether that is a shipped network.
+    /// Whether that network is a shipped one.
     pub network_origin: NetworkOrigin,
-    /// Seed as the user gave it; none where the days are not drawn but the user's own.
+    /// The seed as the user gave it; `None` for the user's own days.
     pub seed: Option<u64>,
-    /// Where the user's own days came from; none where they were drawn from a seed.
+    /// Where the user's own days came from; `None` for days that were drawn from a seed.
     pub days_from: Option<String>,
     /// Number of days.
     pub days: usize,
-    /// Smallest and largest seed that a day was drawn from; none where the days are the user's own.
+    /// The smallest and the largest seed that a day was drawn from; `None` for the user's own days.
     pub day_seeds: Option<(u64, u64)>,
-    /// The days' upper bounds, where those were asked for.
+    /// The days' upper bounds, if bounds were asked for.
     pub bound: Option<BoundSummary>,
-    /// Every policy, highest mean profit first.
+    /// Every policy, the highest mean profit first.
     pub policies: Vec<PolicySummary>,
     /// Every pair of policies once, in the order of `policies`.
     pub comparisons: Vec<PairedDifference>,
-    /// Published results beside which these stand; empty but for days drawn from the network `paper` as it is shipped.
+    /// The published results to show beside these; empty except for days drawn from the network `paper` as it is
+    /// shipped.
     pub published: &'static [PublishedResult],
-    /// Where the trainings of the learned policies came out.
+    /// The results of the trainings of the learned policies.
     pub trainings: Vec<TrainingSummary>,
     /// Learning curves on the training days.
     #[serde(skip)]
     pub curves: Vec<LearningCurve>,
 }
 
-/// The trainings of a policy, at their end.
+/// The training runs of a policy at their end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrainingSummary {
-    /// The policy's name.
+    /// The name of the policy.
     pub policy: String,
-    /// Runs, each with a seed of its own.
+    /// Number of runs, each with a seed of its own.
     pub runs: usize,
-    /// Decisions learned from, in the mean of the runs.
+    /// Decisions learned from, in the mean over the runs.
     pub decisions: f64,
-    /// Mean reward on the validation days after the last look, over the runs.
+    /// Mean reward at the last measurement on the validation days, over the runs.
     pub validation_reward: Estimate,
-    /// Lowest and highest of the same.
+    /// The lowest and the highest of these rewards.
     pub range: (f64, f64),
-    /// The runs' curves.
+    /// The learning curves of the runs.
     #[serde(skip)]
     pub curves: Vec<Vec<(u64, f64)>>,
 }
@@ -89,21 +90,21 @@ impl TrainingSummary {
     }
 }
 
-/// What the days could earn at most.
+/// The upper bounds of the days.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BoundSummary {
-    /// Length of the bounds' steps, in seconds.
+    /// The length of the bounds' slices, in seconds.
     pub step_s: u32,
     /// Upper bound of a day's profit, in dollars.
     pub upper_bound_usd: Estimate,
 }
 
-/// One policy over all days. Counts and amounts are means a day.
+/// The results of one policy over all days. Counts and amounts are means per day.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PolicySummary {
-    /// Name as the user gave it.
+    /// The name that the user gave it.
     pub name: String,
-    /// What the policy does.
+    /// Describes what the policy does.
     pub description: String,
     /// Daily profit, in dollars.
     pub profit_usd: Estimate,
@@ -111,37 +112,37 @@ pub struct PolicySummary {
     pub profit_box_usd: BoxSummary,
     /// Daily profit as a share of the day's upper bound, where bounds were asked for.
     pub bound_share: Option<Estimate>,
-    /// Box plot of the same.
+    /// Box plot of the share of the upper bound.
     pub bound_share_box: Option<BoxSummary>,
-    /// Episode reward.
+    /// Reward.
     pub reward: Estimate,
-    /// Box plot of the episode reward (Fig. 4).
+    /// Box plot of the reward (Fig. 4).
     pub reward_box: BoxSummary,
     /// Fares paid, in dollars.
     pub revenue_usd: f64,
-    /// Operating cost, in dollars.
+    /// Passenger cost, in dollars.
     pub passenger_cost_usd: f64,
-    /// Cost of charging, in dollars.
+    /// Energy cost, in dollars.
     pub energy_cost_usd: f64,
-    /// What flights cost with or without passengers, beside their energy, in dollars.
+    /// Flight cost, in dollars.
     pub flight_cost_usd: f64,
-    /// What the fleet costs whatever it does, in dollars.
+    /// Aircraft cost, in dollars.
     pub aircraft_cost_usd: f64,
     /// Energy charged, in kWh.
     pub energy_kwh: f64,
-    /// Revenue if every passenger of the day flew, in dollars.
+    /// The potential: what all passengers of the day would pay if all of them flew, in dollars.
     pub potential_usd: f64,
-    /// Flights, with and without passengers.
+    /// Number of flights, with and without passengers.
     pub flights: f64,
-    /// Flights without passengers.
+    /// Number of repositions.
     pub repositioning_flights: f64,
-    /// Decisions to hold.
+    /// Number of decisions to hold.
     pub holds: f64,
-    /// All decisions.
+    /// Number of decisions.
     pub decisions: f64,
-    /// Passengers flown.
+    /// Number of passengers who were carried.
     pub passengers: f64,
-    /// Passengers that did not fly.
+    /// Number of passengers who were not carried.
     pub spilled_passengers: f64,
     /// Mean of the days' load factors, 0 to 1.
     pub load_factor: f64,
@@ -153,12 +154,12 @@ pub struct PolicySummary {
     /// Reward of each day, in the study's order of days.
     #[serde(skip)]
     pub daily_reward: Vec<f64>,
-    /// Share of the upper bound of each day, in the study's order of days; empty where bounds were not asked for.
+    /// Share of the upper bound of each day, in the study's order of days; empty if bounds were not asked for.
     #[serde(skip)]
     pub daily_bound_share: Vec<f64>,
 }
 
-/// Time of one decision, as written.
+/// The time of one decision, as it is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Latency {
     /// Median, in nanoseconds.
@@ -184,11 +185,11 @@ pub struct PairedDifference {
 }
 
 impl ComparisonReport {
-    /// Sums a study up.
+    /// Computes the statistics of a study.
     ///
     /// # Errors
-    /// [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies on the
-    /// same days.
+    /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies
+    /// on the same days.
     pub fn of(study: &ComparisonRecords) -> Result<Self, Error> {
         check(&study.policies, study.days)?;
         let mut policies: Vec<PolicySummary> = study
@@ -197,7 +198,7 @@ impl ComparisonReport {
             .map(PolicySummary::of)
             .collect::<Option<_>>()
             .ok_or_else(|| empty(&study.policies, study.days))?;
-        // Stable, so that equal policies stay in the order in which they were named.
+        // The sort is stable, so equal policies keep the order in which they were named.
         policies.sort_by(|a, b| b.profit_usd.mean.total_cmp(&a.profit_usd.mean));
         let seeds = || study.policies.iter().flat_map(|policy| &policy.days).map(|day| day.seed);
         let bounds_usd: Option<Vec<f64>> =
@@ -230,23 +231,23 @@ impl ComparisonReport {
         })
     }
 
-    /// The summary as `summary.json` and `--json` have it: indented.
+    /// The statistics as indented JSON, the text of `summary.json` and `--json`.
     ///
     /// # Panics
-    /// Never: numbers and texts can always be written.
+    /// Never panics: numbers and texts can always be written.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
 
-    /// Whether these days are such as the paper's, so that figures correspond to its own.
+    /// Whether these days are like those of the paper, so that the figures correspond to the paper's.
     pub(crate) fn is_of_the_paper(&self) -> bool {
         !self.published.is_empty()
     }
 
-    /// The policy with the highest mean profit. An offline reference is no policy, unless there is nothing else.
+    /// The policy with the highest mean profit. An offline reference counts only if there is nothing else.
     ///
     /// # Panics
-    /// Never: a summary has at least one policy.
+    /// Never panics: a summary has at least one policy.
     pub fn best(&self) -> &PolicySummary {
         self.policies.get(self.best_position()).expect("a summary has at least one policy")
     }
@@ -256,8 +257,8 @@ impl ComparisonReport {
         self.policies.iter().position(|policy| !policy.is_offline()).unwrap_or(0)
     }
 
-    /// The comparison that says most about the best policy: with `greedy`, or with the next best if `greedy` is the best
-    /// or was not run. `None` if no policy earns less than the best.
+    /// The comparison that says most about the best policy: with `greedy`, or with the next best policy if `greedy` is
+    /// the best or was not run. `None` if no policy earns less than the best.
     pub fn best_against_reference(&self) -> Option<&PairedDifference> {
         let best = self.best_position();
         let others =
@@ -340,7 +341,7 @@ fn empty(policies: &[PolicyRecord], days: usize) -> Error {
     Error::Empty { policies: policies.len(), days }
 }
 
-/// The records are those of policies on the same days, with finite results.
+/// Checks that the records are those of policies on the same days, with finite results.
 pub(crate) fn check(policies: &[PolicyRecord], days: usize) -> Result<(), Error> {
     let Some(first) = policies.first().filter(|_| days > 0) else {
         return Err(empty(policies, days));

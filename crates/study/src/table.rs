@@ -1,4 +1,4 @@
-//! The comparison as plain text for a terminal: one row a policy, then the paired t-tests.
+//! The comparison as plain text for a terminal: one row per policy, then the paired t-tests.
 
 use std::fmt::Write as _;
 
@@ -7,20 +7,20 @@ use crate::origin::NetworkOrigin;
 use crate::statistics::Estimate;
 use crate::summary::{ComparisonReport, PairedDifference, PolicySummary};
 
-/// Where the share of the bound stands in a row.
+/// The column of the share of the bound.
 const SHARE_COLUMN: usize = 3;
-/// Behind the name of an offline reference.
+/// The mark after the name of an offline reference.
 const OFFLINE_MARK: char = '*';
 
-/// Which side of its column a cell's text keeps to.
+/// The alignment of a cell's text.
 #[derive(Clone, Copy)]
 enum Align {
     Left,
     Right,
 }
 
-/// The text that `compare` prints: policies by mean profit, then every pair's t-test on the daily profit. No line
-/// end after the last line.
+/// The text that `compare` prints: policies by mean profit, then the t-test of every pair on the daily profit. There
+/// is no line end after the last line.
 pub(crate) fn text(summary: &ComparisonReport) -> String {
     let changed = if summary.network_origin == NetworkOrigin::Changed { " (changed)" } else { "" };
     let mut text =
@@ -124,7 +124,7 @@ pub(crate) fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> 
     }
 }
 
-/// Appends rows whose first column keeps left and whose other columns keep right, a rule below the first row.
+/// Appends rows with the first column aligned left and the others aligned right, and a rule below the first row.
 pub(crate) fn append_aligned(text: &mut String, rows: &[Vec<String>]) {
     let columns = rows.first().map_or(0, Vec::len);
     let widths: Vec<usize> = (0..columns)

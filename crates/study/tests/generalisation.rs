@@ -1,4 +1,4 @@
-//! What a study of many networks promises: its numbers, its table, its folder.
+//! Tests the numbers, the table and the folder of a study of many networks.
 
 mod made_up;
 

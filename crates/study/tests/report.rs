@@ -1,4 +1,4 @@
-//! What a report promises: whole, self-contained, escaped, paired; and what the terminal shows.
+//! Tests that a report is whole, self-contained, escaped and paired, and what the terminal shows.
 
 mod made_up;
 
@@ -92,7 +92,7 @@ fn where_nothing_can_be_earned_nothing_earned_is_all_of_it() {
     assert_eq!(share(90.0, None), None);
     assert_eq!(share(90.0, Some(100.0)), Some(0.9));
     assert_eq!((share(0.0, Some(0.0)), share(-5.0, Some(0.0))), (Some(1.0), Some(0.0)));
-    // Where aircraft cost more a day than they can earn, the least loss is the measure.
+    // If aircraft cost more a day than they can earn, results are measured by the least possible loss.
     assert_eq!((share(-80.0, Some(-80.0)), share(-100.0, Some(-80.0))), (Some(1.0), Some(0.8)));
 }
 
@@ -103,7 +103,7 @@ fn a_report_loads_nothing_from_anywhere() {
     for loading in ["src=", "@import", "url(", "<script", "<link", "href=\"http", "href=\"//"] {
         assert!(!page.contains(loading), "{loading}");
     }
-    // The name of SVG's vocabulary is the only address in the page, and nobody fetches it.
+    // The only address in the page is the name of SVG's vocabulary, which no browser fetches.
     let addresses = page.matches("http").count();
     assert_eq!(addresses, page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
 }
@@ -286,7 +286,7 @@ fn a_folder_is_checked_without_a_trace() {
     assert!(file.exists());
 }
 
-/// What a change to a sound study of five policies on four days is refused with.
+/// The error for a change to a sound study of five policies on four days.
 fn refusal(change: impl FnOnce(&mut ComparisonRecords)) -> (String, String) {
     let mut study = made_up::study(4);
     change(&mut study);

@@ -1,4 +1,4 @@
-//! Small days with everything beyond the paper in them, or with some of it, as a proptest strategy.
+//! Small days with all or some of the features that go beyond the paper, as a proptest strategy.
 
 use std::sync::Arc;
 
@@ -11,8 +11,9 @@ use vertifleet_core::{
 
 use crate::small_day;
 
-/// Days as of [`small_day`] with changing fares, corridors, separate chargers, forecasts, delays, closures and outages; each on some.
-/// Every number that proptest draws is taken for what it is needed for, round and round.
+/// Days of [`small_day`] with changing fares, corridors, separate chargers, forecasts, delays, closures and outages,
+/// each of them on some days only. The numbers that proptest draws are used in turn, from the start again when they
+/// run out.
 pub fn extended_day() -> impl Strategy<Value = Arc<Scenario>> {
     let parts = prop::collection::vec(any::<bool>(), 7);
     (small_day(), parts, prop::collection::vec(any::<Index>(), 30))

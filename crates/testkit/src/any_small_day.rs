@@ -1,4 +1,4 @@
-//! Small days of every kind as a proptest strategy, which shrinks what fails.
+//! Small days of every kind as a proptest strategy, which shrinks failing cases.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use vertifleet_core::{
     Vertiport, VertiportIx,
 };
 
-/// Days with 1 to 5 vertiports, 1 to 6 aircraft of 1 or 2 types and a few periods; stands and demand are scarce, and
+/// Days with 1 to 5 vertiports, 1 to 6 aircraft of 1 or 2 types and a few periods. Stands and demand are scarce, and
 /// some pairs are out of range.
 pub fn small_day() -> impl Strategy<Value = Arc<Scenario>> {
     (1_usize..=5, 1_usize..=6, 1_usize..=2, 1_usize..=4, any::<u64>())
@@ -91,7 +91,7 @@ fn day(
             .collect(),
         fare_usd: Matrix::from_fn(size, |from, to| 3.0 * distance_mi[(from, to)] + 1.25).into(),
         passenger_cost_usd: Matrix::from_fn(size, |from, to| 0.64 * distance_mi[(from, to)]),
-        // Every other day has them.
+        // Every other day has flight costs.
         flight_cost_usd: Matrix::from_fn(size, |from, to| {
             if seed.is_multiple_of(2) { 0.0 } else { 2.75 + 0.3 * distance_mi[(from, to)] }
         }),

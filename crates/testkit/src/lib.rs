@@ -24,7 +24,7 @@ pub use numbered_days::{Size, any_day, any_extended_day};
 /// A validation day of the network `paper`.
 ///
 /// # Panics
-/// If there is no validation day of this number.
+/// Panics if there is no validation day with this number.
 pub fn paper_day(seed: u64) -> Arc<Scenario> {
     let network = Network::shipped("paper").expect("a shipped network");
     Arc::new(network.draw(DaySeed::validation(seed).expect("a seed of validation")))

@@ -1,4 +1,4 @@
-//! Small days of every kind, drawn from a number, for tests that search each of them exhaustively or with a planner.
+//! Small days of every kind, drawn from a number, for tests that search each day exhaustively or with a planner.
 
 use std::sync::Arc;
 
@@ -9,19 +9,19 @@ use vertifleet_core::{
     Outage, Route, Scenario, TakeoffDelays, Time, TypeIx, Vertiport, VertiportIx,
 };
 
-/// How large a day may be.
+/// The largest size that a day may have.
 #[derive(Debug, Clone, Copy)]
 pub struct Size {
-    /// Most vertiports.
+    /// Most vertiports of a day.
     pub vertiports: usize,
-    /// Most aircraft.
+    /// Most aircraft of a day.
     pub fleet: usize,
-    /// Most hours of operations, to which up to half an hour is added.
+    /// Most hours of operations of a day, to which up to half an hour is added.
     pub hours: u32,
 }
 
-/// A day with up to as many vertiports, aircraft and hours, with one or two types of aircraft, scarce stands, scarce or
-/// ample demand, changing prices, periods of any length, and pairs that are out of range.
+/// A day of at most this size, with one or two types of aircraft, scarce stands, scarce or ample demand, changing
+/// prices, periods of any length, and pairs that are out of range.
 pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(number);
     let size = random.random_range(1..=most.vertiports);
@@ -92,7 +92,7 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
             .collect(),
         fare_usd: Matrix::from_fn(size, |from, to| 2.0 * distance_mi[(from, to)] + 1.25).into(),
         passenger_cost_usd: Matrix::from_fn(size, |from, to| 0.64 * distance_mi[(from, to)]),
-        // Every third day has them.
+        // Every third day has flight costs.
         flight_cost_usd: Matrix::from_fn(size, |from, to| {
             if number.is_multiple_of(3) { 1.5 + 0.4 * distance_mi[(from, to)] } else { 0.0 }
         }),
@@ -109,8 +109,8 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
     Arc::new(day.check("small day").expect("a day within the rules"))
 }
 
-/// A day as of [`any_day`], with fares that change, corridors, separate chargers, delays, closures and outages; each on some days. The
-/// demand is not as forecast.
+/// A day of [`any_day`] with changing fares, corridors, separate chargers, delays, closures and outages, each of them
+/// on some days only. The demand differs from the forecast.
 pub fn any_extended_day(number: u64, most: Size) -> Arc<Scenario> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(!number);
     let mut day = Scenario::clone(&any_day(number, most)).into_day();

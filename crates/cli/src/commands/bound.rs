@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A day and its bound.
+/// A day with its upper bound.
 struct Day<'a> {
     scenario: &'a Scenario,
     bound: Bound,
@@ -89,7 +89,7 @@ fn mean_bound(days: &[Day<'_>]) -> Mean {
     Mean::of(&days.iter().map(|day| day.bound.upper_bound_usd()).collect::<Vec<_>>())
 }
 
-/// Scenarios and bounds.
+/// The days as pairs of scenario and bound.
 fn pairs<'a>(days: &'a [Day<'a>]) -> Vec<(&'a Scenario, &'a Bound)> {
     days.iter().map(|day| (day.scenario, &day.bound)).collect()
 }

@@ -1,4 +1,4 @@
-//! `vertifleet check`: judges a schedule by the rules.
+//! `vertifleet check`: checks a schedule against the rules.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! `vertifleet compare`: many days, many policies, one table and one report.
+//! `vertifleet compare`: plays many days with many policies, for one table and one report.
 
 use std::process::ExitCode;
 
@@ -15,14 +15,14 @@ use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::warn;
 
-/// Seed of the random policy and of the planner's search on days that are not drawn.
+/// The seed of the random policy and of the planner's search on the user's own days.
 const SEED_ON_OWN_DAYS: u64 = 0;
 
 pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
     let (folder, force) = (arguments.report.as_deref(), arguments.force);
     let mut outputs = Outputs::new(force);
-    // Ctrl-C ends the program itself.
+    // Ctrl-C ends the program itself, so the study is never asked to stop.
     let never = Stop::default();
     let comparison = comparison(arguments, &mut outputs, &never)?;
     reads_models(arguments.models.iter().map(|(_, model)| model), &mut outputs);
@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The competitors that are asked for, on the days that are.
+/// The comparison of the requested competitors on the requested days.
 fn comparison(
     arguments: &CompareArguments,
     outputs: &mut Outputs,

@@ -1,4 +1,5 @@
-//! `vertifleet generalise`: a day each of many random networks, many policies, one table and one report.
+//! `vertifleet generalise`: plays a day of each of many random networks with many policies, for one table and one
+//! report.
 
 use std::process::ExitCode;
 
@@ -13,7 +14,7 @@ use crate::commands::{claim_report, command, present, reads_models, warn_of_days
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 
-/// Seed of the random policy and of the planner's search: the days differ enough.
+/// The seed of the random policy and of the planner's search. It can be fixed because the days differ enough.
 const SEED: u64 = 0;
 
 pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> {
@@ -27,7 +28,7 @@ pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> 
     reads_models(models.iter().map(|(_, model)| model), &mut outputs);
     claim_report(folder, &mut outputs, force)?;
     warn_of_days(generalisation.days());
-    // Ctrl-C ends the program itself.
+    // Ctrl-C ends the program itself, so the study is never asked to stop.
     let study = generalisation.run(command(), &Stop::default(), &Bars)?;
     present(&study, arguments.json, folder, force)?;
     Ok(ExitCode::SUCCESS)

@@ -1,4 +1,5 @@
-//! `vertifleet plan`: finds the best schedule it can for a known day, while a proof of what is possible runs beside it.
+//! `vertifleet plan`: searches for the best schedule of a known day, while the proof of an upper bound runs in
+//! parallel.
 
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -50,7 +51,7 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What `--json` prints.
+/// The output of `--json`.
 #[derive(Serialize)]
 struct Numbers<'a> {
     profit_usd: f64,

@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &ScenarioArguments) -> Result<ExitCode, Failure> {
     let network = find_network(&arguments.network, &mut outputs)?;
     if let Some(days) = arguments.days {
         let folder = arguments.output.as_deref().unwrap_or(Path::new("."));
-        draw_days(&network, (arguments.seed, days), folder, &mut outputs)?;
+        draw_days(&network, arguments.seed, days, folder, &mut outputs)?;
         return Ok(ExitCode::SUCCESS);
     }
     let day = network.draw(DaySeed::comparison(arguments.seed)?);
@@ -35,11 +35,12 @@ pub(crate) fn run(arguments: &ScenarioArguments) -> Result<ExitCode, Failure> {
 
 fn draw_days(
     network: &Network,
-    (seed, days): (u64, u32),
+    seed: u64,
+    days: u32,
     folder: &Path,
     outputs: &mut Outputs,
 ) -> Result<(), Failure> {
-    // The last seed first, so that nothing is written where not everything can be.
+    // The last seed is checked first, so that nothing is written if one of the days cannot be drawn.
     DaySeed::comparison(seed.saturating_add(u64::from(days) - 1))?;
     if folder.exists() {
         for day in 0..u64::from(days) {

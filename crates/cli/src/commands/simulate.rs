@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     if let Some(warning) = policy.warning_for(spec.name(), &scenario) {
         warn(Code(310), &warning);
     }
-    // Ctrl-C ends the program itself.
+    // Ctrl-C ends the program itself, so the policy is never asked to stop.
     let (trace, totals) = policy.play(spec.name(), &scenario, &Stop::default())?;
     if let Some(path) = &arguments.trace {
         trace.write(&scenario, path)?;
@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The trace is none of the files that are read.
+/// Checks that the trace would not replace a file that is read.
 fn claim(trace: &Path, arguments: &SimulateArguments, spec: &PolicySpec) -> Result<(), Failure> {
     let mut outputs = Outputs::new(arguments.force);
     outputs.reads(&arguments.scenario);

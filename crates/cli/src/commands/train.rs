@@ -1,4 +1,4 @@
-//! `vertifleet train`: runs a training, shows how it goes, and leaves weights, curve and checkpoint.
+//! `vertifleet train`: runs a training, shows its progress, and writes weights, learning curve and checkpoint.
 
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::output::print;
 pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     let mut outputs = Outputs::new(arguments.force);
     let network = find_network(&arguments.network, &mut outputs)?;
-    // What looks wrong with the network, by its first training day.
+    // The network's first training day stands for all of them in the warnings.
     warn_of_days([&network.draw(DaySeed::training(arguments.seed, 0)?)]);
     let plan = plan(arguments, network)?;
     let folder = RunFolder::of(&plan.policy, &arguments.out);
@@ -56,7 +56,7 @@ fn plan(arguments: &TrainArguments, network: Network) -> Result<TrainingPlan, Fa
     })
 }
 
-/// A run as people see it while it goes on.
+/// Shows the progress of a run on the terminal.
 struct Shown(Bar);
 
 impl Shown {
@@ -91,11 +91,11 @@ impl TrainingWatch for Shown {
     }
 }
 
-/// What has come of the run, as it stands in its files.
+/// Prints the results of the run as they stand in its files.
 fn tell(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failure> {
     let curve = run.curve();
     let mut rewards = curve.validation_rewards().into_iter().map(|(_, reward)| reward);
-    // Of the weights that were kept.
+    // The validation reward of the weights that were kept.
     let kept = match &curve {
         Curve::Ppo(_) => rewards.reduce(f64::max),
         Curve::Imitation(_) => rewards.next_back(),
@@ -126,7 +126,7 @@ fn tell(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A reward that may not be known yet.
+/// A reward, or words for one that is not known yet.
 fn reward_text(reward: Option<f64>) -> String {
     reward.map_or_else(|| "not known yet".to_owned(), |reward| format!("{reward:.5}"))
 }

@@ -1,4 +1,4 @@
-//! The rules of what goes beyond the paper: corridors, forecasts, delays, closures, outages.
+//! The rules for the parts of a day that go beyond the paper: corridors, forecasts, delays, closures, outages.
 
 use super::{Check, entry_count, span};
 use crate::limits::{self, entries};
@@ -99,7 +99,7 @@ impl Check<'_> {
         Error::UnknownId { origin, member, found: format!("#{position}"), list }
     }
 
-    /// A list that may be empty, and has no more than so many entries.
+    /// Refuses a list of more than `most` entries. The list may be empty.
     fn at_most(&self, member: &str, found: usize, most: usize) -> Result<(), Error> {
         if found == 0 { Ok(()) } else { entry_count(self.origin, member, found, most) }
     }

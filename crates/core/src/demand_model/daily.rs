@@ -1,4 +1,4 @@
-//! A day's passengers of each pair, spread over the periods by shares: what a market study or a survey gives.
+//! A day's passengers of each pair, spread over the periods by shares, as a market study or a survey gives them.
 
 use serde::Deserialize;
 
@@ -9,7 +9,7 @@ use crate::{Error, Matrix, Time, VertiportIx, limits};
 /// Mean passengers a day, and how they spread over the day.
 #[derive(Debug, Clone)]
 pub(super) struct DailyDemand {
-    /// Passengers a day, [from][to].
+    /// Mean passengers a day, `[from][to]`.
     passengers: Matrix<f64>,
     /// The share of the day's passengers in each period.
     shares: Vec<f64>,
@@ -39,7 +39,7 @@ pub(crate) struct RawDailyDemand {
     gravity: Option<RawGravity>,
 }
 
-/// Passengers of a pair in proportion to the product of its vertiports' weights.
+/// Passengers of each pair in proportion to the product of its vertiports' weights.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of gravity")]
 struct RawGravity {
@@ -82,7 +82,7 @@ impl RawDailyDemand {
 }
 
 impl RawGravity {
-    /// The total, shared out over all pairs of different vertiports.
+    /// Distributes the total over all pairs of different vertiports.
     fn passengers(&self, vertiports: usize, origin: &str) -> Result<Matrix<f64>, Error> {
         let member = |member: &str| format!("daily_demand: gravity: {member}");
         limits::DAILY_DEMAND.check(self.passengers, origin, || member("passengers"))?;

@@ -1,5 +1,5 @@
-//! How a pair's passengers of a period scatter around their mean, as a network file chooses. The mean drawn is always the
-//! mean asked, whole passengers and all.
+//! How a pair's passengers of a period scatter around their mean, as a network file chooses. The draws are whole
+//! passengers, and yet their mean is exactly the mean that was asked for.
 
 use rand_chacha::ChaCha8Rng;
 use serde::Deserialize;
@@ -11,16 +11,17 @@ use crate::{Error, limits::Limits};
 /// A distribution of whole passengers around any mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Distribution {
-    /// Each passenger comes alone, whatever the others do: the variance is the mean.
+    /// Each passenger comes independently of the others, so the variance is the mean.
     Poisson,
-    /// Busy days and quiet ones: a Poisson draw whose mean is a gamma draw; the variance is mean + dispersion mean^2.
+    /// Some days are busy and others quiet: a Poisson draw whose mean is a gamma draw. The variance is mean +
+    /// dispersion mean^2.
     NegativeBinomial { dispersion: f64 },
-    /// A normal draw, not below 0, to one of the two whole numbers beside it by chance.
+    /// A normal draw, raised to 0 where it is negative, then rounded up or down by chance so that the mean stays.
     Normal {
         /// Standard deviation as a share of the mean.
         noise: f64,
-        /// Where the normal draw is centred, as a share of the mean: as far below 1 as it takes for the draws that are raised
-        /// to 0 not to raise the mean.
+        /// Centre of the normal draw, as a share of the mean. It is below 1 by just as much as raising negative draws
+        /// to 0 raises the mean.
         centre: f64,
     },
 }
@@ -35,7 +36,7 @@ impl Distribution {
             Self::Poisson => draws::poisson(mean, random),
             Self::NegativeBinomial { dispersion } => {
                 let factor = dispersion * draws::gamma(1.0 / dispersion, random);
-                // Far beyond what `poisson` gives at most.
+                // `poisson` returns at most `MOST_PASSENGERS`, so this limit on its mean changes no draw.
                 draws::poisson((mean * factor).min(10.0 * limits::MOST_PASSENGERS), random)
             }
             Self::Normal { noise, centre } => {
@@ -46,7 +47,7 @@ impl Distribution {
     }
 }
 
-/// The c for which E[max(0, N(c, noise))] = c Φ(c / noise) + noise φ(c / noise) is 1.
+/// The c that solves E[max(0, N(c, noise))] = c Φ(c / noise) + noise φ(c / noise) = 1.
 fn centre(noise: f64) -> f64 {
     let mean = |c: f64| {
         let z = c / noise;
@@ -58,7 +59,7 @@ fn centre(noise: f64) -> f64 {
         return 1.0;
     }
     let (mut low, mut high) = (0.0, 1.0);
-    // Halved until there is no number between the two.
+    // After 60 halvings there is no number between `low` and `high`.
     for _ in 0..60 {
         let middle = f64::midpoint(low, high);
         if mean(middle) < 1.0 { low = middle } else { high = middle }
@@ -93,8 +94,8 @@ pub(super) struct RawDistribution {
 }
 
 impl RawDistribution {
-    /// The distribution that the members of `model` choose: where none is named, `noise` means the normal one, as it always
-    /// did, and no noise the Poisson one.
+    /// Checks the members of `model` and returns the distribution that they choose. If none is named, `noise` means the
+    /// normal one, as it did before distributions had names, and no `noise` means the Poisson one.
     pub(super) fn check(self, model: &str, origin: &str) -> Result<Distribution, Error> {
         let unnamed = if self.noise.is_some() { Name::Normal } else { Name::Poisson };
         let name = self.name.unwrap_or(unnamed);
@@ -133,7 +134,7 @@ impl RawDistribution {
 mod tests {
     use super::centre;
 
-    /// By the trapezium rule, another way than the closed form that `centre` solves.
+    /// Integrates by the trapezium rule, which is independent of the closed form that `centre` solves.
     #[test]
     fn what_is_cut_off_at_zero_does_not_raise_the_mean() {
         for noise in [0.01, 0.1, 0.2, 0.3, 0.35, 0.4] {

@@ -1,7 +1,8 @@
-//! Whole passengers drawn so that the mean drawn is the mean asked, however thin demand is.
+//! Draws of whole passengers whose mean is exactly the mean asked for, however thin demand is.
 //!
-//! Written out with the functions of `libm`: those of `rand_distr` beyond the standard normal take logarithms from the
-//! system's library wherever any crate of a build asks for it, and these differ between machines.
+//! They are written out with the functions of `libm`. Apart from the standard normal, the distributions of `rand_distr`
+//! take logarithms from the system's library as soon as any crate of a build asks for that, and these logarithms differ
+//! between machines.
 
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -17,7 +18,7 @@ pub(super) fn normal(random: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(random)
 }
 
-/// A whole number next to `passengers`, up or down by chance, so that its mean is `passengers`; 0 below 0.
+/// Rounds `passengers` up or down by chance, so that the mean is `passengers`. A negative number gives 0.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -27,7 +28,7 @@ pub(crate) fn rounded_by_chance(passengers: f64, random: &mut ChaCha8Rng) -> u32
     (passengers.clamp(0.0, MOST_PASSENGERS - 1.0) + uniform(random)) as u32
 }
 
-/// A draw of the Poisson distribution; at most `MOST_PASSENGERS`.
+/// Draws from the Poisson distribution; at most `MOST_PASSENGERS`.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -38,7 +39,7 @@ pub(super) fn poisson(mean: f64, random: &mut ChaCha8Rng) -> u32 {
     drawn.min(MOST_PASSENGERS) as u32
 }
 
-/// Arrivals until their exponential times pass the mean (Knuth), as a product of uniform draws.
+/// Counts arrivals until their exponential times pass the mean (Knuth), as a product of uniform draws.
 fn counted(mean: f64, random: &mut ChaCha8Rng) -> f64 {
     let enough = libm::exp(-mean);
     let mut product = uniform(random);
@@ -50,8 +51,8 @@ fn counted(mean: f64, random: &mut ChaCha8Rng) -> f64 {
     arrivals
 }
 
-/// Transformed rejection (Hörmann, "The transformed rejection method for generating Poisson random variables", 1993,
-/// algorithm PTRS), whose constants and names these are; for means of 10 and more.
+/// Transformed rejection for means of 10 and more. Constants and names are those of Hörmann, "The transformed rejection
+/// method for generating Poisson random variables", 1993, algorithm PTRS.
 #[expect(clippy::many_single_char_names, reason = "the names of the paper")]
 fn by_rejection(mean: f64, random: &mut ChaCha8Rng) -> f64 {
     let b = 0.931 + 2.53 * mean.sqrt();
@@ -76,12 +77,12 @@ fn by_rejection(mean: f64, random: &mut ChaCha8Rng) -> f64 {
     }
 }
 
-/// A draw of the gamma distribution of that shape and scale 1 (Marsaglia and Tsang, "A simple method for generating gamma
-/// variables", 2000; below shape 1 by their boost).
+/// Draws from the gamma distribution of this shape and scale 1 (Marsaglia and Tsang, "A simple method for generating
+/// gamma variables", 2000; shapes below 1 by their boost).
 #[expect(clippy::many_single_char_names, reason = "the names of the paper")]
 pub(super) fn gamma(shape: f64, random: &mut ChaCha8Rng) -> f64 {
     if shape < 1.0 {
-        // Not 0, whose logarithm would be no number.
+        // The chance must not be 0, whose logarithm is infinite.
         let chance = 1.0 - uniform(random);
         return gamma(shape + 1.0, random) * libm::exp(libm::log(chance) / shape);
     }
@@ -119,7 +120,7 @@ mod tests {
         (mean, spread / f64::from(DRAWS - 1))
     }
 
-    /// Four standard errors of a mean over so many draws.
+    /// Four standard errors of a mean over `DRAWS` draws.
     fn allowed(variance: f64) -> f64 {
         4.0 * (variance / f64::from(DRAWS)).sqrt()
     }
@@ -137,7 +138,7 @@ mod tests {
         assert_eq!(mean, 0.0);
     }
 
-    /// The chance of each count, not only mean and variance, on both sides of the change of method.
+    /// Checks the chance of each count, and not only mean and variance, on both sides of the change of method.
     #[test]
     fn poisson_counts_come_as_often_as_they_should() {
         for asked in [3.0, 12.0_f64] {
@@ -163,7 +164,7 @@ mod tests {
         for shape in [0.1, 0.5, 1.0, 2.5, 40.0, 1e6] {
             let (mean, variance) = moments(|random| gamma(shape, random));
             assert!((mean - shape).abs() <= allowed(shape), "{shape}: mean {mean}");
-            // Fourth central moment 3 shape^2 + 6 shape.
+            // The fourth central moment is 3 shape^2 + 6 shape.
             let error = 4.0 * ((2.0 * shape * shape + 6.0 * shape) / f64::from(DRAWS)).sqrt();
             assert!((variance - shape).abs() <= error, "{shape}: variance {variance}");
         }

@@ -6,22 +6,22 @@ use super::{DemandModel, Kind, Level};
 use crate::limits;
 use crate::{Error, Time, VertiportIx};
 
-/// Eq. 1 with its numbers.
+/// Eq. 1 with the numbers of a network file.
 #[derive(Debug, Clone)]
 pub(super) struct Equation1 {
-    /// T_peak1: towards and among busy vertiports.
+    /// T_peak1, the period with peak demand towards and among busy vertiports.
     morning_peak: usize,
-    /// T_peak2: from and among busy vertiports.
+    /// T_peak2, the period with peak demand from and among busy vertiports.
     evening_peak: usize,
     peak: Level,
     busy_pairs: Level,
     otherwise: Level,
-    /// V_B, by vertiport.
+    /// V_B: whether each vertiport is busy.
     busy: Vec<bool>,
 }
 
 impl Equation1 {
-    /// The row of Eq. 1 that holds between two vertiports, the first that does.
+    /// The first row of Eq. 1 that holds for a pair of vertiports.
     pub(super) fn level(&self, period: usize, from: VertiportIx, to: VertiportIx) -> Level {
         let morning = period == self.morning_peak;
         let evening = period == self.evening_peak;
@@ -55,7 +55,7 @@ struct RawLevel {
 }
 
 impl RawEquation1 {
-    /// Checks all but the order of the periods, which is checked with every day's.
+    /// Checks everything but the order of the periods, which is checked with each day.
     pub(crate) fn check(self, busy: Vec<bool>, origin: &str) -> Result<DemandModel, Error> {
         super::check_periods(&self.periods, "demand", busy.len(), origin)?;
         let peak = |time: Time, member: &str| {

@@ -1,5 +1,5 @@
-//! Passengers of each pair and period, as a planner's own study or counts give them: rows in the network file, or a table
-//! beside it (`demand_table.rs`).
+//! Mean passengers of each pair and period, as a planner's own study or counts give them. They are rows in the network
+//! file, or a table beside it (`demand_table.rs`).
 
 use std::collections::HashSet;
 
@@ -36,7 +36,7 @@ pub(crate) struct RawHourlyDemand {
     noise: Option<f64>,
     dispersion: Option<f64>,
     pub(crate) pairs: Option<Vec<RawPair>>,
-    /// The path of a CSV file, from the folder of the network file.
+    /// Path of a CSV file, relative to the folder of the network file.
     pub(crate) table: Option<String>,
 }
 
@@ -97,7 +97,7 @@ impl RawHourlyDemand {
 }
 
 impl RawPair {
-    /// The pair's vertiports, once its numbers are within bounds.
+    /// Checks that the numbers are within bounds, and returns the pair's vertiports.
     fn check(
         &self,
         periods: usize,

@@ -1,4 +1,4 @@
-//! Uniform demand: every whole number of passengers between two is as likely, for every pair and period.
+//! Uniform demand: for every pair and period, each whole number of passengers from a least to a most is equally likely.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

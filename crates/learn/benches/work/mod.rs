@@ -8,11 +8,11 @@ use vertifleet_learn::nn::{
     Architecture, Gradient, Inputs, NeuralNetwork, Shape, Slopes, Weights, Workspace,
 };
 
-/// Gradients that are filled side by side.
+/// Number of gradients that are filled side by side.
 const LANES: usize = 8;
 const VERTIPORTS: usize = 8;
 
-/// The default network of that name, for 8 vertiports.
+/// The network with this name and its default sizes, for 8 vertiports.
 pub(crate) fn network(name: &str) -> NeuralNetwork {
     let shape = Shape {
         vertiports: VERTIPORTS,
@@ -23,7 +23,7 @@ pub(crate) fn network(name: &str) -> NeuralNetwork {
     NeuralNetwork::new(architecture, shape).expect("default sizes fit")
 }
 
-/// Made-up decisions, and the slopes of a made-up loss in what the network answers.
+/// Made-up decisions, and the slopes of a made-up loss with respect to the network's outputs.
 pub(crate) struct Decisions {
     shape: Shape,
     nodes: Vec<f32>,
@@ -34,7 +34,7 @@ pub(crate) struct Decisions {
     value_slopes: Vec<f32>,
 }
 
-/// Numbers in [0, 1) without much of a pattern.
+/// Numbers in [0, 1) that show no obvious pattern.
 fn spread(len: usize, pace: f32) -> Vec<f32> {
     (0..len).map(|at| (at as f32 * pace).fract()).collect()
 }
@@ -63,7 +63,7 @@ impl Decisions {
         self.clock.len()
     }
 
-    /// Decisions from `first` on, `count` at most.
+    /// The decisions from `first` on, at most `count` of them.
     pub(crate) fn inputs(&self, first: usize, count: usize) -> Inputs<'_> {
         let Shape { vertiports, node_features, aircraft_features } = self.shape;
         let batch = count.min(self.len() - first);
@@ -86,7 +86,7 @@ impl Decisions {
     }
 }
 
-/// A learner: weights, Adam's moments, and lanes to work in.
+/// A learner: weights, Adam's moments, and the lanes that it works in.
 pub(crate) struct Learner {
     network: NeuralNetwork,
     weights: Weights,
@@ -107,7 +107,8 @@ impl Learner {
         }
     }
 
-    /// One gradient step: chunks forward and backward on all of rayon's threads, gradients added up, Adam.
+    /// One gradient step: chunks go forward and backward on all of rayon's threads, the gradients are added up, and
+    /// Adam moves the weights.
     pub(crate) fn step(&mut self, decisions: &Decisions) {
         let Self { network, weights, moments, lanes, chunk } = self;
         let chunk = *chunk;
@@ -140,7 +141,7 @@ fn add_up(total: &mut [f32], lanes: &[(Workspace, Gradient)]) {
     });
 }
 
-/// Adam's arithmetic, without the corrections of its first steps.
+/// Adam's arithmetic, without the bias corrections that matter in its first steps.
 fn adam(params: &mut [f32], gradient: &[f32], moments: &mut [[f32; 2]]) {
     for ((param, slope), [first, second]) in params.iter_mut().zip(gradient).zip(moments) {
         *first = 0.9 * *first + 0.1 * slope;

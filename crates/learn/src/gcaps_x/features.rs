@@ -1,21 +1,21 @@
-//! What `gcaps-x` sees: every vertiport as it looks from the aircraft that decides, in numbers that mean the same on every
-//! network.
+//! The observation of `gcaps-x`: every vertiport as it looks from the deciding aircraft, in numbers that mean the same
+//! on every network.
 //!
-//! Dollars are counted in the profit of a typical full flight of the network, times in hours, passengers in flights, and
-//! everything is bounded. A row takes one pass over the vertiports and one over the fleet, and of those who are ready soon up to
-//! 48 are asked where they want to go.
+//! Dollars are measured in the profit of a typical full flight of the network, times in hours, and passengers in
+//! flights; every number is bounded. Writing a row takes one pass over the vertiports and one over the fleet, and for
+//! up to 48 of the aircraft that are ready soon it also computes which choice they would prefer.
 
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
-use vertifleet_policy::DayPrices;
+use vertifleet_policy::{DayPrices, PricedChoice};
 use vertifleet_sim::{Decision, View};
 
 use crate::nn::{Inputs, Shape};
 
-/// F: numbers that a node shows.
+/// F, the number of node features.
 pub(crate) const NODE_FEATURES: usize = 24;
-/// G: numbers that the aircraft shows.
+/// G, the number of aircraft features.
 pub(crate) const AIRCRAFT_FEATURES: usize = 10;
-/// The numbers that a node shows, in their order; docs/src/concepts/policies.md says what each means.
+/// The node features in their order; docs/src/concepts/policies.md says what each means.
 #[cfg(test)]
 pub(crate) const NODE_FEATURE_NAMES: [&str; NODE_FEATURES] = [
     "listed",
@@ -43,7 +43,7 @@ pub(crate) const NODE_FEATURE_NAMES: [&str; NODE_FEATURES] = [
     "contention",
     "day_left",
 ];
-/// The numbers that the aircraft shows, in their order.
+/// The aircraft features in their order.
 #[cfg(test)]
 pub(crate) const AIRCRAFT_FEATURE_NAMES: [&str; AIRCRAFT_FEATURES] = [
     "day_left",
@@ -57,24 +57,25 @@ pub(crate) const AIRCRAFT_FEATURE_NAMES: [&str; AIRCRAFT_FEATURES] = [
     "aircraft_a_vertiport",
     "aircraft_a_stand",
 ];
-/// What differences in worth that matter are multiplied by, to be seen.
+/// A factor for differences in worth, which makes the small ones that matter visible to the network.
 const SHARPER: f64 = 8.0;
-/// Others who are ready this long before or after the aircraft want the same flights, seconds.
+/// Other aircraft that are ready this long before or after the deciding one want the same flights, seconds.
 const NEAR_S: u32 = 900;
-/// Others who are ready within this time are asked where they want to go, seconds; no more than so many, and fewer where there
-/// are more than 30 vertiports to choose from.
+/// For other aircraft that are ready within this time, seconds, the preferred choice is computed; for at most
+/// `MOST_COMPETITORS` of them, and for fewer if there are more than 30 vertiports to choose from.
 const COMPETITORS_S: u32 = 1_800;
 const MOST_COMPETITORS: usize = 48;
 const MOST_ASKED: usize = 30 * MOST_COMPETITORS;
-/// How soon others at the same vertiport are ready, seconds; the aircraft shows how many in each time.
+/// How soon other aircraft at the same vertiport are ready, seconds; the aircraft features count them for each of
+/// these times.
 const QUEUE_S: [u32; 3] = [900, 1_800, 3_600];
 
-/// The shape of the features with so many vertiports.
+/// The shape of the features for this many vertiports.
 pub(crate) fn shape(vertiports: usize) -> Shape {
     Shape { vertiports, node_features: NODE_FEATURES, aircraft_features: AIRCRAFT_FEATURES }
 }
 
-/// A decision, and what its choices are judged by: the day as it stands and its prices.
+/// A decision together with what its choices are valued by: the state of the day and its prices.
 #[derive(Clone, Copy)]
 pub(crate) struct Scene<'a> {
     pub(crate) view: View<'a>,
@@ -89,16 +90,16 @@ impl<'a> Scene<'a> {
         Self { view, decision, prices, unit_usd: prices.unit_usd(view.kind(decision.aircraft)) }
     }
 
-    /// What the network's additions are counted in, dollars: a typical full flight, but less where less than that is at stake in a
-    /// decision. It learns where most flights are full; where most seats stay empty, the prices are the better judge, and a share
-    /// of a full flight would drown what they say.
+    /// The unit of the network's additions, dollars: the profit of a typical full flight, reduced where a decision has
+    /// less than that at stake. The network learns where most flights are full. Where most seats stay empty, the
+    /// prices are the better guide, and an addition of a share of a full flight would drown them out.
     pub(crate) fn addition_usd(&self) -> f64 {
         let fullness = (self.prices.stake_usd() / self.unit_usd).min(1.0);
         self.unit_usd * fullness * fullness
     }
 }
 
-/// Rows of features, side by side; room grows with the rows and stays.
+/// Rows of features, side by side. The allocation grows with the number of rows and is kept.
 #[derive(Debug, Clone)]
 pub(crate) struct Rows {
     vertiports: usize,
@@ -106,19 +107,20 @@ pub(crate) struct Rows {
     aircraft: Vec<f32>,
     mask: Vec<u8>,
     clock: Vec<f32>,
-    /// Of the row being written, by vertiport.
+    /// The other aircraft as the row being written counts them, by vertiport.
     seen: Vec<Seen>,
 }
 
-/// The others at a vertiport, or on their way there.
+/// The other aircraft that stand at a vertiport or are on their way there.
 #[derive(Debug, Clone, Copy, Default)]
 struct Seen {
-    /// When the deciding aircraft would be ready there.
+    /// The time at which the deciding aircraft would be ready there.
     ready: Time,
-    /// Ready before it, and about when it is.
+    /// The number of aircraft that are ready before that time, and the number that are ready at about that time.
     before: u16,
     near: u16,
-    /// Ready soon and best off if they come here, and by how much, units.
+    /// The number of aircraft that are ready soon and are best off here, and the sum of what they would lose by going
+    /// elsewhere, in units.
     competitors: u16,
     contention: f64,
 }
@@ -135,10 +137,10 @@ impl Rows {
         }
     }
 
-    /// Rows of what the [`inputs`](Self::inputs) of others were.
+    /// Rows with the node and aircraft features of earlier [`inputs`](Self::inputs).
     pub(crate) fn of(vertiports: usize, nodes: Vec<f32>, aircraft: Vec<f32>) -> Self {
         let clock = vec![0.0; aircraft.len() / AIRCRAFT_FEATURES];
-        // A node's first number says whether it is on the list.
+        // A node's first feature says whether it is on the list.
         let listed = nodes.iter().step_by(NODE_FEATURES);
         let mask = listed.map(|&listed| u8::from(listed == 1.0)).collect();
         Self { nodes, aircraft, mask, clock, ..Self::new(vertiports) }
@@ -156,7 +158,7 @@ impl Rows {
         self.truncate(0);
     }
 
-    /// Drops all rows but the first so many.
+    /// Drops all rows after the first `len`.
     pub(crate) fn truncate(&mut self, len: usize) {
         self.nodes.truncate(len * self.vertiports * NODE_FEATURES);
         self.aircraft.truncate(len * AIRCRAFT_FEATURES);
@@ -164,7 +166,7 @@ impl Rows {
         self.clock.truncate(len);
     }
 
-    /// All rows, as the networks take them.
+    /// All rows as the input of a network.
     pub(crate) fn inputs(&self) -> Inputs<'_> {
         Inputs {
             batch: self.len(),
@@ -175,7 +177,7 @@ impl Rows {
         }
     }
 
-    /// Adds a copy of another's row.
+    /// Adds a copy of a row of `from`.
     pub(crate) fn push_copy(&mut self, from: &Self, row: usize) {
         let nodes = self.vertiports * NODE_FEATURES;
         self.nodes.extend(&from.nodes[row * nodes..][..nodes]);
@@ -184,22 +186,22 @@ impl Rows {
         self.clock.push(from.clock[row]);
     }
 
-    /// Adds the row of a decision between the choices of a list, the best first with its worth at the prices.
-    pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[(f64, VertiportIx)]) {
+    /// Adds the row of a decision between the choices of a list, which starts with the best and has the worth of each
+    /// at the prices.
+    pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) {
         let count = self.vertiports;
         let first = self.mask.len();
         self.mask.resize(first + count, 0);
-        for &(_, to) in listed {
+        for &PricedChoice { to, .. } in listed {
             self.mask[first + to.at()] = 1;
         }
-        // The value head alone reads the clock, and the value head is not read here.
+        // Only the value head reads the clock, and `gcaps-x` does not use the value head.
         self.clock.push(0.0);
         let queue = self.look_around(scene);
-        let best_usd = listed[0].0;
-        let second_usd = listed.get(1).map_or(f64::NEG_INFINITY, |second| second.0);
+        let best_usd = listed[0].worth_usd;
+        let second_usd = listed.get(1).map_or(f64::NEG_INFINITY, |second| second.worth_usd);
         let lead = (best_usd - second_usd) / scene.unit_usd;
-        self.aircraft
-            .extend(aircraft(scene, queue, (lead, listed.len())).map(|value| value as f32));
+        self.aircraft.extend(aircraft(scene, queue, lead, listed.len()).map(|value| value as f32));
         let from = self.nodes.len();
         self.nodes.resize(from + count * NODE_FEATURES, 0.0);
         for to in VertiportIx::all(count) {
@@ -213,8 +215,8 @@ impl Rows {
         }
     }
 
-    /// Counts the others, vertiport by vertiport; returns how many more are ready at the aircraft's own vertiport within
-    /// [`QUEUE_S`].
+    /// Counts the other aircraft at each vertiport. Returns how many of them are ready at the deciding aircraft's own
+    /// vertiport within each time of [`QUEUE_S`].
     fn look_around(&mut self, scene: Scene<'_>) -> [u16; 3] {
         let Scene { view, decision, .. } = scene;
         let kind = view.kind(decision.aircraft);
@@ -251,7 +253,8 @@ impl Rows {
         queue
     }
 
-    /// Notes where another aircraft wants to go, of what is open now and not known to be closed by then.
+    /// Records which choice another aircraft would prefer, among those that are open now and not known to be closed
+    /// when it is ready.
     fn count_competitor(
         &mut self,
         Scene { view, prices, unit_usd, .. }: Scene<'_>,
@@ -278,11 +281,12 @@ impl Rows {
     }
 }
 
-/// What the aircraft shows; `lead` is by how much the best choice is worth more than the second, in units.
+/// The aircraft features; `lead` is by how much the best choice is worth more than the second, in units.
 fn aircraft(
     scene: Scene<'_>,
     queue: [u16; 3],
-    (lead, listed): (f64, usize),
+    lead: f64,
+    listed: usize,
 ) -> [f64; AIRCRAFT_FEATURES] {
     let Scene { view, decision, prices, unit_usd } = scene;
     let Decision { time, at, .. } = *decision;
@@ -307,7 +311,7 @@ fn aircraft(
     ]
 }
 
-/// What a vertiport shows beside whether it is on the list.
+/// The features of a vertiport, except for whether it is on the list.
 fn node(scene: Scene<'_>, to: VertiportIx, best_usd: f64, seen: Seen) -> [f64; NODE_FEATURES - 1] {
     let Scene { view, decision, prices, unit_usd } = scene;
     let Decision { time, at: from, .. } = *decision;
@@ -361,7 +365,7 @@ fn node(scene: Scene<'_>, to: VertiportIx, best_usd: f64, seen: Seen) -> [f64; N
     ]
 }
 
-/// A small number, in parts of what is usual and bounded at twice as much.
+/// A small count as a multiple of its usual value, at most 2.
 fn few(count: u16, usual: f64) -> f64 {
     (f64::from(count) / usual).min(2.0)
 }

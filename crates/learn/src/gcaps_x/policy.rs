@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use vertifleet_core::VertiportIx;
-use vertifleet_policy::{DayMemory, DayPrices, Policy, PolicyError, Shortlist};
+use vertifleet_policy::{DayMemory, DayPrices, Policy, PolicyError, PricedChoice, Shortlist};
 use vertifleet_sim::{Decision, View};
 
 use crate::gcaps_x::features::Scene;
@@ -12,25 +12,25 @@ use crate::gcaps_x::scorer::Scorer;
 use crate::model::Model;
 use crate::nn::{Architecture, Weights};
 
-/// Decides by the day's prices and a network that scores what is worth nearly as much as the best.
+/// Decides by the day's prices and by a network that scores the choices that are worth nearly as much as the best.
 pub struct GcapsX {
     architecture: Architecture,
     weights: Arc<Weights>,
-    /// Made for the number of vertiports that is met, and kept until another one is.
+    /// The scorer for the number of vertiports of the day, kept until a day has another number.
     scorer: Option<Scorer>,
     day: DayMemory<DayPrices>,
     shortlist: Shortlist,
-    /// Choices with what they are worth by prices and network, dollars.
-    scored: Vec<(f64, VertiportIx)>,
-    /// How many choices are rolled out, where any are.
+    /// The choices with their worth by prices and network, dollars.
+    scored: Vec<PricedChoice>,
+    /// How many choices are rolled out, and what plays the roll-outs; `None` if the policy decides at once.
     rollouts: Option<(usize, RolloutPlayer)>,
 }
 
 impl GcapsX {
-    /// No more choices than this are scored, so no more can be rolled out.
+    /// At most this many choices are scored, so no more can be rolled out.
     pub const MOST_ROLLED_OUT: usize = Shortlist::MOST;
 
-    /// The policy of a model of this kind, which rolls its `most_rolled_out` best choices out before it decides, up to
+    /// The policy of a `gcaps-x` model. It rolls its `most_rolled_out` best choices out before it decides, at most
     /// [`MOST_ROLLED_OUT`](Self::MOST_ROLLED_OUT); with 1 or 0 it decides at once.
     pub fn new(model: &Model, most_rolled_out: usize) -> Self {
         Self::of(model.header().policy.clone(), Arc::new(model.weights()), most_rolled_out)
@@ -59,8 +59,8 @@ impl Policy for GcapsX {
         let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
         prices.refresh(*view, decision.time);
         let listed = self.shortlist.rank(prices, *view, decision);
-        if let [(_, only)] = *listed {
-            return Ok(only);
+        if let [only] = listed {
+            return Ok(only.to);
         }
         let vertiports = view.vertiports();
         let scorer = match &mut self.scorer {
@@ -75,12 +75,14 @@ impl Policy for GcapsX {
             return Ok(scorer.best_of_row(0, scene.addition_usd(), listed));
         };
         let addition_usd = scene.addition_usd();
-        let worths =
-            listed.iter().map(|&choice| (scorer.worth_usd(0, addition_usd, choice), choice.1));
+        let score = |&choice: &PricedChoice| PricedChoice {
+            worth_usd: scorer.worth_usd(0, addition_usd, choice),
+            to: choice.to,
+        };
         self.scored.clear();
-        self.scored.extend(worths);
-        self.scored.sort_by(|one, other| other.0.total_cmp(&one.0));
+        self.scored.extend(listed.iter().map(score));
+        self.scored.sort_by(|one, other| other.worth_usd.total_cmp(&one.worth_usd));
         self.scored.truncate(*most_rolled_out);
-        Ok(rollouts.best(scorer, prices, (*view, decision), &self.scored))
+        Ok(rollouts.best(scorer, prices, *view, decision, &self.scored))
     }
 }

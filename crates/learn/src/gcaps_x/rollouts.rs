@@ -1,57 +1,59 @@
-//! `gcaps-x` with roll-outs: its best choices are played on while it decides for every aircraft, and the choice after which the
-//! fleet stands best in the mean is taken. Each choice is rolled out several times, with the values of all choices perturbed by a
-//! little noise, the same for every choice that is compared.
+//! `gcaps-x` with roll-outs. The best choices are played on with `gcaps-x` deciding for every aircraft, and the choice
+//! with the highest mean worth of the fleet at the end is taken. Each choice is rolled out several times, with the
+//! values of all choices perturbed by a little noise, the same for every choice that is compared.
 //!
-//! All roll-outs go on side by side, one decision of each at a time, so that the network scores them together.
+//! All roll-outs advance side by side, one decision each at a time, so that the network scores them together.
 
 use vertifleet_core::{Time, VertiportIx};
-use vertifleet_policy::{DayPrices, Shortlist, fleet_worth_usd, noise};
+use vertifleet_policy::{DayPrices, PricedChoice, Shortlist, fleet_worth_usd, noise};
 use vertifleet_sim::{Decision, Imagined, View};
 
 use crate::gcaps_x::ROLLOUTS;
 use crate::gcaps_x::features::Scene;
 use crate::gcaps_x::scorer::Scorer;
 
-/// Why a rollout that is asked has a decision.
+/// Why a roll-out that the network scores always has a decision.
 const ASKED: &str = "rollouts that have come to their end are not asked";
 
-/// What trying out needs.
+/// The working memory of the roll-outs of a decision.
 #[derive(Default)]
 pub(crate) struct RolloutPlayer {
-    /// Courses of all choices, choice by choice; behind `used`, room of earlier ones.
+    /// The roll-outs of all choices, choice by choice; those from index `used` on are kept for their allocations.
     rollouts: Vec<Rollout>,
     used: usize,
     begun: Option<Imagined>,
     shortlist: Shortlist,
-    /// The rollouts behind the scorer's rows.
+    /// The roll-out of each row of the scorer.
     asked: Vec<usize>,
 }
 
-/// A choice played on.
+/// A roll-out of one choice.
 struct Rollout {
-    /// Its number among those of the same choice; the first has no noise.
+    /// Its number among the roll-outs of the same choice; number 0 has no noise.
     number: u32,
     simulation: Imagined,
-    /// What the fleet has earned and is worth at the end, once it is reached.
+    /// The profit so far plus the worth of the fleet at the end of the roll-out; `None` until it gets there.
     usd: Option<f64>,
-    /// The decision to be taken, between the choices of a list.
+    /// The decision to be taken next, between the choices in `listed`.
     next: Option<Decision>,
-    listed: Vec<(f64, VertiportIx)>,
+    listed: Vec<PricedChoice>,
 }
 
 impl RolloutPlayer {
-    /// The choice after which the fleet stands best, among some with what they are worth to the aircraft alone.
+    /// The candidate after which the fleet is worth most; each candidate comes with its worth to the deciding aircraft
+    /// alone.
     pub(crate) fn best(
         &mut self,
         scorer: &mut Scorer,
         prices: &DayPrices,
-        (view, decision): (View<'_>, &Decision),
-        candidates: &[(f64, VertiportIx)],
+        view: View<'_>,
+        decision: &Decision,
+        candidates: &[PricedChoice],
     ) -> VertiportIx {
         let until = decision.time + ROLLOUTS.horizon_s;
         self.used = 0;
-        for &(_, choice) in candidates {
-            self.begin((view, choice));
+        for candidate in candidates {
+            self.begin(view, candidate.to);
         }
         loop {
             scorer.rows.clear();
@@ -71,21 +73,22 @@ impl RolloutPlayer {
             }
         }
         let mut best = (f64::NEG_INFINITY, decision.at);
-        for (&(alone_usd, choice), rollouts) in candidates
+        for (candidate, rollouts) in candidates
             .iter()
             .zip(self.rollouts[..self.used].chunks_exact(ROLLOUTS.rollouts as usize))
         {
             let sum_usd: f64 = rollouts.iter().filter_map(|rollout| rollout.usd).sum();
-            let usd = ROLLOUTS.price_weight * alone_usd + sum_usd / f64::from(ROLLOUTS.rollouts);
+            let usd = ROLLOUTS.price_weight * candidate.worth_usd
+                + sum_usd / f64::from(ROLLOUTS.rollouts);
             if usd > best.0 {
-                best = (usd, choice);
+                best = (usd, candidate.to);
             }
         }
         best.1
     }
 
-    /// Sets out on the rollouts of a choice.
-    fn begin(&mut self, (view, choice): (View<'_>, VertiportIx)) {
+    /// Starts the roll-outs of a choice.
+    fn begin(&mut self, view: View<'_>, choice: VertiportIx) {
         let begun = view.imagined_in(&mut self.begun);
         begun.apply(choice).expect("lists are of feasible choices");
         for number in 0..ROLLOUTS.rollouts {
@@ -103,7 +106,7 @@ impl RolloutPlayer {
 }
 
 impl Rollout {
-    /// Goes on to the next decision between more than one choice; false at the rollout's end.
+    /// Advances to the next decision between more than one choice; returns false at the end of the roll-out.
     fn go_on(&mut self, shortlist: &mut Shortlist, prices: &DayPrices, until: Time) -> bool {
         if self.usd.is_some() {
             return false;
@@ -116,8 +119,8 @@ impl Rollout {
                 break;
             }
             let listed = shortlist.rank(prices, simulation.view(), &next);
-            if let [(_, only)] = *listed {
-                simulation.apply(only).expect("lists are of feasible choices");
+            if let [only] = listed {
+                simulation.apply(only.to).expect("lists are of feasible choices");
                 continue;
             }
             self.listed.clear();
@@ -136,17 +139,17 @@ impl Rollout {
         scorer.rows.push(Scene::of(self.simulation.view(), decision, prices), &self.listed);
     }
 
-    /// Takes the choice of a row.
+    /// Takes the choice that a row of the scorer gives.
     fn follow(&mut self, scorer: &Scorer, prices: &DayPrices, row: usize) {
         let decision = self.next.as_ref().expect(ASKED);
         let addition_usd = Scene::of(self.simulation.view(), decision, prices).addition_usd();
         let noise_usd = if self.number == 0 { 0.0 } else { ROLLOUTS.noise * prices.stake_usd() };
         let mut best = (f64::NEG_INFINITY, decision.at);
-        for &listed in &self.listed {
-            let noise = noise(self.number, decision, listed.1);
-            let usd = scorer.worth_usd(row, addition_usd, listed) + noise_usd * noise;
+        for &choice in &self.listed {
+            let noise = noise(self.number, decision, choice.to);
+            let usd = scorer.worth_usd(row, addition_usd, choice) + noise_usd * noise;
             if usd > best.0 {
-                best = (usd, listed.1);
+                best = (usd, choice.to);
             }
         }
         let choice = best.1;

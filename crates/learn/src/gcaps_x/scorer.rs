@@ -1,27 +1,28 @@
-//! What a choice is worth: what the day's prices say, and what the network adds.
+//! The worth of a choice: what the day's prices say, and what the network adds.
 //!
 //! ```text
 //! worth_j = worth of j at the prices  +  logit_j * unit / 20
 //! ```
 //!
-//! with the profit of a typical full flight as unit, and less where less is at stake ([`Scene::addition_usd`]). A network of zeros adds nothing, so it decides as `prices` does. Only
-//! choices that are worth nearly as much as the best are scored: those of a [`Shortlist`].
+//! where the unit is the profit of a typical full flight, or less if the decision has less at stake
+//! ([`Scene::addition_usd`]). A network of zeros adds nothing, so it decides as `prices` does. Only the choices of a
+//! [`Shortlist`] are scored, which are worth nearly as much as the best.
 
 use std::sync::Arc;
 
 use vertifleet_core::VertiportIx;
-use vertifleet_policy::Shortlist;
+use vertifleet_policy::{PricedChoice, Shortlist};
 
 use crate::gcaps_x::ROLLOUTS;
 use crate::gcaps_x::features::{Rows, Scene, shape};
 use crate::nn::{self, Architecture, Weights, Workspace};
 
-/// A logit of 1 is worth the unit over this.
+/// A logit of 1 is worth the unit divided by this.
 pub(crate) const LOGITS_A_UNIT: f64 = 20.0;
-/// Rows scored at once at most: one decision, or one of every roll-out of all choices.
+/// Most rows that are scored at once: one decision of every roll-out of all choices.
 const BATCH: usize = Shortlist::MOST * ROLLOUTS.rollouts as usize;
 
-/// The network at one number of vertiports, and what a pass needs.
+/// The network for one number of vertiports, with the workspace of its passes.
 pub(crate) struct Scorer {
     net: nn::NeuralNetwork,
     weights: Arc<Weights>,
@@ -31,7 +32,7 @@ pub(crate) struct Scorer {
 
 impl Scorer {
     /// # Panics
-    /// If the weights are not of this architecture.
+    /// Panics if the weights are not of this architecture.
     pub(crate) fn new(
         architecture: &Architecture,
         weights: Arc<Weights>,
@@ -46,57 +47,53 @@ impl Scorer {
         self.rows.vertiports()
     }
 
-    /// The choice of a list that is worth most, the one listed first among equals. The list comes ranked by the prices.
-    pub(crate) fn best(&mut self, scene: Scene<'_>, listed: &[(f64, VertiportIx)]) -> VertiportIx {
-        if let [(_, only)] = *listed {
-            return only;
+    /// The choice of a list with the highest worth, the first of them if several are equal. The list is ranked by the
+    /// prices.
+    pub(crate) fn best(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) -> VertiportIx {
+        if let [only] = listed {
+            return only.to;
         }
         self.score(scene, listed);
         self.best_of_row(0, scene.addition_usd(), listed)
     }
 
-    /// Scorers one decision, in row 0.
-    pub(crate) fn score(&mut self, scene: Scene<'_>, listed: &[(f64, VertiportIx)]) {
+    /// Scores one decision, in row 0.
+    pub(crate) fn score(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) {
         self.rows.clear();
         self.rows.push(scene, listed);
         self.forward();
     }
 
-    /// Scorers all rows.
+    /// Scores all rows.
     pub(crate) fn forward(&mut self) {
         self.net.forward(&self.weights, self.rows.inputs(), &mut self.workspace);
     }
 
-    /// The choice that is worth most in a row of the latest [`forward`](Self::forward).
+    /// The choice with the highest worth in a row of the latest [`forward`](Self::forward).
     pub(crate) fn best_of_row(
         &self,
         row: usize,
         addition_usd: f64,
-        listed: &[(f64, VertiportIx)],
+        listed: &[PricedChoice],
     ) -> VertiportIx {
-        let mut best = (f64::NEG_INFINITY, listed[0].1);
+        let mut best = (f64::NEG_INFINITY, listed[0].to);
         for &choice in listed {
             let usd = self.worth_usd(row, addition_usd, choice);
             if usd > best.0 {
-                best = (usd, choice.1);
+                best = (usd, choice.to);
             }
         }
         best.1
     }
 
-    /// What a choice is worth in a row of the latest [`forward`](Self::forward), dollars.
-    pub(crate) fn worth_usd(
-        &self,
-        row: usize,
-        addition_usd: f64,
-        (priced_usd, to): (f64, VertiportIx),
-    ) -> f64 {
-        let logit = self.workspace.logits()[row * self.vertiports() + to.at()];
-        priced_usd + f64::from(logit) / LOGITS_A_UNIT * addition_usd
+    /// The worth of a choice in a row of the latest [`forward`](Self::forward), dollars.
+    pub(crate) fn worth_usd(&self, row: usize, addition_usd: f64, choice: PricedChoice) -> f64 {
+        let logit = self.workspace.logits()[row * self.vertiports() + choice.to.at()];
+        choice.worth_usd + f64::from(logit) / LOGITS_A_UNIT * addition_usd
     }
 }
 
-/// The network for a number of vertiports. The weights are the same for all.
+/// The network for this number of vertiports. The weights are the same for every number.
 pub(crate) fn network(architecture: &Architecture, vertiports: usize) -> nn::NeuralNetwork {
     nn::NeuralNetwork::new(architecture.clone(), shape(vertiports)).expect(
         "sizes were checked when the weights were made, and days have at most 256 vertiports",

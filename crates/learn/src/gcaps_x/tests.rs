@@ -1,4 +1,4 @@
-//! What `gcaps-x` promises, whatever its weights.
+//! The properties that `gcaps-x` has with any weights.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ fn small() -> Architecture {
     Architecture::GcapsX(GcapsSettings { width: 8, heads: 2 })
 }
 
-/// First weights, the last layer's made large enough to change choices.
+/// First weights with a last layer that is made large enough to change choices.
 fn opinionated(seed: u64) -> Arc<Weights> {
     let net = network(&small(), 2);
     let mut params = net.init(seed);
@@ -63,7 +63,7 @@ fn weights_of_zeros_decide_as_prices_do() {
 #[test]
 fn the_less_is_at_stake_the_less_weights_add() {
     let paper = &days()[0];
-    // How much a flight's worth may change for the strongest opinion about it, where so many of the day's passengers are left.
+    // The size of the network's additions on a day on which only one in so many passengers is left.
     let addition_usd = |one_in: u32| {
         let mut day = Scenario::clone(paper).into_day();
         day.demand.iter_mut().flat_map(Matrix::cells_mut).for_each(|cell| *cell /= one_in);
@@ -79,7 +79,7 @@ fn the_less_is_at_stake_the_less_weights_add() {
     assert_eq!(full_usd, unit_usd, "where flights are full, a share of a full flight");
     let (thin_usd, unit_usd) = addition_usd(40);
     assert!(0.0 < thin_usd && thin_usd < 0.1 * unit_usd, "{thin_usd}, {unit_usd}");
-    assert_eq!(addition_usd(u32::MAX).0, 0.0, "nobody wants to fly");
+    assert_eq!(addition_usd(u32::MAX).0, 0.0, "no passenger wants to fly");
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn vertiports_in_another_order_get_their_logits_in_that_order() {
     }
 }
 
-/// The names in the first column of a table, which begins after a heading.
+/// The names in the first column of the table that follows a heading.
 fn first_column(page: &str, heading: &str) -> Vec<String> {
     let (_, table) = page.split_once(heading).expect("a table");
     let rows = table.lines().skip_while(|line| !line.starts_with("| `"));
@@ -157,7 +157,7 @@ fn features_are_bounded_on_every_network() {
             let prices = prices.get_or_insert_with(|| DayPrices::of(view, decision.time));
             let listed = shortlist.rank(prices, view, &decision);
             rows.push(Scene::of(view, &decision, prices), listed);
-            let choice: VertiportIx = listed[0].1;
+            let choice: VertiportIx = listed[0].to;
             simulation.apply(choice).expect("a choice from the mask");
         }
         let Inputs { nodes, aircraft, .. } = rows.inputs();

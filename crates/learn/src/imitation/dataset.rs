@@ -1,19 +1,20 @@
-//! The dataset of imitation: decisions of played days, each with what roll-outs say that its choices are worth.
+//! The dataset of imitation: decisions of played days, each with the values of its choices by roll-outs.
 
 use std::collections::BTreeMap;
 
 use safetensors::tensor::SafeTensors;
-use vertifleet_core::VertiportIx;
+use vertifleet_policy::PricedChoice;
 
 use crate::gcaps_x::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Rows, Scene};
 use crate::run::checkpoint::tensor;
 
-/// Decisions of days with one number of vertiports.
+/// Samples from days with one number of vertiports.
 #[derive(Debug, Clone)]
 pub(crate) struct Samples {
     pub(crate) rows: Rows,
-    /// By row and vertiport: what the choice is worth at the prices less the best, in [`Scene::addition_usd`]; what roll-outs say
-    /// it is worth less the mean of the list. 0 for what is not on the list.
+    /// For each row and vertiport, in [`Scene::addition_usd`]: `priced` is the choice's worth at the prices less that
+    /// of the best choice, and `values` is its value by roll-outs less the mean over the list. Both are 0 for a
+    /// vertiport that is not on the list.
     pub(crate) priced: Vec<f32>,
     pub(crate) values: Vec<f32>,
 }
@@ -23,13 +24,9 @@ impl Samples {
         Self { rows: Rows::new(vertiports), priced: Vec::new(), values: Vec::new() }
     }
 
-    /// Adds a decision with what roll-outs say that each choice is worth, dollars. One with nothing at stake teaches nothing.
-    pub(crate) fn push(
-        &mut self,
-        scene: Scene<'_>,
-        listed: &[(f64, VertiportIx)],
-        values_usd: &[f64],
-    ) {
+    /// Adds a decision with the values of its choices by roll-outs, dollars. A decision with nothing at stake teaches
+    /// nothing and is left out.
+    pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice], values_usd: &[f64]) {
         let (vertiports, addition_usd) = (self.rows.vertiports(), scene.addition_usd());
         if addition_usd <= 0.0 {
             return;
@@ -39,13 +36,14 @@ impl Samples {
         self.priced.resize(first + vertiports, 0.0);
         self.values.resize(first + vertiports, 0.0);
         let mean_usd = values_usd.iter().sum::<f64>() / values_usd.len() as f64;
-        for (&(priced_usd, to), value) in listed.iter().zip(values_usd) {
-            self.priced[first + to.at()] = ((priced_usd - listed[0].0) / addition_usd) as f32;
+        for (&PricedChoice { worth_usd, to }, value) in listed.iter().zip(values_usd) {
+            self.priced[first + to.at()] =
+                ((worth_usd - listed[0].worth_usd) / addition_usd) as f32;
             self.values[first + to.at()] = ((value - mean_usd) / addition_usd) as f32;
         }
     }
 
-    /// Drops all samples but the first so many.
+    /// Drops all samples after the first `len`.
     fn truncate(&mut self, len: usize) {
         self.rows.truncate(len);
         self.priced.truncate(len * self.rows.vertiports());
@@ -61,13 +59,13 @@ impl Samples {
     }
 }
 
-/// Samples of days with any number of vertiports, by that number.
+/// The samples of days with any number of vertiports, by that number.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Dataset(pub(crate) BTreeMap<usize, Samples>);
 
-/// As many as a network file may have.
+/// The most vertiports that a network file may have.
 const MOST_VERTIPORTS: usize = 256;
-/// A checkpoint's tensors of the samples with one number of vertiports; that number stands before the name.
+/// The tensors that a checkpoint has for the samples of each number of vertiports, which stands before these names.
 const TENSORS: [&str; 4] = ["nodes", "aircraft", "priced", "values"];
 
 impl Dataset {
@@ -80,12 +78,12 @@ impl Dataset {
         self.0.values().map(|samples| samples.rows.len()).sum()
     }
 
-    /// How many samples there are, by the number of vertiports.
+    /// The number of samples for each number of vertiports.
     pub(crate) fn lengths(&self) -> BTreeMap<usize, usize> {
         self.0.iter().map(|(&vertiports, samples)| (vertiports, samples.rows.len())).collect()
     }
 
-    /// Goes back to when there were so many samples.
+    /// Drops the samples that were added since the dataset had these lengths.
     pub(crate) fn truncate(&mut self, lengths: &BTreeMap<usize, usize>) {
         self.0.retain(|vertiports, _| lengths.contains_key(vertiports));
         for (vertiports, samples) in &mut self.0 {
@@ -93,7 +91,8 @@ impl Dataset {
         }
     }
 
-    /// All samples as a checkpoint keeps them. They are kept rather than made again, since roll-outs are most of what a run takes.
+    /// All samples as a checkpoint stores them. They are stored and not computed again because roll-outs take most of
+    /// a run's time.
     pub(crate) fn tensors(&self) -> impl Iterator<Item = (String, &[f32])> {
         self.0.iter().flat_map(|(&vertiports, samples)| {
             let inputs = samples.rows.inputs();
@@ -102,7 +101,7 @@ impl Dataset {
         })
     }
 
-    /// The samples of a checkpoint that has some of these numbers of vertiports.
+    /// Reads the samples of a checkpoint, which has samples for these numbers of vertiports.
     pub(crate) fn read(file: &SafeTensors<'_>, vertiports: &[usize]) -> Result<Self, String> {
         let samples = vertiports.iter().map(|&count| Ok((count, Samples::read(file, count)?)));
         Ok(Self(samples.collect::<Result<_, String>>()?))
@@ -110,7 +109,8 @@ impl Dataset {
 }
 
 impl Samples {
-    /// The file has to hold every number that is made room for.
+    /// Reads the samples for one number of vertiports. Memory is allocated only for numbers that the file really
+    /// holds.
     fn read(file: &SafeTensors<'_>, vertiports: usize) -> Result<Self, String> {
         if !(1..=MOST_VERTIPORTS).contains(&vertiports) {
             return Err(format!(
@@ -138,7 +138,7 @@ impl Samples {
     }
 }
 
-/// The name as it was from the first checkpoints on.
+/// The name of a tensor in a checkpoint. It has not changed since the first checkpoints, so they can still be read.
 fn tensor_name(vertiports: usize, name: &str) -> String {
     format!("lessons.{vertiports}.{name}")
 }

@@ -6,26 +6,26 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImitationRow {
-    /// Rounds done.
+    /// Number of rounds done.
     pub round: u32,
-    /// Decisions learned from so far.
+    /// Number of decisions learned from so far.
     pub decisions: u64,
-    /// Share of decisions whose best choice is the expert's, in the last pass.
+    /// Share of decisions in the last pass for which the network's best choice is the expert's.
     pub agreement: f64,
-    /// By how much choices are better than those at the prices, by the expert's values, in units.
+    /// By how much the network's choices are better than those at the prices, by the expert's values, in units.
     pub lift: f64,
-    /// By how much the expert's choices are.
+    /// By how much the expert's choices are better than those at the prices, in the same units.
     pub most_lift: f64,
     /// Mean reward on the network's validation days.
     pub validation_reward: f64,
-    /// Profit over that of `prices`, as a share of it, on the network's validation days.
+    /// Profit above that of `prices` on the network's validation days, as a share of the profit of `prices`.
     pub gain: f64,
-    /// The same on random networks.
+    /// The same gain on the validation days of random networks.
     pub random_gain: f64,
 }
 
 impl ImitationRow {
-    /// What was measured, as TensorBoard is told.
+    /// What was measured, under the names that TensorBoard shows.
     pub(crate) fn scalars(&self) -> Vec<(&'static str, f64)> {
         vec![
             ("eval/mean_reward", self.validation_reward),

@@ -1,7 +1,9 @@
-//! A training run by imitation: play days, roll out what is decided there, learn from all decisions so far; round by round.
+//! A training run by imitation. Each round plays days, rolls out the decisions taken there, and learns from all
+//! decisions so far.
 //!
-//! The days of a round are played by what the rounds before it learned, those of the first round by bid prices alone. A share of
-//! the days are each of a random network of its own ([`random_network`]), the rest of the network that the run is for.
+//! The policy that plays the days of a round is what the earlier rounds learned; in the first round it is bid prices
+//! alone. A share of the days come from random networks, a different one each ([`random_network`]); the other days
+//! come from the network that the run is for.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -27,36 +29,36 @@ use crate::model::Model;
 use crate::nn::{self, Weights};
 use crate::run::{Curve, RunIdentity, TrainingPlan, TrainingRun, Work, check_finite, checkpoint};
 
-/// About how many decisions of a day are rolled out; of days with more, a share is.
+/// About how many decisions of a day are rolled out; on a day with more decisions, a random share of them is.
 const SAMPLES_A_DAY: f64 = 400.0;
-/// About how many decisions an aircraft takes a day.
+/// About how many decisions an aircraft takes on a day.
 const DECISIONS_AN_AIRCRAFT: f64 = 11.0;
 
-/// A run under way.
+/// A run in progress.
 pub(crate) struct ImitationRun {
     identity: RunIdentity,
     settings: ImitationSettings,
-    /// The header of the run's models, but for the steps.
+    /// The header of the run's models, except for the number of steps.
     header: Header,
     network: Arc<Network>,
     learner: Learner,
     dataset: Dataset,
     curve: Vec<ImitationRow>,
-    /// Validation days of the network, then of random networks; with what `prices` earns on each.
+    /// The validation days of the network, then those of random networks, each with the profit of `prices`.
     validation: [Vec<(Arc<Scenario>, f64)>; 2],
 }
 
-/// How far a run has come, in a checkpoint.
+/// The progress of a run as its checkpoint stores it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Progress {
     curve: Vec<ImitationRow>,
-    /// Numbers of vertiports that there are samples of.
+    /// The numbers of vertiports that there are samples for.
     vertiports: Vec<usize>,
 }
 
 impl ImitationRun {
-    /// A run before its first round, or one that goes on from a checkpoint.
+    /// A run before its first round, or one that is resumed from a checkpoint.
     pub(crate) fn new(
         plan: &TrainingPlan,
         identity: RunIdentity,
@@ -98,7 +100,7 @@ impl ImitationRun {
         })
     }
 
-    /// Plays, learns, and looks at the validation days; [`Error::Stopped`] leaves everything wherever it was.
+    /// Plays days, learns, and measures on the validation days. After [`Error::Stopped`], nothing is undone.
     fn round(&mut self, stop: &Stop, worked: &(dyn Fn(u64) + Sync)) -> Result<ImitationRow, Error> {
         let days = self.days()?;
         let actor = (self.rounds_done() > 0).then(|| Arc::new(self.learner.weights.clone()));
@@ -129,7 +131,7 @@ impl ImitationRun {
         })
     }
 
-    /// The round's passes over all samples so far. Returns how well the last one decided.
+    /// Makes the round's passes over all samples so far. Returns how well the last pass decided.
     fn fit(&mut self, stop: &Stop, worked: &dyn Fn(u64)) -> Result<Fit, Error> {
         let mut fit = Fit::default();
         let (settings, done) = (&self.settings, self.rounds_done());
@@ -154,7 +156,7 @@ impl ImitationRun {
         u32::try_from(self.curve.len()).expect("a run has few rounds")
     }
 
-    /// The days of the round to come.
+    /// The days of the next round.
     fn days(&self) -> Result<Vec<Arc<Scenario>>, Error> {
         let first = u64::from(self.rounds_done()) * u64::from(self.settings.days);
         let random = |day: u64| {
@@ -165,7 +167,7 @@ impl ImitationRun {
             .map(|day| {
                 let seed = DaySeed::training(self.identity.seed, day)?;
                 let drawn = if random(day) {
-                    // Seeds of days are all different, so no two runs share their networks.
+                    // Every day has a seed of its own, so no two runs share a random network.
                     random_network(Purpose::Training, seed.get()).draw(seed)
                 } else {
                     self.network.draw(seed)
@@ -175,7 +177,7 @@ impl ImitationRun {
             .collect()
     }
 
-    /// Plays a day and rolls out what is decided.
+    /// Plays a day and rolls out a share of its decisions.
     fn samples(&self, day: &Arc<Scenario>, actor: Option<&Arc<Weights>>) -> Samples {
         let vertiports = day.vertiports.len();
         let policy = &self.identity.policy;
@@ -195,22 +197,22 @@ impl ImitationRun {
             let bits = |what: u64| draw(what, day.seed, decision.index) >> 11;
             let chance = |what: u64| bits(what) as f64 / (1_u64 << 53) as f64;
             if listed.len() > 1 && chance(1) < share {
-                let values_usd = evaluator.values_usd(prices, (view, &decision), listed);
+                let values_usd = evaluator.values_usd(prices, view, &decision, listed);
                 samples.push(scene, listed, values_usd);
             }
             let choice = if chance(2) < self.settings.exploration {
-                listed[((u128::from(bits(3)) * listed.len() as u128) >> 53) as usize].1
+                listed[((u128::from(bits(3)) * listed.len() as u128) >> 53) as usize].to
             } else if let Some(scorer) = &mut scorer {
                 scorer.best(scene, listed)
             } else {
-                listed[0].1
+                listed[0].to
             };
             simulation.apply(choice).expect("lists are of feasible choices");
         }
         samples
     }
 
-    /// How the policy does on validation days.
+    /// Measures the policy on validation days.
     fn look(&self, days: &[(Arc<Scenario>, f64)]) -> Look {
         let model = self.model();
         let looks: Vec<Look> = days
@@ -231,7 +233,7 @@ impl TrainingRun for ImitationRun {
     }
 
     fn work(&self) -> Work {
-        // Days played and passes made take about as long.
+        // Playing the days takes about as long as making the passes.
         let a_round = u64::from(self.settings.days) + u64::from(self.settings.passes);
         let rounds = u64::from(self.settings.rounds);
         Work { done: a_round * self.curve.len() as u64, total: a_round * rounds, units: "days" }
@@ -270,8 +272,8 @@ impl TrainingRun for ImitationRun {
     }
 }
 
-/// Parameters, moments, samples and curve of a run that was set aside. Which days a round plays, and the order in which it meets its
-/// samples, follow from the seed and the round's number, so there is nothing else to keep.
+/// Writes the checkpoint: parameters, moments, samples and curve. Which days a round plays, and the order in which it
+/// meets its samples, follow from the seed and the round's number, so nothing else needs to be stored.
 fn set_aside(
     path: &Path,
     identity: &RunIdentity,
@@ -294,7 +296,7 @@ fn set_aside(
 /// Means over validation days.
 struct Look {
     reward: f64,
-    /// Profit over that of `prices`, as a share of it.
+    /// Profit above that of `prices`, as a share of the profit of `prices`.
     gain: f64,
 }
 

@@ -9,29 +9,29 @@ use crate::settings::within;
 /// What a run learns from, and how.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ImitationSettings {
-    /// Rounds of playing and learning.
+    /// Number of rounds of playing and learning.
     pub rounds: u32,
-    /// Days played a round.
+    /// Number of days played in a round.
     pub days: u32,
-    /// Share of the days that are of random networks.
+    /// Share of the days that come from random networks.
     pub random_share: f64,
-    /// Passes over all samples so far, a round.
+    /// Number of passes over all samples so far in a round.
     pub passes: u32,
-    /// Adam's step size; falls in a straight line to a tenth over the run.
+    /// Adam's step size; it falls in a straight line to a tenth over the run.
     pub learning_rate: f32,
     /// Weight of the entropy in the loss.
     pub entropy_weight: f32,
-    /// Share of decisions that are drawn from the list at random while samples are collected.
+    /// Share of decisions that are taken at random from the list while samples are collected.
     pub exploration: f64,
     /// How the expert rolls choices out.
     #[serde(flatten)]
     pub expert: RolloutSettings,
-    /// Validation days of the network, and as many of random networks.
+    /// Number of validation days of the network, and also of random networks.
     pub validation_days: u32,
 }
 
 impl Default for ImitationSettings {
-    /// Tuned on validation days.
+    /// These values were tuned on validation days.
     fn default() -> Self {
         Self {
             rounds: 4,

@@ -1,14 +1,15 @@
-//! One pass of imitation over the dataset: the probabilities of choices are moved to where the mean worth is highest.
+//! One pass of imitation over the dataset, which moves the probabilities of choices to where the mean worth is
+//! highest.
 //!
-//! With p the softmax of worth over logits, and A what roll-outs say of each choice, the loss of a decision is
+//! With p the softmax of worth over logits, and A the value of each choice by roll-outs, the loss of a decision is
 //!
 //! ```text
 //! L = -sum over j of p_j A_j  -  entropy_weight H(p)
 //! ```
 //!
-//! which a noise in A leaves where it is in the mean, and which weighs a decision by what hangs on it. A minibatch is cut
-//! into chunks of one number of vertiports each, which lanes of fixed number work through; so the weights that come out do
-//! not depend on how many threads there are.
+//! Noise in A does not change the mean of this loss, and the loss weighs a decision by what is at stake in it. A
+//! minibatch is cut into chunks of one number of vertiports each, which a fixed number of lanes work through, so the
+//! resulting weights do not depend on the number of threads.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -21,19 +22,20 @@ use crate::gcaps_x::scorer::{LOGITS_A_UNIT, network};
 use crate::imitation::dataset::{Dataset, Samples};
 use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
 
-/// Nodes per forward and backward pass: what the second-level cache holds.
+/// Nodes per forward and backward pass: as many as the second-level cache holds.
 const CHUNK_NODES: usize = 1_024;
 /// Chunks per step of Adam.
 const CHUNKS_A_STEP: usize = 8;
-/// Gradients that are filled side by side and then added up.
+/// Number of gradients that are filled side by side and then added up.
 const LANES: usize = 4;
-/// Largest Euclidean norm of a step's gradient.
+/// Largest Euclidean norm of the gradient of a step.
 const MAX_NORM: f32 = 0.5;
 
-/// What the parameters are learned with.
+/// The state and the working memory of learning.
 pub(crate) struct Learner {
     architecture: Architecture,
-    /// For preparing and finishing, which do not depend on the number of vertiports.
+    /// The network whose products are derived and whose gradient is completed; neither depends on the number of
+    /// vertiports.
     net: nn::NeuralNetwork,
     pub(crate) weights: Weights,
     pub(crate) adam: Adam,
@@ -43,13 +45,13 @@ pub(crate) struct Learner {
 /// Means over decisions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Fit {
-    /// Sum of p A, in units: what the draws from p are better than the mean of the list.
+    /// Sum of p A, in units: by how much a choice drawn from p is better than the mean of the list.
     pub(crate) gain: f64,
-    /// What the highest p is better than the best at the prices, in units.
+    /// By how much the choice with the highest p is better than the best at the prices, in units.
     pub(crate) lift: f64,
-    /// What the best of the list is better than the best at the prices.
+    /// By how much the best choice of the list is better than the best at the prices, in units.
     pub(crate) most: f64,
-    /// Share of decisions whose highest p is at the highest A.
+    /// Share of decisions in which the choice with the highest p has the highest A.
     pub(crate) agreement: f64,
 }
 
@@ -69,11 +71,11 @@ struct Chunk {
     rows: Vec<usize>,
 }
 
-/// How the parameters move.
+/// The settings of one step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pace {
     pub(crate) learning_rate: f32,
-    /// Against A counted in logits.
+    /// The weight of the entropy, with A measured in logits.
     pub(crate) entropy_weight: f32,
 }
 
@@ -93,7 +95,8 @@ impl Learner {
         Self { adam, weights: net.weights(params), architecture, net, lanes }
     }
 
-    /// One pass over the dataset, in an order that the seed says. Returns the means, each decision as it was met.
+    /// Makes one pass over the dataset, in an order that follows from the seed. Returns the means, with each decision
+    /// measured before the step that learns from it.
     pub(crate) fn pass(
         &mut self,
         dataset: &Dataset,
@@ -178,24 +181,26 @@ impl Lane {
             logits.zip(self.slopes.chunks_exact_mut(vertiports)).zip(rows)
         {
             let span = row * vertiports..(row + 1) * vertiports;
-            let sample = (&samples.priced[span.clone()], &samples.values[span]);
-            self.fit.add(&decision_loss(logits, sample, slopes, entropy_weight, weight));
+            let (priced, values) = (&samples.priced[span.clone()], &samples.values[span]);
+            let fit = decision_loss(logits, priced, values, slopes, entropy_weight, weight);
+            self.fit.add(&fit);
         }
         let slopes = Slopes { logits: &self.slopes, values: &self.no_slopes };
         net.backward(model_weights, inputs, slopes, workspace, &mut self.gradient);
     }
 }
 
-/// Sets the slopes of a decision's loss, times a weight; says how well it was decided.
+/// Sets the slopes of a decision's loss, times `weight`. Returns how well the decision was taken.
 fn decision_loss(
     logits: &[f32],
-    (priced, values): (&[f32], &[f32]),
+    priced: &[f32],
+    values: &[f32],
     slopes: &mut [f32],
     entropy_weight: f32,
     weight: f32,
 ) -> Fit {
     let unit = LOGITS_A_UNIT as f32;
-    // Minus infinity for what is not on the list.
+    // This is minus infinity for a vertiport that is not on the list.
     let whole = |at: usize| logits[at] + unit * priced[at];
     let highest = (0..logits.len()).map(whole).fold(f32::NEG_INFINITY, f32::max);
     let total: f32 = (0..logits.len()).map(|at| (whole(at) - highest).exp()).sum();
@@ -229,14 +234,14 @@ fn chunk_rows(vertiports: usize) -> usize {
     (CHUNK_NODES / vertiports).max(1)
 }
 
-/// All rows of each number of vertiports.
+/// One chunk for each number of vertiports, with all of its rows.
 fn chunks(dataset: &Dataset) -> Vec<Chunk> {
     let all = dataset.0.iter();
     all.map(|(&vertiports, samples)| Chunk { vertiports, rows: (0..samples.rows.len()).collect() })
         .collect()
 }
 
-/// Chunks small enough for a pass.
+/// Cuts the chunks until each is small enough for a pass.
 fn cut(chunks: &[Chunk]) -> Vec<Chunk> {
     let cut = chunks.iter().flat_map(|chunk| {
         let rows = chunk.rows.chunks(chunk_rows(chunk.vertiports));
@@ -271,7 +276,8 @@ mod tests {
     const PRICED: [f32; 4] = [0.0, -0.05, 0.0, -0.2];
     const VALUES: [f32; 4] = [0.04, -0.03, 0.0, -0.01];
 
-    /// The loss as the head of the file has it, A counted in logits, in double precision; the third is not on the list.
+    /// The loss of the module's equation in double precision, with A measured in logits; the third vertiport is not on
+    /// the list.
     fn loss(logits: &[f32; 4]) -> f64 {
         let whole =
             [0, 1, 3].map(|at| f64::from(logits[at]) + LOGITS_A_UNIT * f64::from(PRICED[at]));
@@ -287,7 +293,7 @@ mod tests {
     fn slopes_are_those_of_the_loss() {
         let logits = [0.3, -0.2, f32::NEG_INFINITY, 1.1];
         let mut slopes = [0.0; 4];
-        let fit = decision_loss(&logits, (&PRICED, &VALUES), &mut slopes, ENTROPY_WEIGHT, 1.0);
+        let fit = decision_loss(&logits, &PRICED, &VALUES, &mut slopes, ENTROPY_WEIGHT, 1.0);
         assert_eq!(slopes[2], 0.0, "what is not on the list moves nothing");
         for at in [0, 1, 3] {
             let moved = |by: f32| {

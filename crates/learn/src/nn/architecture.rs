@@ -1,20 +1,20 @@
-//! The policies' kinds and sizes: what a weight file's header says of its network.
+//! The kinds of policies and their sizes, as the header of a weight file states them.
 
 use serde::{Deserialize, Serialize};
 
-/// Sizes of the features that a network takes.
+/// The sizes of a network's features.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shape {
     /// N, the number of vertiports.
     pub vertiports: usize,
-    /// Features of a node, 2N + 4.
+    /// F, the number of features of a node; 2N + 4 for `gcaps` and `mlp`.
     pub node_features: usize,
-    /// Features of the aircraft, 2N + 2.
+    /// G, the number of features of the aircraft; 2N + 2 for `gcaps` and `mlp`.
     pub aircraft_features: usize,
 }
 
-/// A policy's kind and sizes.
+/// The kind of a policy, with its sizes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Architecture {
@@ -22,7 +22,8 @@ pub enum Architecture {
     Gcaps(GcapsSettings),
     /// The paper's baseline: plain layers on the flattened features.
     Mlp(MlpSettings),
-    /// The layers of `gcaps` on features that do not grow with the network, so that no weight depends on its size.
+    /// The layers of `gcaps` on features whose number does not grow with the network, so no weight depends on the
+    /// network's size.
     #[serde(rename = "gcaps-x")]
     GcapsX(GcapsSettings),
 }
@@ -33,7 +34,7 @@ pub enum Architecture {
 pub struct GcapsSettings {
     /// h, the embedding length.
     pub width: usize,
-    /// `h_e`, the number of attention heads; divides the width.
+    /// `h_e`, the number of attention heads; it divides the width.
     pub heads: usize,
 }
 
@@ -41,7 +42,7 @@ pub struct GcapsSettings {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MlpSettings {
-    /// Outputs of each layer.
+    /// Number of outputs of each layer.
     pub width: usize,
     /// Number of layers before the logits.
     pub layers: usize,
@@ -50,21 +51,21 @@ pub struct MlpSettings {
 }
 
 impl Default for GcapsSettings {
-    /// Table 3.
+    /// The sizes of Table 3.
     fn default() -> Self {
         Self { width: 256, heads: 8 }
     }
 }
 
 impl Default for MlpSettings {
-    /// With 8 vertiports as many weights as the default `gcaps`, to 0.1 %.
+    /// With 8 vertiports this is as many weights as the default `gcaps` has, to 0.1 %.
     fn default() -> Self {
         Self { width: 800, layers: 2, value_width: 256 }
     }
 }
 
 impl Architecture {
-    /// The policy of that name with its default sizes: `gcaps`, `mlp` or `gcaps-x`.
+    /// The policy with this name, `gcaps`, `mlp` or `gcaps-x`, with its default sizes.
     pub fn named(name: &str) -> Option<Self> {
         match name {
             "gcaps" => Some(Self::Gcaps(GcapsSettings::default())),
@@ -84,7 +85,7 @@ impl Architecture {
     }
 }
 
-/// Sizes beyond these are a damaged file's, and would ask for more memory than there is.
+/// Larger sizes can only come from a damaged file, and could ask for more memory than there is.
 const MOST: usize = 4096;
 
 pub(crate) fn check_size(name: &str, size: usize) -> Result<(), String> {

@@ -1,6 +1,6 @@
-//! What goes into a pass and what comes out of it, rows of a batch side by side.
+//! The inputs and outputs of a pass, with the rows of a batch side by side.
 
-/// A batch of observations, rows side by side. F are a node's features, G the aircraft's.
+/// A batch of observations, with the rows side by side. F is the number of node features, G that of aircraft features.
 #[derive(Debug, Clone, Copy)]
 pub struct Inputs<'a> {
     /// B, the number of decisions.
@@ -9,22 +9,22 @@ pub struct Inputs<'a> {
     pub nodes: &'a [f32],
     /// Aircraft features [B x G].
     pub aircraft: &'a [f32],
-    /// [B x N]: 0 where the vertiport may not be chosen. At least one of each row may.
+    /// [B x N]: 0 where the vertiport may not be chosen. Every row has at least one that may.
     pub mask: &'a [u8],
-    /// Share of the day left `[B]`; the value head alone sees it.
+    /// Share of the day that is left `[B]`; only the value head sees it.
     pub clock: &'a [f32],
 }
 
-/// The slopes of a loss in a batch's outputs.
+/// The slopes of a loss with respect to a batch's outputs.
 #[derive(Debug, Clone, Copy)]
 pub struct Slopes<'a> {
-    /// In the logits [B x N]; those of masked vertiports are ignored.
+    /// With respect to the logits [B x N]; those of masked vertiports are ignored.
     pub logits: &'a [f32],
-    /// In the values `[B]`.
+    /// With respect to the values `[B]`.
     pub values: &'a [f32],
 }
 
-/// What a forward pass leaves.
+/// The outputs of a forward pass.
 #[derive(Debug)]
 pub(crate) struct Outputs {
     pub(crate) logits: Vec<f32>,

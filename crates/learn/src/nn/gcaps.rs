@@ -1,4 +1,4 @@
-//! GCAPS (§IV, Eq. 18-21, Table 3): graph-capsule encoder, attention decoder, a value head beside it.
+//! GCAPS (§IV, Eq. 18-21, Table 3): a graph-capsule encoder, an attention decoder, and a value head beside it.
 
 mod decoder;
 mod encoder;
@@ -7,7 +7,7 @@ mod encoder_tests;
 mod products;
 pub(crate) mod reads;
 
-use decoder::{Decoder, DecoderSpace};
+use decoder::{Capsules, Decoder, DecoderSpace};
 use encoder::{Encoder, EncoderSpace};
 use products::Products;
 use reads::Reads;
@@ -20,7 +20,7 @@ use crate::nn::layout::{Layout, Slot, Tensors};
 use crate::nn::linear::Linear;
 use crate::nn::value_head::ValueHead;
 
-/// Where the weights lie that products are taken of. But for the first and the last, nothing else is done with them.
+/// The places of the weights that enter products. Except for `node` and `hidden_bias`, they are used in products only.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Weights {
     /// W_0, b_0.
@@ -35,7 +35,7 @@ pub(crate) struct Weights {
     key: Slot,
     value: Slot,
     pointer: Slot,
-    /// The value head's rows for the mean of the embeddings, and its hidden layer's bias.
+    /// The value head's rows for the mean of the embeddings, and the bias of its hidden layer.
     means: Slot,
     hidden_bias: Slot,
 }
@@ -49,7 +49,7 @@ pub(crate) struct Gcaps {
     decoder: Decoder,
 }
 
-/// What a pass needs.
+/// The working memory of a pass.
 #[derive(Debug)]
 pub(crate) struct GcapsSpace {
     encoder: EncoderSpace,
@@ -58,8 +58,8 @@ pub(crate) struct GcapsSpace {
 }
 
 impl Gcaps {
-    /// The network, its weights' layout, and that of the products behind them. Weights come in the order of the
-    /// layout: first those that only products of them are worked with.
+    /// Returns the network, the layout of its weights, and the layout of the products behind them. The layout starts
+    /// with the weights that are used in products only.
     pub(crate) fn new(
         settings: &GcapsSettings,
         shape: Shape,
@@ -73,7 +73,7 @@ impl Gcaps {
         let mut layout = Layout::starting_at(0);
         let square = (width, width);
         let plain = Init::Uniform { inputs: width, gain: 1.0 };
-        // Three terms add up in front of each rectifier.
+        // Three terms add up before each rectifier.
         let hop = Init::Uniform { inputs: 3 * width, gain: init::BEFORE_RELU };
         let mut hops = |p: usize| {
             [0, 1, 2]
@@ -159,8 +159,8 @@ impl Gcaps {
         let capsules = inputs.batch * self.decoder.reads.vertiports * self.decoder.reads.width;
         let capsule_slopes = &mut space.capsule_slopes[..capsules];
         let capsules = &space.encoder.capsules[..capsules];
-        let to = (&mut *capsule_slopes, &mut *gradient);
-        self.decoder.backward(tensors, inputs, capsules, slopes, &mut space.decoder, to);
-        self.encoder.backward(tensors, inputs, &mut space.encoder, (capsule_slopes, gradient));
+        let given = Capsules { values: capsules, slopes: capsule_slopes };
+        self.decoder.backward(tensors, inputs, given, slopes, &mut space.decoder, gradient);
+        self.encoder.backward(tensors, inputs, &mut space.encoder, capsule_slopes, gradient);
     }
 }

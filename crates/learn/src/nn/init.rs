@@ -1,12 +1,12 @@
-//! First weights: uniform with a variance that keeps signals on one scale (He et al. 2015, LeCun et al. 1998), from a
-//! seed, without any function whose last bit differs between machines.
+//! First weights, which follow from a seed: uniform, with a variance that keeps signals on one scale (He et al. 2015,
+//! LeCun et al. 1998). No function is used whose last bit differs between machines.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::nn::layout::Layout;
 
-/// How a tensor begins.
+/// How the entries of a tensor are initialised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Init {
     Zero,
@@ -18,11 +18,11 @@ pub(crate) enum Init {
     },
 }
 
-/// Gain in front of a rectifier, which loses half of the signal's power.
+/// Gain before a rectifier, which loses half of the signal's power.
 pub(crate) const BEFORE_RELU: f32 = std::f32::consts::SQRT_2;
-/// Gain of the logits' last matrix, as in stable-baselines3: the first policy is nearly uniform.
+/// Gain of the last matrix of the logits, as in stable-baselines3: the first policy is nearly uniform.
 pub(crate) const LOGITS: f32 = 0.01;
-/// Gain of the value's last matrix: the first values are near 0.
+/// Gain of the last matrix of the value: the first values are near 0.
 pub(crate) const VALUE: f32 = 0.1;
 
 /// The first weights of a layout.
@@ -43,7 +43,7 @@ pub(crate) fn draw(layout: &Layout, seed: u64) -> Vec<f32> {
     params
 }
 
-/// Uniform in [-1, 1).
+/// A uniform number in [-1, 1).
 fn symmetric(rng: &mut ChaCha8Rng) -> f32 {
     (rng.next_u32() >> 8) as f32 / (1 << 23) as f32 - 1.0
 }

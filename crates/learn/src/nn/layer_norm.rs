@@ -1,20 +1,21 @@
-//! Layer normalisation (Ba et al. 2016): every row to mean 0 and variance 1, then a learned scale and shift.
+//! Layer normalisation (Ba et al. 2016): brings every row to mean 0 and variance 1, then applies a learned scale and
+//! shift.
 
 use crate::nn::init::Init;
 use crate::nn::layout::{Layout, Slot, Tensors};
 use crate::nn::linear::{add, dot};
 
-/// As in PyTorch.
+/// The same value as in PyTorch.
 const EPSILON: f32 = 1e-5;
 
-/// Where the layer's weights lie.
+/// The places of the layer's weights.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LayerNorm {
     scale: Slot,
     shift: Slot,
 }
 
-/// What the backward pass needs of the forward pass: normalised rows and one over their spread.
+/// What the backward pass needs from the forward pass: the normalised rows and the reciprocals of their spreads.
 #[derive(Debug)]
 pub(crate) struct Normalised {
     rows: Vec<f32>,
@@ -22,7 +23,7 @@ pub(crate) struct Normalised {
 }
 
 impl Normalised {
-    /// Room for `batch` rows of `width` entries.
+    /// Allocates memory for `batch` rows of `width` entries.
     pub(crate) fn new(batch: usize, width: usize) -> Self {
         Self { rows: vec![0.0; batch * width], over_spread: vec![0.0; batch] }
     }
@@ -66,7 +67,7 @@ impl LayerNorm {
         }
     }
 
-    /// Adds the slopes of scale and shift; turns the output's slopes into the input's.
+    /// Adds the slopes of scale and shift, and turns the slopes of the output into those of the input.
     pub(crate) fn backward(
         self,
         tensors: Tensors<'_>,

@@ -1,4 +1,4 @@
-//! Where each of a network's tensors lies in its flat vector of weights.
+//! The places of a network's tensors in its flat vector of weights.
 
 use crate::nn::init::Init;
 use crate::nn::product::{Matrix, MatrixMut};
@@ -8,7 +8,7 @@ use crate::nn::product::{Matrix, MatrixMut};
 pub struct Tensor {
     /// Its name in weight files.
     pub name: String,
-    /// Its sizes, the slowest index first. A matrix W is [inputs, outputs] and used as `x W`.
+    /// Its sizes, the slowest index first. A matrix W has shape [inputs, outputs] and is used as `x W`.
     pub shape: Vec<usize>,
     /// Index of its first entry in the flat vector.
     pub offset: usize,
@@ -21,7 +21,7 @@ impl Tensor {
         self.shape.iter().product()
     }
 
-    /// Whether it has no entries, which no tensor of a network has.
+    /// Whether it has no entries, which is never the case for a tensor of a network.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -35,16 +35,16 @@ pub struct Layout {
     end: usize,
 }
 
-/// Where one tensor lies: what the layers keep of the layout.
+/// The place of one tensor, which is all that the layers keep of the layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Slot {
     pub(crate) offset: usize,
-    /// 1 for vectors.
+    /// Number of rows, 1 for vectors.
     pub(crate) rows: usize,
     pub(crate) columns: usize,
 }
 
-/// The numbers behind slots: weights, and behind their end what is derived from them.
+/// The numbers that slots refer to: the weights, followed by the products derived from them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tensors<'a> {
     pub(crate) params: &'a [f32],
@@ -52,7 +52,7 @@ pub(crate) struct Tensors<'a> {
 }
 
 impl Layout {
-    /// No tensors yet; the first will lie at `start`.
+    /// A layout without tensors; the first one will start at `start`.
     pub(crate) fn starting_at(start: usize) -> Self {
         Self { tensors: Vec::new(), start, end: start }
     }
@@ -62,7 +62,7 @@ impl Layout {
         &self.tensors
     }
 
-    /// Number of entries of all tensors.
+    /// Total number of entries of all tensors.
     pub fn len(&self) -> usize {
         self.end - self.start
     }
@@ -72,12 +72,12 @@ impl Layout {
         self.tensors.is_empty()
     }
 
-    /// Index behind the last entry.
+    /// Index after the last entry.
     pub(crate) fn end(&self) -> usize {
         self.end
     }
 
-    /// Adds a matrix behind what is there.
+    /// Adds a matrix at the end.
     pub(crate) fn matrix(
         &mut self,
         name: &str,
@@ -88,7 +88,7 @@ impl Layout {
         Slot { offset: self.end - rows * columns, rows, columns }
     }
 
-    /// Adds a vector behind what is there.
+    /// Adds a vector at the end.
     pub(crate) fn vector(&mut self, name: &str, len: usize, init: Init) -> Slot {
         self.push(name, vec![len], init);
         Slot { offset: self.end - len, rows: 1, columns: len }
@@ -112,27 +112,27 @@ impl Slot {
         Self { offset: self.offset + first * self.columns, rows: count, ..self }
     }
 
-    /// The same tensor in a vector without the first `skipped` entries.
+    /// The same tensor in the vector that lacks the first `skipped` entries.
     pub(crate) fn counted_from(self, skipped: usize) -> Self {
         Self { offset: self.offset - skipped, ..self }
     }
 
-    /// The tensor's part of a flat vector.
+    /// The tensor's part of a flat vector, as a matrix.
     pub(crate) fn part(self, flat: &[f32]) -> &[f32] {
         &flat[self.offset..][..self.len()]
     }
 
-    /// The tensor's part of a flat vector.
+    /// The tensor's part of a flat vector, as a matrix to write to.
     pub(crate) fn part_mut(self, flat: &mut [f32]) -> &mut [f32] {
         &mut flat[self.offset..][..self.len()]
     }
 
-    /// The tensor's part of a flat vector.
+    /// The tensor's part of a flat vector, as a matrix.
     pub(crate) fn matrix(self, flat: &[f32]) -> Matrix<'_> {
         Matrix::new(self.part(flat), self.rows, self.columns)
     }
 
-    /// The tensor's part of a flat vector.
+    /// The tensor's part of a flat vector, as a matrix to write to.
     pub(crate) fn matrix_mut(self, flat: &mut [f32]) -> MatrixMut<'_> {
         MatrixMut::new(self.part_mut(flat), self.rows, self.columns)
     }

@@ -1,10 +1,10 @@
-//! Linear layers `y = x W + b` on row-major batches, and the row arithmetic around them.
+//! Linear layers `y = x W + b` on row-major batches, and the arithmetic on rows that goes with them.
 
 use crate::nn::init::Init;
 use crate::nn::layout::{Layout, Slot, Tensors};
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 
-/// Where a linear layer's weights lie.
+/// The places of a linear layer's weights.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Linear {
     pub(crate) weight: Slot,
@@ -26,7 +26,7 @@ impl Linear {
         }
     }
 
-    /// `to = from W + b`.
+    /// Computes `to = from W + b`.
     pub(crate) fn forward(self, tensors: Tensors<'_>, from: &[f32], to: &mut [f32]) {
         let rows = to.len() / self.weight.columns;
         repeat(tensors.part(self.bias), to);
@@ -41,7 +41,7 @@ impl Linear {
         add_rows(slopes, self.bias.part_mut(gradient));
     }
 
-    /// The slopes of the layer's input.
+    /// Computes the slopes of the layer's input.
     pub(crate) fn input_slopes(
         self,
         tensors: Tensors<'_>,
@@ -86,13 +86,9 @@ pub(crate) fn add_rows(rows: &[f32], to: &mut [f32]) {
     }
 }
 
-/// Sums each group of `group` rows of `width` entries, times `factor`: one row of `to` per group.
-pub(crate) fn sum_groups(
-    rows: &[f32],
-    (group, width): (usize, usize),
-    factor: f32,
-    to: &mut [f32],
-) {
+/// Sums each group of `group` rows of `width` entries and multiplies the sum by `factor`, giving one row of `to` per
+/// group.
+pub(crate) fn sum_groups(rows: &[f32], group: usize, width: usize, factor: f32, to: &mut [f32]) {
     for (rows, to) in rows.chunks_exact(group * width).zip(to.chunks_exact_mut(width)) {
         to.fill(0.0);
         add_rows(rows, to);
@@ -102,7 +98,7 @@ pub(crate) fn sum_groups(
     }
 }
 
-/// The sum of products, in eight strands that the compiler keeps in vector registers.
+/// The dot product, in eight partial sums that the compiler keeps in vector registers.
 pub(crate) fn dot(left: &[f32], right: &[f32]) -> f32 {
     debug_assert_eq!(left.len(), right.len());
     let (left, left_rest) = left.as_chunks::<8>();

@@ -1,4 +1,4 @@
-//! The paper's baseline (§V.B): plain layers on the flattened features, the same mask and value head.
+//! The paper's baseline (§V.B): plain layers on the flattened features, with the same mask and value head as `gcaps`.
 
 use crate::nn::architecture::{MlpSettings, Shape, check_size};
 use crate::nn::batch::{Inputs, Outputs, Slopes};
@@ -18,7 +18,7 @@ pub(crate) struct Mlp {
     head: ValueHead,
 }
 
-/// What a pass needs; rows are samples.
+/// The working memory of a pass; rows are samples.
 #[derive(Debug)]
 pub(crate) struct MlpSpace {
     features: Vec<f32>,
@@ -27,13 +27,13 @@ pub(crate) struct MlpSpace {
     hidden: Vec<f32>,
     logit_slopes: Vec<f32>,
     hidden_slopes: Vec<f32>,
-    /// Slopes of a layer's outputs, and of the next one's down.
+    /// Slopes of a layer's outputs, and of the outputs of the layer below.
     slopes: Vec<f32>,
     next_slopes: Vec<f32>,
 }
 
 impl Mlp {
-    /// The network and its weights' layout.
+    /// Returns the network and the layout of its weights.
     pub(crate) fn new(settings: &MlpSettings, shape: Shape) -> Result<(Self, Layout), String> {
         let &MlpSettings { width, layers, value_width } = settings;
         check_size("width", width)?;
@@ -98,7 +98,7 @@ impl Mlp {
         self.head.forward(tensors, inputs.clock, hidden, &mut outputs.values[..batch]);
     }
 
-    /// Node features of all nodes, then the aircraft's.
+    /// Writes the features of all nodes, then those of the aircraft.
     fn flatten(&self, inputs: Inputs<'_>, features: &mut [f32]) {
         let of_nodes = self.shape.vertiports * self.shape.node_features;
         let of_aircraft = self.shape.aircraft_features;
@@ -122,10 +122,10 @@ impl Mlp {
         let (batch, width) = (inputs.batch, self.logits.weight.rows);
         let value_width = self.head.hidden_bias.columns;
         let hidden_slopes = &mut space.hidden_slopes[..batch * value_width];
-        let kept = (inputs.clock, &space.hidden[..batch * value_width]);
+        let hidden = &space.hidden[..batch * value_width];
         let last = space.outputs.last().expect("at least one layer");
         let last = &last[..batch * width];
-        self.head.backward(tensors, kept, loss.values, hidden_slopes, gradient);
+        self.head.backward(tensors, inputs.clock, hidden, loss.values, hidden_slopes, gradient);
         add_rows(hidden_slopes, self.head.hidden_bias.part_mut(gradient));
         add_weight_slopes(self.head.features(), last, hidden_slopes, gradient);
         let slopes = &mut space.slopes[..batch * width];
@@ -142,7 +142,7 @@ impl Mlp {
         self.layers_backward(tensors, batch, space, gradient);
     }
 
-    /// From the slopes of the last layer's outputs down.
+    /// Goes from the slopes of the last layer's outputs down to the first layer.
     fn layers_backward(
         &self,
         tensors: Tensors<'_>,

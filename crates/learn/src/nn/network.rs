@@ -1,4 +1,4 @@
-//! A network of either kind behind one interface: forward, backward, and the weights between.
+//! One interface to the networks of all kinds: forward pass, backward pass, and weights.
 
 use crate::nn::architecture::{Architecture, Shape, check_size};
 use crate::nn::batch::{Inputs, Outputs, Slopes};
@@ -7,15 +7,15 @@ use crate::nn::init;
 use crate::nn::layout::{Layout, Tensors};
 use crate::nn::mlp::{Mlp, MlpSpace};
 
-/// A policy's network: sizes and the layout of its weights, not the weights themselves.
+/// A policy's network: its sizes and the layout of its weights, but not the weights themselves.
 #[derive(Debug, Clone)]
 pub struct NeuralNetwork {
     architecture: Architecture,
     shape: Shape,
     layout: Layout,
-    /// The weights in front are worked with only through products; their slopes are never summed.
+    /// Number of weights at the front that are used in products only. Their slopes are not summed over batches.
     folded: usize,
-    /// Length of the products.
+    /// Number of entries of all products.
     derived: usize,
     body: Body,
 }
@@ -26,14 +26,15 @@ enum Body {
     Mlp(Mlp),
 }
 
-/// The weights of a network, with what the passes derive from them. Both change together, through [`NeuralNetwork::update`].
+/// The weights of a network with the products derived from them. Both change together, in [`NeuralNetwork::update`].
 #[derive(Debug, Clone)]
 pub struct Weights {
     params: Vec<f32>,
     products: Vec<f32>,
 }
 
-/// Room for the passes of batches up to a largest one. Only a pass that follows another reads what that one left.
+/// The working memory of passes over batches up to a largest size. A backward pass reads what the forward pass before
+/// it left here.
 #[derive(Debug)]
 pub struct Workspace {
     most: usize,
@@ -49,7 +50,7 @@ enum BodySpace {
     Mlp(MlpSpace),
 }
 
-/// A gradient, summed over as many batches as one likes.
+/// A gradient, summed over any number of batches.
 #[derive(Debug, Clone)]
 pub struct Gradient {
     /// Slopes of the weights, then those of the products.
@@ -58,10 +59,10 @@ pub struct Gradient {
 }
 
 impl NeuralNetwork {
-    /// The network of these sizes.
+    /// The network with these sizes.
     ///
     /// # Errors
-    /// If sizes are 0, beyond all reason, or do not fit together; the message says which.
+    /// Returns an error if a size is 0 or absurdly large, or if sizes do not fit together; the message says which.
     pub fn new(architecture: Architecture, shape: Shape) -> Result<Self, String> {
         check_size("vertiports", shape.vertiports)?;
         check_size("node_features", shape.node_features)?;
@@ -79,40 +80,40 @@ impl NeuralNetwork {
         Ok(Self { architecture, shape, layout, folded, derived, body })
     }
 
-    /// The policy's kind and sizes.
+    /// The kind of the policy, with its sizes.
     pub fn architecture(&self) -> &Architecture {
         &self.architecture
     }
 
-    /// Sizes of the features.
+    /// The sizes of the features.
     pub fn shape(&self) -> Shape {
         self.shape
     }
 
-    /// Where each tensor lies among the weights.
+    /// The place of each tensor among the weights.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// First parameters, a function of the seed alone.
+    /// The first parameters, a function of the seed alone.
     pub fn init(&self, seed: u64) -> Vec<f32> {
         init::draw(&self.layout, seed)
     }
 
-    /// The weights of these parameters, which are in the order of the layout.
+    /// The weights with these parameters, which must be in the order of the layout.
     ///
     /// # Panics
-    /// If there are more or fewer parameters than the layout has.
+    /// Panics if there are more or fewer parameters than the layout has.
     pub fn weights(&self, params: Vec<f32>) -> Weights {
         let mut weights = Weights { params, products: vec![0.0; self.derived] };
         self.update(&mut weights, |_| ());
         weights
     }
 
-    /// Changes the parameters of weights, and what is derived from them.
+    /// Changes the parameters of weights, and updates the products derived from them.
     ///
     /// # Panics
-    /// If the weights are another network's.
+    /// Panics if the weights belong to another network.
     pub fn update(&self, weights: &mut Weights, change: impl FnOnce(&mut [f32])) {
         self.tensors(weights);
         change(&mut weights.params);
@@ -122,7 +123,7 @@ impl NeuralNetwork {
         }
     }
 
-    /// Room for passes of up to `most` decisions.
+    /// Allocates the working memory for passes of up to `most` decisions.
     pub fn workspace(&self, most: usize) -> Workspace {
         let vertiports = self.shape.vertiports;
         Workspace {
@@ -142,10 +143,10 @@ impl NeuralNetwork {
         Gradient { slopes: vec![0.0; self.layout.len() + self.derived], folded: self.folded }
     }
 
-    /// Logits and values of a batch, left in the workspace.
+    /// Computes the logits and values of a batch and leaves them in the workspace.
     ///
     /// # Panics
-    /// If the batch is larger than the workspace, or anything is of another network's shape.
+    /// Panics if the batch is larger than the workspace, or if an argument has another network's shape.
     pub fn forward(&self, weights: &Weights, inputs: Inputs<'_>, workspace: &mut Workspace) {
         self.check(inputs, workspace);
         let tensors = self.tensors(weights);
@@ -162,10 +163,10 @@ impl NeuralNetwork {
         }
     }
 
-    /// Adds the gradient of a loss with these slopes, for the batch of the latest [`forward`](Self::forward).
+    /// Adds the gradient of a loss with these slopes. The batch must be that of the latest [`forward`](Self::forward).
     ///
     /// # Panics
-    /// If anything is of another network's shape, or the batch of another size than the latest.
+    /// Panics if an argument has another network's shape, or if the batch has another size than the latest.
     pub fn backward(
         &self,
         weights: &Weights,
@@ -191,11 +192,11 @@ impl NeuralNetwork {
         }
     }
 
-    /// Completes a summed gradient; returns the slopes of the weights, in the order of the layout. To be called once
-    /// per sum: the gradient must be cleared before it is added to again.
+    /// Completes a summed gradient and returns the slopes of the weights, in the order of the layout. Call it once per
+    /// sum: the gradient must be cleared before it is added to again.
     ///
     /// # Panics
-    /// If anything is another network's.
+    /// Panics if an argument belongs to another network.
     pub fn finish<'a>(&self, weights: &Weights, gradient: &'a mut Gradient) -> &'a mut [f32] {
         self.tensors(weights);
         match &self.body {
@@ -256,17 +257,18 @@ impl Workspace {
 }
 
 impl Gradient {
-    /// Back to zeros.
+    /// Sets all slopes to 0.
     pub fn clear(&mut self) {
         self.sums_mut().fill(0.0);
     }
 
-    /// What batches add to, for adding gradients up; of use only to [`NeuralNetwork::finish`].
+    /// The sums over batches, so that gradients can be added up; only [`NeuralNetwork::finish`] turns them into
+    /// slopes.
     pub fn sums(&self) -> &[f32] {
         &self.slopes[self.folded..]
     }
 
-    /// As [`sums`](Self::sums), to be changed.
+    /// The sums of [`sums`](Self::sums), mutable.
     pub fn sums_mut(&mut self) -> &mut [f32] {
         &mut self.slopes[self.folded..]
     }

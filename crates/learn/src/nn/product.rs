@@ -1,7 +1,7 @@
-//! Matrix products over checked slices: the one place that calls the matrix-product crate, and so the one with
-//! `unsafe` code.
+//! Matrix products over checked slices. This is the only module that calls the matrix-product crate, and therefore the
+//! only one with `unsafe` code.
 //!
-//! `gemm` chooses its kernel by the CPU at run time, so one build runs everywhere and a given machine always computes
+//! `gemm` chooses its kernel by the CPU at run time, so one build runs everywhere, and a given machine always computes
 //! the same bits. `faer`, which needs no `unsafe`, was 3 to 15 % slower on the largest products here.
 
 #![expect(
@@ -14,7 +14,7 @@ use gemm::Parallelism;
 /// A matrix in a slice: entry (i, j) lies at `i * row_step + j * column_step`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Matrix<'a> {
-    // Invariant: the largest index of an entry is inside.
+    // Invariant: the largest index of an entry is inside the slice.
     entries: &'a [f32],
     rows: usize,
     columns: usize,
@@ -22,24 +22,25 @@ pub(crate) struct Matrix<'a> {
     column_step: usize,
 }
 
-/// A matrix to write to, rows one after the other, `row_step` apart.
+/// A matrix to write to, whose rows follow one another, `row_step` apart.
 #[derive(Debug)]
 pub(crate) struct MatrixMut<'a> {
-    // Invariant: the largest index of an entry is inside, and `columns <= row_step`, so no two entries share a place.
+    // Invariant: the largest index of an entry is inside the slice, and `columns <= row_step`, so no two entries share
+    // a place.
     entries: &'a mut [f32],
     rows: usize,
     columns: usize,
     row_step: usize,
 }
 
-/// What a product does to the matrix it is written to.
+/// How a product is written to a matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Write {
-    /// Replaces it.
+    /// The product replaces the matrix.
     Set,
-    /// Is added to it.
+    /// The product is added to the matrix.
     Add,
-    /// Is taken from it.
+    /// The product is subtracted from the matrix.
     Subtract,
 }
 
@@ -47,7 +48,7 @@ impl<'a> Matrix<'a> {
     /// A row-major matrix that fills its slice.
     ///
     /// # Panics
-    /// If the slice has another length.
+    /// Panics if the slice has another length.
     pub(crate) fn new(entries: &'a [f32], rows: usize, columns: usize) -> Self {
         assert_eq!(entries.len(), rows * columns, "entries of a {rows} x {columns} matrix");
         Self { entries, rows, columns, row_step: columns, column_step: 1 }
@@ -66,7 +67,7 @@ impl<'a> Matrix<'a> {
     /// The block of `count` columns from `first` on.
     ///
     /// # Panics
-    /// If there are fewer columns.
+    /// Panics if there are fewer columns.
     pub(crate) fn columns(self, first: usize, count: usize) -> Self {
         assert!(first + count <= self.columns, "columns of a matrix with {}", self.columns);
         let skipped = (first * self.column_step).min(self.entries.len());
@@ -78,7 +79,7 @@ impl<'a> MatrixMut<'a> {
     /// A row-major matrix that fills its slice.
     ///
     /// # Panics
-    /// If the slice has another length.
+    /// Panics if the slice has another length.
     pub(crate) fn new(entries: &'a mut [f32], rows: usize, columns: usize) -> Self {
         assert_eq!(entries.len(), rows * columns, "entries of a {rows} x {columns} matrix");
         Self { entries, rows, columns, row_step: columns }
@@ -87,7 +88,7 @@ impl<'a> MatrixMut<'a> {
     /// The block of `count` columns from `first` on.
     ///
     /// # Panics
-    /// If there are fewer columns.
+    /// Panics if there are fewer columns.
     pub(crate) fn columns(self, first: usize, count: usize) -> Self {
         assert!(first + count <= self.columns, "columns of a matrix with {}", self.columns);
         let skipped = first.min(self.entries.len());
@@ -95,20 +96,20 @@ impl<'a> MatrixMut<'a> {
     }
 }
 
-/// Writes `left * right` to `to`.
+/// Writes `left * right` to `to`, as `write` says.
 ///
 /// # Panics
-/// If the sizes do not agree.
+/// Panics if the sizes do not agree.
 pub(crate) fn multiply(to: MatrixMut<'_>, write: Write, left: Matrix<'_>, right: Matrix<'_>) {
     let MatrixMut { entries, rows, columns, row_step } = to;
     let inner = left.columns;
     assert_eq!((left.rows, right.columns), (rows, columns), "sizes of a product and its factors");
     assert_eq!(inner, right.rows, "inner sizes of a product");
     let factor = if write == Write::Subtract { -1.0 } else { 1.0 };
-    // A slice is no longer than isize::MAX, and a step that is used is shorter than its slice.
+    // A slice is at most isize::MAX bytes long, and a step that is used is shorter than its slice.
     let step = |step: usize| isize::try_from(step).expect("a step inside a slice");
-    // SAFETY: both readable matrices and the writable one hold their largest index inside their slices (checked where
-    // they are made), the writable one is borrowed exclusively and its entries do not overlap, and sizes agree.
+    // SAFETY: the two readable matrices and the writable one have their largest index inside their slices (checked by
+    // the constructors), the writable one is borrowed exclusively and its entries do not overlap, and the sizes agree.
     unsafe {
         gemm::gemm(
             rows,

@@ -1,8 +1,8 @@
-//! Slopes against finite differences: every layer by itself, then both networks whole.
+//! Checks slopes against finite differences: every layer by itself, then both networks as a whole.
 //!
-//! A layer is checked with the loss `sum of outputs times fixed numbers`, entry by entry, by central differences. Single
-//! precision leaves about three digits, which is enough: an error in a derivative is seldom that small, and the stored
-//! PyTorch values hold the whole to five.
+//! A layer is checked with the loss `sum of outputs times fixed numbers`, entry by entry, by central differences.
+//! Single precision leaves about three digits. That is enough: an error in a derivative is seldom so small, and the
+//! comparison with PyTorch's stored values checks the whole networks to five digits.
 
 use crate::nn::batch::{Inputs, Slopes};
 use crate::nn::gcaps::reads::Reads;
@@ -33,7 +33,7 @@ pub(crate) fn weighted(outputs: &[f32], weights: &[f32]) -> f64 {
 }
 
 /// Checks the slopes of a loss in every `stride`-th entry of `at`. An entry that moves a rectifier across its kink has
-/// different slopes on its two sides; those are left out, and must be few.
+/// different slopes on its two sides; such entries are left out, and must be few.
 pub(crate) fn check(
     what: &str,
     at: &[f32],
@@ -58,7 +58,7 @@ pub(crate) fn check(
         let slope = f64::from(slopes[entry]);
         let tolerance = 2e-3 * expected.abs().max(1.0);
         checked += 1;
-        // Where the loss is smooth, the sides' difference halves with the step and their mean stays.
+        // Where the loss is smooth, halving the step halves the difference of the two sides, and their mean stays.
         let bend = (right - left) - 2.0 * (nearer_right - nearer_left);
         let drift = f64::midpoint(right, left) - expected;
         if bend.abs().max(drift.abs()) > tolerance {
@@ -140,9 +140,9 @@ fn value_head() {
     };
     let (hidden, _) = forward(&params, &sums);
     let (mut gradient, mut slopes) = (vec![0.0; params.len()], vec![0.0; sums.len()]);
-    head.backward(tensors(&params), (&clock, &hidden), &weights, &mut slopes, &mut gradient);
+    head.backward(tensors(&params), &clock, &hidden, &weights, &mut slopes, &mut gradient);
     check("sums", &sums, &slopes, 1, |sums| weighted(&forward(&params, sums).1, &weights));
-    // The rows for features and the bias enter the sums; they are the caller's.
+    // The rows for features and the bias act on the sums, which the caller computes, so their slopes are the caller's.
     for slot in [head.features(), head.hidden_bias] {
         assert!(
             slot.part(&gradient).iter().all(|slope| *slope == 0.0),
@@ -160,13 +160,13 @@ fn value_head() {
     }
 }
 
-/// Queries, pointers, what is collected, means and logits, all as functions of capsules and queries.
+/// Queries, pointers, what is collected, means and logits are all checked as functions of capsules and queries.
 #[test]
 fn attention_pointer_and_means() {
     let reads = Reads { vertiports: 5, heads: 2, width: 6, score_scale: 0.7, logit_scale: 0.4 };
     let (batch, block) = (2, 6);
     let capsules = numbers(batch * 5 * block, 1);
-    // Each sample's two queries and its pointer, and the shift of its logits.
+    // Each sample has two queries, a pointer, and a shift of its logits.
     let queries = numbers(batch * 3 * block, 2);
     let (of_collected, of_means) = (numbers(batch * 2 * block, 3), numbers(batch * block, 4));
     let (of_logits, shifts) = (numbers(batch * 5, 5), numbers(batch, 6));
@@ -236,7 +236,7 @@ fn check_network(architecture: Architecture, seed: u64) {
     let shape = Shape { vertiports: 5, node_features: 14, aircraft_features: 12 };
     let batch = 2;
     let net = NeuralNetwork::new(architecture, shape).expect("sizes that fit");
-    // The first weights of logits and value are small on purpose; here all of them are to count.
+    // The first weights of logits and value are small on purpose; here they are enlarged so that all of them matter.
     let mut params = net.init(seed);
     for tensor in net.layout().tensors() {
         let part = &mut params[tensor.offset..][..tensor.len()];

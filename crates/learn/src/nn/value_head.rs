@@ -1,12 +1,13 @@
-//! The value head both networks share: v = w2 . ReLU(z + clock c + b1) + b2, with z what the network adds to its
-//! hidden layer. The clock (share of the day left) enters here only; no choice depends on it directly.
+//! The value head that both networks share: v = w2 . ReLU(z + clock c + b1) + b2, where z is what the network adds to
+//! the head's hidden layer. The clock (share of the day that is left) enters here only; no choice depends on it
+//! directly.
 
 use crate::nn::init::{BEFORE_RELU, Init, VALUE};
 use crate::nn::layout::{Layout, Slot, Tensors};
 use crate::nn::linear::{add_rows, dot};
 use crate::nn::relu;
 
-/// Where the head's weights lie.
+/// The places of the head's weights.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ValueHead {
     /// The rows for the `inputs` features, then the clock's.
@@ -17,8 +18,8 @@ pub(crate) struct ValueHead {
 }
 
 impl ValueHead {
-    /// Adds the head's tensors. Its hidden layer takes `inputs` features and the clock from here, and in all as many
-    /// as `inputs_in_all`.
+    /// Adds the head's tensors. Its hidden layer takes `inputs` features and the clock from here; together with what
+    /// the network adds it has `inputs_in_all` inputs, which sets the scale of its first weights.
     pub(crate) fn new(
         layout: &mut Layout,
         inputs: usize,
@@ -44,7 +45,7 @@ impl ValueHead {
         self.hidden.rows(self.hidden.rows - 1, 1)
     }
 
-    /// From the hidden layer's sums (bias included) to values.
+    /// Computes the values from the hidden layer's sums (bias included).
     pub(crate) fn forward(
         self,
         tensors: Tensors<'_>,
@@ -64,11 +65,12 @@ impl ValueHead {
         }
     }
 
-    /// Adds the slopes of the clock's row, the output and its bias; writes those of the hidden layer's sums.
+    /// Adds the slopes of the clock's row, the output and its bias, and writes those of the hidden layer's sums.
     pub(crate) fn backward(
         self,
         tensors: Tensors<'_>,
-        (clock, hidden): (&[f32], &[f32]),
+        clock: &[f32],
+        hidden: &[f32],
         value_slopes: &[f32],
         hidden_slopes: &mut [f32],
         gradient: &mut [f32],

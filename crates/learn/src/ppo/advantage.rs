@@ -1,15 +1,16 @@
-//! Generalised advantage estimation (Schulman et al. 2016), on one day's stretch of decisions.
+//! Generalised advantage estimation (Schulman et al. 2016), for consecutive decisions of one environment.
 
 /// Fills `advantages` for consecutive decisions of one environment.
 ///
-/// `values[t]` is the value estimated before decision `t`; `last_value` the one after the last decision;
+/// `values[t]` is the value estimated before decision `t`, and `last_value` the one after the last decision.
 /// `day_ends[t]` says that the day was over after decision `t`, so nothing after it counts.
 pub(crate) fn estimate(
     rewards: &[f32],
     values: &[f32],
     day_ends: &[bool],
     last_value: f32,
-    (gamma, lambda): (f32, f32),
+    gamma: f32,
+    lambda: f32,
     advantages: &mut [f32],
 ) {
     let mut next_value = last_value;
@@ -36,7 +37,8 @@ mod tests {
             &values,
             &[false, true, false, false],
             10.0,
-            (1.0, 1.0),
+            1.0,
+            1.0,
             &mut advantages,
         );
         assert_eq!(advantages, [3.0 - 0.5, 2.0 - 0.25, 17.0 - 2.0, 14.0 - 1.0]);
@@ -45,7 +47,7 @@ mod tests {
     #[test]
     fn with_lambda_0_it_is_one_step_of_td_error() {
         let mut advantages = [0.0; 2];
-        estimate(&[1.0, 2.0], &[0.5, 0.25], &[false, false], 4.0, (0.5, 0.0), &mut advantages);
+        estimate(&[1.0, 2.0], &[0.5, 0.25], &[false, false], 4.0, 0.5, 0.0, &mut advantages);
         assert_eq!(advantages, [1.0 + 0.5 * 0.25 - 0.5, 2.0 + 0.5 * 4.0 - 0.25]);
     }
 }

@@ -1,8 +1,8 @@
-//! The buffer that PPO learns from: many days played side by side with the policy as it stands, every decision remembered.
+//! The buffer that PPO learns from: the current policy plays many days side by side, and every decision is recorded.
 //!
-//! Days are split into groups of fixed size; a group plays in lockstep with one inference per step for all of its
+//! Days are split into groups of fixed size. A group plays in lockstep, with one inference per step for all of its
 //! days, and groups play in parallel. All randomness is a function of run seed, day and decision, so nothing depends
-//! on the number of threads, and a day in progress is remembered by its number and its choices alone.
+//! on the number of threads, and a checkpoint can store a day in progress by its number and its choices alone.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::features::{Observations, Scales, shape};
 use crate::nn::{self, Weights, Workspace};
 use crate::ppo::PpoSettings;
 
-/// Days that share one inference. Large enough for the matrix products, small enough for the cache.
+/// Number of days that share one inference: large enough for the matrix products, small enough for the cache.
 const GROUP: usize = 32;
 
 /// The source of training days and of the randomness of choices.
@@ -33,15 +33,15 @@ impl Source {
         Ok(Simulation::new(Arc::new(self.network.draw(seed))))
     }
 
-    /// A number in [0, 1) that belongs to one decision of one training day.
+    /// A random number in [0, 1) that depends only on run, training day and decision.
     fn uniform(&self, day: u64, decision: u32) -> f32 {
         let bits = draw(u64::from(self.run_seed), day, decision);
-        // The upper 24 bits are all that a single-precision number in [0, 1) can hold.
+        // A single-precision number in [0, 1) can hold only the upper 24 bits.
         (bits >> 40) as f32 * (1.0 / 16_777_216.0)
     }
 }
 
-/// A day in progress, as a checkpoint remembers it.
+/// A day in progress, as a checkpoint stores it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct DayInProgress {
     pub(crate) number: u64,
@@ -77,7 +77,7 @@ impl PlayedDay {
     }
 }
 
-/// What a group of days went through: `n_steps` decisions of each day, day by day.
+/// The recorded decisions of a group of days: `n_steps` of each day, day by day.
 pub(crate) struct Experience {
     pub(crate) observations: Observations,
     pub(crate) choices: Vec<u16>,
@@ -85,22 +85,22 @@ pub(crate) struct Experience {
     pub(crate) values: Vec<f32>,
     pub(crate) rewards: Vec<f32>,
     pub(crate) day_ends: Vec<bool>,
-    /// Value after the last decision of each day.
+    /// The value after the last decision of each day.
     pub(crate) last_values: Vec<f32>,
 }
 
-/// Some days in lockstep, and what they went through.
+/// Some days that are played in lockstep, and their recorded decisions.
 pub(crate) struct Group {
     days: Vec<PlayedDay>,
     pub(crate) experience: Experience,
-    /// Features of the present decision of each day.
+    /// The features of the current decision of each day.
     present: Observations,
     workspace: Workspace,
-    /// Reward of each day finished since the last update.
+    /// The reward of each day that has finished since the last update.
     finished: Vec<f64>,
 }
 
-/// All the days of a training run that are being played, and what they went through since the last update.
+/// All days of a training run that are being played, and the decisions recorded since the last update.
 pub(crate) struct Buffer {
     scales: Scales,
     settings: PpoSettings,
@@ -108,7 +108,7 @@ pub(crate) struct Buffer {
 }
 
 impl Buffer {
-    /// Starts `n_envs` days, or goes on with the ones given.
+    /// Starts `n_envs` days, or continues the ones given.
     pub(crate) fn new(
         source: &Source,
         net: &nn::NeuralNetwork,
@@ -146,17 +146,17 @@ impl Buffer {
         let Self { scales, settings, groups } = self;
         groups
             .par_iter_mut()
-            .map(|group| group.collect(source, scales, settings, (net, weights)))
+            .map(|group| group.collect(source, scales, settings, net, weights))
             .collect::<Result<Vec<()>, Error>>()?;
         Ok(groups.iter().flat_map(|group| group.finished.iter().copied()).collect())
     }
 
-    /// The days in progress, as a checkpoint remembers them.
+    /// The days in progress, as a checkpoint stores them.
     pub(crate) fn days(&self) -> Vec<DayInProgress> {
         self.groups.iter().flat_map(|group| &group.days).map(|day| day.progress.clone()).collect()
     }
 
-    /// The group and the row within its experience of a decision counted over the whole buffer.
+    /// Finds a decision that is counted over the whole buffer: its group's experience and its row there.
     pub(crate) fn locate(&self, decision: usize) -> (&Experience, usize) {
         let rows = GROUP * self.settings.n_steps;
         (&self.groups[decision / rows].experience, decision % rows)
@@ -195,7 +195,8 @@ impl Group {
         source: &Source,
         scales: &Scales,
         settings: &PpoSettings,
-        (net, weights): (&nn::NeuralNetwork, &Weights),
+        net: &nn::NeuralNetwork,
+        weights: &Weights,
     ) -> Result<(), Error> {
         self.finished.clear();
         for step in 0..settings.n_steps {
@@ -218,7 +219,7 @@ impl Group {
         }
     }
 
-    /// Decides for one day and remembers everything about it in row `row`.
+    /// Decides for one day and records the decision in row `row`.
     fn step(
         &mut self,
         at: usize,
@@ -254,8 +255,8 @@ impl Group {
     }
 }
 
-/// Draws from the softmax of the logits; `uniform` is in [0, 1). Returns the choice and the logarithm of its
-/// probability. Masked vertiports have a logit of minus infinity, so their probability is 0.
+/// Draws from the softmax of the logits with `uniform`, a number in [0, 1). Returns the choice and the logarithm of
+/// its probability. Masked vertiports have a logit of minus infinity, so their probability is 0.
 fn sample(logits: &[f32], uniform: f32) -> (VertiportIx, f32) {
     let highest = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let total: f32 = logits.iter().map(|logit| (logit - highest).exp()).sum();
@@ -271,7 +272,7 @@ fn sample(logits: &[f32], uniform: f32) -> (VertiportIx, f32) {
             left -= weight;
         }
     }
-    // Rounding may leave a crumb after the last weight; then the last vertiport with any weight is it.
+    // Rounding may leave a small remainder after the last weight; then the last vertiport with any weight is chosen.
     let at = chosen.expect("hold is always feasible");
     (VertiportIx::new(at), logits[at] - highest - total.ln())
 }
@@ -287,7 +288,7 @@ mod tests {
     use crate::nn::{Architecture, GcapsSettings, NeuralNetwork as Net};
     use crate::ppo::{PpoSettings, Reward};
 
-    /// Days of `paper` on which flights and aircraft cost something beside.
+    /// Days of `paper` on which flights and aircraft have costs of their own.
     fn source() -> Source {
         let network = Network::shipped("paper").expect("a shipped network");
         let costs = [("flight_cost_usd", 20), ("aircraft_cost_usd_per_day", 100)];
@@ -298,7 +299,8 @@ mod tests {
         Source { network: Arc::new(network), run_seed: 5 }
     }
 
-    /// Rewards of one day's first 600 decisions, which are more than a day has, and where the day ends among them.
+    /// The rewards of one day's first 600 decisions, which are more than a day has, and the index at which the day
+    /// ends.
     fn rewards(reward: Reward) -> (Vec<f32>, usize) {
         let source = source();
         let mut settings = PpoSettings::tuned();
@@ -311,7 +313,7 @@ mod tests {
         let day = PlayedDay::resume(&source, day).expect("a training day");
         let mut group = Group::new(vec![day], &source.network, &net, settings.n_steps);
         let scales = Scales::from(source.network.feature_scales());
-        group.collect(&source, &scales, &settings, (&net, &weights)).expect("days are left");
+        group.collect(&source, &scales, &settings, &net, &weights).expect("days are left");
         let end = group.experience.day_ends.iter().position(|&end| end).expect("the day ends");
         (group.experience.rewards, end)
     }

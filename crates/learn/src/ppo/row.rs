@@ -5,15 +5,16 @@ use serde::{Deserialize, Serialize};
 /// One update.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct PpoRow {
-    /// Updates done.
+    /// Number of updates done.
     pub update: u64,
-    /// Decisions learned from.
+    /// Number of decisions learned from.
     pub steps: u64,
-    /// Days finished.
+    /// Number of days finished.
     pub days: u64,
-    /// Mean reward of the last 100 days finished, choices drawn from the policy; none before the first day is over.
+    /// Mean reward of the last 100 days finished, with choices drawn from the policy; `None` before the first day is
+    /// over.
     pub mean_reward: Option<f64>,
-    /// Mean reward on the validation days, best choices only, where it was measured after this update.
+    /// Mean reward on the validation days, with the best choices only, if it was measured after this update.
     pub validation_reward: Option<f64>,
     /// Mean clipped surrogate loss of the last epoch.
     pub policy_loss: f64,
@@ -21,16 +22,16 @@ pub struct PpoRow {
     pub value_loss: f64,
     /// Mean entropy of the policy in the last epoch, nats.
     pub entropy: f64,
-    /// Mean of the divergence estimate in the last epoch.
+    /// Mean estimate of the Kullback-Leibler divergence in the last epoch.
     pub approx_kl: f64,
-    /// Share of clipped decisions in the last epoch.
+    /// Share of decisions in the last epoch whose probability ratio was clipped.
     pub clip_fraction: f64,
     /// Adam's step size.
     pub learning_rate: f64,
 }
 
 impl PpoRow {
-    /// What was measured, by the names that stable-baselines3 gives it.
+    /// What was measured, under the names that stable-baselines3 uses.
     pub(crate) fn scalars(&self) -> Vec<(&'static str, f64)> {
         let scalars = [
             ("rollout/ep_rew_mean", self.mean_reward),

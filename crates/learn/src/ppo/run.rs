@@ -1,4 +1,5 @@
-//! A training run by PPO: collect decisions, update, look at the validation days, keep the weights that did best there.
+//! A training run by PPO: collects decisions, updates the weights, measures on the validation days, and keeps the
+//! weights that did best there.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -22,18 +23,18 @@ use crate::ppo::{PpoRow, PpoSettings};
 use crate::run::checkpoint::{self, tensor};
 use crate::run::{Curve, RunIdentity, TrainingPlan, TrainingRun, Work, check_finite};
 
-/// Days whose rewards the curve averages, as in stable-baselines3.
+/// Number of days whose rewards the curve averages, as in stable-baselines3.
 const RECENT_DAYS: usize = 100;
-/// Validation days that share one inference.
+/// Number of validation days that share one inference.
 const VALIDATION_BLOCK: usize = 16;
-/// The weights that did best, in a checkpoint.
+/// The tensor of a checkpoint that holds the weights that did best.
 const BEST_PARAMS: &str = "best_params";
 
-/// A run under way.
+/// A run in progress.
 pub(crate) struct PpoRun {
     identity: RunIdentity,
     settings: PpoSettings,
-    /// The header of the run's models, but for the steps.
+    /// The header of the run's models, except for the number of steps.
     header: Header,
     net: nn::NeuralNetwork,
     weights: Weights,
@@ -45,13 +46,13 @@ pub(crate) struct PpoRun {
     progress: Progress,
 }
 
-/// How far a run has come.
+/// The progress of a run as its checkpoint stores it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Progress {
     updates: u64,
     days_finished: u64,
     recent_rewards: Vec<f64>,
-    /// Filled in when a checkpoint is taken; while a run is under way the buffer knows.
+    /// Filled in when a checkpoint is written; during the run the buffer has the days.
     days: Vec<DayInProgress>,
     best_reward: Option<f64>,
     best_steps: u64,
@@ -61,7 +62,7 @@ struct Progress {
 }
 
 impl PpoRun {
-    /// A run before its first update, or one that goes on from a checkpoint.
+    /// A run before its first update, or one that is resumed from a checkpoint.
     pub(crate) fn new(
         plan: &TrainingPlan,
         identity: RunIdentity,
@@ -97,7 +98,7 @@ impl PpoRun {
         })
     }
 
-    /// Collects decisions and learns from them; [`Error::Stopped`] leaves everything wherever it was.
+    /// Collects decisions and learns from them. After [`Error::Stopped`], nothing is undone.
     fn update(&mut self, stop: &Stop, worked: &dyn Fn(u64)) -> Result<PpoRow, Error> {
         let finished = self.buffer.collect(&self.source, &self.net, &self.weights)?;
         self.progress.remember_days(&finished);
@@ -111,7 +112,7 @@ impl PpoRun {
             Update {
                 weights: &mut self.weights,
                 adam: &mut self.adam,
-                // Distinct for every update of every seed.
+                // This seed is different for every update of every run seed.
                 seed: u64::from(self.identity.seed) << 32 | update,
                 learning_rate,
             },
@@ -146,12 +147,12 @@ impl PpoRun {
         })
     }
 
-    /// Decisions learned from.
+    /// Number of decisions learned from.
     fn steps(&self) -> u64 {
         self.progress.updates * self.settings.buffer_size() as u64
     }
 
-    /// Mean reward on the validation days, best choices only.
+    /// Mean reward on the validation days, with the best choices only.
     fn validation_reward(&self) -> f64 {
         let model = self.model_of(self.weights.params(), 0);
         let blocks: Vec<&[Arc<Scenario>]> = self.validation.chunks(VALIDATION_BLOCK).collect();
@@ -202,7 +203,7 @@ impl TrainingRun for PpoRun {
 
     fn model(&self) -> Model {
         match self.progress.best_reward {
-            // Before the first look at the validation days, the latest weights.
+            // Before the first measurement on the validation days, these are the latest weights.
             None => self.model_of(self.weights.params(), self.steps()),
             Some(_) => self.model_of(&self.progress.best_params, self.progress.best_steps),
         }
@@ -215,7 +216,7 @@ impl TrainingRun for PpoRun {
     }
 }
 
-/// Parameters, moments and progress of a run that was set aside.
+/// Writes the checkpoint: parameters, moments and progress.
 fn set_aside(
     path: &Path,
     identity: &RunIdentity,
@@ -267,7 +268,7 @@ impl Progress {
     }
 }
 
-/// Plays days in lockstep, one inference for all of them; rewards in the order of the days.
+/// Plays days in lockstep, with one inference for all of them. Returns the rewards in the order of the days.
 fn play_block(policy: &mut Learned, days: &[Arc<Scenario>]) -> Vec<f64> {
     let mut simulations: Vec<Simulation> =
         days.iter().map(|day| Simulation::new(Arc::clone(day))).collect();

@@ -1,4 +1,4 @@
-//! The settings of a training by PPO, named as in stable-baselines3, and their two presets.
+//! The settings of training by PPO, named as in stable-baselines3, and their two presets.
 
 use serde::{Deserialize, Serialize};
 use vertifleet_sim::{Simulation, TraceRow};
@@ -12,17 +12,17 @@ use crate::settings::within;
 pub enum Reward {
     /// All of it at the end of the day, as in the paper.
     Terminal,
-    /// Each flight's share when it is decided, and at the end what the fleet costs; the shares of a day add up to the same
-    /// total.
+    /// The share of each flight when it is decided, and the cost of the fleet at the end; over a day this adds up to
+    /// the same total.
     Dense,
 }
 
 impl Reward {
-    /// What a decision pays, given what it came to and the day after it; `over` says whether it was the day's last.
+    /// The reward of a decision, given its outcome and the day after it; `over` says whether it was the day's last.
     pub fn of(self, outcome: &TraceRow, day: &Simulation, over: bool) -> f64 {
         match self {
             Self::Dense => {
-                // What the fleet costs is no flight's; it is paid for with the last decision.
+                // The cost of the fleet belongs to no flight; it is charged with the last decision.
                 let fleet_usd = if over { day.ledger().aircraft_cost_usd } else { 0.0 };
                 share(outcome.profit_usd() - fleet_usd, day.potential_usd())
             }
@@ -32,38 +32,39 @@ impl Reward {
     }
 }
 
-/// The share of the day's reward that one flight pays at its decision; nothing on a day without demand.
+/// The share of the day's reward that one flight pays at its decision; 0 on a day without demand.
 fn share(profit_usd: f64, potential_usd: f64) -> f64 {
     if potential_usd > 0.0 { profit_usd / potential_usd } else { 0.0 }
 }
 
-/// How the learning rate goes over the run.
+/// How the learning rate changes over the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Schedule {
-    /// Stays as it is.
+    /// It stays constant.
     Constant,
-    /// Falls in a straight line to 0 at the end of the run.
+    /// It falls in a straight line to 0 at the end of the run.
     Linear,
 }
 
-/// The settings of a training by PPO. Names and meanings are stable-baselines3's where it has them.
+/// The settings of training by PPO. Names and meanings are those of stable-baselines3 where it has such a setting.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PpoSettings {
-    /// Decisions to learn from in all; rounded up to whole roll-outs.
+    /// Number of decisions to learn from in total, rounded up to whole roll-outs.
     pub total_steps: u64,
-    /// Days rolled out side by side.
+    /// Number of days that are played side by side.
     pub n_envs: usize,
-    /// Decisions taken on each of those days between two updates. The roll-out buffer holds `n_envs * n_steps`.
+    /// Number of decisions taken on each of those days between two updates. The roll-out buffer holds `n_envs *
+    /// n_steps`.
     pub n_steps: usize,
-    /// Decisions per gradient step.
+    /// Number of decisions per gradient step.
     pub batch_size: usize,
-    /// Passes over the buffer per update.
+    /// Number of passes over the buffer per update.
     pub n_epochs: u32,
     /// Adam's step size.
     pub learning_rate: f32,
-    /// How the step size goes over the run.
+    /// How the step size changes over the run.
     pub lr_schedule: Schedule,
     /// Discount per decision.
     pub gamma: f32,
@@ -75,21 +76,21 @@ pub struct PpoSettings {
     pub ent_coef: f32,
     /// Weight of the value loss.
     pub vf_coef: f32,
-    /// Largest Euclidean norm of a gradient step's gradient.
+    /// Largest Euclidean norm of the gradient of a step.
     pub max_grad_norm: f32,
     /// When the reward is paid.
     pub reward: Reward,
     /// The reward is multiplied by this constant before learning; reports show the reward itself.
     pub reward_scale: f32,
-    /// Updates between two looks at the validation days; the weights that did best there are the ones kept.
+    /// Number of updates between two measurements on the validation days; the weights that did best there are kept.
     pub eval_every: u32,
     /// Number of validation days.
     pub eval_days: u32,
 }
 
 impl PpoSettings {
-    /// Table 2 to the letter; stable-baselines3's defaults where the paper is silent, but for γ = 1, which a reward
-    /// at the end of the day asks for.
+    /// Exactly Table 2. Where the paper is silent, these are stable-baselines3's defaults, except for γ = 1, which a
+    /// reward at the end of the day requires.
     pub fn paper() -> Self {
         Self {
             total_steps: 2_000_000,
@@ -112,7 +113,7 @@ impl PpoSettings {
         }
     }
 
-    /// The default: tuned on validation days for the best policy within a quarter of an hour on two cores.
+    /// The default preset, tuned on validation days for the best policy within a quarter of an hour on two cores.
     pub fn tuned() -> Self {
         Self {
             total_steps: 3_000_000,
@@ -135,12 +136,12 @@ impl PpoSettings {
         }
     }
 
-    /// Decisions per roll-out.
+    /// Number of decisions per roll-out.
     pub fn buffer_size(&self) -> usize {
         self.n_envs * self.n_steps
     }
 
-    /// Updates of the whole run.
+    /// Number of updates of the whole run.
     pub fn updates(&self) -> u64 {
         self.total_steps.div_ceil(self.buffer_size() as u64)
     }

@@ -1,15 +1,16 @@
-//! Proximal policy optimisation (Schulman et al. 2017), every setting with stable-baselines3's meaning.
+//! Proximal policy optimisation (Schulman et al. 2017), in which every setting means what it means in
+//! stable-baselines3.
 //!
-//! One update: estimate advantages on the collected decisions, then pass over it `n_epochs` times in shuffled minibatches, each
-//! one step of Adam on
+//! An update estimates advantages on the collected decisions, then passes over them `n_epochs` times in shuffled
+//! minibatches, each of which is one step of Adam on
 //!
 //! ```text
 //! L = -mean min(r A, clip(r, 1 - ε, 1 + ε) A)  +  vf_coef mean (V - R)²  -  ent_coef mean H
 //! ```
 //!
-//! with r the probability of the choice now over its probability when it was made. A minibatch is cut into chunks of
-//! fixed size that lanes of fixed number work through; lanes are added up in their order. So the weights that come out
-//! do not depend on how many threads there were.
+//! where r is the probability of the choice now over its probability when it was made. A minibatch is cut into chunks
+//! of fixed size that a fixed number of lanes work through; lanes are added up in order, so the resulting weights do
+//! not depend on the number of threads.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -25,13 +26,14 @@ use crate::nn::{self, Gradient, Slopes, Weights, Workspace};
 use crate::ppo::buffer::Buffer;
 use crate::ppo::{PpoSettings, advantage};
 
-/// Decisions per forward and backward pass: what the second-level cache holds.
+/// Decisions per forward and backward pass: as many as the second-level cache holds.
 const CHUNK: usize = 128;
-/// Gradients that are filled side by side and then added up; more would cost memory, fewer idle threads.
+/// Number of gradients that are filled side by side and then added up. More would cost memory; fewer would leave
+/// threads idle.
 const LANES: usize = 8;
 
-/// Means over the minibatches of the last epoch, when the update is nearly done. (stable-baselines3 logs all but the
-/// divergence as means over all epochs.)
+/// Means over the minibatches of the last epoch, when the update is nearly done. (stable-baselines3 logs means over
+/// all epochs, except for the divergence.)
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Losses {
     pub(crate) policy_loss: f64,
@@ -41,25 +43,26 @@ pub(crate) struct Losses {
     pub(crate) clip_fraction: f64,
 }
 
-/// What one decision adds to the losses, and the slope of the loss there.
+/// What one decision adds to the losses, and the slope of the loss in its value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct DecisionLoss {
     losses: Losses,
     value_slope: f32,
 }
 
-/// A decision as it was made, and what came of it.
+/// A decision as it was made, with its results.
 #[derive(Debug, Clone, Copy)]
 struct Sample {
     choice: usize,
     log_probability: f32,
-    /// Normalised over the minibatch.
+    /// The advantage, normalised over the minibatch.
     advantage: f32,
-    /// R: advantage and value together.
+    /// R, the sum of advantage and value.
     target_return: f32,
 }
 
-/// Where a lane works: features of a chunk, the network's scratch space, and the lane's sum of gradients.
+/// The working memory of a lane: the features of a chunk, the workspace of the network, and the lane's sum of
+/// gradients.
 struct Lane {
     observations: Observations,
     workspace: Workspace,
@@ -73,13 +76,13 @@ struct Lane {
 pub(crate) struct Update<'a> {
     pub(crate) weights: &'a mut Weights,
     pub(crate) adam: &'a mut Adam,
-    /// Shuffles the decisions.
+    /// The seed of the order of the decisions.
     pub(crate) seed: u64,
     /// Adam's step size.
     pub(crate) learning_rate: f32,
 }
 
-/// The learner: settings and scratch space; the state it learns is the caller's.
+/// The settings and the working memory of learning; the caller has the weights and moments.
 pub(crate) struct Ppo {
     settings: PpoSettings,
     lanes: Vec<Lane>,
@@ -107,10 +110,11 @@ impl Ppo {
         }
     }
 
-    /// One update on the decisions of a buffer. `watch` is told the share of the update that is done, after every minibatch.
+    /// Makes one update on the decisions of a buffer. After every minibatch, `watch` is called with the share of the
+    /// update that is done.
     ///
     /// # Errors
-    /// What `watch` answers; the weights are then wherever they were.
+    /// Returns the error that `watch` returns; the weights then stay as they are, in the middle of the update.
     pub(crate) fn update(
         &mut self,
         net: &nn::NeuralNetwork,
@@ -141,7 +145,6 @@ impl Ppo {
 
     fn estimate_advantages(&mut self, buffer: &Buffer) {
         let n_steps = self.settings.n_steps;
-        let discount = (self.settings.gamma, self.settings.gae_lambda);
         let days = buffer.groups.iter().flat_map(|group| {
             let experience = &group.experience;
             experience
@@ -159,7 +162,8 @@ impl Ppo {
                 values,
                 &experience.day_ends[span],
                 last_value,
-                discount,
+                self.settings.gamma,
+                self.settings.gae_lambda,
                 advantages,
             );
             for ((target_return, advantage), value) in
@@ -170,7 +174,7 @@ impl Ppo {
         }
     }
 
-    /// Leaves the gradient of one minibatch in the first lane; returns the minibatch's mean losses.
+    /// Leaves the gradient of one minibatch in the first lane. Returns the minibatch's mean losses.
     fn batch_gradient(
         &mut self,
         net: &nn::NeuralNetwork,
@@ -197,7 +201,8 @@ impl Ppo {
             lane.gradient.clear();
             lane.losses = Losses::default();
             for chunk in decisions.chunks(CHUNK).skip(at).step_by(LANES) {
-                lane.learn(net, weights, buffer, settings, (chunk, decisions.len()), &sample);
+                let chunk = Chunk { decisions: chunk, batch_len: decisions.len() };
+                lane.learn(net, weights, buffer, settings, chunk, &sample);
             }
         });
         let (first, rest) = self.lanes[..used].split_at_mut(1);
@@ -209,7 +214,7 @@ impl Ppo {
     }
 }
 
-/// Adds the gradients of `lanes` to `total`, in their order for every entry.
+/// Adds the gradients of `lanes` to `total`, in the same order for every entry.
 fn add_up(total: &mut [f32], lanes: &[Lane]) {
     const SPAN: usize = 1 << 16;
     total.par_chunks_mut(SPAN).enumerate().for_each(|(span, total)| {
@@ -222,27 +227,37 @@ fn add_up(total: &mut [f32], lanes: &[Lane]) {
     });
 }
 
+/// A part of a minibatch that one lane works on at a time.
+#[derive(Clone, Copy)]
+struct Chunk<'a> {
+    /// Positions in the buffer.
+    decisions: &'a [usize],
+    /// Decisions of the whole minibatch.
+    batch_len: usize,
+}
+
 impl Lane {
-    /// Adds the gradient of one chunk of a minibatch of `batch_len` decisions.
+    /// Adds the gradient of one chunk of a minibatch.
     fn learn(
         &mut self,
         net: &nn::NeuralNetwork,
         weights: &Weights,
         buffer: &Buffer,
         settings: &PpoSettings,
-        (chunk, batch_len): (&[usize], usize),
+        chunk: Chunk<'_>,
         sample: &impl Fn(usize) -> Sample,
     ) {
-        for (row, &decision) in chunk.iter().enumerate() {
+        let Chunk { decisions, batch_len } = chunk;
+        for (row, &decision) in decisions.iter().enumerate() {
             let (experience, source_row) = buffer.locate(decision);
             self.observations.copy_row(row, &experience.observations, source_row);
         }
-        let inputs = self.observations.inputs(chunk.len());
+        let inputs = self.observations.inputs(decisions.len());
         net.forward(weights, inputs, &mut self.workspace);
 
-        let vertiports = self.workspace.logits().len() / chunk.len();
+        let vertiports = self.workspace.logits().len() / decisions.len();
         let weight = 1.0 / batch_len as f32;
-        for (row, &decision) in chunk.iter().enumerate() {
+        for (row, &decision) in decisions.iter().enumerate() {
             let logits = &self.workspace.logits()[row * vertiports..][..vertiports];
             let slopes = &mut self.logit_slopes[row * vertiports..][..vertiports];
             let value = self.workspace.values()[row];
@@ -251,14 +266,14 @@ impl Lane {
             self.losses.add(&found.losses, f64::from(weight));
         }
         let slopes = Slopes {
-            logits: &self.logit_slopes[..chunk.len() * vertiports],
-            values: &self.value_slopes[..chunk.len()],
+            logits: &self.logit_slopes[..decisions.len() * vertiports],
+            values: &self.value_slopes[..decisions.len()],
         };
         net.backward(weights, inputs, slopes, &mut self.workspace, &mut self.gradient);
     }
 }
 
-/// The loss of one decision; `logit_slopes` receives its gradient, `weight` (one over the minibatch) included.
+/// The loss of one decision. `logit_slopes` receives its gradient times `weight` (one over the size of the minibatch).
 fn decision_loss(
     logits: &[f32],
     value: f32,
@@ -283,7 +298,7 @@ fn decision_loss(
     let clip = settings.clip_range;
     let plain = ratio * made.advantage;
     let clipped = ratio.clamp(1.0 - clip, 1.0 + clip) * made.advantage;
-    // Where the clipped term is the smaller one the loss is flat.
+    // Where the clipped term is the smaller one, the loss is flat.
     let push = if plain <= clipped { -plain } else { 0.0 };
 
     for (at, (slope, &logit)) in logit_slopes.iter_mut().zip(logits).enumerate() {
@@ -306,7 +321,7 @@ fn decision_loss(
     }
 }
 
-/// Mean and spread of a minibatch's advantages, by which they are normalised.
+/// Mean and spread of a minibatch's advantages, which normalise them.
 struct AdvantageNorm {
     mean: f32,
     spread: f32,
@@ -317,7 +332,7 @@ impl AdvantageNorm {
         let count = decisions.len() as f64;
         let mean = decisions.iter().map(|&at| f64::from(advantages[at])).sum::<f64>() / count;
         if decisions.len() < 2 {
-            // As stable-baselines3: one decision has no spread to normalise by.
+            // As in stable-baselines3, a single decision is not normalised, because it has no spread.
             return Self { mean: 0.0, spread: 1.0 };
         }
         let squares = decisions.iter().map(|&at| (f64::from(advantages[at]) - mean).powi(2));

@@ -1,8 +1,8 @@
-//! Checkpoints: everything that a run needs to go on bit for bit, in one safetensors file.
+//! Checkpoints: everything that a run needs to continue bit for bit, in one safetensors file.
 //!
-//! Randomness is a function of seed, day and decision, so there is no generator to store. What both ways to learn have is here:
-//! whose checkpoint it is, the parameters and Adam's moments. What else a way needs is its own [progress](Checkpoint::progress) and
-//! tensors. Checkpoints of earlier versions are read too.
+//! Randomness is a function of seed, day and decision, so there is no generator to store. This module writes what both
+//! ways to learn have: the identity of the run, the parameters and Adam's moments. Each way adds its own
+//! [progress](Checkpoint::progress) and tensors. Checkpoints of earlier formats are read too.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -18,26 +18,26 @@ use crate::run::RunIdentity;
 use crate::settings::{TrainingSettings, first_difference};
 use crate::tensor_file;
 
-/// The format that is written.
+/// The format of the files that are written.
 const FORMAT: &str = "vertifleet-checkpoint/2";
-/// Earlier formats, of PPO and of imitation.
+/// Earlier formats, for PPO and for imitation.
 const FORMER_PPO: &str = "vertifleet-checkpoint/1";
 const FORMER_IMITATION: &str = "vertifleet-checkpoint-any/1";
-/// No checkpoint of ours comes near; larger files are not read.
+/// Larger files are not read. No checkpoint of this program comes near this size.
 const LIMIT_BYTES: u64 = 16 << 30;
-/// Parameters and Adam's moments.
+/// The tensors of the parameters and of Adam's moments.
 const LEARNER: [&str; 3] = ["params", "adam_first", "adam_second"];
 
-/// A checkpoint that was read and is of the run that is asked for.
+/// A checkpoint that was read and that belongs to the run that is asked for.
 pub(crate) struct Checkpoint<Progress> {
     pub(crate) params: Vec<f32>,
     pub(crate) adam: Adam,
-    /// How far the run has come, in the words of its way to learn.
+    /// The progress of the run, in the form of its way to learn.
     pub(crate) progress: Progress,
     bytes: Vec<u8>,
 }
 
-/// What a checkpoint begins with; its kind is known by the first member.
+/// The header of a checkpoint; the first member identifies the kind of file.
 #[derive(Serialize)]
 struct Header<'a, Progress> {
     format: &'static str,
@@ -46,7 +46,7 @@ struct Header<'a, Progress> {
     progress: &'a Progress,
 }
 
-/// Writes a checkpoint, whole or not at all; `others` are the tensors of the way to learn.
+/// Writes a checkpoint, whole or not at all; `others` are the additional tensors of the way to learn.
 pub(crate) fn write<'a>(
     path: &Path,
     run: &RunIdentity,
@@ -64,7 +64,7 @@ pub(crate) fn write<'a>(
     Ok(vertifleet_core::write_atomically(path, &bytes)?)
 }
 
-/// Reads the checkpoint of this run, whose network has so many parameters.
+/// Reads the checkpoint of this run, whose network has `parameters` parameters.
 pub(crate) fn read<Progress: DeserializeOwned>(
     path: &Path,
     asked: &RunIdentity,
@@ -98,7 +98,7 @@ fn parse<Progress: DeserializeOwned>(
 }
 
 impl<Progress> Checkpoint<Progress> {
-    /// The tensors of the way to learn, as `read` takes them from the file.
+    /// The additional tensors of the way to learn, which `read` takes from the file.
     pub(crate) fn others<T>(
         &self,
         read: impl FnOnce(&SafeTensors<'_>) -> Result<T, String>,
@@ -108,7 +108,7 @@ impl<Progress> Checkpoint<Progress> {
     }
 }
 
-/// The entries of a tensor that must have so many, all finite.
+/// The entries of a tensor, which must be exactly `entries` finite numbers.
 pub(crate) fn tensor(
     file: &SafeTensors<'_>,
     name: &str,
@@ -125,13 +125,13 @@ pub(crate) fn tensor(
     Ok(values)
 }
 
-/// A member of a header, which is taken out of it.
+/// Removes a member from a header and returns it.
 fn member<T: DeserializeOwned>(header: &mut Map<String, Value>, name: &str) -> Result<T, String> {
     let value = header.remove(name).unwrap_or_default();
     serde_json::from_value(value).map_err(|error| format!("header: {name}: {error}"))
 }
 
-/// The checkpoint is of the run that is asked for.
+/// Checks that the checkpoint belongs to the run that is asked for.
 fn check_same(header: &mut Map<String, Value>, asked: &RunIdentity) -> Result<(), String> {
     let mut run: Map<String, Value> = member(header, "run")?;
     let settings = run.remove("settings").unwrap_or_default();
@@ -160,7 +160,7 @@ fn check_same(header: &mut Map<String, Value>, asked: &RunIdentity) -> Result<()
     }
 }
 
-/// Gathers under `run` what PPO's former header had beside each other.
+/// Gathers under `run` the members that stood side by side in PPO's former header.
 fn modernise_ppo(header: &mut Map<String, Value>) {
     let mut run = Map::new();
     for (former, name) in [
@@ -175,7 +175,7 @@ fn modernise_ppo(header: &mut Map<String, Value>) {
     header.insert("run".to_owned(), run.into());
 }
 
-/// Renames what imitation's former header had other names for, and gathers its progress.
+/// Renames the members that had other names in imitation's former header, and gathers its progress.
 fn modernise_imitation(header: &mut Map<String, Value>) {
     if let Some(Value::Object(run)) = header.get_mut("run") {
         for (former, name) in [("network_print", "network_fingerprint"), ("course", "settings")] {

@@ -1,5 +1,5 @@
-//! Learning curves: a row an update of PPO or a round of imitation, as CSV beside the weights of their run. Curves of runs with other
-//! seeds may lie there too.
+//! Learning curves, with one row for an update of PPO or a round of imitation. They are CSV files beside the weights
+//! of their run; curves of runs with other seeds may stand there too.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,29 +11,30 @@ use crate::error::Error;
 use crate::imitation::ImitationRow;
 use crate::ppo::PpoRow;
 
-/// No learning curve of ours comes near; longer files are not read.
+/// Longer files are not read. No learning curve of this program comes near this size, in bytes.
 const LONGEST: u64 = 64 << 20;
 
-/// How a run went, from its beginning.
+/// The course of a run from its beginning.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Curve {
-    /// A row an update.
+    /// One row per update.
     Ppo(Vec<PpoRow>),
-    /// A row a round.
+    /// One row per round.
     Imitation(Vec<ImitationRow>),
 }
 
 impl Curve {
-    /// Where `train` leaves the learning curve of these weights: `gcaps-curve.csv` beside `gcaps.safetensors`.
+    /// The path at which `train` writes the learning curve of these weights: `gcaps-curve.csv` beside
+    /// `gcaps.safetensors`.
     pub fn beside(weights: &Path) -> PathBuf {
         weights.with_file_name(format!("{}-curve.csv", name(weights)))
     }
 
-    /// The curve beside weights, if there is one, and then those of runs with other seeds, `gcaps-seed-2-curve.csv` and so on, in
-    /// the order of the seeds.
+    /// The curve beside the weights, if there is one, followed by those of runs with other seeds,
+    /// `gcaps-seed-2-curve.csv` and so on, in the order of the seeds.
     ///
     /// # Errors
-    /// If one of them cannot be read or is no curve.
+    /// Returns an error if one of the files cannot be read or is not a curve.
     pub fn read_beside(weights: &Path) -> Result<Vec<Self>, Error> {
         let own = Self::beside(weights);
         if !own.exists() {
@@ -43,19 +44,19 @@ impl Curve {
         std::iter::once(own).chain(others).map(|path| Self::read(&path)).collect()
     }
 
-    /// Reads a curve.
+    /// Reads a learning curve.
     ///
     /// # Errors
-    /// If the file cannot be read or is no curve.
+    /// Returns an error if the file cannot be read or is not a curve.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let bytes = vertifleet_core::read_at_most(path, LONGEST)?;
         Self::from_csv(&String::from_utf8_lossy(&bytes), &path.display().to_string())
     }
 
-    /// Reads a curve's CSV text; `origin` names it in errors.
+    /// Parses the CSV text of a curve; `origin` names the file in errors.
     ///
     /// # Errors
-    /// [`Error::BadCurve`] for the first row that is not one.
+    /// Returns [`Error::BadCurve`] for the first row that is not valid.
     pub(crate) fn from_csv(text: &str, origin: &str) -> Result<Self, Error> {
         if text.starts_with("round,") {
             return Ok(Self::Imitation(rows(text, origin)?));
@@ -63,7 +64,7 @@ impl Curve {
         Ok(Self::Ppo(rows(text, origin)?))
     }
 
-    /// The curve as a CSV text, one column a member of its rows.
+    /// The curve as CSV text, with one column for each member of its rows.
     pub fn to_csv(&self) -> String {
         match self {
             Self::Ppo(rows) => csv_of(rows),
@@ -71,7 +72,7 @@ impl Curve {
         }
     }
 
-    /// Decisions learned from by the last row; 0 before the first.
+    /// Number of decisions learned from by the last row; 0 before the first row.
     pub fn steps(&self) -> u64 {
         match self {
             Self::Ppo(rows) => rows.last().map_or(0, |row| row.steps),
@@ -87,7 +88,8 @@ impl Curve {
         }
     }
 
-    /// Decisions learned from, and the mean reward of the last training days; nothing where learning is from no rewards.
+    /// Number of decisions learned from, and mean reward of the last training days; empty for imitation, which does
+    /// not learn from rewards.
     pub fn training_rewards(&self) -> Vec<(u64, f64)> {
         match self {
             Self::Ppo(rows) => {
@@ -97,7 +99,7 @@ impl Curve {
         }
     }
 
-    /// Decisions learned from, and the mean reward on the validation days where it was measured.
+    /// Number of decisions learned from, and mean reward on the validation days, for the rows that measured it.
     pub fn validation_rewards(&self) -> Vec<(u64, f64)> {
         match self {
             Self::Ppo(rows) => {
@@ -109,15 +111,32 @@ impl Curve {
         }
     }
 
-    /// What TensorBoard is told, row by row: decisions learned from, and what was measured by then.
-    pub(crate) fn scalars(&self) -> Vec<(u64, Vec<(&'static str, f64)>)> {
+    /// The rows for TensorBoard: number of decisions learned from, and what was measured by then.
+    pub(crate) fn scalars(&self) -> Vec<Scalars> {
         match self {
-            Self::Ppo(rows) => rows.iter().map(|row| (row.steps, row.scalars())).collect(),
-            Self::Imitation(rows) => {
-                rows.iter().map(|row| (row.decisions, row.scalars())).collect()
-            }
+            Self::Ppo(rows) => rows.iter().map(ppo_scalars).collect(),
+            Self::Imitation(rows) => rows.iter().map(imitation_scalars).collect(),
         }
     }
+
+    /// The last of the [`scalars`](Self::scalars).
+    pub(crate) fn last_scalars(&self) -> Option<Scalars> {
+        match self {
+            Self::Ppo(rows) => rows.last().map(ppo_scalars),
+            Self::Imitation(rows) => rows.last().map(imitation_scalars),
+        }
+    }
+}
+
+/// Decisions learned from, and what was measured by then, by name.
+pub(crate) type Scalars = (u64, Vec<(&'static str, f64)>);
+
+fn ppo_scalars(row: &PpoRow) -> Scalars {
+    (row.steps, row.scalars())
+}
+
+fn imitation_scalars(row: &ImitationRow) -> Scalars {
+    (row.decisions, row.scalars())
 }
 
 fn csv_of(rows: &[impl Serialize]) -> String {
@@ -139,7 +158,7 @@ fn rows<Row: DeserializeOwned>(text: &str, origin: &str) -> Result<Vec<Row>, Err
     })
 }
 
-/// Curves of runs with other seeds, each with its seed, in their order.
+/// The curves of runs with other seeds, each with its seed, in the order of the seeds.
 fn others(weights: &Path) -> Vec<(u32, PathBuf)> {
     let begin = format!("{}-seed-", name(weights));
     let seed = |path: &Path| -> Option<u32> {
@@ -155,7 +174,7 @@ fn others(weights: &Path) -> Vec<(u32, PathBuf)> {
     others
 }
 
-/// `gcaps` of `gcaps.safetensors`.
+/// The name of the policy: `gcaps` for `gcaps.safetensors`.
 fn name(weights: &Path) -> String {
     weights.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }

@@ -1,4 +1,4 @@
-//! TensorBoard's event file, for those who watch a run.
+//! TensorBoard's event file, in which a run can be watched.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 use crate::run::Curve;
 
-/// How the names of our event files begin; TensorBoard looks for `tfevents`.
+/// The names of the event files begin with this; TensorBoard looks for `tfevents`.
 const PREFIX: &str = "events.out.tfevents.";
-/// How they end.
+/// The names of the event files end with this.
 const SUFFIX: &str = ".vertifleet";
 
 /// A TensorBoard event file: records of protocol-buffer messages, each framed by its length and two checksums.
 ///
-/// The format is small and fixed, and the crates that write it bring a whole protocol-buffer compiler along, so the
+/// The format is small and fixed, and the crates that write it depend on a whole protocol-buffer compiler, so the
 /// three messages that are needed are written here by hand.
 #[derive(Debug)]
 pub(crate) struct EventFile {
@@ -23,19 +23,20 @@ pub(crate) struct EventFile {
 }
 
 impl EventFile {
-    /// A new event file in `folder`, which is made if it is not there; named after the time it was begun. It begins
-    /// with the rows that are behind the run, `so_far`, and takes the place of the run's earlier event files: one that
-    /// was killed may have told of rows which its checkpoint knows nothing of, and TensorBoard would show them twice.
+    /// Creates an event file in `folder`, which is created if it does not exist; the file is named after the time at
+    /// which it is begun. It begins with the rows that the run has already, `so_far`, and replaces the run's earlier
+    /// event files: a run that was killed may have written rows that its checkpoint does not have, and TensorBoard
+    /// would show them twice.
     ///
     /// # Errors
-    /// If the file is there already or cannot be written, or an earlier one cannot be removed.
+    /// Returns an error if the file exists already or cannot be written, or if an earlier one cannot be removed.
     pub(crate) fn create(folder: &Path, unix_seconds: f64, so_far: &Curve) -> Result<Self, Error> {
         vertifleet_core::create_folder(folder)?;
         let path = folder.join(format!("{PREFIX}{unix_seconds:.6}{SUFFIX}"));
         let cannot = |cause| Self::cannot_write(&path, cause);
         let file = File::create_new(&path).map_err(cannot)?;
         let mut events = Self { file, path };
-        // file_version (field 3) marks the second version of the format.
+        // The field file_version (3) marks the second version of the format.
         let mut event = wall_time(unix_seconds);
         bytes_field(&mut event, 3, b"brain.Event:2");
         events.record(&event)?;
@@ -46,7 +47,7 @@ impl EventFile {
         Ok(events)
     }
 
-    /// Removes the other event files that a run left in this folder.
+    /// Removes the other event files of the run from this folder.
     fn remove_earlier(&self, folder: &Path) -> Result<(), Error> {
         let cannot = |cause| Self::cannot_write(folder, cause);
         for entry in fs::read_dir(folder).map_err(cannot)? {
@@ -59,10 +60,10 @@ impl EventFile {
         Ok(())
     }
 
-    /// Appends what was measured by the time that so many decisions were learned from.
+    /// Appends what was measured by the time the run had learned from `step` decisions.
     ///
     /// # Errors
-    /// If the file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub(crate) fn append(
         &mut self,
         unix_seconds: f64,
@@ -71,7 +72,7 @@ impl EventFile {
     ) -> Result<(), Error> {
         let mut summary = Vec::new();
         for &(tag, value) in scalars {
-            // Summary.Value: tag (1), simple_value (2, 32-bit).
+            // A Summary.Value has the fields tag (1) and simple_value (2, 32-bit).
             let mut scalar = Vec::new();
             bytes_field(&mut scalar, 1, tag.as_bytes());
             scalar.push(2 << 3 | 5);
@@ -101,7 +102,7 @@ impl EventFile {
     }
 }
 
-/// An Event with its wall_time (field 1, 64-bit).
+/// The start of an Event message: its field wall_time (1, 64-bit).
 fn wall_time(unix_seconds: f64) -> Vec<u8> {
     let mut event = vec![1 << 3 | 1];
     event.extend(unix_seconds.to_le_bytes());
@@ -122,7 +123,7 @@ fn varint(message: &mut Vec<u8>, mut value: u64) {
     message.push(value as u8);
 }
 
-/// CRC-32C, rotated and offset so that checksums of checksums stay useful.
+/// CRC-32C, rotated and offset so that checksums of data that contains checksums stay useful.
 fn masked_checksum(bytes: &[u8]) -> u32 {
     crc32c::crc32c(bytes).rotate_right(15).wrapping_add(0xa282_ead8)
 }
@@ -177,12 +178,12 @@ mod tests {
         assert_eq!((steps.as_slice(), others.len()), (&[1, 2, 3, 4][..], 1));
     }
 
-    /// The step of an event, below 128: a byte that stands, with its field's number before it, behind the time.
+    /// The step of an event, which must be below 128: one byte after the time, preceded by its field's number.
     fn step(event: &[u8]) -> Option<u8> {
         (event[9] == 2 << 3).then(|| event[10])
     }
 
-    /// The events of a file, after checking their frames.
+    /// The events of a file, after a check of their frames.
     fn records(path: &Path) -> Vec<Vec<u8>> {
         let bytes = std::fs::read(path).expect("the file");
         let mut records = Vec::new();
@@ -203,7 +204,8 @@ mod tests {
 
     #[test]
     fn the_checksum_is_that_of_the_format() {
-        // CRC-32C of nine digits is 0xe3069283 (RFC 3720, appendix B.4 gives the polynomial); masked as TFRecord does.
+        // The CRC-32C of nine digits is 0xe3069283 (RFC 3720, appendix B.4 gives the polynomial); it is masked as in
+        // TFRecord.
         assert_eq!(
             masked_checksum(b"123456789"),
             0xe306_9283_u32.rotate_right(15).wrapping_add(0xa282_ead8)

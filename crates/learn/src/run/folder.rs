@@ -1,4 +1,4 @@
-//! The folder of a run: weights, learning curve, checkpoint and TensorBoard's events; and the loop that fills it.
+//! The folder of a run, with weights, learning curve, checkpoint and TensorBoard's events; and the loop that fills it.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -11,31 +11,32 @@ use crate::nn::Architecture;
 use crate::run::event_file::EventFile;
 use crate::run::{Curve, TrainingPlan, TrainingRun};
 
-/// A run is set aside after a row of its curve if that many times as long has passed since as setting it aside took the last time.
+/// After a row of the curve, a checkpoint is written only if at least this many times as long has passed since the
+/// last one as writing it took.
 const LEARNING_TO_SAVING: u32 = 50;
 
-/// The files of a policy's run. Those of several policies may lie in one folder.
+/// The files of a policy's run. The files of several policies may stand in one folder.
 #[derive(Debug, Clone)]
 pub struct RunFolder {
     folder: PathBuf,
-    /// The policy's weights.
+    /// The weight file.
     pub weights: PathBuf,
     /// The learning curve, as CSV.
     pub curve: PathBuf,
-    /// What a run goes on from.
+    /// The file from which the run is resumed.
     pub checkpoint: PathBuf,
-    /// TensorBoard takes a folder for a run, so each policy has its own.
+    /// The folder of TensorBoard's events. TensorBoard treats a folder as a run, so each policy has its own.
     pub events: PathBuf,
 }
 
-/// Follows a run.
+/// Follows the progress of a run.
 pub trait TrainingWatch: Sync {
-    /// So many units of [work](TrainingRun::work) more are done.
+    /// Called when this many more units of [work](TrainingRun::work) are done.
     fn has_worked(&self, units: u64);
-    /// The curve has a row more, from so many decisions a second.
+    /// Called when the curve has a new row, learned at this many decisions per second.
     fn has_learned(&self, curve: &Curve, steps_per_second: f64);
-    /// Something could not be written, and the run goes on without it; a disk that is full now may have room again when the run is
-    /// over.
+    /// Called when a file could not be written. The run continues without it: a disk that is full now may have room
+    /// again when the run is over.
     fn could_not_write(&self, error: &Error);
 }
 
@@ -53,12 +54,12 @@ impl RunFolder {
         }
     }
 
-    /// Begins a run whose files are to lie here, or goes on with the one whose files do where `resume` is asked. None of the files is
-    /// read for something else, and what is there already is of an earlier run.
+    /// Starts a run that writes its files here, or resumes the run whose files are here if `resume` is set. No other
+    /// file is overwritten: a file that exists already must be one that an earlier run wrote.
     ///
     /// # Errors
-    /// As [`TrainingPlan::start`] and [`TrainingPlan::resume`]; [`Error::EarlierRun`] if a run is to begin where another one's checkpoint
-    /// is; [`Error::Core`] for files that would be lost.
+    /// The same as those of [`TrainingPlan::start`] and [`TrainingPlan::resume`]; [`Error::EarlierRun`] if a run is to
+    /// start where another run's checkpoint is; [`Error::Core`] for files that would be lost.
     pub fn begin(
         &self,
         plan: TrainingPlan,
@@ -78,49 +79,52 @@ impl RunFolder {
         Ok(run)
     }
 
-    /// Learns until the run is done or `stop` is requested, and sets the run aside after rows of its curve and at the end. What was
-    /// learned after the last row is lost then.
+    /// Learns until the run is done or `stop` is requested, and writes the files after rows of its curve and at the
+    /// end. A stop loses what was learned after the last row.
     ///
     /// # Errors
-    /// If the run diverges or its days run out, or if the files cannot be written at the end.
+    /// Returns an error if the run diverges, if its training days run out, or if the files cannot be written at the
+    /// end.
     pub fn train(
         &self,
         run: &mut dyn TrainingRun,
         stop: &Stop,
         watch: &dyn TrainingWatch,
     ) -> Result<(), Error> {
-        let mut events = Events::create(&self.events, &run.curve(), watch);
+        let mut curve = run.curve();
+        let mut events = Events::create(&self.events, &curve, watch);
         let (mut saved, mut saving) = (Instant::now(), Duration::ZERO);
         while !run.is_done() {
-            let (begun, before) = (Instant::now(), run.curve().steps());
+            let (begun, before) = (Instant::now(), curve.steps());
             match run.advance(stop, &|units| watch.has_worked(units)) {
                 Err(Error::Stopped) => break,
                 advanced => advanced?,
             }
-            let curve = run.curve();
+            curve = run.curve();
             let steps_per_second = (curve.steps() - before) as f64 / begun.elapsed().as_secs_f64();
             watch.has_learned(&curve, steps_per_second);
             events.append_last(&curve, steps_per_second, watch);
             if saved.elapsed() >= LEARNING_TO_SAVING * saving {
                 let begun = Instant::now();
-                if let Err(error) = self.write(run) {
+                if let Err(error) = self.write(run, &curve) {
                     watch.could_not_write(&error);
                 }
                 (saved, saving) = (Instant::now(), begun.elapsed());
             }
         }
-        self.write(run)
+        self.write(run, &curve)
     }
 
-    /// Leaves the run as it stands; each file is whole at every moment. The checkpoint comes last, so that what it knows of is there.
-    fn write(&self, run: &dyn TrainingRun) -> Result<(), Error> {
-        vertifleet_core::write_atomically(&self.curve, run.curve().to_csv().as_bytes())?;
+    /// Writes the files of the run as it stands; each file is whole at every moment. The checkpoint is written last,
+    /// so everything that it refers to exists.
+    fn write(&self, run: &dyn TrainingRun, curve: &Curve) -> Result<(), Error> {
+        vertifleet_core::write_atomically(&self.curve, curve.to_csv().as_bytes())?;
         run.model().write(&self.weights)?;
         run.write_checkpoint(&self.checkpoint)
     }
 }
 
-/// TensorBoard's file, as long as it can be written: a run does not depend on it.
+/// TensorBoard's event file, for as long as it can be written: a failure to write it does not stop the run.
 struct Events(Option<EventFile>);
 
 impl Events {
@@ -129,7 +133,7 @@ impl Events {
     }
 
     fn append_last(&mut self, curve: &Curve, steps_per_second: f64, watch: &dyn TrainingWatch) {
-        let Some((steps, mut scalars)) = curve.scalars().pop() else { return };
+        let Some((steps, mut scalars)) = curve.last_scalars() else { return };
         scalars.push(("time/fps", steps_per_second));
         if let Some(file) = &mut self.0
             && told(file.append(unix_seconds(), steps, &scalars), watch).is_none()

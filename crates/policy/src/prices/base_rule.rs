@@ -1,8 +1,8 @@
-//! The rule by which the fleet is expected to decide: the prices, the prices without empty flights, or greedy.
+//! The base rule, by which the fleet is expected to decide: the prices, the prices without repositioning, or greedy.
 //!
-//! Prices that a search has not settled promise too much. Where demand is thin, each aircraft of the fleet counts on the same
-//! few passengers, and empty flights towards them cost more than they bring. So once an hour the rest of the day is played
-//! out as expected under each rule, and the rule that earns the most decides until the next time.
+//! Prices that a search has not settled promise too much. Where demand is thin, each aircraft of the fleet counts on
+//! the same few passengers, and repositioning towards them costs more than it earns. Once an hour the rest of the day
+//! is therefore played out as expected under each rule, and the rule that earns the most decides until the next time.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, Imagined, View};
@@ -10,19 +10,19 @@ use vertifleet_sim::{Decision, Imagined, View};
 use super::DayPrices;
 use crate::Greedy;
 
-/// How the fleet decides while nothing better is known.
+/// The rules by which the fleet may decide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum BaseRule {
-    /// The choice that is worth most at the prices.
+    /// Takes the choice that is worth most at the prices.
     Prices,
-    /// The same among holding and the flights that carry passengers.
+    /// Takes the choice that is worth most at the prices among holding and the flights that carry passengers.
     PricesCarrying,
-    /// The flight with the highest profit per hour.
+    /// Takes the flight with the highest profit per hour.
     Greedy,
 }
 
 impl BaseRule {
-    /// The rule under which the rest of the day, played out as expected, earns the most; the first of them among equals.
+    /// The rule under which the rest of the day, played out as expected, earns the most; of equals, the first.
     pub(super) fn best(prices: &DayPrices, view: View<'_>, room: &mut Option<Imagined>) -> Self {
         let mut played_out = |rule: Self| {
             let day = view.imagined_in(room);
@@ -49,7 +49,7 @@ impl BaseRule {
         best.1
     }
 
-    /// What an aircraft does under this rule.
+    /// The choice of an aircraft under this rule.
     #[inline]
     pub(super) fn choice(
         self,
@@ -70,7 +70,7 @@ impl BaseRule {
         best.1
     }
 
-    /// Whether a choice is open to an aircraft under a rule of prices.
+    /// Whether an aircraft may make a choice under a rule that decides by prices.
     #[inline]
     pub(super) fn allows(self, view: View<'_>, decision: &Decision, to: VertiportIx) -> bool {
         self == Self::Prices || !is_empty_flight(view, decision, to)

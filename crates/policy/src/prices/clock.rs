@@ -1,18 +1,20 @@
-//! The day cut into slots, in each of which a price stays the same.
+//! The day cut into slots. In each slot a price stays the same.
 
 use vertifleet_sim::View;
 
-/// Length of a slot, seconds. Prices of shorter slots took longer and earned no more, those of 5 minutes 0.3 % less.
+/// Length of a slot, seconds. Prices of shorter slots took longer and earned no more; those of 5 minutes earned 0.3 %
+/// less.
 pub(super) const SLOT_S: u32 = 180;
 
-/// Where in the table of slots a time is: a boundary between two slots, and how far from it to the next.
+/// The position of a time in the table of slots: the boundary before it, and its distance from there as a share of a
+/// slot.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) slot: usize,
     pub(super) share: f64,
 }
 
-/// The slots of a day; the last one contains the end of operations.
+/// The slots of a day. The last one contains the end of operations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Clock {
     pub(super) start_s: u32,
@@ -32,7 +34,7 @@ impl Clock {
         self.start_s + SLOT_S * u32::try_from(slot).expect("a day has few slots")
     }
 
-    /// The slot that contains a time, or their number past the last one.
+    /// The slot that contains a time, or the number of slots if the time is past the last one.
     #[inline]
     pub(super) fn slot(&self, time_s: u32) -> usize {
         (((time_s - self.start_s) / SLOT_S) as usize).min(self.slots)

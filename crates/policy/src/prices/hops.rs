@@ -1,4 +1,4 @@
-//! The flights that aircraft of each type may make from each vertiport, and what they earn in each interval of the day.
+//! The flights that aircraft of each type may make from each vertiport, and their profit in each interval of the day.
 
 use std::ops::Range;
 
@@ -8,18 +8,19 @@ use vertifleet_sim::View;
 use super::clock::{Clock, SLOT_S};
 use super::intervals::Intervals;
 
-/// Demand periods for which a route that is closed unexpectedly now is taken to stay so, this one and the next: it is not known how
-/// long it will be. On 60 days of `disrupted`, 1, 3 and all of them earned a little less, within chance.
+/// Number of demand periods for which a route that is closed unexpectedly is assumed to stay closed: the current one
+/// and the next. The actual duration is not known. On 60 days of `disrupted`, 1, 3 and all periods earned a little
+/// less, within chance.
 const CLOSED_PERIODS: usize = 2;
 
-/// A flight or a hold in slots of the clock, from its decision until the aircraft is ready again.
+/// A flight or a hold, measured in slots from its decision until the aircraft is ready again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stay {
-    /// Whole slots, and the part of a slot beside them. What takes less than a slot counts as one: at the boundary before,
-    /// worth is not known yet.
+    /// Whole slots, and in `share` the remaining part of a slot. A stay of less than a slot counts as one slot, because
+    /// the worth at the boundary before it is not known yet.
     pub(super) slots: usize,
     pub(super) share: f64,
-    /// The first boundary from which it ends past the end of operations.
+    /// The first boundary from which the stay ends past the end of operations.
     pub(super) first_late: usize,
 }
 
@@ -46,7 +47,7 @@ pub(super) struct Hop {
     energy_kwh: f64,
     flight_cost_usd: f64,
     seats: u32,
-    /// Place of the pair among all pairs of vertiports.
+    /// Position of the pair among all pairs of vertiports.
     pub(super) pair: usize,
 }
 
@@ -55,13 +56,14 @@ pub(super) struct Hop {
 pub(super) struct Hops {
     vertiports: usize,
     all: Vec<Hop>,
-    /// Where the hops of each type and vertiport begin, and where the last end.
+    /// The position at which the hops of each type and vertiport begin, and at the end the number of hops.
     begins: Vec<usize>,
     pub(super) intervals: Intervals,
-    /// By interval, then hop: what it earns before its passengers are paid for, dollars, and how many they are.
+    /// By interval, then hop: its profit in dollars before its passengers are paid for, and in `passengers` the number
+    /// of its passengers.
     profit_usd: Vec<f64>,
     passengers: Vec<f64>,
-    /// The same at the prices of passengers that were set last.
+    /// By interval, then hop: its profit in dollars at the latest prices of passengers.
     gain_usd: Vec<f64>,
 }
 
@@ -102,7 +104,7 @@ impl Hops {
         }
     }
 
-    /// Reads what every flight from now on would carry and earn.
+    /// Reads the passengers and the profit of every flight from now on.
     pub(super) fn load(&mut self, view: View<'_>) {
         let count = self.all.len();
         let closed_until = view.period() + CLOSED_PERIODS;
@@ -131,7 +133,8 @@ impl Hops {
         }
     }
 
-    /// Lets flights of the demand periods from `first` on pay for their passengers; prices by period, then pair.
+    /// Deducts the prices of passengers, given by period and then pair, from flights of the demand periods from `first`
+    /// on.
     pub(super) fn charge(&mut self, first: usize, price_usd: &[f64]) {
         let (count, pairs) = (self.all.len(), self.vertiports * self.vertiports);
         let first = self.intervals.first_of(first);
@@ -154,7 +157,7 @@ impl Hops {
         self.begins[at]..self.begins[at + 1]
     }
 
-    /// Slots that every hop of a type takes at least.
+    /// The least number of slots that a hop of a type takes.
     pub(super) fn shortest(&self, kind: TypeIx) -> usize {
         let all = kind.at() * self.vertiports;
         let hops = &self.all[self.begins[all]..self.begins[all + self.vertiports]];
@@ -170,7 +173,7 @@ impl Hops {
         &self.all[at]
     }
 
-    /// The hops at some positions, each with what it gains in an interval.
+    /// The hops at some positions, each with its gain in an interval.
     #[inline]
     pub(super) fn gains(
         &self,
@@ -181,15 +184,15 @@ impl Hops {
         self.all[range.clone()].iter().zip(gains[range].iter().copied())
     }
 
-    /// Passengers of a hop in an interval.
+    /// Number of passengers of a hop in an interval.
     #[inline]
     pub(super) fn passengers(&self, interval: usize, at: usize) -> f64 {
         self.passengers[interval * self.all.len() + at]
     }
 }
 
-/// Price of the energy of flights of some length that take off in a period, dollars per kWh: the mean over their take-offs
-/// of the price at arrival.
+/// Price of the energy of flights of a given duration that take off in a period, dollars per kWh: the mean, over the
+/// take-offs, of the price at arrival.
 fn energy_price_usd(view: View<'_>, period: usize, flight_s: u32) -> f64 {
     let (starts, prices) = (view.period_starts(), view.energy_prices_usd());
     let (begin, price_usd) = (starts[period], prices[period]);

@@ -1,22 +1,22 @@
-//! The day cut into intervals, in each of which flights may leave and earn the same: demand periods, cut once more where known
-//! closures begin and end.
+//! The day cut into intervals. Within an interval the same flights may leave, with the same profit: intervals are
+//! demand periods, cut once more where known closures begin and end.
 
 use vertifleet_core::{ClosedTimes, Time, VertiportIx};
 use vertifleet_sim::View;
 
 use super::clock::Clock;
 
-/// A run of slots.
+/// A run of slots in one demand period.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Interval {
     /// Its demand period.
     pub(super) period: usize,
-    /// When its first slot begins: what is known to be closed then is so at the beginning of each of its slots.
+    /// Start of its first slot. A route that is known to be closed then is closed at the start of each of its slots.
     begin: Time,
 }
 
 impl Interval {
-    /// Whether a route is known to be closed.
+    /// Whether a route is known to be closed in this interval.
     #[inline]
     pub(super) fn is_closed(
         &self,

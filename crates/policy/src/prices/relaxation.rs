@@ -1,7 +1,9 @@
-//! What the fleet would do at given prices: every aircraft takes the way through the rest of the day that is worth most to it.
+//! The decisions of the fleet at given prices: every aircraft takes the way through the rest of the day that is worth
+//! most to it.
 //!
-//! One pass from the end of the day back to now values being ready anywhere at any time (`values.rs`); another, forward,
-//! follows each aircraft along its best way and counts what is asked for.
+//! One pass from the end of the day back to now computes the worth of being ready anywhere at any time (`values.rs`). A
+//! second pass, forwards, follows each aircraft along its best way and counts the stands and passengers that it asks
+//! for.
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 use vertifleet_sim::View;
@@ -10,7 +12,7 @@ use super::clock::{Clock, SLOT_S};
 use super::hops::Hops;
 use super::values::{HOLD, ValueTable};
 
-/// An aircraft between two decisions.
+/// An aircraft at its next decision.
 #[derive(Debug, Clone, Copy)]
 struct Ready {
     kind: TypeIx,
@@ -18,7 +20,7 @@ struct Ready {
     at_s: u32,
 }
 
-/// The rest of a day, with prices, and what the fleet does at them.
+/// The rest of a day with prices, and what the fleet asks for at them.
 #[derive(Debug, Clone)]
 pub(super) struct Relaxation {
     clock: Clock,
@@ -29,17 +31,17 @@ pub(super) struct Relaxation {
     /// Passengers left, by period, then pair.
     demand: Vec<f64>,
     fleet: Vec<Ready>,
-    /// The slot of now, and its period.
+    /// The current slot, and its period.
     first_slot: usize,
     first_period: usize,
-    /// Price of a stand by slot, then vertiport; of a passenger by period, then pair; dollars.
+    /// Prices in dollars: of a stand by slot, then vertiport, and of a passenger by period, then pair.
     pub(super) stand_usd: Vec<f64>,
     pub(super) passenger_usd: Vec<f64>,
-    /// What is asked for beyond what there is, in the same order.
+    /// The number asked for less the number available, in the same order.
     pub(super) stand_excess: Vec<f64>,
     pub(super) passenger_excess: Vec<f64>,
     values: ValueTable,
-    /// Decisions that the fleet takes on its best ways.
+    /// Number of decisions that the fleet takes on its best ways.
     decisions: u32,
 }
 
@@ -70,7 +72,7 @@ impl Relaxation {
         }
     }
 
-    /// Sets out anew from the fleet and the demand that a view shows.
+    /// Takes the current fleet and demand from a view.
     pub(super) fn load(&mut self, view: View<'_>) {
         let fleet = AircraftIx::all(view.places().len());
         let ready_s = |aircraft| view.ready_at(aircraft).seconds();
@@ -92,18 +94,19 @@ impl Relaxation {
         self.hops.load(view);
     }
 
-    /// Where the prices that still matter begin, in `stand_usd` and in `passenger_usd`.
+    /// The first positions in `stand_usd` and in `passenger_usd` whose prices still matter.
     pub(super) fn begins(&self) -> (usize, usize) {
         let pairs = self.vertiports * self.vertiports;
         (self.first_slot * self.vertiports, self.first_period * pairs)
     }
 
-    /// Hops that a pass looks at, in all slots from now on.
+    /// Number of hops that a pass looks at, in all slots from now on.
     pub(super) fn hops_a_pass(&self) -> usize {
         self.hops.len() * (self.clock.slots - self.first_slot)
     }
 
-    /// What the fleet earns for itself at the prices, and what they give back for all that there is; sets the excess.
+    /// Evaluates the Lagrangian dual at the prices: the profit of the fleet after payments, plus the price of all
+    /// stands and passengers available, dollars. Also computes the excess.
     pub(super) fn evaluate(&mut self) -> f64 {
         self.hops.charge(self.first_period, &self.passenger_usd);
         self.values.pay(&self.stand_usd, self.first_slot);
@@ -111,8 +114,8 @@ impl Relaxation {
         self.offer_usd() + self.send_fleet()
     }
 
-    /// Sets the excess of passengers to what there is, before any aircraft takes some, and that of stands to nothing. Returns what all
-    /// that there is costs.
+    /// Sets the excess of passengers to minus their number, as if no aircraft took any, and that of stands to zero.
+    /// Returns the price of all stands and passengers available, dollars.
     fn offer_usd(&mut self) -> f64 {
         let (stand, passenger) = self.begins();
         let mut usd = 0.0;
@@ -129,13 +132,13 @@ impl Relaxation {
         usd
     }
 
-    /// Sends every aircraft along its best way and counts what it asks for. Returns what the ways are worth.
+    /// Sends every aircraft along its best way and counts what it asks for. Returns the worth of these ways, dollars.
     fn send_fleet(&mut self) -> f64 {
         let mut usd = 0.0;
         self.decisions = 0;
         for at in 0..self.fleet.len() {
             let Ready { kind, place, at_s } = self.fleet[at];
-            // Nothing has been paid when the first slot begins.
+            // No rent has been paid when the first slot begins.
             usd += self.values.usd(kind, place, self.clock.begin_s(self.first_slot), at_s);
             self.send(kind, place, at_s);
         }
@@ -149,7 +152,7 @@ impl Relaxation {
         self.ask(place, self.first_slot, slot);
         while time_s <= self.clock.end_s {
             self.decisions += 1;
-            // The best choice of the boundary that is nearer.
+            // The best choice is taken from the nearest boundary.
             let near = ((time_s - self.clock.start_s + SLOT_S / 2) / SLOT_S) as usize;
             let best = self.values.best(kind, place, near.min(slots - 1));
             if best == HOLD {
@@ -171,18 +174,19 @@ impl Relaxation {
         self.ask(place, slot, slots);
     }
 
-    /// Notes that a stand is asked for from one slot until another: one more from the first on, one less from the other on.
+    /// Records that a stand is asked for from one slot until another: one more from the first on, one less from the
+    /// second on.
     #[inline]
     fn ask(&mut self, place: VertiportIx, from: usize, until: usize) {
         for (slot, more) in [(from, 1.0), (until, -1.0)] {
-            // Past the last slot nothing counts.
+            // Prices end with the last slot.
             if let Some(excess) = self.stand_excess.get_mut(slot * self.vertiports + place.at()) {
                 *excess += more;
             }
         }
     }
 
-    /// Turns what was noted into what is asked for in each slot beyond what there is.
+    /// Turns the recorded changes into the number of stands asked for in each slot less the number available.
     fn count_stands(&mut self) {
         let first = self.first_slot * self.vertiports;
         let (mut before, mut rest) = self.stand_excess[first..].split_at_mut(self.vertiports);
@@ -198,12 +202,12 @@ impl Relaxation {
         }
     }
 
-    /// Decisions that the fleet takes on its best ways at the prices.
+    /// Number of decisions that the fleet takes on its best ways at the prices.
     pub(super) fn decisions(&self) -> u32 {
         self.decisions
     }
 
-    /// What it is worth to be ready, and what stands cost, anywhere at any time.
+    /// The worth of being ready, and the price of stands, anywhere at any time.
     #[inline]
     pub(super) fn values(&self) -> &ValueTable {
         &self.values

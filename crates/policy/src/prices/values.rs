@@ -1,9 +1,10 @@
-//! What it is worth to be ready anywhere at any time, at given prices, and the best way on from there.
+//! The worth of being ready anywhere at any time, at given prices, and the best choice there.
 //!
-//! Worth is known at the boundaries of slots and taken to be linear in between. It follows from what is worth later, so one
-//! pass from the end of the day back to now finds it. No flight ends within its first few slots, so that so many slots can be
-//! valued side by side in the lanes of the machine's vectors: every hop of a vertiport is then looked at once for all of
-//! them. Each lane computes what one number would, so results do not depend on the width of a vector.
+//! Worth is computed at the boundaries of slots and taken to be linear in between. It follows from the worth at later
+//! times, so one pass from the end of the day back to now finds it. No flight ends within its first few slots, so that
+//! as many slots can be valued side by side in the lanes of the machine's vectors: every hop of a vertiport is then
+//! looked at once for all of these slots. Each lane computes what a scalar would, so results do not depend on the width
+//! of a vector.
 
 use pulp::{Arch, Simd, WithSimd};
 use vertifleet_core::{TypeIx, VertiportIx};
@@ -12,22 +13,22 @@ use vertifleet_sim::View;
 use super::clock::{Clock, Place};
 use super::hops::{Hops, Stay};
 
-/// A way on that is no flight.
+/// In place of the position of a hop: the best choice is to hold.
 pub(super) const HOLD: u64 = u64::MAX;
-/// The widest vectors that there are, in numbers.
+/// Lanes of the widest vectors, in numbers of 64 bits.
 const MOST_LANES: usize = 8;
 
-/// Tables of a day by vertiport, then boundary between two slots.
+/// The tables of a day, by vertiport, then boundary between two slots.
 #[derive(Debug, Clone)]
 pub(super) struct ValueTable {
     clock: Clock,
     vertiports: usize,
     hold: Stay,
-    /// From a vertiport to the next in the tables: its boundaries, and room to read past the last one.
+    /// Distance from a vertiport to the next in the tables: its boundaries, and padding to read past the last one.
     stride: usize,
-    /// What a stand costs from now until a boundary.
+    /// Price of a stand from now until a boundary.
     paid_usd: Vec<f64>,
-    /// By type: what it is worth to be ready, *less* `paid_usd`, so that the rent of a stay is one subtraction.
+    /// By type: the worth of being ready *less* `paid_usd`, so that the rent of a stay is one subtraction.
     worth_less_paid_usd: Vec<f64>,
     /// By type: position of the best hop, or [`HOLD`].
     best: Vec<u64>,
@@ -50,7 +51,7 @@ impl ValueTable {
         }
     }
 
-    /// Sums the stands' prices, by slot, then vertiport, up to each boundary from the first slot on.
+    /// Sums the prices of stands, given by slot and then vertiport, up to each boundary from the first slot on.
     pub(super) fn pay(&mut self, stand_usd: &[f64], first_slot: usize) {
         let rows = self.paid_usd.chunks_exact_mut(self.stride);
         for (at, row) in rows.enumerate() {
@@ -66,7 +67,7 @@ impl ValueTable {
         }
     }
 
-    /// The best way on from everywhere, and what it is worth, for each type; from the first slot on.
+    /// Computes the best choice everywhere and its worth, for each type, from the first slot on.
     pub(super) fn value(&mut self, hops: &Hops, first_slot: usize) {
         let table = self.vertiports * self.stride;
         let worths = self.worth_less_paid_usd.chunks_exact_mut(table);
@@ -89,13 +90,13 @@ impl ValueTable {
         }
     }
 
-    /// Position of the best hop of a type that is ready at a boundary, or [`HOLD`].
+    /// Position of the best hop of an aircraft of a type that is ready at a boundary, or [`HOLD`].
     #[inline]
     pub(super) fn best(&self, kind: TypeIx, place: VertiportIx, boundary: usize) -> u64 {
         self.best[(kind.at() * self.vertiports + place.at()) * self.stride + boundary]
     }
 
-    /// What it is worth to be ready at `ready_s`, less what the stand costs from `now_s` until then.
+    /// The worth of being ready at `ready_s`, less the price of the stand from `now_s` until then.
     #[inline]
     pub(super) fn usd(&self, kind: TypeIx, place: VertiportIx, now_s: u32, ready_s: u32) -> f64 {
         let table = &self.worth_less_paid_usd[kind.at() * self.vertiports * self.stride..];
@@ -123,7 +124,7 @@ impl ValueTable {
     }
 }
 
-/// One type's pass from the end of the day back to the first slot.
+/// The pass of one type from the end of the day back to the first slot.
 struct BackwardPass<'a> {
     hops: &'a Hops,
     kind: TypeIx,
@@ -154,7 +155,7 @@ impl WithSimd for BackwardPass<'_> {
             {
                 begin -= 1;
             }
-            // Lanes past `until` are known already and not written again.
+            // The lanes past `until` have been computed already and are not written again.
             let first_lane = until.saturating_sub(S::F64_LANES);
             for from in VertiportIx::all(self.paid_usd.len() / self.stride) {
                 let (usd, best) = self.best_hop(simd, interval, from, first_lane);
@@ -166,7 +167,7 @@ impl WithSimd for BackwardPass<'_> {
 }
 
 impl BackwardPass<'_> {
-    /// The best hop from a vertiport at each of the boundaries from `first_lane` on, and what it is worth.
+    /// The best hop from a vertiport at each of the boundaries from `first_lane` on, and its worth.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn best_hop<S: Simd>(
@@ -204,8 +205,8 @@ impl BackwardPass<'_> {
         found
     }
 
-    /// Enters the better of the best hop and a hold for some boundaries of a vertiport, the last first: what follows a hold
-    /// may be among them.
+    /// Enters the better of the best hop and a hold at some boundaries of a vertiport. It starts with the last
+    /// boundary, because a hold may lead from one of them to another.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn hold_or_fly(

@@ -1,29 +1,30 @@
-//! Good prices, found step by step: the volume algorithm.
+//! The search for good prices, step by step: the volume algorithm.
 //!
 //! F. Barahona and R. Anbil, *The volume algorithm: producing primal solutions with a subgradient method*, Mathematical
-//! Programming 87, 2000. Where more is asked for than there is, the price rises; elsewhere it falls. Because all aircraft of
-//! a place ask for the same, what is asked for is not taken at face value but as a running mean over the passes.
+//! Programming 87, 2000. A price rises where more is asked for than is available, and falls elsewhere. All aircraft of
+//! a vertiport ask for the same, so a single pass exaggerates the excess; its running mean over the passes is used
+//! instead.
 
 use super::relaxation::Relaxation;
 
-/// Weight of a pass in the running mean.
+/// Weight of the latest pass in the running mean.
 const MEAN_WEIGHT: f64 = 0.1;
-/// How far below the lowest value so far the prices aim, as a share of it.
+/// Distance of the aim of the prices below the lowest value so far, as a share of it.
 const AIM: f64 = 0.05;
-/// Passes without a lower value after which steps get shorter, and by what factor.
+/// Number of passes without a lower value after which steps get shorter, and the factor by which they do.
 const PATIENCE: u32 = 20;
 const SHORTER: f64 = 0.7;
-/// On large days too, prices settle in no fewer passes.
+/// The least number of passes, in which prices settle on large days too.
 const LEAST_PASSES: usize = 10;
 
-/// How much to search.
+/// The effort of a search.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Effort {
-    /// Passes, if the day is not so large that they come to more than `hops`.
+    /// Number of passes, unless the day is so large that they would look at more than `hops` hops.
     pub(super) passes: usize,
-    /// Hops that all passes together may look at.
+    /// Number of hops that all passes together may look at.
     pub(super) hops: usize,
-    /// Length of the first step; 1 would reach the aim if the excess stayed what it is.
+    /// Length of the first step; 1 would reach the aim if the excess stayed the same.
     pub(super) step: f64,
 }
 
@@ -34,7 +35,7 @@ impl Effort {
     }
 }
 
-/// The search's memory: the best prices so far, and the running mean of the excess.
+/// The memory of the search: the best prices so far, and the running mean of the excess.
 #[derive(Debug, Clone)]
 pub(super) struct Volume {
     stand_usd: Vec<f64>,
@@ -53,7 +54,8 @@ impl Volume {
         }
     }
 
-    /// Leaves the relaxation at the best prices that are met on the way from those it has.
+    /// Searches from the prices of the relaxation, and leaves it at the best prices found. Returns their value,
+    /// dollars.
     pub(super) fn search(&mut self, relaxation: &mut Relaxation, effort: Effort) -> f64 {
         let mut lowest_usd = f64::INFINITY;
         let (mut step, mut failures) = (effort.step, 0);
@@ -90,8 +92,8 @@ impl Volume {
         self.passenger_usd[passenger..].copy_from_slice(&relaxation.passenger_usd[passenger..]);
     }
 
-    /// Moves the mean of the excess towards that of this pass. Returns the sum of its squares, but for what is free and
-    /// left over.
+    /// Moves the mean of the excess towards that of this pass. Returns the sum of its squares, without the resources
+    /// that are free and left over.
     fn average(&mut self, relaxation: &Relaxation, weight: f64) -> f64 {
         let (stand, passenger) = relaxation.begins();
         let stands = average(
@@ -109,7 +111,7 @@ impl Volume {
         stands + passengers
     }
 
-    /// Prices a step from the best ones.
+    /// Sets the prices of the relaxation to a step from the best ones.
     fn step(&self, relaxation: &mut Relaxation, length: f64) {
         let (stand, passenger) = relaxation.begins();
         step(

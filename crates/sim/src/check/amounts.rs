@@ -1,11 +1,11 @@
-//! A flight's energy and money (Eq. 2-4, 13).
+//! The energy and money of a flight (Eq. 2-4, 13).
 
 use super::Rule;
 use super::event::Event;
 use super::expected::Expected;
 use super::report::Findings;
 
-/// Judges what one flight takes, earns and costs.
+/// Judges the energy, revenue and costs of one flight.
 pub(super) fn check(event: &Event<'_>, expected: &Expected, findings: &mut Findings) {
     let row = event.row;
     for (rule, unit, stated, due) in [
@@ -23,7 +23,8 @@ pub(super) fn check(event: &Event<'_>, expected: &Expected, findings: &mut Findi
     }
 }
 
-/// Within a millionth, so that a schedule may state its amounts rounded to six digits; not for what is no number.
+/// Whether two amounts differ by no more than a millionth, so that a schedule may state amounts rounded to six digits.
+/// NaN agrees with nothing.
 fn agree(stated: f64, due: f64) -> bool {
     (stated - due).abs() <= (1e-6 * due).max(1e-9)
 }

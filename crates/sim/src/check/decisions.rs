@@ -1,4 +1,4 @@
-//! Who decides when and where (Eq. 6, 9, 10): a complete schedule misses no decision.
+//! When and where each aircraft decides (Eq. 6, 9, 10). A complete schedule misses no decision.
 
 use vertifleet_core::Scenario;
 

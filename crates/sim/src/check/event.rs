@@ -1,4 +1,4 @@
-//! The schedule's rows in the order in which they happen, with what the scenario says about those they name.
+//! The schedule's rows in the order in which they happen, with the aircraft and vertiports that they name.
 
 use vertifleet_core::{Aircraft, AircraftType, Scenario, Time, Vertiport, VertiportIx};
 
@@ -23,14 +23,14 @@ impl Event<'_> {
         self.row.from == self.row.to
     }
 
-    /// From and to, as tables are indexed.
+    /// The origin and destination, as tables are indexed.
     pub(super) fn pair(&self) -> (VertiportIx, VertiportIx) {
         (self.row.from, self.row.to)
     }
 }
 
-/// The rows about aircraft and vertiports of the scenario, by time and aircraft. A trace in another order is judged in
-/// this one, so that nothing but its order is found wrong.
+/// The rows whose aircraft and vertiports the scenario has, by time and aircraft. A trace in another order is judged in
+/// this one, so that only its order is found wrong.
 pub(super) fn in_order<'a>(
     scenario: &'a Scenario,
     trace: &'a Trace,
@@ -75,7 +75,7 @@ impl Findings {
     }
 }
 
-/// A number of seconds since midnight as people read it.
+/// A number of seconds since midnight as a time, for messages.
 pub(super) fn clock(seconds: u64) -> Time {
     Time::from_seconds(u32::try_from(seconds).unwrap_or(u32::MAX))
 }

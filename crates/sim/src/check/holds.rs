@@ -1,4 +1,4 @@
-//! Holds (Eq. 8): the aircraft stays, and is asked again after the hold time.
+//! Holds (Eq. 8): the aircraft stays, and decides again after the hold time.
 
 use vertifleet_core::Scenario;
 

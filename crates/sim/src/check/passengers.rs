@@ -1,5 +1,4 @@
-//! Passengers (Eq. 11): a flight takes as many as want to fly and have a seat, and the demand drops by them
-//! at once.
+//! Passengers (Eq. 11): a flight takes as many as want to fly and have a seat, which reduces the demand at once.
 
 use vertifleet_core::Scenario;
 

@@ -1,4 +1,4 @@
-//! Where flights may go: corridors and closures (docs/src/concepts/model.md, beyond the paper).
+//! The pairs that may be flown: corridors and closures (docs/src/concepts/model.md, beyond the paper).
 
 use vertifleet_core::Scenario;
 
@@ -6,7 +6,7 @@ use super::Rule;
 use super::event::Event;
 use super::report::Findings;
 
-/// Judges whether one flight may be flown that way, then.
+/// Judges whether one flight may be flown between its vertiports at its time.
 pub(super) fn check(scenario: &Scenario, event: &Event<'_>, findings: &mut Findings) {
     let (from, to) = event.pair();
     let leads =

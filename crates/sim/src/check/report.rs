@@ -1,4 +1,4 @@
-//! The verdict: findings, how often each rule is broken, and the day's totals worked out anew.
+//! The verdict: findings, how often each rule is broken, and the day's totals, computed from the rules.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,28 +11,29 @@ use super::Rule;
 use super::event::Event;
 use super::expected::Expected;
 
-/// Findings kept of each rule. All are counted; a file in which everything is wrong need not fill the memory.
+/// The most findings kept of each rule. All are counted, but a file in which everything is wrong does not fill the
+/// memory.
 const KEPT_OF_EACH_RULE: usize = 1_000;
-/// Findings in the text for people.
+/// The most findings printed in the text form.
 const SHOWN: usize = 100;
 
 /// One place where the schedule breaks a rule.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Finding {
-    /// The rule.
+    /// The rule that is broken.
     pub rule: Rule,
     /// The row, counted from 1 below the header; `None` for a decision that is missing.
     pub row: Option<usize>,
-    /// When: the row's time, or when the missing decision was due.
+    /// The row's time, or the time at which a missing decision was due.
     pub time: Time,
     /// Id of the aircraft; `None` if the scenario does not have it.
     pub aircraft: Option<String>,
-    /// What the schedule says and what the rule asks for.
+    /// What the schedule states and what the rule requires.
     pub detail: String,
 }
 
-/// The day's account, worked out from the schedule and the rules, not from the amounts that the schedule states.
-/// Members are named as in the simulator's summary. Dollars, kWh, counts.
+/// The day's account, computed from the schedule and the rules and not from the amounts that the schedule states.
+/// Members are named as in the simulator's [`DayTotals`](crate::DayTotals), in dollars, kWh and counts.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Totals {
     /// Revenue less all costs (Eq. 5).
@@ -43,9 +44,9 @@ pub struct Totals {
     pub passenger_cost_usd: f64,
     /// Cost of charging (Eq. 3).
     pub energy_cost_usd: f64,
-    /// What flights cost with or without passengers, beside their energy.
+    /// Cost of flights with or without passengers, beside their energy.
     pub flight_cost_usd: f64,
-    /// What the fleet costs whatever it does.
+    /// Cost of the fleet, whether or not it flies.
     pub aircraft_cost_usd: f64,
     /// Energy charged.
     pub energy_kwh: f64,
@@ -79,7 +80,7 @@ impl Totals {
         self.energy_kwh += flight.energy_kwh;
     }
 
-    /// Enters what so many aircraft cost for the day, and draws the balance.
+    /// Enters the cost of `aircraft` aircraft at `cost_usd` each, and computes the profit.
     pub(super) fn close(&mut self, aircraft: usize, cost_usd: f64) {
         self.aircraft_cost_usd = cost_usd * aircraft as f64;
         self.profit_usd = self.revenue_usd
@@ -90,7 +91,7 @@ impl Totals {
     }
 }
 
-/// Findings being collected.
+/// The findings collected so far.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     kept: Vec<Finding>,
@@ -98,7 +99,7 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Enters that a rule is broken; `detail` is asked only if the finding is kept.
+    /// Records that a rule is broken. `detail` is called only if the finding is kept.
     pub(super) fn add(
         &mut self,
         rule: Rule,
@@ -115,7 +116,7 @@ impl Findings {
         }
     }
 
-    /// Enters that an event breaks a rule.
+    /// Records that an event breaks a rule.
     pub(super) fn add_event(
         &mut self,
         rule: Rule,
@@ -133,12 +134,12 @@ impl Findings {
     }
 }
 
-/// The checker's verdict on a schedule. Prints as text for people, serialises for machines.
+/// The checker's verdict on a schedule. It prints as text and serialises for programs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// Where rules are broken, in the order of the day: of each rule the first 1,000.
+    /// The places where rules are broken, in the order of the day; at most the first 1,000 of each rule.
     pub findings: Vec<Finding>,
-    /// How often each broken rule is broken, those not kept among the findings included.
+    /// How often each broken rule is broken, including findings that were not kept.
     pub broken: BTreeMap<Rule, usize>,
     /// The day's account.
     pub totals: Totals,
@@ -150,7 +151,7 @@ impl Report {
         self.broken.is_empty()
     }
 
-    /// Places where a rule is broken, those not kept among the findings included.
+    /// Number of places where a rule is broken, including findings that were not kept.
     pub fn broken_places(&self) -> usize {
         self.broken.values().sum()
     }

@@ -1,4 +1,4 @@
-//! The rules by name. Names are stable: `--json` prints them, and the documentation lists them.
+//! The rules by name. Names are stable, because `--json` prints them and the documentation lists them.
 
 use std::fmt;
 
@@ -14,12 +14,12 @@ macro_rules! rules {
             /// Every rule, in the order in which the documentation lists them.
             pub const ALL: &[Self] = &[$(Self::$variant,)*];
 
-            /// The stable name, as `stand-bound`.
+            /// The stable name, for example `stand-bound`.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name,)* }
             }
 
-            /// What the rule asks for, in a sentence.
+            /// The requirement of the rule, in a sentence.
             pub fn meaning(self) -> &'static str {
                 match self { $(Self::$variant => $meaning,)* }
             }

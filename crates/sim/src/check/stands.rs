@@ -1,9 +1,9 @@
-//! Stands (Eq. 16): U_i, the aircraft standing at i or in the air towards it, is 0 to U_max at every instant; and chargers,
-//! where a vertiport has a pool of them.
+//! Stands (Eq. 16): U_i, the number of aircraft standing at i or in the air towards it, is between 0 and U_max at every
+//! instant. The same holds for chargers, where a vertiport has chargers beside its other stands.
 //!
-//! U_i only changes at take-off, from where an aircraft was to where it flies, so looking at each take-off is looking
-//! at every instant. At one instant the aircraft listed first moves first, and the stand it leaves is free for the next.
-//! With chargers, a hold moves an aircraft from its charger to a stand, if there is one free.
+//! U_i only changes at a take-off, from the vertiport that an aircraft leaves to the one that it flies to, so checking
+//! each take-off checks every instant. At one instant the aircraft listed first moves first, and the stand that it
+//! leaves is free for the next. With chargers, a hold moves an aircraft from its charger to a stand, if one is free.
 
 use vertifleet_core::Scenario;
 
@@ -11,10 +11,10 @@ use super::Rule;
 use super::event::Event;
 use super::report::Findings;
 
-/// Where an aircraft is while it waits.
+/// The kind of place that an aircraft occupies while it waits.
 #[derive(Clone, Copy, PartialEq)]
 enum Pool {
-    /// On a stand. All aircraft are at vertiports without chargers.
+    /// On a stand, as all aircraft are at vertiports without chargers.
     Stand,
     /// On a charger, or in the air towards one.
     Charger,

@@ -1,11 +1,11 @@
-//! Expected errors of reading and writing traces, V204 to V208; the error index is written from the comments here.
+//! Expected errors of reading and writing traces, V204 to V208. The error index is written from the comments here.
 
 use vertifleet_core::{Code, Coded, Exit};
 
-/// What is wrong with a trace file. Lines are counted from 1, the header being the first.
+/// An error in a trace file. Lines are counted from 1, which is the header.
 #[derive(Debug, thiserror::Error)]
 pub enum TraceError {
-    /// The file cannot be read or written, or is longer than any trace has reason to be.
+    /// The file cannot be read or written, or is longer than any trace needs to be.
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
@@ -15,7 +15,7 @@ pub enum TraceError {
     TooManyRows {
         /// The path.
         origin: String,
-        /// Line of the first row too many.
+        /// The first line that is too many.
         line: usize,
         /// The most rows that are read.
         limit: usize,
@@ -29,12 +29,12 @@ pub enum TraceError {
         origin: String,
         /// The columns of a trace.
         expected: String,
-        /// The first line, cut short where it is long.
+        /// The first line, cut short if it is long.
         found: String,
     },
 
-    /// V206. A row does not have one value a column. Fix: look for a missing or doubled comma, or for a quote that is
-    /// never closed, in the line that the message names.
+    /// V206. A row does not have one value for each column. Fix: look for a missing or doubled comma, or for a quote
+    /// that is never closed, in the line that the message names.
     #[error("{origin}: line {line}: a row must have {expected} values, found {found}")]
     WrongWidth {
         /// The path.
@@ -57,7 +57,7 @@ pub enum TraceError {
         line: usize,
         /// The column.
         column: &'static str,
-        /// What it says, cut short where it is long.
+        /// The id in the row, cut short if it is long.
         found: String,
         /// The list that has no such entry.
         list: &'static str,
@@ -73,15 +73,15 @@ pub enum TraceError {
         line: usize,
         /// The column.
         column: &'static str,
-        /// What is asked of the value.
+        /// The rule that the value breaks.
         rule: &'static str,
-        /// The value, cut short where it is long.
+        /// The value, cut short if it is long.
         found: String,
     },
 }
 
 impl TraceError {
-    /// Every code of a trace with a title, in order: the index that the documentation is checked against.
+    /// Every code of a trace with a title, in order. The documentation is checked against this list.
     pub const ALL: &[(Code, &str)] = &[
         (Code(204), "trace with too many rows"),
         (Code(205), "not the header of a trace"),
@@ -107,7 +107,7 @@ impl Coded for TraceError {
         match self {
             Self::Core(error) => error.hint(),
             Self::UnknownId { .. } => Some("a trace belongs to the scenario that it was made from"),
-            // The last column is all that traces differ in.
+            // Traces differ in nothing but the last column.
             Self::WrongHeader { expected, found, .. }
                 if expected.starts_with(found.as_str()) || found.starts_with(expected.as_str()) =>
             {

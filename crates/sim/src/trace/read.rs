@@ -1,7 +1,7 @@
-//! Reading a trace: bounded, strict, and with the line and column of whatever is wrong.
+//! Reads a trace: bounded and strict, with line and column of every error.
 //!
-//! The reader only asks that every value is one that its column can hold; whether the schedule keeps the rules of the
-//! day is for the [checker](crate::check) to say.
+//! The reader only requires that every column can hold its value. The [checker](crate::check) judges whether the
+//! schedule keeps the rules of the day.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -13,7 +13,7 @@ use super::{COLUMNS, columns};
 use crate::{Trace, TraceError, TraceRow};
 
 const MOST_BYTES: u64 = 256 << 20;
-/// Memory for as many rows is about what the longest file takes.
+/// The memory of this many rows is about as large as the longest file.
 const MOST_ROWS: usize = 4_000_000;
 
 impl Trace {
@@ -26,7 +26,7 @@ impl Trace {
         Self::from_csv(&bytes, scenario, &path.display().to_string())
     }
 
-    /// Reads a trace from the text of its file; `origin` names that file in messages.
+    /// Reads a trace from the text of its file; `origin` names the file in messages.
     ///
     /// # Errors
     /// [`TraceError`] names file, line, column, value and rule.
@@ -36,7 +36,7 @@ impl Trace {
     }
 }
 
-/// A file under reading.
+/// A file that is being read.
 struct Reader<'a> {
     bytes: &'a [u8],
     origin: &'a str,
@@ -169,8 +169,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The line on which a record starts. Counted anew: the parser's own count lags behind where it skips empty lines
-    /// or the second half of a CR LF.
+    /// The line on which a record starts. It is counted anew, because the parser's own count lags behind where the
+    /// parser skips empty lines or the second half of a CR LF.
     fn line(&self, record: &ByteRecord) -> usize {
         let position = record.position().map_or(0, csv::Position::byte);
         let mut start =
@@ -181,7 +181,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// At most 80 characters of a text, so that a broken file does not flood the screen.
+/// At most 120 characters of a text, so that a broken file does not flood the screen.
 fn shortened(text: &str) -> String {
     match text.char_indices().nth(120) {
         Some((end, _)) => format!("{}...", &text[..end]),

@@ -1,4 +1,4 @@
-//! Writing a trace: whole or not at all, ids as in the scenario.
+//! Writes a trace, whole or not at all, with the ids of the scenario.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -9,18 +9,18 @@ use super::columns;
 use crate::{Trace, TraceError, TraceRow};
 
 impl Trace {
-    /// How a trace that this program wrote begins.
+    /// The beginning of every trace that this program wrote.
     pub const FILE: OutputKind = OutputKind {
         name: "trace",
         skipped: 0,
-        // On days with flight costs there is one column more.
+        // On days with flight costs, one more column follows.
         opening: "time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready",
     };
 
-    /// Writes the trace as a CSV file that is there whole or not at all.
+    /// Writes the trace as a CSV file, whole or not at all.
     ///
     /// # Errors
-    /// [`TraceError::Core`] (V102); what was there before is still there then.
+    /// [`TraceError::Core`] (V102); the former file is still there then.
     ///
     /// # Panics
     /// If a row names an aircraft or a vertiport that `scenario` does not have.
@@ -60,7 +60,7 @@ fn write_row(
     csv.write_field(&scenario.vertiports[row.from.at()].id)?;
     csv.write_field(&scenario.vertiports[row.to.at()].id)?;
     csv.write_field(row.passengers.to_string())?;
-    // `{}` gives an `f64` the fewest digits that read back as itself.
+    // `{}` writes an `f64` in the fewest digits that read back as the same number.
     for number in [row.revenue_usd, row.passenger_cost_usd, row.energy_kwh, row.energy_cost_usd] {
         csv.write_field(number.to_string())?;
     }

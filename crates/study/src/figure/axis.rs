@@ -1,4 +1,4 @@
-//! Scales: from values to pixels, and round values to read them by.
+//! Scales, which map values to pixels and have round values as ticks.
 
 /// A range of values laid over a range of pixels.
 #[derive(Debug, Clone, Copy)]
@@ -13,7 +13,7 @@ pub(super) struct Scale {
 impl Scale {
     /// A scale on which all `values` fit with a margin, with about `ticks` round values. `low` lies at pixel `from`.
     ///
-    /// Values that do not differ get room on either side; without values the scale is that of 0 to 1.
+    /// If all values are equal, there is room on either side of them; without values the scale goes from 0 to 1.
     pub(super) fn around(
         values: impl Iterator<Item = f64>,
         (from, to): (f64, f64),
@@ -29,7 +29,7 @@ impl Scale {
         Self { low, high, from, to, step: round_step((high - low) / ticks as f64) }
     }
 
-    /// The pixel of a value.
+    /// The pixel at which a value lies.
     pub(super) fn pixel(&self, value: f64) -> f64 {
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
     }
@@ -47,7 +47,7 @@ impl Scale {
         (0..=count).map(|tick| (first + f64::from(tick)) * self.step).collect()
     }
 
-    /// Decimals that tell the ticks apart when they are written in a unit of this size.
+    /// The number of decimals that tells the ticks apart when they are written in a unit of this size.
     pub(super) fn decimals(&self, unit: f64) -> usize {
         let step = self.step / unit;
         (0..9_i32)
@@ -60,7 +60,7 @@ impl Scale {
     }
 }
 
-/// The next 1, 2, 2.5 or 5 times a power of ten.
+/// The next larger 1, 2, 2.5 or 5 times a power of ten.
 fn round_step(rough: f64) -> f64 {
     let power = 10_f64.powf(rough.log10().floor());
     let factor = [1.0, 2.0, 2.5, 5.0].into_iter().find(|factor| factor * power >= rough);

@@ -1,7 +1,7 @@
-//! Box plots of what every policy earned on each day (Fig. 4 and Fig. 5), also as a share of the upper bound.
+//! Box plots of each policy's daily results (Fig. 4 and Fig. 5), also as a share of the upper bound.
 //!
-//! Boxes lie, one row a policy, so that names can be read and every day has its dot below the box. Rows are named, so
-//! colour carries nothing that is not also said in words.
+//! Boxes are horizontal, one row per policy, so that names are readable and each day has a dot below the box. Rows are
+//! named, so colour carries no information that the text does not give.
 
 use super::Figure;
 use super::axis::Scale;
@@ -19,13 +19,13 @@ const BOX_HEIGHT: f64 = 18.0;
 const RIGHT: f64 = 92.0;
 const LONGEST_NAME: usize = 22;
 
-/// With more days the dots run into each other and say less than the box.
+/// With more days the dots would run into each other and say less than the box.
 const MOST_DOTS: usize = 400;
 
-/// Below the name of an offline reference.
+/// The remark below the name of an offline reference.
 const OFFLINE_REMARK: &str = "knows the day";
 
-/// What a box plot shows of a policy.
+/// The quantity that a box plot shows for each policy.
 struct Measure {
     slug: &'static str,
     title: &'static str,
@@ -35,9 +35,9 @@ struct Measure {
     boxed: fn(&PolicySummary) -> &BoxSummary,
     mean: fn(&PolicySummary) -> f64,
     written: fn(f64) -> String,
-    /// Values of the axis with this many decimals.
+    /// Writes a value of the axis with this many decimals.
     tick: fn(f64, usize) -> String,
-    /// What no value passes, with its name; drawn as a line.
+    /// A limit that no value exceeds, with its name; drawn as a line.
     limit: Option<(f64, &'static str)>,
 }
 
@@ -81,7 +81,7 @@ pub(super) fn episode_reward(summary: &ComparisonReport) -> Figure {
     )
 }
 
-/// Profit of each day as a share of what it could earn at most; `None` where bounds were not asked for.
+/// Profit of each day as a share of its upper bound; `None` if bounds were not asked for.
 pub(super) fn bound_share(summary: &ComparisonReport) -> Option<Figure> {
     let bound = summary.bound?;
     summary.policies.iter().all(|policy| policy.bound_share_box.is_some()).then_some(())?;
@@ -104,7 +104,7 @@ pub(super) fn bound_share(summary: &ComparisonReport) -> Option<Figure> {
     Some(draw(summary, &measure, &source))
 }
 
-/// Which figure of the paper it is, on the network that the paper describes.
+/// The corresponding figure of the paper, if the days are those of the paper's network.
 fn corresponds(summary: &ComparisonReport, source: &'static str) -> &'static str {
     if summary.is_of_the_paper() { source } else { "" }
 }
@@ -208,7 +208,7 @@ fn draw_box(canvas: &mut Canvas, scale: &Scale, summary: &BoxSummary, middle: f6
     }
 }
 
-/// One dot a day; neighbours of the calendar stand at different heights, so that equal days do not hide each other.
+/// One dot per day. Consecutive days stand at different heights, so that equal days do not hide each other.
 fn draw_dots(canvas: &mut Canvas, scale: &Scale, values: &[f64], top: f64, series: usize) {
     let look = Look { fill: Some((Paint::Series(series), 0.45)), stroke: None };
     for (position, &value) in values.iter().enumerate() {

@@ -1,10 +1,10 @@
-//! A sheet on which figures are drawn: the few shapes that they need, written as SVG, one element a line.
+//! The canvas of a figure: the few shapes that figures need, written as SVG, one element per line.
 
 use std::fmt::Write as _;
 
 use super::palette::Paint;
 
-/// Families in the order of preference: the embedded font of the PNGs first, then what systems have.
+/// Font families in order of preference: the embedded font of the PNGs, then common system fonts.
 const FONTS: &str = "Inter, 'Segoe UI', Roboto, 'Helvetica Neue', 'Noto Sans', 'Liberation Sans', Arial, sans-serif";
 
 /// Mean width of a letter of that font, as a share of its size; only used to leave enough room.
@@ -13,7 +13,7 @@ const LETTER_WIDTH: f64 = 0.56;
 /// Position in pixels, right and down from the upper left corner.
 pub(super) type Point = (f64, f64);
 
-/// Where a text stands relative to its position.
+/// The alignment of a text relative to its position.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Anchor {
     Start,
@@ -21,7 +21,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// Size, weight, colour and place of a text.
+/// Size, weight, colour and alignment of a text.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lettering {
     pub(super) size: f64,
@@ -61,10 +61,10 @@ impl Stroke {
     }
 }
 
-/// Fill and outline of a shape.
+/// The fill and the outline of a shape.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Look {
-    /// Paint and opacity.
+    /// The paint and its opacity.
     pub(super) fill: Option<(Paint, f64)>,
     pub(super) stroke: Option<Stroke>,
 }
@@ -79,7 +79,7 @@ impl Look {
     }
 }
 
-/// An SVG picture in the making.
+/// An SVG picture under construction.
 #[derive(Debug)]
 pub(super) struct Canvas {
     width: f64,
@@ -89,7 +89,7 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    /// An empty sheet with a title in its upper left corner and a line in smaller letters below it.
+    /// An empty picture with a title in its upper left corner and a subtitle in smaller letters below it.
     pub(super) fn new(width: f64, height: f64, title: &str, subtitle: &str) -> Self {
         let mut canvas = Self { width, height, title: title.to_owned(), body: String::new() };
         canvas.rectangle((0.0, 0.0), (width, height), Look::filled(Paint::Ground));
@@ -145,12 +145,12 @@ impl Canvas {
         self.path(&path, look);
     }
 
-    /// A path in SVG's own notation.
+    /// A path in the notation of SVG.
     pub(super) fn path(&mut self, path: &str, look: Look) {
         self.shape("path", &format!("d=\"{path}\""), look);
     }
 
-    /// The mark of a series: circle, square, triangle, diamond or a triangle on its head.
+    /// The marker of a series: a circle, square, triangle, diamond or inverted triangle.
     pub(super) fn marker(&mut self, at: Point, series: usize) {
         let (x, y) = at;
         let ring = Stroke::solid(Paint::Ground, 1.2);
@@ -169,7 +169,7 @@ impl Canvas {
         self.polyline(&corners, true, look);
     }
 
-    /// A text whose baseline begins, is centred or ends at a position.
+    /// A text whose baseline begins at, is centred on or ends at a position.
     pub(super) fn text(&mut self, at: Point, lettering: Lettering, content: &str) {
         let anchor = match lettering.anchor {
             Anchor::Start => "",
@@ -226,12 +226,12 @@ impl Canvas {
     }
 }
 
-/// Room that a text takes, roughly and rather too much than too little.
+/// An estimate of the width of a text, which is rather too large than too small.
 pub(super) fn text_width(content: &str, size: f64) -> f64 {
     content.chars().count() as f64 * size * LETTER_WIDTH
 }
 
-/// The text, cut with an ellipsis where it is longer than `letters`.
+/// The text, cut and marked with an ellipsis if it is longer than `letters`.
 pub(super) fn shortened(content: &str, letters: usize) -> String {
     if content.chars().count() <= letters {
         return content.to_owned();
@@ -249,7 +249,8 @@ pub(super) fn pixels(length: f64) -> String {
     }
 }
 
-/// Text that XML takes for text; characters that it does not allow become a replacement mark.
+/// The text with the characters escaped that have a meaning in XML; characters that XML does not allow become a
+/// replacement mark.
 fn escaped(content: &str) -> String {
     let mut text = String::with_capacity(content.len());
     for letter in content.chars() {

@@ -1,5 +1,5 @@
-//! Day by day: what the best policy earns more than a reference on each day, sorted. Not in the paper; it shows whether
-//! a lead in the mean comes from most days or from a few.
+//! Day by day: by how much the best policy earns more than a reference on each day, sorted. The paper has no such
+//! figure; it shows whether a lead in the mean comes from most days or from a few.
 
 use std::fmt::Write as _;
 
@@ -17,7 +17,7 @@ const RIGHT: f64 = 24.0;
 const TOP: f64 = 96.0;
 const BOTTOM: f64 = 44.0;
 
-/// Bars of the days on which the best policy earns more and of those on which it earns less, one path each.
+/// The bars of the days on which the best policy earns more, and of those on which it earns less, one path each.
 struct Bars {
     ahead: String,
     behind: String,
@@ -62,7 +62,7 @@ fn looks(comparison: &PairedDifference) -> (Look, Look) {
 
 fn bars(differences: &[f64], scale: &Scale) -> Bars {
     let slot = (WIDTH - RIGHT - LEFT) / differences.len() as f64;
-    // A gap shows the single day as long as there is a pixel for it.
+    // A gap separates the bars of single days as long as there is a pixel for it.
     let width = if slot >= 3.0 { (slot * 0.75).min(28.0) } else { slot };
     let zero = scale.pixel(0.0);
     let mut bars = Bars { ahead: String::new(), behind: String::new() };

@@ -1,14 +1,15 @@
-//! Where the names of a key stand: side by side, in as many rows as they need.
+//! The places of the names in a key: side by side, in as many rows as they need.
 
 use super::canvas::{Point, text_width};
 
-/// Left end of every row.
+/// The left end of every row.
 const LEFT: f64 = 16.0;
-/// Middle of the first row.
+/// The middle of the first row.
 const TOP: f64 = 72.0;
 const ROW: f64 = 22.0;
 
-/// Where each name's mark begins, and the middle of the last row. A mark is as wide as `mark`, on a sheet as wide as `width`.
+/// The position at which each name's mark begins, and the middle of the last row. A mark has the width `mark`, the
+/// picture the width `width`.
 pub(super) fn places(names: &[String], mark: f64, width: f64) -> (Vec<Point>, f64) {
     let (mut x, mut y) = (LEFT, TOP);
     let mut places = Vec::with_capacity(names.len());

@@ -13,15 +13,15 @@ use crate::summary::ComparisonReport;
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 70.0;
 const RIGHT: f64 = 24.0;
-/// From the left end of a line of the key to its name.
+/// The distance from the left end of a line of the key to its name.
 const KEY_LINE: f64 = 41.0;
 const PLOT_HEIGHT: f64 = 272.0;
 const BOTTOM: f64 = 52.0;
 
-/// Markers on a line: enough to tell lines apart in grey, few enough to see the line.
+/// Number of markers on a line: enough to tell lines apart in grey, few enough to see the line.
 const MARKERS: usize = 9;
 
-/// What a figure of this kind shows.
+/// The texts of a figure of this kind.
 struct Chart {
     slug: &'static str,
     title: &'static str,
@@ -53,13 +53,13 @@ const ON_VALIDATION_DAYS: Chart = Chart {
               seeds. Every policy looks at as many validation days as its settings say.",
 };
 
-/// The runs of a policy; the first is the one whose weights play.
+/// The training runs of a policy; the first is the run whose weights play.
 struct Lesson<'a> {
     name: &'a str,
     runs: Vec<Vec<Point>>,
 }
 
-/// A policy's lines in pixels and the series whose colour, dash and marker they have.
+/// A policy's lines in pixels, and the series that gives their colour, dash and marker.
 struct Lines {
     name: String,
     series: usize,
@@ -74,7 +74,7 @@ pub(super) fn on_training_days(summary: &ComparisonReport) -> Option<Figure> {
     draw(summary, &ON_TRAINING_DAYS, lessons.collect())
 }
 
-/// The same on the validation days, a line a run; `None` if no policy was trained.
+/// The learning curves on the validation days, with a line for each run; `None` if no policy was trained.
 pub(super) fn on_validation_days(summary: &ComparisonReport) -> Option<Figure> {
     let lessons = summary.trainings.iter().map(|training| Lesson {
         name: &training.policy,
@@ -83,7 +83,7 @@ pub(super) fn on_validation_days(summary: &ComparisonReport) -> Option<Figure> {
     draw(summary, &ON_VALIDATION_DAYS, lessons.collect())
 }
 
-/// Before the first episode ends there is no mean reward to draw.
+/// The points of a curve; before the first day ends there is no mean reward to draw.
 fn defined(points: &[(u64, f64)]) -> Vec<Point> {
     let points = points.iter().filter(|point| point.1.is_finite());
     points.map(|&(steps, reward)| (steps as f64, reward)).collect()
@@ -120,7 +120,7 @@ fn draw(summary: &ComparisonReport, chart: &Chart, mut lessons: Vec<Lesson<'_>>)
     Some(Figure { slug: chart.slug, caption: caption(summary, chart), svg: canvas.into_svg() })
 }
 
-/// Says whose days the curves are of: every policy that has one was trained on the network of that name.
+/// Says which network's days the curves belong to: every policy that has one was trained on the network of the study.
 fn caption(summary: &ComparisonReport, chart: &Chart) -> String {
     let fig_3 = match chart.slug {
         FIG_3 if summary.is_of_the_paper() => "Corresponds to Fig. 3 of the paper. ",
@@ -140,7 +140,7 @@ fn caption(summary: &ComparisonReport, chart: &Chart) -> String {
     )
 }
 
-/// A curve looks like the policy of its name; other curves take what no policy has.
+/// The curve of a policy in the study has the policy's series; other curves take a series that no policy has.
 fn series(summary: &ComparisonReport, name: &str, position: usize) -> usize {
     let policy = summary.policies.iter().position(|policy| policy.name == name);
     policy.unwrap_or(summary.policies.len() + position)
@@ -179,7 +179,7 @@ fn draw_lines(canvas: &mut Canvas, lines: &Lines) {
         canvas.polyline(run, false, Look::outlined(Stroke { paint, width: 1.0, dash }));
     }
     canvas.polyline(played, false, Look::outlined(Stroke { paint, width: 2.0, dash }));
-    // Each series starts its markers a little later, so that lines that run together keep theirs apart.
+    // Each series starts its markers a little later, so that the markers of lines that run together do not overlap.
     let every = (played.len() / MARKERS).max(1);
     let first = (lines.series * every / 3) % every;
     for &point in played.iter().skip(first).step_by(every) {

@@ -1,23 +1,23 @@
-//! Colours by the part that they play, for light and for dark ground; dashes and markers for grey.
+//! Colours by their use, for light and dark backgrounds; dashes and markers for figures in grey.
 
 use std::fmt::Write as _;
 
-/// What a stroke or a fill is for.
+/// The use of a stroke or a fill.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Paint {
-    /// The ground of the picture.
+    /// The background of the picture.
     Ground,
-    /// Titles, labels of things, marks that matter.
+    /// Titles, labels of things, and marks that matter.
     Ink,
     /// Scales, keys and notes.
     Muted,
-    /// Lines to read values by.
+    /// The lines that values are read by.
     Grid,
     /// A policy, by its position.
     Series(usize),
 }
 
-/// Colour on light ground and on dark ground.
+/// A colour on a light background and on a dark one.
 struct Tone {
     light: &'static str,
     dark: &'static str,
@@ -38,16 +38,16 @@ const SERIES: [Tone; 8] = [
     Tone { light: "#2b93c9", dark: "#84cff3" },
 ];
 
-/// Dash patterns of lines in the order of the series; the first is a solid line.
+/// The dash patterns of lines in the order of the series; the first is a solid line.
 const DASHES: [Option<&str>; 5] = [None, Some("7 4"), Some("2 3"), Some("10 3 2 3"), Some("14 4")];
 
 impl Paint {
-    /// Colour on light ground, as in a file on its own.
+    /// The colour on a light background, as in an SVG file by itself.
     pub(super) fn colour(self) -> &'static str {
         self.tone().light
     }
 
-    /// Name of the class by which a page restyles this paint.
+    /// The name of the class by which a page changes this paint.
     pub(super) fn class(self) -> String {
         match self {
             Self::Ground => "ground".to_owned(),
@@ -69,12 +69,12 @@ impl Paint {
     }
 }
 
-/// Dash pattern of a series' line.
+/// The dash pattern of a series' line.
 pub(super) fn dash(position: usize) -> Option<&'static str> {
     DASHES[position % DASHES.len()]
 }
 
-/// Style rules that give figures inside a page their colours on dark ground.
+/// The style rules that give figures inside a page their colours on a dark background.
 pub(crate) fn style_sheet() -> String {
     let paints = [Paint::Ground, Paint::Ink, Paint::Muted, Paint::Grid];
     let mut rules = String::new();

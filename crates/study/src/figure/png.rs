@@ -1,13 +1,13 @@
-//! An SVG figure as a picture of pixels, with letters from the embedded font: the same picture on every machine.
+//! Converts an SVG figure to PNG with the embedded font, so that the picture is the same on every machine.
 
 use std::sync::{Arc, LazyLock};
 
 use resvg::{tiny_skia, usvg};
 
-/// Pixels of the PNG for one of the SVG: sharp on dense screens and in print.
+/// Pixels of the PNG for each pixel of the SVG: sharp on dense screens and in print.
 const PIXEL_RATIO: f32 = 2.0;
 
-/// Inter, cut to Latin letters; licence in `assets/OFL.txt`.
+/// The font Inter, reduced to Latin letters; its licence is in `assets/OFL.txt`.
 const FONTS: [&[u8]; 2] = [
     include_bytes!("../../assets/Inter-Regular.otf"),
     include_bytes!("../../assets/Inter-SemiBold.otf"),
@@ -24,7 +24,7 @@ static FONT_DATABASE: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
 /// The figure as PNG at [`PIXEL_RATIO`] times its size.
 ///
 /// # Panics
-/// If the SVG is not well-formed or has no size: figures of this crate are and have.
+/// Panics if the SVG is not well-formed or has no size, which does not happen for the figures of this crate.
 pub(crate) fn png(svg: &str) -> Vec<u8> {
     let options = usvg::Options {
         font_family: "Inter".to_owned(),

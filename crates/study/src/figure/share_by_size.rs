@@ -1,8 +1,8 @@
-//! Share of the bound against the size of the network: a panel over aircraft and one over vertiports, a mark a network and
-//! policy.
+//! The share of the bound against the size of the network: one panel over aircraft and one over vertiports, with a
+//! mark for each network and policy.
 //!
-//! Policies differ by the shape of their mark as well as by its colour. A ring in the colour of the ground keeps marks apart that
-//! lie on each other.
+//! Policies differ by the shape of their marks as well as by the colour. A ring in the background colour separates
+//! marks that overlap.
 
 use super::Figure;
 use super::axis::Scale;
@@ -15,15 +15,15 @@ use crate::numbers::{counted, grouped, minutes, typeset};
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 56.0;
 const RIGHT: f64 = 24.0;
-/// From the left end of a mark of the key to its name.
+/// The distance from the left end of a mark of the key to its name.
 const KEY_MARK: f64 = 18.0;
 const PANEL_HEIGHT: f64 = 250.0;
-/// From the floor of a panel to the top of the next.
+/// The distance from the bottom of a panel to the top of the next.
 const BETWEEN: f64 = 72.0;
 const BOTTOM: f64 = 52.0;
 const LONGEST_NAME: usize = 22;
 
-/// What stands on the horizontal axis of a panel.
+/// The quantity on the horizontal axis of a panel.
 struct Size {
     axis: &'static str,
     of: fn(&NetworkShare) -> usize,
@@ -76,7 +76,7 @@ fn draw_panel(canvas: &mut Canvas, summary: &GeneralisationReport, size: &Size, 
     );
     let y = Scale::around(shares.map(|share| 100.0 * share).chain([100.0]), (floor, top), 6);
     draw_axes(canvas, (&x, &y), size.axis, (top, floor));
-    // A policy at a time: where marks lie on each other, those of the policy named later can be seen.
+    // Marks are drawn policy by policy: where marks overlap, those of the policy named later are visible.
     for (position, _) in summary.policies.iter().enumerate() {
         for network in networks() {
             let share = 100.0 * network.results[position].bound_share;

@@ -1,9 +1,9 @@
-//! The study in a sentence or two, made from its numbers.
+//! The result of the study in a sentence or two.
 
 use super::GeneralisationReport;
 use crate::numbers::{counted, grouped, p_statement, signed, typeset};
 
-/// Who does best, and whether its lead over the first-named policy is more than chance.
+/// Says which policy does best, and whether its lead over the first-named policy is more than chance.
 pub(super) fn text(summary: &GeneralisationReport) -> String {
     let best = &summary.policies[summary.best_position()];
     let count = summary.networks.len();

@@ -1,4 +1,4 @@
-//! `networks.csv`: every policy's day of every network, one row each.
+//! `networks.csv`: one row for every policy and network.
 
 use serde::Serialize;
 
@@ -16,7 +16,7 @@ struct Row<'a> {
     bound_share: f64,
 }
 
-/// The rows as CSV with a header; networks in order, policies as they were named.
+/// The rows as CSV with a header; networks in order, and policies in the order in which they were named.
 pub(super) fn text(summary: &GeneralisationReport) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for network in &summary.networks {

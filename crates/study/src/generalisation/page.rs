@@ -1,4 +1,4 @@
-//! `report.html` of a study of many networks: as that of a comparison, with a row a network.
+//! `report.html` of a study of many networks: like that of a comparison, with one row per network.
 
 use maud::{Markup, html};
 
@@ -7,7 +7,7 @@ use crate::figure::Figure;
 use crate::numbers::{counted, dollars, grouped, minutes, p_value, signed, typeset};
 use crate::page::{self, estimate};
 
-/// The whole page.
+/// The page as HTML.
 pub(super) fn text(summary: &GeneralisationReport, figures: &[Figure]) -> String {
     let body = html! {
         (opening(summary))

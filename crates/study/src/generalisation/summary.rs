@@ -1,4 +1,4 @@
-//! A study of many networks in numbers: every policy's share of the days' bounds.
+//! The statistics of a study of many networks: every policy's share of the upper bounds.
 
 use serde::Serialize;
 
@@ -11,16 +11,16 @@ use crate::summary;
 /// Name and version of the format of `summary.json`.
 pub const FORMAT: &str = "vertifleet-generalisation/1";
 
-/// A study in numbers: what `summary.json` and `--json` hold, and what table, figure and page show.
+/// The statistics of a study: `summary.json` and `--json` contain them, and table, figure and page show them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GeneralisationReport {
     /// Always [`FORMAT`].
     pub format: &'static str,
     /// Version of the program.
     pub program_version: &'static str,
-    /// Command that made the study.
+    /// The command line of the study.
     pub command: String,
-    /// Length of the bounds' steps, in seconds.
+    /// The length of the bounds' slices, in seconds.
     pub bound_step_s: u32,
     /// Every policy, in the order in which they were named.
     pub policies: Vec<PolicyShare>,
@@ -28,44 +28,44 @@ pub struct GeneralisationReport {
     pub networks: Vec<NetworkShare>,
 }
 
-/// One policy over all networks.
+/// The results of one policy over all networks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PolicyShare {
-    /// Name as the user gave it.
+    /// The name that the user gave it.
     pub name: String,
-    /// What the policy does.
+    /// Describes what the policy does.
     pub description: String,
-    /// Whether the days were planned with the whole day known: a reference, no policy.
+    /// Whether the days were planned with the whole day known, which makes it a reference and not a policy.
     pub knows_the_day: bool,
     /// Profit as a share of the day's upper bound.
     pub bound_share: Estimate,
-    /// The same on the network where it is lowest.
+    /// The share of the upper bound on the network where it is lowest.
     pub lowest_bound_share: f64,
-    /// Paired t-test of the share, this policy minus the first; none for the first itself.
+    /// Paired t-test of the share, this policy minus the first; `None` for the first itself.
     pub minus_first: Option<PairedTest>,
 }
 
-/// One network with what every policy earns on its day.
+/// One network with every policy's result on its day.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NetworkShare {
-    /// Name by which every command finds it.
+    /// The name by which commands find it.
     pub network: String,
-    /// Seed of its day.
+    /// The seed of its day.
     pub seed: u64,
     /// Number of vertiports.
     pub vertiports: usize,
-    /// Aircraft of all types together.
+    /// Number of aircraft of all types together.
     pub aircraft: usize,
-    /// What no schedule of the day earns more than, in dollars.
+    /// The day's upper bound, in dollars.
     pub upper_bound_usd: f64,
-    /// Every policy's result, in the order of the policies.
+    /// The result of every policy, in the order of the policies.
     pub results: Vec<Outcome>,
 }
 
-/// What a policy earns on the day of a network.
+/// The result of a policy on the day of a network.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Outcome {
-    /// The policy's name.
+    /// The name of the policy.
     pub policy: String,
     /// Profit, in dollars.
     pub profit_usd: f64,
@@ -74,13 +74,14 @@ pub struct Outcome {
 }
 
 impl GeneralisationReport {
-    /// Sums a study up.
+    /// Computes the statistics of a study.
     ///
     /// # Errors
-    /// [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies on the same days.
+    /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies
+    /// on the same days.
     ///
     /// # Panics
-    /// If a day has no upper bound.
+    /// Panics if a day has no upper bound.
     pub fn of(study: &GeneralisationRecords) -> Result<Self, Error> {
         summary::check(&study.policies, study.networks.len())?;
         let shares: Vec<Vec<f64>> =
@@ -120,10 +121,10 @@ impl GeneralisationReport {
         })
     }
 
-    /// The summary as `summary.json` and `--json` have it: indented.
+    /// The statistics as indented JSON, the text of `summary.json` and `--json`.
     ///
     /// # Panics
-    /// Never: numbers and texts can always be written.
+    /// Never panics: numbers and texts can always be written.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
@@ -133,14 +134,14 @@ impl GeneralisationReport {
         self.policies.first().expect("a summary has at least one policy")
     }
 
-    /// The policy with the highest mean share. A plan is no policy, unless there is nothing else.
+    /// The position of the policy with the highest mean share. The planner counts only if there is nothing else.
     pub(crate) fn best_position(&self) -> usize {
         let rank =
             |at: usize| (!self.policies[at].knows_the_day, self.policies[at].bound_share.mean);
         (1..self.policies.len()).fold(0, |best, at| if rank(at) > rank(best) { at } else { best })
     }
 
-    /// Smallest and largest of a size of the networks.
+    /// The smallest and the largest value of a size of the networks.
     pub(crate) fn range(&self, size: fn(&NetworkShare) -> usize) -> (usize, usize) {
         let sizes = || self.networks.iter().map(size);
         (sizes().min().unwrap_or(0), sizes().max().unwrap_or(0))

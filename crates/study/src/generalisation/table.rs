@@ -1,13 +1,13 @@
-//! The study as plain text for a terminal: one row a policy.
+//! The study as plain text for a terminal, with one row per policy.
 
 use super::{GeneralisationReport, PolicyShare};
 use crate::numbers::{counted, grouped, minutes, p_value, signed};
 use crate::table::{append_aligned, estimate};
 
-/// Behind the name of who knows the day.
+/// The mark after the name of a reference that knows the day.
 const OFFLINE_MARK: &str = " *";
 
-/// The text that `generalise` prints. No line end after the last line.
+/// The text that `generalise` prints, without a line end after the last line.
 pub(super) fn text(summary: &GeneralisationReport) -> String {
     let first = &summary.first().name;
     let networks = counted(summary.networks.len(), "random network", "random networks");

@@ -1,4 +1,4 @@
-//! Made-up results of five policies, the same on every machine: for tests and the sample report.
+//! Made-up results of five policies, the same on every machine, for tests and the sample report.
 
 use vertifleet_sim::DayTotals;
 use vertifleet_study::{
@@ -6,7 +6,7 @@ use vertifleet_study::{
     ValidationCurves,
 };
 
-/// How a made-up policy does.
+/// The results that a made-up policy gets.
 struct Outline {
     name: &'static str,
     description: &'static str,
@@ -154,7 +154,8 @@ impl Noise {
         ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Close enough to normal: a sum of twelve uniform values less six (and no function that differs by platform).
+    /// A sum of twelve uniform values minus six, which is close enough to normal and uses no function that differs by
+    /// platform.
     fn next_normal(&mut self) -> f64 {
         (0..12).map(|_| self.next_uniform()).sum::<f64>() - 6.0
     }

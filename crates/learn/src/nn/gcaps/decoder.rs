@@ -8,9 +8,9 @@
 //! v = head of [mean E, y, clock]
 //! ```
 //!
-//! The embeddings E = C W_f + b_f of the capsules C are never formed: whatever reads them does so through a matrix, and
-//! the product of W_f and that matrix, taken once per change of the weights
-//! ([`Products`]), reads the capsules. b_f is a shift of what is read.
+//! The embeddings E = C W_f + b_f of the capsules C are never computed. Each reader of the embeddings multiplies them
+//! by a matrix, so the product of W_f and that matrix, taken once per change of the weights ([`Products`]), is applied
+//! to the capsules instead. b_f adds a constant shift to the result.
 
 use crate::nn::batch::{Inputs, Outputs, Slopes};
 use crate::nn::gcaps::products::Products;
@@ -36,7 +36,7 @@ pub(crate) struct Decoder {
     pub(crate) products: Products,
 }
 
-/// What the decoder needs while it works: rows of h entries, one per sample, and the reads.
+/// The working memory of the decoder: rows of h entries, one per sample, and the reads.
 #[derive(Debug)]
 pub(crate) struct DecoderSpace {
     pub(crate) reads: ReadsSpace,
@@ -49,9 +49,15 @@ pub(crate) struct DecoderSpace {
     second_norm: Normalised,
     y: Vec<f32>,
     hidden: Vec<f32>,
-    /// Slopes of y, and what they become on the way down.
+    /// Slopes of y, which the backward pass turns into those of the layers below.
     slopes: Vec<f32>,
     branch_slopes: Vec<f32>,
+}
+
+/// What the encoder gave, and where its slopes go.
+pub(crate) struct Capsules<'a> {
+    pub(crate) values: &'a [f32],
+    pub(crate) slopes: &'a mut [f32],
 }
 
 impl DecoderSpace {
@@ -74,7 +80,7 @@ impl DecoderSpace {
         }
     }
 
-    /// Cuts the rows to a batch.
+    /// The part of the memory that a batch uses.
     fn rows(&mut self, len: usize) -> Rows<'_> {
         Rows {
             query: &mut self.query[..len],
@@ -93,7 +99,7 @@ impl DecoderSpace {
     }
 }
 
-/// The space of one batch.
+/// The working memory of one batch.
 struct Rows<'a> {
     query: &'a mut [f32],
     heads: &'a mut [f32],
@@ -114,12 +120,12 @@ impl Decoder {
         self.output.columns
     }
 
-    /// Columns of a head in a row of all heads.
+    /// Number of columns of one head in a row of all heads.
     fn head_width(&self) -> usize {
         self.width() / self.reads.heads
     }
 
-    /// Logits and values from capsules.
+    /// Computes logits and values from capsules.
     pub(crate) fn forward(
         &self,
         tensors: Tensors<'_>,
@@ -169,7 +175,7 @@ impl Decoder {
         self.head.forward(tensors, inputs.clock, rows.hidden, &mut outputs.values[..batch]);
     }
 
-    /// Eq. 20 for all heads, side by side in a row.
+    /// Computes Eq. 20 for all heads, side by side in a row.
     fn attend(
         &self,
         tensors: Tensors<'_>,
@@ -196,16 +202,17 @@ impl Decoder {
         }
     }
 
-    /// Adds the slopes of the decoder's weights; writes the capsules' slopes.
+    /// Adds the slopes of the decoder's weights, and writes the slopes of the capsules.
     pub(crate) fn backward(
         &self,
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
-        capsules: &[f32],
+        capsules: Capsules<'_>,
         slopes: Slopes<'_>,
         space: &mut DecoderSpace,
-        (capsule_slopes, gradient): (&mut [f32], &mut [f32]),
+        gradient: &mut [f32],
     ) {
+        let Capsules { values: capsules, slopes: capsule_slopes } = capsules;
         let (batch, width) = (inputs.batch, self.width());
         let rows = &mut space.rows(batch * width);
         self.read_out_backward(tensors, inputs, capsules, slopes, rows, gradient);
@@ -221,12 +228,12 @@ impl Decoder {
         let slopes = Matrix::new(rows.slopes, batch, width);
         let to = MatrixMut::new(rows.branch_slopes, batch, width);
         multiply(to, Write::Set, slopes, tensors.matrix(self.output).transposed());
-        self.attend_backward(tensors, batch, capsules, rows, (capsule_slopes, gradient));
+        self.attend_backward(tensors, batch, capsules, rows, capsule_slopes, gradient);
 
         self.query.backward(inputs.aircraft, rows.slopes, gradient);
     }
 
-    /// From the slopes of logits and values to those of y.
+    /// Computes the slopes of y from those of logits and values.
     fn read_out_backward(
         &self,
         tensors: Tensors<'_>,
@@ -238,8 +245,8 @@ impl Decoder {
     ) {
         let (batch, width) = (inputs.batch, self.width());
         let hidden_slopes = &mut *rows.branch_slopes;
-        let kept = (inputs.clock, &*rows.hidden);
-        self.head.backward(tensors, kept, slopes.values, hidden_slopes, gradient);
+        let hidden = &*rows.hidden;
+        self.head.backward(tensors, inputs.clock, hidden, slopes.values, hidden_slopes, gradient);
         add_rows(hidden_slopes, self.products.hidden_shift.part_mut(gradient));
         add_weight_slopes(self.head.features(), rows.y, hidden_slopes, gradient);
         let hidden_slopes = Matrix::new(hidden_slopes, batch, width);
@@ -274,14 +281,15 @@ impl Decoder {
         multiply(to, Write::Add, shift_slopes, tensors.matrix(self.products.pointer_shift));
     }
 
-    /// From the heads' slopes (in the branch's place) to the capsules' and, added, the query's.
+    /// Computes the slopes of the capsules from those of the heads (in `branch_slopes`), and adds those of the query.
     fn attend_backward(
         &self,
         tensors: Tensors<'_>,
         batch: usize,
         capsules: &[f32],
         rows: &mut Rows<'_>,
-        (capsule_slopes, gradient): (&mut [f32], &mut [f32]),
+        capsule_slopes: &mut [f32],
+        gradient: &mut [f32],
     ) {
         let (width, each) = (self.width(), self.head_width());
         add_rows(rows.branch_slopes, self.products.value_shift.part_mut(gradient));

@@ -1,8 +1,8 @@
 //! The graph-capsule encoder (§IV.A.1, Eq. 18 and 19) on the complete graph.
 //!
-//! The convolutions are in powers of L / N rather than L = D - A: the same family of functions (W_pa = V_pa / N^a),
-//! with all terms on one scale. On the complete graph L / N takes the mean over the nodes away, and doing so twice is
-//! doing so once. Hence, with S = V_p0 + V_p1 + V_p2 and T = V_p1 + V_p2,
+//! The convolutions use powers of L / N instead of L = D - A. This gives the same family of functions (W_pa = V_pa /
+//! N^a) with all terms on one scale. On the complete graph, L / N subtracts the mean over the nodes, and subtracting
+//! it twice is the same as once. Hence, with S = V_p0 + V_p1 + V_p2 and T = V_p1 + V_p2,
 //!
 //! ```text
 //! sum over a of (L/N)^a F V_pa  =  F S - mean(F) T
@@ -19,14 +19,14 @@ use crate::nn::linear::{Linear, add, add_rows, repeat, sum_groups};
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 use crate::nn::relu;
 
-/// What the encoder needs while it works; sizes for one sample in brackets.
+/// The working memory of the encoder; sizes for one sample in brackets.
 #[derive(Debug)]
 pub(crate) struct EncoderSpace {
     /// Mean features [F].
     feature_means: Vec<f32>,
     /// F_0 [N x h].
     embeddings: Vec<f32>,
-    /// F_0 times itself, entry by entry [N x h]; going back, its slopes.
+    /// The square of F_0, entry by entry [N x h]; in the backward pass, its slopes.
     squares: Vec<f32>,
     /// Mean of the squares [h].
     square_means: Vec<f32>,
@@ -61,7 +61,7 @@ impl EncoderSpace {
 }
 
 impl Encoder {
-    /// Fills the capsules.
+    /// Computes the capsules.
     pub(crate) fn forward(
         &self,
         tensors: Tensors<'_>,
@@ -79,12 +79,12 @@ impl Encoder {
         let rows = &mut space.sample_rows[..batch * width];
         let capsules = &mut space.capsules[..nodes * 2 * width];
 
-        sum_groups(inputs.nodes, (self.vertiports, features), over_nodes, feature_means);
+        sum_groups(inputs.nodes, self.vertiports, features, over_nodes, feature_means);
         self.node.forward(tensors, inputs.nodes, embeddings);
         for (square, embedding) in squares.iter_mut().zip(&*embeddings) {
             *square = embedding * embedding;
         }
-        sum_groups(squares, (self.vertiports, width), over_nodes, square_means);
+        sum_groups(squares, self.vertiports, width, over_nodes, square_means);
 
         let means = Matrix::new(feature_means, batch, features);
         repeat(tensors.part(products.first_shift), rows);
@@ -114,7 +114,7 @@ impl Encoder {
         relu::forward(capsules);
     }
 
-    /// Writes each sample's row into the columns from `first` on of all of its nodes' capsules.
+    /// Writes each sample's row into the columns from `first` on of the capsules of all its nodes.
     fn spread(&self, rows: &[f32], first: usize, capsules: &mut [f32]) {
         let of_samples = capsules.chunks_exact_mut(self.vertiports * 2 * self.width);
         for (row, capsules) in rows.chunks_exact(self.width).zip(of_samples) {
@@ -124,7 +124,7 @@ impl Encoder {
         }
     }
 
-    /// Sums the columns from `first` on over each sample's nodes.
+    /// Sums the columns from `first` on over the nodes of each sample.
     fn gather(&self, slopes: &[f32], first: usize, rows: &mut [f32]) {
         let of_samples = slopes.chunks_exact(self.vertiports * 2 * self.width);
         for (row, slopes) in rows.chunks_exact_mut(self.width).zip(of_samples) {
@@ -135,13 +135,14 @@ impl Encoder {
         }
     }
 
-    /// Adds the slopes of W_0, b_0 and the products. `slopes` are the capsules'; they are used up.
+    /// Adds the slopes of W_0, b_0 and the products. `slopes` are those of the capsules; they are overwritten.
     pub(crate) fn backward(
         &self,
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
         space: &mut EncoderSpace,
-        (slopes, gradient): (&mut [f32], &mut [f32]),
+        slopes: &mut [f32],
+        gradient: &mut [f32],
     ) {
         let products = self.products;
         let (batch, width, features) = (inputs.batch, self.width, self.node.weight.rows);
@@ -178,7 +179,8 @@ impl Encoder {
             sums,
         );
 
-        // The slopes of the squares: by the node's own term, and by the mean, the same for all of a sample's nodes.
+        // A square's slope has two parts: one through the node's own term, and one through the mean, which is the same
+        // for all nodes of a sample.
         let mean_slopes = &mut space.square_means[..batch * width];
         let to = MatrixMut::new(mean_slopes, batch, width);
         multiply(to, Write::Set, sums, tensors.matrix(products.second_mean).transposed());

@@ -1,5 +1,5 @@
-//! The encoder against Eq. 18 and 19 to the letter: an explicit Laplacian, its square, and weights W_pa, in double
-//! precision; and its slopes, those that go through products of weights included.
+//! Compares the encoder with a literal reading of Eq. 18 and 19: an explicit Laplacian, its square, and weights W_pa,
+//! in double precision. Also checks its slopes, including those that go through products of weights.
 
 use crate::nn::GcapsSettings;
 use crate::nn::architecture::Shape;
@@ -66,7 +66,7 @@ fn product(left: &Rows, right: &Rows) -> Rows {
 /// f_p of one sample: ReLU of the sum over a of L^a F^p W_pa, with W_pa = V_pa / N^a.
 fn eq_18(power: i32, f_0: &Rows, hops: [Slot; 3], params: &[f32]) -> Rows {
     let n = VERTIPORTS as f64;
-    // D - A of the complete graph: N - 1 on the diagonal, -1 beside it.
+    // D - A of the complete graph has N - 1 on the diagonal and -1 elsewhere.
     let laplacian: Rows = (0..VERTIPORTS)
         .map(|i| (0..VERTIPORTS).map(|j| if i == j { n - 1.0 } else { -1.0 }).collect())
         .collect();
@@ -124,7 +124,8 @@ fn slopes_of_the_capsules() {
         tensors,
         case.inputs(),
         &mut space.encoder,
-        (&mut slopes, &mut gradient),
+        &mut slopes,
+        &mut gradient,
     );
     case.gcaps.finish(&case.params, &mut gradient);
     for tensor in case.layout.tensors() {

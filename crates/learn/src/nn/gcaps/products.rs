@@ -1,4 +1,4 @@
-//! Products of weights that the network works with in the weights' place, taken once per change of the weights.
+//! Products of weights that the network uses instead of the weights themselves, taken once per change of the weights.
 
 use crate::nn::gcaps::Weights;
 use crate::nn::init::Init;
@@ -6,7 +6,7 @@ use crate::nn::layout::{Layout, Slot};
 use crate::nn::linear::add;
 use crate::nn::product::{Write, multiply};
 
-/// Where the products lie, behind the weights.
+/// The places of the products, which follow the weights.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Products {
     /// W_0 S_1 with S_p = V_p0 + V_p1 + V_p2.
@@ -19,14 +19,14 @@ pub(crate) struct Products {
     pub(crate) second_node: Slot,
     /// T_2.
     pub(crate) second_mean: Slot,
-    /// (W_f W_K)^T, (W_f W_V)^T, and the latter's shift b_f W_V. A head's part is a block of rows.
+    /// (W_f W_K)^T, (W_f W_V)^T, and the shift b_f W_V of the latter. The part of a head is a block of rows.
     pub(crate) key: Slot,
     pub(crate) value: Slot,
     pub(crate) value_shift: Slot,
     /// W_L W_f^T, and its shift b_f W_L^T.
     pub(crate) pointer: Slot,
     pub(crate) pointer_shift: Slot,
-    /// (W_f M)^T with M the value head's rows for the mean of the embeddings, and b_f M with the head's bias.
+    /// (W_f M)^T, with M the value head's rows for the mean of the embeddings, and b_f M plus the head's bias.
     pub(crate) means: Slot,
     pub(crate) hidden_shift: Slot,
 }
@@ -54,13 +54,13 @@ impl Products {
 }
 
 impl Products {
-    /// Takes the products.
+    /// Computes the products.
     pub(crate) fn prepare(&self, weights: &Weights, params: &[f32], derived: &mut [f32]) {
         self.prepare_encoder(weights, params, derived);
         self.prepare_decoder(weights, params, derived);
     }
 
-    /// From the slopes of the products, behind those of the weights, to the weights' own.
+    /// Computes the slopes of the weights from those of the products, which follow them in `gradient`.
     pub(crate) fn finish(&self, weights: &Weights, params: &[f32], gradient: &mut [f32]) {
         self.finish_encoder(weights, params, gradient);
         self.finish_decoder(weights, params, gradient);
@@ -189,7 +189,7 @@ fn copy_part(from: Slot, to: Slot, flat: &mut [f32]) {
     flat.copy_within(from.offset..from.offset + from.rows * from.columns, to.offset);
 }
 
-/// `to += from` within one flat vector; `from` lies in front of `to`.
+/// Does `to += from` within one flat vector, in which `from` lies before `to`.
 fn add_part(from: Slot, to: Slot, flat: &mut [f32]) {
     let (front, rest) = flat.split_at_mut(to.offset);
     add(from.part(front), to.counted_from(front.len()).part_mut(rest));

@@ -1,9 +1,9 @@
-//! How the decoder reads a sample's capsules: attention over them, their mean, and each one's own logit.
+//! How the decoder reads a sample's capsules: by attention over them, by their mean, and by a logit for each.
 //!
-//! A sample has one query, so keys and values of all nodes are never formed. A head's query is brought to the nodes'
-//! side (u = W_K q), its scores are C . u, and what its attention collects, a C, goes through W_V afterwards. All of a
-//! sample's reads are rows of the nodes' width, so they are kept together, and going back the slopes of the
-//! capsules are one product, `factors^T rows`:
+//! A sample has one query, so the keys and values of all nodes are never computed. The query of a head is brought to
+//! the nodes' side instead (u = W_K q), its scores are C . u, and W_V is applied to what its attention collects, a C.
+//! All reads of a sample are rows with the width of a capsule, so they are stored together, and in the backward pass
+//! the slopes of the capsules are one product, `factors^T rows`:
 //!
 //! | rows | factors |
 //! |---|---|
@@ -22,13 +22,13 @@ pub(crate) struct Reads {
     pub(crate) heads: usize,
     /// Width of a capsule.
     pub(crate) width: usize,
-    /// What scores are multiplied by, 1 / sqrt(d).
+    /// The factor of the scores, 1 / sqrt(d).
     pub(crate) score_scale: f32,
-    /// What logits are multiplied by, 1 / sqrt(h).
+    /// The factor of the logits, 1 / sqrt(h).
     pub(crate) logit_scale: f32,
 }
 
-/// Rows and factors as above, and what the attention collected; sizes for one sample in brackets.
+/// The rows and factors of the table above, and what the attention collected; sizes for one sample in brackets.
 #[derive(Debug)]
 pub(crate) struct ReadsSpace {
     /// [(2 heads + 2) x width].
@@ -39,14 +39,14 @@ pub(crate) struct ReadsSpace {
     pub(crate) collected: Vec<f32>,
     /// [width].
     pub(crate) means: Vec<f32>,
-    /// What is added to all of a sample's logits; going back, its slopes [1].
+    /// What is added to all logits of a sample; in the backward pass, its slopes [1].
     logit_shifts: Vec<f32>,
-    /// Slopes of queries and pointer [(heads + 1) x width].
+    /// Slopes of the queries and the pointer [(heads + 1) x width].
     query_slopes: Vec<f32>,
 }
 
 impl ReadsSpace {
-    /// Where the shifts of the logits are to be written.
+    /// The place to write the shifts of the logits to.
     pub(crate) fn logit_shifts(&mut self, batch: usize) -> MatrixMut<'_> {
         MatrixMut::new(&mut self.logit_shifts[..batch], batch, 1)
     }
@@ -79,17 +79,17 @@ impl Reads {
         MatrixMut::new(rows, batch, self.block() * self.width).columns(row * self.width, self.width)
     }
 
-    /// Where a head's query, on the nodes' side, is to be written.
+    /// The place to write a head's query on the nodes' side to.
     pub(crate) fn query(self, space: &mut ReadsSpace, batch: usize, head: usize) -> MatrixMut<'_> {
         self.row(space, batch, self.heads + head)
     }
 
-    /// Where the pointer is to be written.
+    /// The place to write the pointer to.
     pub(crate) fn pointer(self, space: &mut ReadsSpace, batch: usize) -> MatrixMut<'_> {
         self.row(space, batch, 2 * self.heads)
     }
 
-    /// Where the slopes of what a head collected are to be written.
+    /// The place to write the slopes of what a head collected to.
     pub(crate) fn collected_slopes(
         self,
         space: &mut ReadsSpace,
@@ -99,26 +99,26 @@ impl Reads {
         self.row(space, batch, head)
     }
 
-    /// Where the slopes of the means are to be written.
+    /// The place to write the slopes of the means to.
     pub(crate) fn mean_slopes(self, space: &mut ReadsSpace, batch: usize) -> MatrixMut<'_> {
         self.row(space, batch, 2 * self.heads + 1)
     }
 
-    /// What a head collected, of every sample.
+    /// What a head collected, for every sample.
     pub(crate) fn collected(self, space: &ReadsSpace, batch: usize, head: usize) -> Matrix<'_> {
         let collected = &space.collected[..batch * self.heads * self.width];
         Matrix::new(collected, batch, self.heads * self.width)
             .columns(head * self.width, self.width)
     }
 
-    /// The slopes of a head's query; of the pointer for the head behind the last.
+    /// The slopes of a head's query; the index after the last head gives those of the pointer.
     pub(crate) fn query_slopes(self, space: &ReadsSpace, batch: usize, head: usize) -> Matrix<'_> {
         let slopes = &space.query_slopes[..batch * (self.heads + 1) * self.width];
         Matrix::new(slopes, batch, (self.heads + 1) * self.width)
             .columns(head * self.width, self.width)
     }
 
-    /// Eq. 20 for all heads, once the queries are there; and the means.
+    /// Computes Eq. 20 for all heads, and the means. The queries must be written first.
     pub(crate) fn attend(self, capsules: &[f32], space: &mut ReadsSpace) {
         let Self { vertiports, heads, width, .. } = self;
         let nodes = capsules.chunks_exact(vertiports * width);
@@ -139,10 +139,11 @@ impl Reads {
         }
         let batch = capsules.len() / (vertiports * width);
         let means = &mut space.means[..batch * width];
-        sum_groups(capsules, (vertiports, width), 1.0 / vertiports as f32, means);
+        sum_groups(capsules, vertiports, width, 1.0 / vertiports as f32, means);
     }
 
-    /// Logits of every node, once pointers and shifts are there; minus infinity where the mask is 0.
+    /// Computes the logits of every node, minus infinity where the mask is 0. The pointers and shifts must be written
+    /// first.
     pub(crate) fn point(
         self,
         capsules: &[f32],
@@ -167,7 +168,7 @@ impl Reads {
         }
     }
 
-    /// From the logits' slopes to those of pointers and shifts.
+    /// Computes the slopes of pointers and shifts from those of the logits.
     pub(crate) fn point_backward(
         self,
         capsules: &[f32],
@@ -195,7 +196,8 @@ impl Reads {
         }
     }
 
-    /// From the slopes of what was collected to the queries' slopes and, all reads together, the capsules'.
+    /// Computes the slopes of the queries from those of what was collected, and the slopes of the capsules from all
+    /// reads together.
     pub(crate) fn attend_backward(
         self,
         capsules: &[f32],
@@ -236,7 +238,7 @@ impl Reads {
     }
 }
 
-/// The softmax of `scale` times the scores, in place.
+/// Replaces the scores by the softmax of `scale` times the scores.
 fn softmax(scores: &mut [f32], scale: f32) {
     let highest = scores.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let mut total = 0.0;
@@ -249,7 +251,7 @@ fn softmax(scores: &mut [f32], scale: f32) {
     }
 }
 
-/// From the slopes of the softmax to the slopes of its scores, in place.
+/// Replaces the slopes of the softmax by those of its scores.
 fn softmax_backward(softmax: &[f32], slopes: &mut [f32], scale: f32) {
     let mean: f32 = softmax.iter().zip(&*slopes).map(|(weight, slope)| weight * slope).sum();
     for (slope, weight) in slopes.iter_mut().zip(softmax) {

@@ -7,21 +7,21 @@ use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_learn::{Scales, shape};
 use vertifleet_sim::{Decision, VertiportSet, View};
 
-/// Whom it is shown to.
+/// Which aircraft's agent an observation is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum To {
-    /// The aircraft that decides.
-    Decide,
+pub(crate) enum Observer {
+    /// The aircraft whose decision it is.
+    Deciding,
     /// Another one: only hold is feasible.
-    Watch,
+    Waiting,
     /// The one that decided last on a day that is over: no time is left, and only hold is feasible.
-    Remember,
+    Finished,
 }
 
-impl To {
-    /// What they may choose.
+impl Observer {
+    /// What its agent may choose.
     pub(crate) fn feasible(self, decision: &Decision, view: View<'_>) -> VertiportSet {
-        if self == Self::Decide {
+        if self == Self::Deciding {
             return view.feasible(decision);
         }
         let mut hold = VertiportSet::default();
@@ -30,8 +30,8 @@ impl To {
     }
 }
 
-/// Room for what is shown.
-pub(crate) struct Shown<'a> {
+/// The arrays that one observation is written to.
+pub(crate) struct ObservationRow<'a> {
     /// [N x F].
     pub(crate) nodes: &'a mut [f32],
     /// [G].
@@ -45,15 +45,21 @@ pub(crate) struct Shown<'a> {
     pub(crate) mask_i8: &'a mut [i8],
 }
 
-impl Shown<'_> {
-    /// Shows a decision.
-    pub(crate) fn fill(self, decision: &Decision, view: View<'_>, scales: &Scales, to: To) {
-        let left = scales.write((self.nodes, self.aircraft), decision, view);
-        *self.clock = if to == To::Remember { 0.0 } else { left };
+impl ObservationRow<'_> {
+    /// Writes the observation of a decision.
+    pub(crate) fn fill(
+        self,
+        decision: &Decision,
+        view: View<'_>,
+        scales: &Scales,
+        observer: Observer,
+    ) {
+        let left = scales.write(self.nodes, self.aircraft, decision, view);
+        *self.clock = if observer == Observer::Finished { 0.0 } else { left };
         fill_adjacency(view, view.kind(decision.aircraft), self.adjacency);
         self.mask.fill(0.0);
         self.mask_i8.fill(0);
-        for vertiport in to.feasible(decision, view).iter() {
+        for vertiport in observer.feasible(decision, view).iter() {
             self.mask[vertiport.at()] = 1.0;
             self.mask_i8[vertiport.at()] = 1;
         }
@@ -91,7 +97,7 @@ impl<'py> Arrays<'py> {
         decision: &Decision,
         view: View<'_>,
         scales: &Scales,
-        to: To,
+        observer: Observer,
     ) -> PyResult<Self> {
         let shape = shape(view.vertiports());
         let size = shape.vertiports;
@@ -104,7 +110,7 @@ impl<'py> Arrays<'py> {
             mask: numbers(size),
             mask_i8: PyArray1::zeros(py, size, false),
         };
-        Shown {
+        ObservationRow {
             nodes: arrays.nodes.readwrite().as_slice_mut()?,
             aircraft: arrays.aircraft.readwrite().as_slice_mut()?,
             clock: &mut arrays.clock.readwrite().as_slice_mut()?[0],
@@ -112,7 +118,7 @@ impl<'py> Arrays<'py> {
             mask: arrays.mask.readwrite().as_slice_mut()?,
             mask_i8: arrays.mask_i8.readwrite().as_slice_mut()?,
         }
-        .fill(decision, view, scales, to);
+        .fill(decision, view, scales, observer);
         Ok(arrays)
     }
 

@@ -1,4 +1,4 @@
-//! Whole numbers as Python has them: of any size, until it is known what they are for.
+//! WholeNumber numbers as Python has them: of any size, until it is known what they are for.
 
 use pyo3::prelude::*;
 use pyo3::{Borrowed, PyErr};
@@ -7,9 +7,9 @@ use crate::failure::Failure;
 
 /// A whole number; one that is far beyond all that is taken anywhere is as good as any other.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Whole(i128);
+pub(crate) struct WholeNumber(i128);
 
-impl<'py> FromPyObject<'_, 'py> for Whole {
+impl<'py> FromPyObject<'_, 'py> for WholeNumber {
     type Error = PyErr;
 
     fn extract(number: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
@@ -20,13 +20,13 @@ impl<'py> FromPyObject<'_, 'py> for Whole {
     }
 }
 
-impl From<i32> for Whole {
+impl From<i32> for WholeNumber {
     fn from(number: i32) -> Self {
         Self(number.into())
     }
 }
 
-impl Whole {
+impl WholeNumber {
     /// The number as one that an argument of this name takes.
     pub(crate) fn of<T: TryFrom<i128>>(self, name: &str) -> Result<T, Failure> {
         T::try_from(self.0).map_err(|_| {
