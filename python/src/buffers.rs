@@ -3,16 +3,16 @@
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use vertifleet_learn::nn::Shape;
 
 use crate::observation::ObservationRow;
 
-/// Arrays for one observation of every day of a batch.
+/// Arrays of floats that an observation has, in this order: nodes, aircraft, clock, adjacency, mask.
+const FLOATS: usize = 5;
+
+/// Arrays for one observation of every day of a batch: the [`FLOATS`], and the mask once more as whole numbers.
 pub(crate) struct Observations {
-    nodes: Py<PyArray2<f32>>,
-    aircraft: Py<PyArray2<f32>>,
-    clock: Py<PyArray2<f32>>,
-    adjacency: Py<PyArray2<f32>>,
-    mask: Py<PyArray2<f32>>,
+    floats: [Py<PyArray2<f32>>; FLOATS],
     mask_i8: Py<PyArray2<i8>>,
 }
 
@@ -26,11 +26,7 @@ pub(crate) struct Outcomes {
 
 /// The right to write to [`Observations`]; Python holds the arrays meanwhile, and numpy refuses to lend them twice.
 pub(crate) struct ObservationsLent<'py> {
-    nodes: PyReadwriteArray2<'py, f32>,
-    aircraft: PyReadwriteArray2<'py, f32>,
-    clock: PyReadwriteArray2<'py, f32>,
-    adjacency: PyReadwriteArray2<'py, f32>,
-    mask: PyReadwriteArray2<'py, f32>,
+    floats: [PyReadwriteArray2<'py, f32>; FLOATS],
     mask_i8: PyReadwriteArray2<'py, i8>,
 }
 
@@ -44,12 +40,9 @@ pub(crate) struct OutcomesLent<'py> {
 
 /// Rows of observations.
 pub(crate) struct ObservationRows<'a> {
-    nodes: &'a mut [f32],
-    aircraft: &'a mut [f32],
-    clock: &'a mut [f32],
-    adjacency: &'a mut [f32],
-    mask: &'a mut [f32],
+    floats: [&'a mut [f32]; FLOATS],
     mask_i8: &'a mut [i8],
+    rows: usize,
 }
 
 /// Rows of outcomes.
@@ -63,32 +56,27 @@ pub(crate) struct OutcomeRows<'a> {
 
 impl Observations {
     pub(crate) fn new(py: Python<'_>, rows: usize, vertiports: usize) -> Self {
-        let shape = vertifleet_learn::shape(vertiports);
-        let numbers = |width| PyArray2::zeros(py, [rows, width], false).unbind();
+        let Shape { node_features, aircraft_features, .. } = vertifleet_learn::shape(vertiports);
+        let pairs = vertiports * vertiports;
+        let widths = [vertiports * node_features, aircraft_features, 1, pairs, vertiports];
         Self {
-            nodes: numbers(vertiports * shape.node_features),
-            aircraft: numbers(shape.aircraft_features),
-            clock: numbers(1),
-            adjacency: numbers(vertiports * vertiports),
-            mask: numbers(vertiports),
+            floats: widths.map(|width| PyArray2::zeros(py, [rows, width], false).unbind()),
             mask_i8: PyArray2::zeros(py, [rows, vertiports], false).unbind(),
         }
     }
 
     /// Nodes, aircraft, clock, adjacency, mask, and the mask as int8.
     pub(crate) fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let Self { nodes, aircraft, clock, adjacency, mask, mask_i8 } = self;
-        (nodes, aircraft, clock, adjacency, mask, mask_i8).into_pyobject(py)
+        let [nodes, aircraft, clock, adjacency, mask] = &self.floats;
+        (nodes, aircraft, clock, adjacency, mask, &self.mask_i8).into_pyobject(py)
     }
 
     /// An error if an array was made read-only.
     pub(crate) fn lend<'py>(&self, py: Python<'py>) -> PyResult<ObservationsLent<'py>> {
+        let [nodes, aircraft, clock, adjacency, mask] =
+            self.floats.each_ref().map(|array| array.bind(py).try_readwrite());
         Ok(ObservationsLent {
-            nodes: self.nodes.bind(py).try_readwrite()?,
-            aircraft: self.aircraft.bind(py).try_readwrite()?,
-            clock: self.clock.bind(py).try_readwrite()?,
-            adjacency: self.adjacency.bind(py).try_readwrite()?,
-            mask: self.mask.bind(py).try_readwrite()?,
+            floats: [nodes?, aircraft?, clock?, adjacency?, mask?],
             mask_i8: self.mask_i8.bind(py).try_readwrite()?,
         })
     }
@@ -124,13 +112,14 @@ impl Outcomes {
 
 impl ObservationsLent<'_> {
     pub(crate) fn rows(&mut self) -> PyResult<ObservationRows<'_>> {
+        let [nodes, aircraft, clock, adjacency, mask] =
+            self.floats.each_mut().map(|array| array.as_slice_mut());
+        let clock = clock?;
+        let rows = clock.len();
         Ok(ObservationRows {
-            nodes: self.nodes.as_slice_mut()?,
-            aircraft: self.aircraft.as_slice_mut()?,
-            clock: self.clock.as_slice_mut()?,
-            adjacency: self.adjacency.as_slice_mut()?,
-            mask: self.mask.as_slice_mut()?,
+            floats: [nodes?, aircraft?, clock, adjacency?, mask?],
             mask_i8: self.mask_i8.as_slice_mut()?,
+            rows,
         })
     }
 }
@@ -147,37 +136,27 @@ impl OutcomesLent<'_> {
 }
 
 impl ObservationRows<'_> {
-    /// Room for what row `row` shows.
+    /// The arrays of the observation in row `row`.
     pub(crate) fn row(&mut self, row: usize) -> ObservationRow<'_> {
-        let rows = self.clock.len();
-        ObservationRow {
-            nodes: one_of(self.nodes, row, rows),
-            aircraft: one_of(self.aircraft, row, rows),
-            clock: &mut self.clock[row],
-            adjacency: one_of(self.adjacency, row, rows),
-            mask: one_of(self.mask, row, rows),
-            mask_i8: one_of(self.mask_i8, row, rows),
-        }
+        let [nodes, aircraft, clock, adjacency, mask] =
+            self.floats.each_mut().map(|table| one_of(table, row, self.rows));
+        let mask_i8 = one_of(self.mask_i8, row, self.rows);
+        ObservationRow { nodes, aircraft, clock: &mut clock[0], adjacency, mask, mask_i8 }
     }
 
     /// The rows before `first`, and the others.
     pub(crate) fn split(self, first: usize) -> (Self, Self) {
-        let rows = self.clock.len();
-        let (nodes, more_nodes) = parted(self.nodes, first, rows);
-        let (aircraft, more_aircraft) = parted(self.aircraft, first, rows);
-        let (clock, more_clock) = self.clock.split_at_mut(first);
-        let (adjacency, more_adjacency) = parted(self.adjacency, first, rows);
-        let (mask, more_mask) = parted(self.mask, first, rows);
-        let (mask_i8, more_mask_i8) = parted(self.mask_i8, first, rows);
+        let rows = self.rows;
+        let [nodes, aircraft, clock, adjacency, mask] =
+            self.floats.map(|table| parted(table, first, rows));
+        let (mask_i8, others_i8) = parted(self.mask_i8, first, rows);
         let others = Self {
-            nodes: more_nodes,
-            aircraft: more_aircraft,
-            clock: more_clock,
-            adjacency: more_adjacency,
-            mask: more_mask,
-            mask_i8: more_mask_i8,
+            floats: [nodes.1, aircraft.1, clock.1, adjacency.1, mask.1],
+            mask_i8: others_i8,
+            rows: rows - first,
         };
-        (Self { nodes, aircraft, clock, adjacency, mask, mask_i8 }, others)
+        let floats = [nodes.0, aircraft.0, clock.0, adjacency.0, mask.0];
+        (Self { floats, mask_i8, rows: first }, others)
     }
 }
 

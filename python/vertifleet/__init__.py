@@ -1,9 +1,9 @@
 """Fleets of electric air taxis: where every aircraft flies next, so that the day earns the most.
 
-Everything here is the Rust program's own work on the same rules. `Network` draws days, `simulate` plays
-one, `compare` many with many policies, `sweep` does so on variations of a network, `bound` proves what a day
-can earn at most, `plan` looks for the best schedule, `check` judges one, and `train` trains the learned
-policies. Importing the package registers the Gymnasium environment ``vertifleet/Fleet-v0``.
+The Rust program does all the work here, by the same rules. `Network` draws days, `simulate` plays one day,
+`compare` plays many days with many policies, `sweep` compares on variations of a network, `bound` proves how
+much a day can earn at most, `plan` searches for the best schedule, `check` checks a schedule against the
+rules, and `train` trains the learned policies. Importing the package registers the Gymnasium environment ``vertifleet/Fleet-v0``.
 `vertifleet.torch` has the learned policies as PyTorch modules; `vertifleet.sb3` and `vertifleet.ray` train
 them with those libraries.
 """

@@ -17,10 +17,10 @@ from vertifleet._errors import Error
 from vertifleet._native import Comparison, Model, Network, Scenario
 
 Own: TypeAlias = Callable[[dict[str, NDArray[np.float32]]], SupportsIndex]
-"""A policy of the caller's own: from what ``vertifleet/Fleet-v0`` shows to the position of a vertiport."""
+"""A policy of the caller's own: maps an observation of ``vertifleet/Fleet-v0`` to a vertiport's position."""
 
 Given: TypeAlias = str | os.PathLike[str] | Model | Own
-"""What a policy's name may stand for: a weight file, a model, or a function."""
+"""What a policy's name may refer to: a weight file, a model, or a function."""
 
 
 def compare(
@@ -36,27 +36,29 @@ def compare(
     policy_seed: SupportsIndex | None = None,
     threads: int | None = None,
 ) -> Comparison:
-    """Plays days of a network, or days of one's own, with every policy; all meet the same days.
+    """Plays days of a network, or days of your own, with every policy; all policies play the same days.
 
     Args:
-        network: the network, its name, or the path of its file. With `days_from` it may be ``None``, and only
-            says as days of which network a function of `models` sees them.
-        policies: as ``vertifleet compare`` names them; "plan" is the planner, which knows the days.
-        days: how many; 100 by default.
-        seed: of the first day; the others follow; 1 by default.
-        days_from: days of one's own in place of drawn ones: a folder of scenario files (all ``*.json``, in
-            the order of their names), files, or scenarios. They have the same vertiports, and each a name of
-            its own.
-        models: what names stand for, weights or functions, where not for the rules and the shipped weights. A
-            function is asked about one decision at a time, but about several days in turn: one that remembers
-            anything between calls needs ``threads=1``, which plays day after day.
-        bound: whether every day gets a certified upper bound. Bounds are kept in the user's cache folder.
-        step: minutes for which the bounds' prices stay the same, 1 to 60; fewer give tighter bounds, later.
-        policy_seed: of the random policy and of the planner's search; `seed` by default, 0 with `days_from`.
-        threads: how many at most; all cores by default.
+        network: the network, its name, or the path of its file. With `days_from` it may be ``None``; it then
+            only sets the network whose features the functions of `models` see.
+        policies: names of policies, as in ``vertifleet compare``; "plan" is the planner, which knows the days.
+        days: number of days; 100 by default.
+        seed: seed of the first day; the following days take the following seeds; 1 by default.
+        days_from: days of your own instead of drawn ones: a folder of scenario files (all ``*.json``, in the
+            order of their names), files, or scenarios. They must have the same vertiports, and each must have
+            a name of its own.
+        models: weights or functions, by policy name, for names other than the rules and the shipped weights.
+            A function decides one decision at a time, but the days may take turns: a function that remembers
+            anything between calls needs ``threads=1``, which plays one day after the other.
+        bound: whether to prove an upper bound of every day. Bounds are kept in the user's cache folder.
+        step: length of the bounds' slices in minutes, 1 to 60; shorter slices give tighter bounds and take
+            longer.
+        policy_seed: seed of the random policy and of the planner's search; `seed` by default, 0 with
+            `days_from`.
+        threads: most threads to use; all cores by default.
 
     Raises:
-        Error: with the code that the program has for it; what a function of `models` raises is raised as is.
+        Error: with the program's code for the error; an exception of a function of `models` passes through.
     """
     function = "vertifleet.compare"
     if days_from is not None:
@@ -75,7 +77,7 @@ def compare(
 
 @dataclass(frozen=True)
 class Asked:
-    """What a comparison is asked for; parts of its days can be played apart."""
+    """The request for a comparison; parts of its days can be played separately."""
 
     function: str
     """The function of the package that was called."""
@@ -99,7 +101,7 @@ class Asked:
         step: SupportsIndex,
         policy_seed: SupportsIndex | None,
     ) -> Asked:
-        """What a function of the package was asked for; a single name would be a list of letters."""
+        """Makes the request from a call. A single policy name is refused: it would be a list of letters."""
         if isinstance(policies, str):
             raise Error(
                 "V451",
@@ -111,11 +113,11 @@ class Asked:
         return cls(function, names, index(days), index(seed), given, bound, index(step), seed_of_policies)
 
     def check(self, networks: Iterable[Network], stacklevel: int = 3) -> None:
-        """Refuses what cannot be played, and says what is hardly meant, each thing once, before any day is.
+        """Refuses what cannot be played, and warns of what is probably not intended, before any day is played.
 
         Args:
-            networks: those that are compared on.
-            stacklevel: how many levels up the user's call is.
+            networks: the networks that the days are drawn from.
+            stacklevel: number of levels from here up to the user's call.
         """
         asked = self._on(self.days, self.seed)
         texts = [text for network in networks for text in _native.check_comparison(network, asked)]
@@ -132,7 +134,7 @@ class Asked:
         days_from: str | os.PathLike[str] | Iterable[str | os.PathLike[str] | Scenario],
         threads: int | None,
     ) -> Comparison:
-        """Plays days of the caller's own, and says what is hardly meant."""
+        """Plays days of the caller's own, and warns of what is probably not intended."""
         given = [days_from] if isinstance(days_from, (str, os.PathLike)) else list(days_from)
         scenarios = [day for day in given if isinstance(day, Scenario)]
         paths = [day for day in given if not isinstance(day, Scenario)]
@@ -170,7 +172,7 @@ class Asked:
         return f"{self.function}({network.source}, {self._said(f'days={self.days}', f'seed={self.seed}')})"
 
     def _said(self, *days: str) -> str:
-        """What stands behind the network in the call, `days` being what is said of the days."""
+        """The arguments after the network in the call, with `days` as the arguments about the days."""
         said = list(days)
         if self.models:
             models = ", ".join(f"{name!r}: {_name(given)}" for name, given in self.models.items())
@@ -183,10 +185,10 @@ class Asked:
 
 
 def _name(given: Given) -> str:
-    """A function's name is the same every day; what Python prints of it is not."""
+    """The name of a function, or the text of another source. A function's `repr` changes with every run."""
     return getattr(given, "__qualname__", None) or repr(given)
 
 
 def network_of(network: str | os.PathLike[str] | Network) -> Network:
-    """The network itself, or the one of that name or path."""
+    """The network itself, or the network with that name or path."""
     return network if isinstance(network, Network) else Network(network)

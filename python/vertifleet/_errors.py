@@ -1,10 +1,10 @@
-"""Expected errors, as the program and its documentation name them."""
+"""Expected errors, with the codes of the program and its documentation."""
 
 from __future__ import annotations
 
 
 class Error(Exception):
-    """Something that the caller can put right.
+    """An error that the caller can fix.
 
     The error index of the documentation gives cause and fix of every code.
     """
@@ -12,11 +12,11 @@ class Error(Exception):
     def __init__(self, code: str, message: str, hint: str | None = None) -> None:
         super().__init__(code, message, hint)
         self.code = code
-        """The stable code, as ``V104``."""
+        """The stable code, for example ``V104``."""
         self.message = message
         """What is wrong, where and why."""
         self.hint = hint
-        """What helps beside the message, where there is more to say."""
+        """How to fix it, if the message does not say so already."""
 
     def __str__(self) -> str:
         text = f"{self.code}: {self.message}"

@@ -25,28 +25,28 @@ if TYPE_CHECKING:
     from vertifleet._native import Comparison, Network
 
 MEANS = ("profit_usd", "profit_low_usd", "profit_high_usd", "reward", "flights", "load_factor", "bound_share")
-"""The columns that are means over the days; the last is there where bounds were asked for."""
+"""The columns that are means over the days; the last exists only if bounds were asked for."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Sweep:
-    """Variations of a network, and how every policy does on each."""
+    """Variations of a network, with the results of every policy on each."""
 
     network: str
     """Name of the network."""
     policies: tuple[str, ...]
     """The policies, in the order they were asked for."""
     points: tuple[tuple[dict[str, Any], Comparison], ...]
-    """The variations in their order: what was changed, and the comparison there."""
+    """The variations in their order: what was changed, and the comparison with that change."""
 
     @property
     def columns(self) -> dict[str, NDArray[Any]]:
         """A row for each point and policy, as numpy arrays by column.
 
-        First what was changed, a column for each path of the network file, then ``policy``, then means over
-        the days: ``profit_usd`` with its 95 % confidence interval from ``profit_low_usd`` to
-        ``profit_high_usd`` (not a number for a single day), ``reward``, ``flights``, ``load_factor``, and
-        ``bound_share`` where bounds were asked for.
+        The first columns are what was changed, one for each path of the network file. Then come ``policy``
+        and the means over the days: ``profit_usd`` with its 95 % confidence interval from ``profit_low_usd``
+        to ``profit_high_usd`` (NaN for a single day), ``reward``, ``flights``, ``load_factor``, and
+        ``bound_share`` if bounds were asked for.
         """
         rows = list(self._rows())
         return {name: _column([row[name] for row in rows]) for name in rows[0]}
@@ -58,14 +58,14 @@ class Sweep:
                 yield changes | {"policy": name} | _means(of_policy[name])
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Its columns as a pandas frame."""
+        """The columns as a pandas frame."""
         from pandas import DataFrame
 
         frame: pandas.DataFrame = DataFrame(self.columns)
         return frame
 
     def to_polars(self) -> polars.DataFrame:
-        """Its columns as a polars frame."""
+        """The columns as a polars frame."""
         from polars import DataFrame
 
         return DataFrame(self.columns)
@@ -97,27 +97,27 @@ def sweep(
 ) -> Sweep:
     """Compares policies on variations of a network, all on days of the same seeds.
 
-    On six variations, for example::
+    For example, this compares on six variations::
 
         sweep(network, {"fleet.0.count": [36, 40, 44], "vertiports.*.stands": [6, 8]}, ["greedy", "prices"])
 
     Args:
-        network: what is varied: the network, its name, or the path of its file.
-        changes: values by paths of the network file, as :meth:`Network.changed` takes them. Every combination
-            is a point; the values of the last path change fastest. Where two paths lead to one member, the
-            later one wins.
-        policies: as for :func:`compare`, and so is all that follows.
+        network: the network to vary, its name, or the path of its file.
+        changes: lists of values by paths of the network file, as in :meth:`Network.changed`. Every
+            combination is a point; the values of the last path change fastest. If two paths lead to the same
+            member, the later one wins.
+        policies: as in :func:`compare`, like all arguments that follow.
         days: number of days.
         seed: seed of the first day.
-        models: what names stand for: weight files, models, or functions from an observation to an action.
-        bound: whether every day's upper bound is proven.
-        step: minutes for which the bound's prices stay the same.
+        models: weight files, models, or functions from an observation to an action, by policy name.
+        bound: whether to prove an upper bound of every day.
+        step: length of the bound's slices in minutes.
         policy_seed: seed of the random policy and of the planner's search.
-        threads: number of threads; all cores without.
+        threads: most threads to use; all cores by default.
 
     Raises:
-        Error: V123 if a path leads nowhere, V451 if `changes` are no lists of values; else as a network file
-            with the change would be refused, before any day is played, or as :func:`compare` refuses.
+        Error: V123 if a path leads nowhere, V451 if `changes` are not lists of values; the error of a network
+            file with the change, before any day is played; and those of :func:`compare`.
     """
     network = network_of(network)
     points = variations(network, changes)
@@ -130,7 +130,7 @@ def sweep(
 def variations(
     network: Network, changes: Mapping[str, Iterable[Any]]
 ) -> list[tuple[dict[str, Any], Network]]:
-    """Every combination of the values: what is changed, and the network with the change."""
+    """Every combination of the values, with the network that has the change."""
     values = [_values(path, values) for path, values in changes.items()]
     grid = [dict(zip(changes, point, strict=True)) for point in itertools.product(*values)]
     return [(point, network.changed(point)) for point in grid]
@@ -139,12 +139,12 @@ def variations(
 def together(
     points: Sequence[tuple[dict[str, Any], Network]], comparisons: Sequence[Comparison]
 ) -> tuple[tuple[dict[str, Any], Comparison], ...]:
-    """What was changed, with the comparison there."""
+    """What was changed at each point, with the comparison on that network."""
     return tuple((changes, found) for (changes, _), found in zip(points, comparisons, strict=True))
 
 
 def _values(path: str, values: Iterable[Any]) -> list[Any]:
-    """The values as network files take them; numpy's numbers are made Python's."""
+    """The values as network files take them; numpy's numbers are converted to Python's."""
     if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__iter__"):
         raise Error("V451", f"changes: {path} must have a list of values, found {values!r}")
     listed = [value.item() if isinstance(value, np.generic) else value for value in values]
@@ -154,7 +154,7 @@ def _values(path: str, values: Iterable[Any]) -> list[Any]:
 
 
 def _means(policy: Mapping[str, Any]) -> dict[str, float]:
-    """What a comparison's summary says of a policy, by column."""
+    """The means of a policy from a comparison's summary, by column."""
     profit, share = policy["profit_usd"], policy["bound_share"]
     half_width = math.nan if profit["half_width_95"] is None else profit["half_width_95"]
     means = {
@@ -169,7 +169,7 @@ def _means(policy: Mapping[str, Any]) -> dict[str, float]:
 
 
 def _column(values: list[Any]) -> NDArray[Any]:
-    """An array of numbers, texts or truths; of objects where they are none of these, or mixed."""
+    """An array of numbers, texts or bools; an array of objects if the values are of other or mixed types."""
     kinds = {type(value) for value in values}
     if kinds <= {int, float} or kinds in ({str}, {bool}):
         return np.array(values)
@@ -179,7 +179,7 @@ def _column(values: list[Any]) -> NDArray[Any]:
 
 
 def _shown(row: Mapping[str, Any]) -> dict[str, str]:
-    """A row's cells as people read them, by heading."""
+    """The cells of a row as text, by heading."""
     cells = {name: str(value) for name, value in row.items() if name not in MEANS}
     half_width = (row["profit_high_usd"] - row["profit_low_usd"]) / 2
     cells["profit, $ a day"] = f"{row['profit_usd']:,.0f}" + (
@@ -194,7 +194,7 @@ def _shown(row: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _table(rows: Sequence[Mapping[str, str]]) -> Iterator[str]:
-    """The lines of a table; the policies' names are set left, all else right."""
+    """The lines of a table; the policies' names are aligned left, all other cells right."""
     widths = {name: max(len(name), *(len(row[name]) for row in rows)) for name in rows[0]}
 
     def line(cells: Mapping[str, str]) -> str:

@@ -1,4 +1,4 @@
-"""`train`, with a network by its name or path."""
+"""`train`, which also takes a network by its name or path."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ def train(
     threads: int | None = None,
     watch: Callable[[dict[str, Any]], object] | None = None,
 ) -> Training:
-    """Trains a policy by the program's own trainer, as ``vertifleet train`` does, and at its speed.
+    """Trains a policy with the program's own trainer, as ``vertifleet train`` does, and as fast.
 
-    Ctrl-C ends it soon: the run is set aside as it stood after the last row of its curve, and the same call
-    with ``resume=True`` goes on, bit for bit as if it had never stopped.
+    Ctrl-C ends it soon: a checkpoint is written of the run as it was after the last row of its curve, and the
+    same call with ``resume=True`` continues from there, bit for bit as if the run had never stopped.
 
     Args:
         network: the network, its name, or the path of its file.
@@ -38,17 +38,17 @@ def train(
         out: folder for weights, learning curve, checkpoint and TensorBoard's events; it may hold runs of
             several policies.
         preset: settings to start from: "default", or "paper" for "gcaps" and "mlp".
-        settings: settings to change by their names, as ``--set`` does.
-        seed: first weights, training days and choices follow from it.
-        resume: whether to go on with the run in the folder, which has the same network, policy, settings and
-            seed.
-        force: whether files may be replaced that the program did not write, or that are read-only.
-        threads: how many at most; all cores by default. Results are the same with any number.
-        watch: is called with every new row of the learning curve, a dict; where it raises, the run is set
-            aside.
+        settings: settings to change, by name, as ``--set`` does.
+        seed: seed of the run; first weights, training days and choices follow from it.
+        resume: whether to resume the run in the folder, which must have the same network, policy, settings
+            and seed.
+        force: whether to replace files that the program did not write or that are read-only.
+        threads: most threads to use; all cores by default. Results are the same with any number.
+        watch: called with every new row of the learning curve, a dict; if it raises, a checkpoint is written
+            and the run ends.
 
     Raises:
-        Error: with the code that the program has for it, such as V311 for a folder with an earlier run.
+        Error: with the program's code for the error, such as V311 for a folder with an earlier run.
     """
     return _native.train(
         network_of(network),

@@ -1,4 +1,4 @@
-"""The fleet as a PettingZoo environment: agents act in turn (AEC), one agent an aircraft.
+"""The fleet as a PettingZoo environment: every aircraft is an agent, and agents act in turn (AEC).
 
 Needs PettingZoo: ``pip install vertifleet[pettingzoo]``.
 """
@@ -29,17 +29,17 @@ def env(
     reward: Literal["terminal", "dense"] = "terminal",
     render_mode: None = None,
 ) -> AECEnv[str, dict[str, Any], int]:
-    """The environment with PettingZoo's usual wrapper, which tells when calls come in a wrong order."""
+    """The environment with PettingZoo's usual wrapper, which reports calls in a wrong order."""
     return wrappers.OrderEnforcingWrapper(FleetAEC(network, reward, render_mode))
 
 
 class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
-    """Agent ``aircraft_k`` decides for aircraft k whenever that one is ready for take-off.
+    """Agent ``aircraft_k`` decides for aircraft k whenever that aircraft is ready for take-off.
 
     Actions, features and masks are those of ``vertifleet/Fleet-v0``; an observation is ``{"observation":
-    {"nodes", "aircraft", "clock", "adjacency"}, "action_mask"}``, as the agent would see the network now. An
-    agent is paid what its own flights earn, over the potential revenue of the day: by the flight
-    (``reward="dense"``) or all at the end (``"terminal"``). The rewards of all agents add up to that of
+    {"nodes", "aircraft", "clock", "adjacency"}, "action_mask"}``, as the agent would see the network now. The
+    reward of an agent is what its own flights earn, over the potential of the day: paid flight by flight
+    (``reward="dense"``) or all at the end (``"terminal"``). The rewards of all agents add up to the reward of
     ``vertifleet/Fleet-v0``. All agents terminate with the day, and their infos have its numbers as
     ``summary``. The mask is in the info of the agent that decides, and in all infos at the end. An
     environment can be copied and pickled in the middle of a day; copies share its network and spaces.
@@ -59,7 +59,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         self.network = network_of(network)
         self.reward = reward
         self.render_mode = render_mode
-        # Paid by the flight, so that it is known whose each dollar is.
+        # The native environment pays flight by flight, which shows which agent earned each dollar.
         self._environment = Environment(self.network, "dense")
         self.possible_agents = [f"aircraft_{position}" for position in range(self.network.fleet_size)]
         self._positions = {agent: position for position, agent in enumerate(self.possible_agents)}
@@ -75,20 +75,20 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         self._np_random: np.random.Generator | None = None
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
-        """The same for all agents."""
+        """The space of observations, which is the same for all agents."""
         return self.observation_spaces[agent]
 
     def action_space(self, agent: str) -> spaces.Space[Any]:
-        """The vertiports; the agent's own means hold."""
+        """The positions of the vertiports; that of the agent's own vertiport means hold."""
         return self.action_spaces[agent]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
         """Begins the day that ``vertifleet/Fleet-v0`` has for this seed, or ``options["scenario"]``.
 
         Raises:
-            Error: V451 for other options, or a day of another number of vertiports or aircraft.
+            Error: V451 for other options, or for a day with another number of vertiports or aircraft.
         """
-        # PettingZoo's own test passes an option of this name, to see whether options are taken at all.
+        # PettingZoo's own test passes an option of this name to check that options are accepted.
         scenario: Scenario | None = options_of(options, "options").get("scenario")
         if seed is not None or self._np_random is None:
             self._np_random = seeding.np_random(seed)[0]
@@ -112,11 +112,11 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
 
     @property
     def scenario(self) -> Scenario | None:
-        """The day in progress, or that ended last; none before the first."""
+        """The day in progress, or the day that ended last; None before the first day."""
         return self._environment.scenario
 
     def observe(self, agent: str) -> dict[str, Any]:
-        """What the network shows to an agent now; to one that does not decide, only hold is feasible."""
+        """The observation of an agent now; for an agent that does not decide, only hold is feasible."""
         observation, mask = self._environment.observe(self._positions[agent])
         del observation["action_mask"]
         return {"observation": observation, "action_mask": mask}
@@ -125,10 +125,10 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         """Carries the decision of the selected agent out and goes on to the next.
 
         Args:
-            action: the position of a vertiport; None, as PettingZoo has it, of an agent that has terminated.
+            action: the position of a vertiport; None for an agent that has terminated, as in PettingZoo.
 
         Raises:
-            Error: V451 for an action that is no whole number.
+            Error: V451 for an action that is not a whole number.
         """
         agent = self.agent_selection
         if self.terminations[agent]:
@@ -157,7 +157,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         self.infos[self.agent_selection]["action_mask"] = self._environment.mask().astype(np.int8)
 
     def _end(self) -> None:
-        """Ends the day for all agents: they are told its numbers, and none can do anything but hold."""
+        """Ends the day for all agents: their infos get its numbers, and only hold is feasible."""
         self.terminations = dict.fromkeys(self.agents, True)
         summary = self._environment.summary
         for agent in self.agents:

@@ -214,15 +214,8 @@ pub(crate) struct CompareArguments {
     /// Minutes for which the bound's prices stay the same at most, 1 to 60; fewer never give a looser bound, and take longer
     #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Print the results as JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Write table, figures and a report page into this folder, in place of an earlier report
-    #[arg(long, value_name = "DIR")]
-    pub(crate) report: Option<PathBuf>,
-    /// Replace a read-only report, and move any other folder of that name to DIR.old; never what the command reads
-    #[arg(long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) presented: PresentedArguments,
 }
 
 #[derive(Debug, Args)]
@@ -239,10 +232,17 @@ pub(crate) struct GeneraliseArguments {
     /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer never give looser bounds, and take longer
     #[arg(long, value_name = "MIN", default_value_t = 3, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
+    #[command(flatten)]
+    pub(crate) presented: PresentedArguments,
+}
+
+/// How a study is shown.
+#[derive(Debug, Args)]
+pub(crate) struct PresentedArguments {
     /// Print the results as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Write table, figure and a report page into this folder, in place of an earlier report
+    /// Write table, figures and a report page into this folder, in place of an earlier report
     #[arg(long, value_name = "DIR")]
     pub(crate) report: Option<PathBuf>,
     /// Replace a read-only report, and move any other folder of that name to DIR.old; never what the command reads

@@ -16,6 +16,7 @@ use vertifleet_core::{Network, Outputs, Scenario};
 use vertifleet_study::PolicySource;
 use vertifleet_study::report::{self, Records};
 
+use crate::args::PresentedArguments;
 use crate::failure::Failure;
 use crate::output::{print, warn};
 
@@ -63,26 +64,20 @@ fn warn_of_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     }
 }
 
-/// Checks, before any day is played, that a report can be written to this folder without replacing anything that is
-/// read.
-fn claim_report(folder: Option<&Path>, outputs: &mut Outputs, force: bool) -> Result<(), Failure> {
-    if let Some(folder) = folder {
+/// Makes sure, before any day is played, that the report can be written where it is asked for and replaces nothing that is read.
+fn claim_report(arguments: &PresentedArguments, outputs: &mut Outputs) -> Result<(), Failure> {
+    if let Some(folder) = &arguments.report {
         outputs.replaces_folder(folder)?;
-        report::check_folder(folder, force)?;
+        report::check_folder(folder, arguments.force)?;
     }
     Ok(())
 }
 
-/// Prints a study, and writes its report if one was asked for.
-fn present(
-    study: &impl Records,
-    json: bool,
-    folder: Option<&Path>,
-    force: bool,
-) -> Result<(), Failure> {
-    print(&if json { study.json()? } else { study.text()? })?;
-    if let Some(folder) = folder {
-        let written = report::write(study, folder, force)?;
+/// Prints a study, and writes its report where one is asked for.
+fn present(study: &impl Records, arguments: &PresentedArguments) -> Result<(), Failure> {
+    print(&if arguments.json { study.json()? } else { study.text()? })?;
+    if let Some(folder) = &arguments.report {
+        let written = report::write(study, folder, arguments.force)?;
         if let Some(kept) = &written.kept {
             eprintln!("what was there before is now {}", kept.display());
         }

@@ -34,7 +34,8 @@ pub enum Error {
     },
 
     /// V103. The file is longer than any file of its kind has reason to be (64 MiB for a scenario, 32 MiB for a
-    /// network, 16 MiB for a table of demand). Fix: check that it is the right file; describe fewer or longer demand periods.
+    /// network, 16 MiB for a table of demand). Fix: check that it is the right file; describe fewer or longer demand
+    /// periods.
     #[error("{origin}: the file is longer than {limit} bytes")]
     FileTooLarge {
         /// The path.
@@ -281,8 +282,8 @@ pub enum Error {
         vertiport: String,
     },
 
-    /// V123. A change of a network names a member by a path that leads nowhere. Fix: name members as they stand in the network
-    /// file, and the entries of a list by their `id` or their position from 0.
+    /// V123. A change of a network names a member by a path that leads nowhere. Fix: name members as they stand in the
+    /// network file, and the entries of a list by their `id` or their position from 0.
     #[error("{path:?} leads nowhere: there is no {part:?}")]
     NoSuchMember {
         /// The path.
@@ -291,8 +292,9 @@ pub enum Error {
         part: String,
     },
 
-    /// V130. A file of another kind is given: a network file where a scenario is expected, or the other way round. Fix: draw a
-    /// scenario from the network with `vertifleet scenario`, or give the network that the scenario was drawn from.
+    /// V130. A file of another kind is given: a network file where a scenario is expected, or the other way round. Fix:
+    /// draw a scenario from the network with `vertifleet scenario`, or give the network that the scenario was drawn
+    /// from.
     #[error("{origin}: this is {found}, and {expected} is expected")]
     WrongKind {
         /// The file.
@@ -320,8 +322,8 @@ pub enum Error {
         found: String,
     },
 
-    /// V132. A network names a table of demand beside its file, but is given as a text, which lies in no folder. Fix: read the
-    /// network from its file, or put the table's rows into it as `pairs`.
+    /// V132. A network names a table of demand beside its file, but is given as a text, which lies in no folder. Fix:
+    /// read the network from its file, or put the table's rows into it as `pairs`.
     #[error(
         "{origin}: hourly_demand: table {table:?} is to be read from the folder of the network file, and there is none"
     )]
@@ -332,7 +334,8 @@ pub enum Error {
         table: String,
     },
 
-    /// V133. Hourly demand of one pair, or of one pair and period in a table, is given twice. Fix: remove one of the two.
+    /// V133. Hourly demand of one pair, or of one pair and period in a table, is given twice. Fix: remove one of the
+    /// two.
     #[error("{origin}: {member} gives the demand of {what} again")]
     GivenTwice {
         /// The network or table.

@@ -16,7 +16,8 @@ pub enum OutputError {
         input: String,
     },
 
-    /// V142. Two results of one command would go to the same file, so that one of them would be lost. Fix: name two files.
+    /// V142. Two results of one command would go to the same file, so that one of them would be lost. Fix: name two
+    /// files.
     #[error("{second}: cannot be written, because this command writes it already (as {first})")]
     Twice {
         /// The first name of the file.

@@ -129,7 +129,8 @@ pub struct Day {
     pub disturbances: Disturbances,
 }
 
-/// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, no vertiport has more aircraft than stands.
+/// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, no vertiport has more aircraft
+/// than stands.
 ///
 /// A scenario can be read like a [`Day`]. To change one, take it apart with [`Scenario::into_day`] and check it again.
 #[derive(Debug, Clone, PartialEq)]

@@ -43,7 +43,7 @@ mod tests {
         let stop = Stop::default();
         let heard = stop.clone();
         assert_eq!(heard.check(), Ok(()));
-        assert!(!stop.request() && stop.request(), "the second request is none");
+        assert!(!stop.request() && stop.request(), "only the second request finds an earlier one");
         assert_eq!((heard.check(), heard.is_requested()), (Err(Stopped), true));
     }
 }

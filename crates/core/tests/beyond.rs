@@ -323,7 +323,7 @@ fn a_network_closes_what_it_says_at_the_same_times_every_day() {
     for number in 0..20 {
         let mut day = closed.draw(seed(number)).into_day();
         let closures = std::mem::take(&mut day.disturbances.closures);
-        assert_eq!(day, open.draw(seed(number)).into_day(), "all else is as it is without");
+        assert_eq!(day, open.draw(seed(number)).into_day(), "closures change nothing else");
         // 7 routes lead to V3, and 7 to V5; one route joins the two.
         assert_eq!(closures.len(), 13 + 1 + 7 + 1);
         let all = ClosedTimes::of(&closures, 8);
@@ -355,7 +355,10 @@ fn closures_of_every_day_come_beside_those_that_are_drawn() {
         let drawn = drawn.draw(seed(number)).into_day().disturbances.closures;
         let both = both.draw(seed(number)).into_day().disturbances.closures;
         assert_eq!(both[22..], drawn);
-        assert!(drawn.iter().all(|closure| !closure.known), "nobody knows what is drawn");
+        assert!(
+            drawn.iter().all(|closure| !closure.known),
+            "drawn closures are not known in advance"
+        );
     }
 }
 

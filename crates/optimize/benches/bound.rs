@@ -1,4 +1,4 @@
-//! Seconds that a certified bound of a `paper` day takes, on one core.
+//! The time to prove an upper bound of a `paper` day on one core.
 
 use std::hint::black_box;
 

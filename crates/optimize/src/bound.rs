@@ -1,9 +1,10 @@
-//! The certified upper bound: what no schedule of a day can earn more than.
+//! The certified upper bound: dollars that no schedule of a day earns more than.
 //!
-//! Stands and passengers get prices (`bound/prices.rs`). Prices prove a bound in exact arithmetic, whatever they are
-//! (`bound/certificate.rs`), over a day that is laid out once (`bound/time_expanded_day.rs`). What the fleet would do at them
-//! (`bound/ways.rs`) says how to better them (`bound/descent.rs`), from coarse slices of time to fine ones (`bound/ladder.rs`).
-//! docs/src/concepts/bound.md has the proof. A bound can be kept in a file (`bound/cache.rs`).
+//! Stands and passengers get prices (`bound/prices.rs`). Any prices prove a bound in exact arithmetic
+//! (`bound/certificate.rs`), over a day that is laid out once (`bound/time_expanded_day.rs`). What the fleet would do
+//! at the prices (`bound/ways.rs`) shows how to improve them (`bound/descent.rs`), from coarse slices of time to fine
+//! ones (`bound/ladder.rs`). docs/src/concepts/bound.md has the proof. The prices of a bound can be kept in a file
+//! (`bound/cache.rs`).
 
 mod cache;
 mod certificate;
@@ -29,17 +30,17 @@ use time_expanded_day::TimeExpandedDay;
 pub use cache::cached_upper_bound;
 pub(crate) use ladder::Watch;
 
-/// How long prices stay the same at most: a whole number of minutes from 1 to 60. A shorter step never gives a looser bound, and
-/// takes longer.
+/// The longest time over which prices stay the same: a whole number of minutes from 1 to 60. A shorter step never gives
+/// a looser bound, and takes longer.
 ///
-/// Slices of time have 60, 15, 5, 3 or 1 minutes: the longest of these that is no longer than the step asked for.
+/// Slices of time have 60, 15, 5, 3 or 1 minutes: the longest of these that is no longer than the requested step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
     minutes: u32,
 }
 
 impl Step {
-    /// Prices that stay the same for at most so many minutes.
+    /// A step in which prices stay the same for at most `minutes`.
     ///
     /// # Errors
     /// [`Error::Step`] unless `minutes` is from 1 to 60.
@@ -58,7 +59,7 @@ impl Step {
 }
 
 impl Default for Step {
-    /// 5 minutes.
+    /// A step of 5 minutes.
     fn default() -> Self {
         Self { minutes: 5 }
     }
@@ -70,13 +71,13 @@ pub struct Bound {
     step: Step,
     slices: Slices,
     prices: Prices,
-    /// By period, from, to: what one more passenger is worth at most, micro-dollars.
+    /// By period, from, to: the most that one more passenger is worth, micro-dollars.
     passenger_worth: Vec<i64>,
     micro_usd: i128,
     is_final: bool,
 }
 
-/// Proves how much a day can earn at most. Same scenario and step, same bound, bit for bit.
+/// Proves an upper bound of a day. The same scenario and step give the same bound, bit for bit.
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step.
@@ -85,10 +86,10 @@ pub fn upper_bound(scenario: &Scenario, step: Step) -> Result<Bound, Error> {
     Ok(upper_bound_unless(&never, scenario, step)?.expect("it is not stopped"))
 }
 
-/// As [`upper_bound`]; nothing, soon after `stopped` is raised.
+/// Does the same as [`upper_bound`], or returns `None` soon after `stopped` is requested.
 ///
 /// # Errors
-/// Those of [`upper_bound`].
+/// The errors of [`upper_bound`].
 pub fn upper_bound_unless(
     stopped: &Stop,
     scenario: &Scenario,
@@ -98,10 +99,11 @@ pub fn upper_bound_unless(
     Ok(bound.filter(|_| !stopped.is_requested()))
 }
 
-/// As [`upper_bound`], while `watch` follows it: the best bound by the time that it wants no more, none if that is before the first.
+/// Does the same as [`upper_bound`] while `watch` follows it. Returns the best bound when `watch` stops the search, or
+/// `None` if that is before the first bound.
 ///
 /// # Errors
-/// Those of [`upper_bound`].
+/// The errors of [`upper_bound`].
 pub(crate) fn search(
     scenario: &Scenario,
     step: Step,
@@ -110,15 +112,15 @@ pub(crate) fn search(
     ladder::climb(scenario, step, watch)
 }
 
-/// Whether a day is not too large for a bound with this step.
+/// Checks that a day is not too large for a bound with this step.
 ///
 /// # Errors
-/// [`Error::TooManyFlights`] if it is.
+/// [`Error::TooManyFlights`] if the day is too large.
 pub(crate) fn fits(scenario: &Scenario, step: Step) -> Result<(), Error> {
     TimeExpandedDay::fits(scenario, step.seconds())
 }
 
-/// Follows nothing.
+/// Ignores all progress, and only passes a request to stop on.
 struct Unless<'a> {
     stopped: &'a Stop,
 }
@@ -138,7 +140,7 @@ impl Watch for Unless<'_> {
 }
 
 impl Bound {
-    /// What prices have been found to prove.
+    /// The bound that the found prices prove.
     fn of(step: Step, network: &TimeExpandedDay, found: &Found) -> Self {
         Self {
             step,
@@ -150,36 +152,39 @@ impl Bound {
         }
     }
 
-    /// No schedule of the day earns more, dollars.
+    /// The bound: no schedule of the day earns more, dollars.
     pub fn upper_bound_usd(&self) -> f64 {
         money::usd_up(self.micro_usd)
     }
 
-    /// Whether the search for it came to its end. If not, time was over first, and a longer search may find a lower bound.
+    /// Whether the search came to its end. If not, it ran out of time, and a longer search may find a lower bound.
     pub fn is_final(&self) -> bool {
         self.is_final
     }
 
-    /// How long prices stay the same at most, seconds. It may be longer than what was asked for, where longer slices prove more.
+    /// Seconds over which prices stay the same at most. This may be longer than the requested step, where longer slices
+    /// prove more.
     pub fn step_s(&self) -> u32 {
         self.step.seconds()
     }
 
-    /// What one more stand costs during the step that contains a time, dollars. 0 past the last take-off time.
+    /// Price of one more stand during the slice that contains a time, dollars. 0 past the last take-off time.
     pub fn stand_price_usd(&self, vertiport: VertiportIx, time: Time) -> f64 {
         let slice = self.slices.containing(time.seconds());
         let at = slice * self.size() + vertiport.at();
         self.prices.stand.get(at).map_or(0.0, |&price| money::usd(price))
     }
 
-    /// With one more stand all day, no schedule earns more than the bound and so many dollars: its price over the day.
+    /// Price of a stand over the whole day, dollars. With one more stand all day, no schedule earns more than the bound
+    /// plus this amount.
     pub fn stand_worth_usd(&self, vertiport: VertiportIx) -> f64 {
         let prices = self.prices.stand.iter().skip(vertiport.at());
         money::usd(prices.step_by(self.size()).sum())
     }
 
-    /// With one more passenger of a demand period, no schedule earns more than the bound and so many dollars: the passenger's price, or
-    /// all that a passenger earns where fewer want to fly than an aircraft has seats.
+    /// With one more passenger of a demand period, no schedule earns more than the bound plus this amount in dollars.
+    /// It is the passenger's price, or the whole margin of a passenger where fewer want to fly than an aircraft has
+    /// seats.
     pub fn passenger_worth_usd(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
         let size = self.size();
         money::usd(self.passenger_worth[(period * size + from.at()) * size + to.at()])

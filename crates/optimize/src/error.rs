@@ -1,23 +1,24 @@
-//! What can go wrong on the exact side, with stable codes (V5xx).
+//! Errors of the bound and the planner, with stable codes (V5xx).
 
 use vertifleet_core::{Code, Coded, Exit};
 
-/// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for machines and the error index.
+/// An expected error of this crate. Messages are fragments for users; [`Error::code`] is for programs and the error
+/// index.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A file that cannot be written (V102), as `vertifleet-core` says it.
+    /// A file that cannot be written (V102), as reported by `vertifleet-core`.
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
-    /// V501. The step of a bound is no whole number of minutes from 1 to 60. Fix: name one that is; 5 is usual.
+    /// V501. The step of a bound is not a whole number of minutes from 1 to 60. Fix: name one that is; 5 is usual.
     #[error("the step must be a whole number of minutes from 1 to 60, found {found}")]
     Step {
-        /// The minutes.
+        /// The step in minutes.
         found: u32,
     },
 
-    /// V502. The day is too large for a bound: types x pairs of vertiports x slices, or types x vertiports x seconds. Fix:
-    /// a longer step for the first; fewer vertiports, types or hours for the second.
+    /// V502. The day is too large for a bound: types x pairs of vertiports x slices, or types x vertiports x seconds.
+    /// Fix: a longer step for the first; fewer vertiports, types or hours for the second.
     #[error(
         "steps of {step_s} s give {flights} possible flights and {places} places and seconds, and a bound takes at most \
          {most_flights} and {most_places}"
@@ -25,18 +26,18 @@ pub enum Error {
     TooManyFlights {
         /// The step, seconds.
         step_s: u32,
-        /// Flights in all slices.
+        /// Number of flights in all slices.
         flights: usize,
-        /// The most of them that a bound takes.
+        /// The most flights that a bound takes.
         most_flights: usize,
-        /// Places of aircraft in all seconds.
+        /// Number of places of aircraft in all seconds.
         places: usize,
-        /// The most of them that a bound takes.
+        /// The most places that a bound takes.
         most_places: usize,
     },
 
-    /// V503. A vertiport has chargers beside its stands, which the planner does not know. Fix: play such days with a policy, or
-    /// give the vertiport one pool.
+    /// V503. A vertiport has chargers beside its stands, which the planner does not support. Fix: play such days with a
+    /// policy, or give the vertiport one pool.
     #[error(
         "{day}: vertiport {vertiport:?} has chargers beside its stands, and the planner knows one pool only"
     )]

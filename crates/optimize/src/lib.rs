@@ -1,9 +1,10 @@
-//! The exact side: what a day could earn at most, and schedules that come close to it.
+//! Upper bounds on the profit of a day, and schedules that come close to them.
 //!
-//! [`upper_bound`] proves that no schedule of a known day earns more than so much; the planner looks for the schedule
-//! that earns the most, and the two together say how far it is from the best. [`Rolling`] decides while the day goes on.
+//! [`upper_bound`] proves how much no schedule of a known day can exceed. The planner searches for the schedule that
+//! earns the most, and the two together show how far it can be from the best. [`Rolling`] decides while the day goes
+//! on.
 //!
-//! This crate builds on `vertifleet-policy`, whose policies' days the planner begins from.
+//! This crate builds on `vertifleet-policy`; the planner starts from days played by its policies.
 //!
 //! ```
 //! use vertifleet_core::{DaySeed, Network};

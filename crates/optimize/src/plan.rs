@@ -1,11 +1,12 @@
-//! The planner: the best schedule it can find for a day that is known.
+//! The planner, which searches for the best schedule of a day that is known.
 //!
 //! [`plan`] starts from the best day of any policy (`plan/start.rs`) and improves it by large-neighbourhood search
-//! (`plan/search.rs`), whose moves are exact: the best way on for one aircraft while the others keep their flights
-//! (`plan/route_search.rs`). What it returns has been played in the simulator.
+//! (`plan/search.rs`). The moves of the search are exact: each finds the best rest of the day for one aircraft while
+//! the others keep their flights (`plan/route_search.rs`). The plan that is returned has been played in the simulator.
 
 mod day;
 mod foresight;
+mod hop;
 mod problem;
 mod route_search;
 mod schedule;
@@ -28,46 +29,47 @@ use search::Search;
 
 pub use start::StartingPolicy;
 
-/// Steps that a search takes between two looks at what the others found.
+/// Steps of each search in a round, after which the best schedule of all searches is kept.
 const STEPS_A_ROUND: u64 = 50;
-/// Rounds after which the search that stands worst goes on from where the best one stands.
+/// Rounds after which the search with the worst schedule continues from the best one's.
 const ROUNDS_A_MEETING: u64 = 100;
-/// Temperatures at which annealing begins and ends, dollars. From 20, days of `paper` earned 0.2 % less after 100,000 steps:
-/// that is hotter than where the search starts.
+/// Temperatures at which annealing begins and ends, dollars. From 20, days of `paper` earned 0.2 % less after 100,000
+/// steps, because that is too hot for a search that starts from a good day.
 const HOT_USD: f64 = 4.0;
 const COLD_USD: f64 = 1.0;
 
-/// Share of the time that is left when a policy's day begins for which it is played before it is judged whether it will end in time.
+/// Share of the remaining time for which a policy plays its day before it is judged whether it will finish in time.
 const JUDGED_FROM: f64 = 0.25;
-/// Seconds that a round takes at most where time is limited, so that days of any size are watched many times a second.
+/// Seconds that a round takes at most where time is limited, so that `watch` is called many times a second on days of
+/// any size.
 const ROUND_S: f64 = 0.05;
 
-/// How long to search.
+/// The budget of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Budget {
-    /// Until so much time has gone; how far the searches get by then depends on the machine.
+    /// A limit of time. How far the searches get by then depends on the machine.
     Time(Duration),
-    /// So many steps of each search. The plan then depends on nothing but scenario and settings.
+    /// A number of steps of each search. The plan then depends on nothing but scenario and settings.
     Steps(u64),
 }
 
-/// How to search for a plan.
+/// The settings of a search for a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SearchSettings {
-    /// How long to search.
+    /// The budget of the search.
     pub budget: Budget,
-    /// Searches side by side, which share what they find now and then. At least 1.
+    /// Number of searches side by side, which share what they find now and then. At least 1.
     pub searches: usize,
-    /// What chance follows.
+    /// The seed of the random choices of the searches.
     pub seed: u64,
 }
 
-/// How far a plan is.
+/// The progress of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SearchProgress {
-    /// Share of the budget that is gone.
+    /// Share of the budget that is used.
     pub share: f64,
-    /// Steps of each search.
+    /// Number of steps of each search.
     pub steps: u64,
     /// Profit of the best day so far, dollars.
     pub profit_usd: f64,
@@ -78,20 +80,21 @@ pub struct SearchProgress {
 pub struct Plan {
     /// Every decision of the day.
     pub trace: Trace,
-    /// What the day earns, as the simulator accounts for it, dollars.
+    /// Profit of the day, as the simulator accounts for it, dollars.
     pub profit_usd: f64,
-    /// Name of the best policy whose day was played within the budget; the search began with that day.
+    /// Name of the best policy whose day was played within the budget. The search began with that day.
     pub best_policy: String,
-    /// What that policy earns, dollars; the plan is never worse.
+    /// Profit of that policy, dollars. The plan is never worse.
     pub best_policy_usd: f64,
-    /// Steps of each search.
+    /// Number of steps of each search.
     pub steps: u64,
 }
 
-/// Whether a day can be planned.
+/// Checks that a day can be planned.
 ///
 /// # Errors
-/// [`Error::SeparateChargers`] if a vertiport has chargers beside its stands: what a hold does there, the planner does not know.
+/// [`Error::SeparateChargers`] if a vertiport has chargers beside its stands, because the planner does not model holds
+/// there.
 pub fn can_plan(scenario: &Scenario) -> Result<(), Error> {
     let separate = scenario.vertiports.iter().find(|vertiport| vertiport.chargers.is_some());
     separate.map_or(Ok(()), |vertiport| {
@@ -100,8 +103,8 @@ pub fn can_plan(scenario: &Scenario) -> Result<(), Error> {
     })
 }
 
-/// How many steps of a search on this day are about as much work as `paper_steps` are on a day of `paper`; at least one. A step
-/// looks at every flight from every vertiport in every minute.
+/// The number of search steps on this day that take about as much work as `paper_steps` on a day of `paper`; at least
+/// one. A step looks at every flight from every vertiport in every minute.
 pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
     const PAPER_LOOKS: u64 = 8 * 8 * 720;
     let minutes = u64::from(scenario.operations.end.since(scenario.operations.start)) / 60;
@@ -109,15 +112,15 @@ pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
     (paper_steps * PAPER_LOOKS / looks.max(PAPER_LOOKS)).max(1)
 }
 
-/// Plans a day that is known in full: actual demand, delays, closures and outages. The plan is never worse than the day of any
-/// policy that needs no learning, nor of any of `more`, as far as they can be played within the budget; the rolling horizon comes
-/// last. `watch` sees how far the plan is, many times a second, and says whether to go on; when
-/// it says no, the plan is the best found by then.
+/// Plans a day that is known in full: actual demand, delays, closures and outages. The plan is never worse than the day
+/// of any policy that needs no learning, nor of any of `more`, as far as they can be played within the budget; the
+/// rolling horizon comes last. `watch` is called many times a second with the progress, and returns whether to
+/// continue; if not, the plan is the best found by then.
 ///
-/// A limit of time is kept within a second or a tenth of it, whatever the size of the day.
+/// A limit of time is kept to within a second or a tenth of the limit, whatever the size of the day.
 ///
 /// # Errors
-/// As [`can_plan`].
+/// The errors of [`can_plan`].
 pub fn plan(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,
@@ -127,7 +130,7 @@ pub fn plan(
     can_plan(scenario)?;
     let clock = Clock { budget: settings.budget, begun: Instant::now() };
     let mut stopped = false;
-    // What a day's prices take at its start, which the search needs too.
+    // The time that the prices of a day take at its start. The search needs them too.
     let mut first = Duration::ZERO;
     let start::Played { policy, trace, profit_usd } = start::best_policy(scenario, more, &mut {
         let mut day = DayTimer::begin(&clock);
@@ -145,7 +148,7 @@ pub fn plan(
     });
     let mut plan =
         Plan { trace, profit_usd, best_policy: policy, best_policy_usd: profit_usd, steps: 0 };
-    // Where no passenger pays for a seat, no flight is better than none.
+    // Where no passenger pays for a seat, no flight earns anything.
     let is_worth_it = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
     if is_worth_it && !stopped && clock.left() > first {
         search(scenario, settings, &clock, &mut plan, watch);
@@ -153,7 +156,7 @@ pub fn plan(
     Ok(plan)
 }
 
-/// Improves a plan until the budget is gone or `watch` says no.
+/// Improves a plan until the budget is used up or `watch` stops it.
 fn search(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,
@@ -193,14 +196,14 @@ fn search(
     }
 }
 
-/// A budget that is being spent.
+/// A budget that is being used up.
 struct Clock {
     budget: Budget,
     begun: Instant,
 }
 
 impl Clock {
-    /// Share that is gone after so many steps, at most 1.
+    /// Share of the budget that is used after a number of steps, at most 1.
     fn share(&self, steps: u64) -> f64 {
         let share = match self.budget {
             Budget::Time(limit) => {
@@ -212,7 +215,7 @@ impl Clock {
         share.min(1.0)
     }
 
-    /// The time that is left; as good as endless where time is not limited.
+    /// The time that is left. Practically infinite where time is not limited.
     fn left(&self) -> Duration {
         match self.budget {
             Budget::Time(limit) => limit.saturating_sub(self.begun.elapsed()),
@@ -220,8 +223,8 @@ impl Clock {
         }
     }
 
-    /// Whether a policy may go on with a day of which a share is over: there is time for one more decision, and the day seems to
-    /// end in time.
+    /// Whether a policy may continue with a day of which a share has been played: there must be time for one more
+    /// decision, and the day must seem to finish in time.
     fn leaves_time_for(&self, day: &DayTimer, day_share: f64) -> bool {
         let left = self.left();
         let played = day.begun.elapsed();
@@ -229,7 +232,7 @@ impl Clock {
         left > day.longest && (played < day.judged_after || seems_to_end())
     }
 
-    /// Steps of each search in the round to come, at most.
+    /// The most steps of each search in the next round.
     fn steps_a_round(&self, done: u64) -> u64 {
         match self.budget {
             Budget::Time(_) => STEPS_A_ROUND,
@@ -237,20 +240,20 @@ impl Clock {
         }
     }
 
-    /// When the round to come ends at the latest, where time is what is limited.
+    /// The latest end of the next round, where time is limited.
     fn end_of_round(&self) -> Option<Instant> {
         let Budget::Time(limit) = self.budget else { return None };
         Some((self.begun + limit).min(Instant::now() + Duration::from_secs_f64(ROUND_S)))
     }
 }
 
-/// How long a policy takes over a day that it plays.
+/// Measures the time that a policy takes to play a day.
 struct DayTimer {
     begun: Instant,
     judged_after: Duration,
-    /// What the first decision took, for which much is made ready.
+    /// Duration of the first decision, which includes much preparation.
     first: Option<Duration>,
-    /// When the latest decision was taken, and the longest that one after the first took.
+    /// The time of the latest decision, and the longest duration of any decision after the first.
     latest: Instant,
     longest: Duration,
 }
@@ -274,14 +277,15 @@ impl DayTimer {
     }
 }
 
-/// Seconds that the rest of a day will take of which a share was played in this time. Policies look ahead to the end of the day, so
-/// a decision takes about as long as what is left of it: the first half of a day takes three quarters of its time.
+/// Seconds that the rest of a day will take, if a share of the day took `played`. Policies look ahead to the end of the
+/// day, so the time of a decision is about proportional to the rest of the day: the first half of a day takes three
+/// quarters of its time.
 fn to_come_s(played: Duration, day_share: f64) -> f64 {
     let to_come = (1.0 - day_share).powi(2);
     played.as_secs_f64() * to_come / (1.0 - to_come)
 }
 
-/// The search that stands worst goes on from where the best one stands.
+/// Lets the search with the worst schedule continue from the best one's.
 fn meet(searches: &mut [Search]) {
     let by_value = |&one: &usize, &other: &usize| {
         searches[one].current.value_usd().total_cmp(&searches[other].current.value_usd())

@@ -1,4 +1,4 @@
-//! A bound that is being proven while something else goes on, such as the search for a plan.
+//! A bound that is proven in the background, for example while a plan is searched for.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -9,21 +9,21 @@ use vertifleet_core::{Scenario, Stop};
 use crate::bound::{Watch, fits, search};
 use crate::{Bound, Step};
 
-/// Minutes of the bound's slices, finest first; those after the first are for days that are too large for it.
+/// Minutes of the bound's slices, finest first. The later ones are for days that are too large for the first.
 const STEPS_MIN: [u32; 4] = [3, 5, 15, 60];
 
-/// The bound that a day is not too large for, with the finest slices, being proven on a thread of its own. At any time there is the best bound so
-/// far, as soon as there is one at all.
+/// The proof of a bound on a thread of its own, with the finest slices for which the day is not too large. The best
+/// bound so far is available at any time, as soon as there is a first one.
 pub struct Proof {
     shared: Arc<Shared>,
 }
 
-/// What the thread and its owner share.
+/// The state that the thread and its owner share.
 struct Shared {
     stopped: Stop,
-    /// The bits of a share.
+    /// Share of the work that is done, as the bits of an `f64`.
     has_come: AtomicU64,
-    /// The bits of the most that is known to be earned, dollars.
+    /// The highest profit that is known to be possible, dollars, as the bits of an `f64`.
     known_usd: AtomicU64,
     state: Mutex<State>,
     ended: Condvar,
@@ -37,7 +37,7 @@ struct State {
 }
 
 impl Proof {
-    /// Begins to prove.
+    /// Begins the proof.
     pub fn begin(scenario: &Arc<Scenario>) -> Self {
         let shared = Arc::new(Shared {
             stopped: Stop::default(),
@@ -47,7 +47,7 @@ impl Proof {
             ended: Condvar::new(),
         });
         let (scenario, watch) = (Arc::clone(scenario), Ending(Arc::clone(&shared)));
-        // Not joined: a caller in a hurry need not wait for it.
+        // The thread is not joined, so that a caller in a hurry need not wait for it.
         std::thread::spawn(move || {
             prove(&scenario, &watch.0);
             watch.0.lock().ended = true;
@@ -60,25 +60,26 @@ impl Proof {
         self.shared.lock().best.clone()
     }
 
-    /// How far the search for the bound has come, as a share of its work.
+    /// Share of the work that the search for the bound has done.
     pub fn share(&self) -> f64 {
         f64::from_bits(self.shared.has_come.load(Ordering::Relaxed))
     }
 
-    /// Whether the search has come to its end, so that [`Proof::best`] will not change any more.
+    /// Whether the search has ended, so that [`Proof::best`] no longer changes.
     pub fn has_ended(&self) -> bool {
         self.shared.lock().ended
     }
 
-    /// Some schedule earns so many dollars: a bound that comes down to it is as low as any can be, and the search ends.
+    /// Records that some schedule earns this many dollars. A bound that has come down to it is as low as any can be, so
+    /// the search ends.
     pub fn knows(&self, profit_usd: f64) {
         self.shared.known_usd.store(profit_usd.to_bits(), Ordering::Relaxed);
     }
 
-    /// Waits until the search has come to its end, but no longer than `patience`; whether it has.
+    /// Waits until the search has ended, but no longer than `patience`. Returns whether it has ended.
     ///
     /// # Panics
-    /// If the thread that proves did.
+    /// If the thread of the proof panicked.
     pub fn wait(&self, patience: Duration) -> bool {
         let state = self.shared.lock();
         let goes_on = |state: &mut State| !state.ended && !state.panicked;
@@ -91,21 +92,21 @@ impl Proof {
         state.ended
     }
 
-    /// Asks the search to end, within about a tenth of a second; the best bound so far stays.
+    /// Asks the search to end, which takes about a tenth of a second. The best bound so far stays.
     pub fn stop(&self) {
         self.shared.stopped.request();
     }
 
-    /// The best bound that a search for a plan may report that began at `begun` and had `limit` to take: the best by now. Where
-    /// there is none at all yet, the first one is waited for, no longer than for most of a second past the limit.
+    /// The best bound that a search for a plan may report that began at `begun` and had the time `limit`: the best one
+    /// now. If there is none yet, the first one is waited for, but for less than a second past the limit.
     pub fn best_in_time(self, begun: Instant, limit: Duration) -> Option<Bound> {
         let latest = limit + GRACE;
         while self.best().is_none() && begun.elapsed() < latest && !self.wait(POLL_INTERVAL) {}
         self.outcome()
     }
 
-    /// What has come of it by now: the best bound so far, none if there is none yet or the day is too large for any. The search ends
-    /// if it has not.
+    /// The best bound so far; `None` if there is none yet or the day is too large for any. Asks the search to end if it
+    /// has not.
     pub fn outcome(self) -> Option<Bound> {
         self.best().as_deref().cloned()
     }
@@ -119,12 +120,12 @@ impl Drop for Proof {
 
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, State> {
-        // No code that can panic runs while it is locked.
+        // No code that can panic runs while the lock is held.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Tells the owner that the thread is over, however it ended.
+/// Tells the owner that the thread has ended, in whatever way.
 struct Ending(Arc<Shared>);
 
 impl Drop for Ending {
@@ -153,26 +154,26 @@ impl Watch for Shared {
     }
 }
 
-/// How long past its limit a plan waits for a first bound, and how often it looks.
+/// The time past its limit that a plan waits for a first bound, and the interval at which it looks for one.
 const GRACE: Duration = Duration::from_millis(800);
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
-/// Less than anyone would plan for.
+/// A difference too small to matter to a plan.
 const CENT_USD: f64 = 0.01;
 
 impl Bound {
-    /// Whether a profit is at the bound, to the cent: no schedule earns more.
+    /// Whether a profit equals the bound to the cent, so that no schedule earns more.
     pub fn is_reached_by(&self, profit_usd: f64) -> bool {
         self.upper_bound_usd() <= profit_usd + CENT_USD
     }
 
-    /// [`gap`] of a profit to this bound.
+    /// The [`gap`] of a profit to this bound.
     pub fn gap(&self, profit_usd: f64) -> f64 {
         gap(self.upper_bound_usd(), profit_usd)
     }
 }
 
-/// Share of a bound by which a profit is below it. Where nothing can be earned, or only a loss be kept small, it is the share of
-/// the loss that might be avoided, 0 to 1.
+/// The amount by which a profit is below a bound, as a share of the bound. Where nothing can be earned, or a loss can
+/// only be kept small, it is the share of the loss that might be avoided, from 0 to 1.
 pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
     if bound_usd > 0.0 {
         (bound_usd - profit_usd) / bound_usd
@@ -183,7 +184,8 @@ pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
     }
 }
 
-/// Searches for the bound with the finest slices that the day is not too large for; nothing is found if it is too large for all.
+/// Searches for the bound with the finest slices for which the day is not too large. Finds nothing if it is too large
+/// for all.
 fn prove(scenario: &Scenario, watch: &Shared) {
     let mut steps = STEPS_MIN.into_iter().filter_map(|minutes| Step::from_minutes(minutes).ok());
     let Some(step) = steps.find(|&step| fits(scenario, step).is_ok()) else { return };
@@ -203,7 +205,7 @@ mod tests {
             (200.0, -100.0, 1.5),
             (0.0, 0.0, 0.0),
             (0.0, -70.0, 1.0),
-            // 100 $ of the loss cannot be helped, 25 $ can.
+            // $100 of the loss cannot be avoided, $25 can.
             (-100.0, -125.0, 0.2),
             (-100.0, -100.0, 0.0),
         ] {

@@ -1,4 +1,4 @@
-//! A plan with a proof of how good it is: search and proof go on beside each other, and each helps the other to its end.
+//! A plan with a proof of how good it is. Search and proof run at the same time, and each helps the other to end.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -9,26 +9,28 @@ use crate::plan::{Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, 
 use crate::proof::Proof;
 use crate::{Bound, Error};
 
-/// How often a stop is looked for while the rest of a proof is waited for.
+/// The interval at which a request to stop is looked for while the rest of a proof is waited for.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
-/// A plan, and the best bound that was proven meanwhile; none where there was no time for one, or the day is too large for any.
+/// A plan, and the best bound that was proven meanwhile; `None` if there was no time for one, or the day is too large
+/// for any.
 #[derive(Debug, Clone)]
 pub struct ProvenPlan {
     /// The best schedule found.
     pub plan: Plan,
-    /// What no schedule earns more than.
+    /// The upper bound of the day.
     pub bound: Option<Bound>,
 }
 
-/// Plans a day as [`plan()`] does while a bound is proven beside it, and ends early where the plan reaches the bound or comes as close
-/// to it as `gap`, a share of it. A limit of time is one for both; after a limit of steps the whole proof is waited for.
+/// Plans a day like [`plan()`] while a bound is proven in the background. It ends early if the plan reaches the bound,
+/// or comes as close to it as `gap`, a share of the bound. A limit of time holds for both; after a limit of steps, the
+/// whole proof is waited for.
 ///
-/// `watch` is told how far the plan is and the best bound so far, many times a second. Soon after `stop` is raised, the best plan and
-/// bound by then are returned.
+/// `watch` is called many times a second with the progress of the plan and the best bound so far. Soon after `stop` is
+/// requested, the best plan and bound by then are returned.
 ///
 /// # Errors
-/// As [`plan()`].
+/// The errors of [`plan()`].
 pub fn plan_with_proof(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,

@@ -1,11 +1,11 @@
-//! `rolling`: at every decision, tries out the best choices at the day's prices, and takes the one after which the fleet
-//! stands best.
+//! `rolling`: at every decision, rolls out the best choices at the day's prices, and takes the one with the highest
+//! value.
 //!
-//! A rolling horizon in two parts. To the end of the day, the fleet's programme is solved anew every quarter of an hour from
-//! where it stands, is in the air and on charge, with its stands and passengers priced out ([`DayPrices`]). For the next
-//! two hours, each of a few choices is played out in the simulator several times, every other aircraft choosing by prices; what
-//! the fleet has earned and is worth by then decides. Nothing looks at a clock, so the same day has the same outcome
-//! everywhere.
+//! This is a rolling horizon in two parts. For the time to the end of the day, the problem of the whole fleet is solved
+//! anew every quarter of an hour from its current state, with stands and passengers priced ([`DayPrices`]). For the
+//! next two hours, each choice of a shortlist is played out in the simulator several times, with every aircraft
+//! following the base rule; the fleet's profit until then and its worth at that time decide. The policy does not look
+//! at a clock, so the same day has the same outcome on every machine.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_policy::{
@@ -13,12 +13,12 @@ use vertifleet_policy::{
 };
 use vertifleet_sim::{Decision, View};
 
-/// How choices are tried out, tuned on validation days. To the end of the day chance would decide, and days earn less than
-/// without trying.
+/// The settings of roll-outs, tuned on validation days. Over a horizon to the end of the day, chance would decide, and
+/// days earn less than without roll-outs.
 const ROLLOUTS: RolloutSettings =
     RolloutSettings { horizon_s: 7_200, rollouts: 16, noise: 0.05, price_weight: 1.0 };
 
-/// Prices the rest of the day and tries its choices out. Remembers one day at a time.
+/// Prices the rest of the day and rolls choices out. It remembers one day at a time.
 #[derive(Debug, Clone)]
 pub struct Rolling {
     day: DayMemory<DayPrices>,

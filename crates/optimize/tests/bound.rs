@@ -1,4 +1,4 @@
-//! What the bound promises, on small days of every kind and on days of the `paper` network.
+//! Properties of the bound, on small days of every kind and on days of the `paper` network.
 
 mod exhaustive;
 
@@ -59,7 +59,7 @@ fn no_sequence_of_decisions_of_a_tiny_disturbed_day_earns_more_than_its_bound() 
         .collect();
     let compared = excess_usd.len();
     assert!(compared >= 40, "{compared} days have few sequences");
-    // The others have stands, passengers or outages that no prices can put right.
+    // On the other days, prices leave a gap because of stands, passengers or outages.
     let exact = excess_usd.iter().filter(|&&excess_usd| excess_usd < 0.01).count();
     assert!(3 * exact >= compared, "{exact} of {compared} bounds are the optimum");
 }
@@ -86,8 +86,8 @@ fn where_nothing_is_scarce_the_bound_is_the_optimum() {
     assert!(compared >= 40, "{compared} days have few enough sequences");
 }
 
-/// A day on which the bound gives nothing away: one aircraft, passengers for every flight who all pay more than they cost,
-/// electricity at one price, no outages, and routes that close and open only when a demand period begins.
+/// A day on which the bound equals the optimum: one aircraft, passengers for every flight who all pay more than they
+/// cost, electricity at one price, no outages, and routes that close and open only when a demand period begins.
 fn ample_disturbed_day(number: u64) -> Arc<Scenario> {
     let day = any_extended_day(number, Size { vertiports: 3, fleet: 1, hours: 4 });
     let mut ample = Scenario::clone(&day).into_day();
@@ -244,7 +244,7 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
         assert_eq!(cached(&day, 30), found);
         assert_eq!(fs::read(file).expect("the file is there"), whole);
     }
-    // Prices of nothing are prices: what they prove is loose, and true.
+    // Prices of zero are valid prices; the bound that they prove is loose but true.
     let nothing = String::from_utf8(whole).expect("text");
     let numbers = |c: char| c.is_ascii_digit();
     let nothing: Vec<&str> = nothing.split(numbers).collect();
@@ -292,7 +292,7 @@ fn a_shorter_step_never_gives_a_looser_bound_on_larger_networks() {
         let day = day.check("a morning").expect("a day within the rules");
         let bounds = [60, 15, 5, 3, 1].map(|step| bound_usd(&day, step));
         assert!(bounds.is_sorted_by(|longer, shorter| shorter <= longer), "{bounds:?}");
-        // Bounds of these networks fall by a part in a hundred and more.
+        // Bounds of these networks fall by one percent and more.
         assert!(bounds[4] < bounds[0], "{bounds:?}");
     }
 }
@@ -361,7 +361,7 @@ fn a_day_with_one_more_stand_solved_again_is_bounded_by_the_bound_and_the_worth_
         let more = with_one_more_stand(&day, at);
         let again = upper_bound(&more, step).expect("a small day").upper_bound_usd();
         let most = bound.upper_bound_usd() + bound.stand_worth_usd(at);
-        // What the search leaves: it does not come to the very lowest bound.
+        // The search does not reach the very lowest bound, so a small tolerance is needed.
         assert!(again <= 1.003 * most, "{at:?}: {again} is proven anew, {most} by the worth");
         let earned = earned_usd(&more, &mut BidPricePolicy::default());
         assert!(earned <= most, "{at:?}: {earned} is earned, {most} is proven");

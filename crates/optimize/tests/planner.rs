@@ -1,4 +1,4 @@
-//! What the planner promises, on small days of every kind and on days of the `paper` network.
+//! Properties of the planner, on small days of every kind and on days of the `paper` network.
 
 mod exhaustive;
 
@@ -93,8 +93,8 @@ fn a_tiny_disturbed_day_is_planned_as_well_as_any_sequence_of_decisions_allows()
     assert!(compared >= 10, "{compared} days have few enough sequences");
 }
 
-/// Days on which one aircraft has to earn less than it could for another to earn more. A search whose every move is the best for
-/// one aircraft stays below the optimum of each, however long it goes on.
+/// Days on which one aircraft has to earn less than it could so that another can earn more. A search in which every
+/// move is the best for one aircraft stays below the optimum of each of these days, however long it runs.
 #[test]
 fn a_tiny_day_is_planned_to_its_optimum_where_no_aircraft_may_take_what_is_best_for_itself() {
     let days =
@@ -158,7 +158,7 @@ fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
     assert_eq!((policy.steps, policy.profit_usd), (0, policy.best_policy_usd));
 }
 
-/// A policy that must not be asked.
+/// A policy that panics when it is asked to decide.
 struct NotInTime;
 
 impl Policy for NotInTime {
@@ -206,6 +206,6 @@ fn nobody_flies_where_nothing_can_be_earned() {
     let mut stuck = Scenario::clone(&paper_day(4)).into_day();
     let size = stuck.vertiports.len();
     stuck.distance_mi = Matrix::from_fn(size, |from, to| if from == to { 0.0 } else { 900.0 });
-    let stuck = Arc::new(stuck.check("out of range").expect("nobody has to be able to fly"));
+    let stuck = Arc::new(stuck.check("out of range").expect("no aircraft has to be able to fly"));
     assert_eq!(planned(&stuck, 20).profit_usd, 0.0);
 }

@@ -1,4 +1,4 @@
-//! A proof at any time: what it has found so far, how it is stopped, and when it comes to its end by itself.
+//! A proof in progress: its best bound so far, how it is stopped, and when it ends by itself.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -15,7 +15,7 @@ fn greedy_usd(day: &Arc<Scenario>) -> f64 {
     simulation.ledger().profit_usd()
 }
 
-/// A day of `paper` with every vertiport many times over, nearby.
+/// A day of `paper` with `copies` copies of every vertiport, close to each other.
 fn large_day(copies: usize) -> Arc<Scenario> {
     let mut day = Scenario::clone(&paper_day(1)).into_day();
     let size = day.vertiports.len();
@@ -108,7 +108,7 @@ fn a_proof_ends_as_soon_as_its_bound_is_known_to_be_reached() {
 
     let day = paper_day(3);
     let proof = Proof::begin(&day);
-    // Not true, and it shows that the search takes it at its word.
+    // No schedule earns this much, but the search has to believe it.
     proof.knows(1e9);
     assert!(proof.wait(Duration::from_mins(1)));
     assert!(proof.share() < 0.5);

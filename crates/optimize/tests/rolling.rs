@@ -1,4 +1,4 @@
-//! What the rolling horizon promises as a policy, on small days of every kind.
+//! Properties of the rolling horizon as a policy, on small days of every kind.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> (Trace, f64) {
     (trace, simulation.ledger().profit_usd())
 }
 
-/// Plays what is left of a day.
+/// Plays the rest of a day.
 fn finished(simulation: &mut Simulation, policy: &mut dyn Policy) -> Trace {
     let mut trace = Trace::default();
     play(simulation, policy, |row| trace.rows.push(*row)).expect("every choice is feasible");
@@ -73,7 +73,7 @@ fn a_day_has_one_outcome_whatever_was_played_before_and_on_how_many_threads() {
 fn a_day_can_be_taken_up_in_its_middle_whatever_is_remembered() {
     for number in 340..350 {
         let day = any_day(number, SMALL);
-        // Another day of the same seed: nothing but the day itself tells the two apart.
+        // Another day of the same seed, so that only the day itself tells the two apart.
         let mut other = Scenario::clone(&any_day(number + 50, SMALL)).into_day();
         other.seed = day.seed;
         let other = Arc::new(other.check("another day").expect("a seed is a number"));
@@ -116,7 +116,7 @@ fn days_can_be_played_by_turns() {
     }
 }
 
-/// A day on which so few want to fly that most flights would be empty.
+/// A day with so little demand that most flights would be empty.
 fn thin_day(number: u64) -> Arc<Scenario> {
     let network = Network::shipped("new-york").expect("a shipped network");
     let day = network.draw(DaySeed::validation(number).expect("a seed"));

@@ -54,7 +54,7 @@ pub struct DayPrices {
 /// A feasible choice and what it is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PricedChoice {
-    /// What the choice is worth, dollars.
+    /// Worth of the choice, dollars.
     pub worth_usd: f64,
     /// The vertiport to fly to; to hold, the one where the aircraft is.
     pub to: VertiportIx,

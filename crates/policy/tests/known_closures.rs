@@ -125,6 +125,6 @@ fn no_flight_counts_on_a_route_in_the_slots_in_which_it_is_known_to_be_closed() 
     // Holds last 15 minutes, so an aircraft that is ready at 0 or at 90 minutes decides again at 1:45 and at 2:00.
     assert_eq!(worth(0), worth(90));
     assert_eq!(worth(90), worth(105));
-    assert!(worth(105) <= worth(108), "whoever is ready when routes open flies at once");
+    assert!(worth(105) <= worth(108), "an aircraft that is ready when routes open flies at once");
     assert!(worth(0) > 500.0, "most of the day is left");
 }

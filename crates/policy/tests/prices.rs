@@ -98,7 +98,7 @@ fn prices_are_never_negative_and_worth_falls_to_nothing_at_the_end() {
             assert!(prices.rent_usd(vertiport, from, from + 60) >= 0.0);
         }
         let worth = |time| prices.worth_usd(TypeIx(0), vertiport, time);
-        assert!(worth(start) > 500.0, "an aircraft earns some hundred dollars a day");
+        assert!(worth(start) > 500.0, "an aircraft earns a few hundred dollars a day");
         assert!(worth(end) > 0.0, "a last flight is allowed");
         assert_eq!(worth(end + 1), 0.0);
         for to in VertiportIx::all(day.vertiports.len()) {

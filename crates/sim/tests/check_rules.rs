@@ -188,7 +188,7 @@ fn a_place_is_not_left_by_more_aircraft_than_are_there() {
     trace.rows[0].to = VertiportIx(0);
     let report = judge(day(), &trace);
     let stands = report.findings.iter().find(|finding| finding.rule == Rule::StandBound);
-    assert_eq!(stands.expect("nobody was at V3").detail, "leaves -1 aircraft at V3");
+    assert_eq!(stands.expect("no aircraft was at V3").detail, "leaves -1 aircraft at V3");
 }
 
 /// An aircraft waits on a stand if it can, so that its charger is free for another.

@@ -62,7 +62,7 @@ proptest! {
             for pair in own.windows(2) {
                 prop_assert_eq!((pair[1].time, pair[1].from), (pair[0].ready, pair[0].to));
             }
-            prop_assert!(own[own.len() - 1].ready > day.operations.end, "nobody stops early");
+            prop_assert!(own[own.len() - 1].ready > day.operations.end, "no aircraft stops early");
         }
     }
 

@@ -1,4 +1,4 @@
-"""The environments: one day at a time, many side by side, and one agent an aircraft."""
+"""The Gymnasium environments: one day at a time, and many days side by side."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What environments are asked for, checked before anything changes: V451 names what is not taken."""
+"""Checks the arguments of environments before anything changes: V451 names the one that is refused."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from vertifleet._native import Scenario
 
 
 def check_reward(reward: object) -> None:
-    """Refuses what is no way of paying a day."""
+    """Refuses a `reward` that is not known."""
     if not isinstance(reward, str) or reward not in ("terminal", "dense"):
         raise Error("V451", f'reward must be "terminal" or "dense", found {reward!r}')
 
 
 def whole(name: str, number: Any) -> int:
-    """A whole number as Python or NumPy has it; neither a fraction nor a truth value nor a text is one."""
+    """A whole number of Python or NumPy; fractions, bools and texts are refused."""
     try:
-        # True is a whole number for Python, but is hardly meant as one here.
+        # True is a whole number for Python, but is probably not intended as one here.
         if not isinstance(number, (bool, np.bool_)):
             return operator.index(number)
     except TypeError:
@@ -31,7 +31,7 @@ def whole(name: str, number: Any) -> int:
 
 
 def action_of(action: Any) -> int:
-    """An action of a single environment; one that is no vertiport's position is infeasible, but an action."""
+    """An action of a single environment. A number that is no vertiport's position is an infeasible action."""
     number = whole("action", action)
     if not -(2**63) <= number < 2**63:
         raise Error("V451", f"action must be a whole number of 64 bits, found {number}")
@@ -49,7 +49,7 @@ def actions_of(actions: ArrayLike, days: int) -> NDArray[np.int64]:
 
 
 def seeds_of(seed: Any, days: int) -> list[int | None]:
-    """A seed for each of many days: those that are given, or numbers in a row from a single one on."""
+    """A seed for each of many days: those that are given, or consecutive numbers from a single one on."""
     if isinstance(seed, np.ndarray):
         seed = seed.tolist()
     if seed is None:
@@ -63,7 +63,7 @@ def seeds_of(seed: Any, days: int) -> list[int | None]:
 
 
 def options_of(options: Any, *taken: str) -> Mapping[str, Any]:
-    """The options of a reset, which takes "scenario" and those of these names."""
+    """The options of a reset, which may have "scenario" and the names in `taken`."""
     taken = ("scenario", *taken)
     if options is None:
         return {}
@@ -80,7 +80,7 @@ def options_of(options: Any, *taken: str) -> Mapping[str, Any]:
 
 
 def mask_of(options: Mapping[str, Any], days: int) -> NDArray[np.bool_]:
-    """Which of many days a reset begins anew: those of the option "reset_mask", all without it."""
+    """The environments that a reset applies to: those of the option "reset_mask", or all without it."""
     if "reset_mask" not in options:
         return np.ones(days, np.bool_)
     mask = options["reset_mask"]

@@ -1,4 +1,4 @@
-"""Copies of environments in the middle of a day, as tree search makes them at every node."""
+"""Copies of environments in the middle of a day, which tree search makes at every node."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ Playing = TypeVar("Playing", bound="Copied")
 
 
 class Copied:
-    """An environment whose copies, deep or not, play on by themselves.
+    """An environment whose copies, deep or shallow, play on independently.
 
-    They share what never changes: copying a network means reading its file's text again, which takes longer
+    They share what never changes: copying a network means parsing its file's text again, which takes longer
     than many decisions.
     """
 
@@ -24,7 +24,7 @@ class Copied:
     def __deepcopy__(self: Playing, memo: dict[int, Any]) -> Playing:
         members = vars(self)
         other = object.__new__(type(self))
-        # What the memo has counts as copied.
+        # `deepcopy` takes what is in the memo for copied already.
         memo |= {id(members[name]): members[name] for name in self._never_changes if name in members}
         memo[id(self)] = other
         vars(other).update(copy.deepcopy(members, memo))

@@ -1,4 +1,4 @@
-"""`vertifleet/Fleet-v0`: one operating day an episode, one decision a step."""
+"""`vertifleet/Fleet-v0`: an episode is one operating day, a step is one decision."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from vertifleet.envs.spaces import Info, Observation, observation_space
 
 
 class FleetEnv(Copied, gymnasium.Env[Observation, np.int64]):
-    """Decides, for one aircraft after the other, to which vertiport it flies next.
+    """One aircraft after the other needs a decision: to which vertiport does it fly next?
 
-    The action is the position of a vertiport; the aircraft's own means hold. An action that is not feasible
-    holds, and sets ``info["invalid_action"]``. The mask of feasible actions is there as ``action_masks()``
-    (bool), ``info["action_mask"]`` (int8) and ``observation["action_mask"]`` (float32). The reward of an
-    episode is the day's profit over its potential revenue: paid at the end (``reward="terminal"``), or
-    each flight's share when it is decided (``"dense"``).
+    The action is the position of a vertiport; the aircraft's own vertiport means hold. An action that is not
+    feasible holds, and sets ``info["invalid_action"]``. The mask of feasible actions is given as
+    ``action_masks()`` (bool), ``info["action_mask"]`` (int8) and ``observation["action_mask"]`` (float32).
+    The reward of an episode is the day's profit over its potential: paid at the end (``reward="terminal"``),
+    or each flight's share when it is decided (``"dense"``).
 
-    `reset` draws a training day from ``np_random``, or plays ``options={"scenario": scenario}``; its name is
-    ``info["day"]``. The last step's info has the day's numbers as ``summary``. An environment can be copied
+    `reset` draws a training day from ``np_random``, or plays ``options={"scenario": scenario}``; the name of
+    the day is ``info["day"]``. The last step's info has the day's numbers as ``summary``. An environment can be copied
     and pickled in the middle of a day; copies share its network and spaces.
     """
 
@@ -54,11 +54,11 @@ class FleetEnv(Copied, gymnasium.Env[Observation, np.int64]):
         """Begins a day.
 
         Args:
-            seed: of ``np_random``, from which training days are drawn.
-            options: "scenario" is a day that is played in place of a training day.
+            seed: seed of ``np_random``, from which training days are drawn.
+            options: "scenario" is a day to play instead of a training day.
 
         Raises:
-            Error: V451 for other options, or a day that has not as many vertiports as the network.
+            Error: V451 for other options, or for a day with another number of vertiports than the network.
         """
         scenario: Scenario | None = options_of(options).get("scenario")
         super().reset(seed=seed)
@@ -74,7 +74,7 @@ class FleetEnv(Copied, gymnasium.Env[Observation, np.int64]):
         """Carries the decision out and goes on to the next.
 
         Raises:
-            Error: V451 for an action that is no whole number, and where no day is in progress.
+            Error: V451 for an action that is not a whole number, and if no day is in progress.
         """
         (observation, mask), reward, over, invalid = self._environment.step(action_of(action))
         info: Info = {"action_mask": mask, "invalid_action": invalid}
@@ -88,12 +88,12 @@ class FleetEnv(Copied, gymnasium.Env[Observation, np.int64]):
 
     @property
     def scenario(self) -> Scenario | None:
-        """The day in progress, or that ended last; none before the first."""
+        """The day in progress, or the day that ended last; None before the first day."""
         return self._environment.scenario
 
     @property
     def aircraft(self) -> int | None:
-        """Position of the aircraft that decides; of the one that decided last once the day is over."""
+        """Position of the aircraft that decides, or of the one that decided last once the day is over."""
         return self._environment.aircraft
 
     @property

@@ -20,12 +20,12 @@ from vertifleet.envs.spaces import KEYS, Info, Observation, observation_space
 
 
 class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
-    """As `FleetEnv`, `num_envs` days side by side on `threads` threads (all cores without).
+    """Like `FleetEnv`, with `num_envs` days side by side on `threads` threads (all cores by default).
 
-    Observations and masks are not copied. Those of steps and of resets of all environments stay as they are
-    until the step after next, so that those before and after a step can be used together; those of a reset of
-    some environments until the next such reset. Who keeps them for longer copies them. Environment i behaves
-    as a `FleetEnv` whose first reset had seed s + i.
+    Observations and masks are not copied. Those of a step, or of a reset of all environments, stay valid
+    until the step after next, so that those before and after a step can be used together. Those of a reset of
+    some environments stay valid until the next reset of some. Copy them to keep them for longer. Environment
+    i behaves like a `FleetEnv` whose first reset had seed s + i.
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         self._final_mask = final[-1]
         self._latest = 0
         self._generators: list[np.random.Generator] = []
-        # Drawn before they are needed, so that a day that ends can be followed by another in the same step.
+        # Numbers of the next days, drawn early so that a new day can begin in the step in which one ends.
         self._numbers = np.zeros(num_envs, np.uint64)
 
     def reset(
@@ -70,12 +70,12 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
 
         Args:
             seed: environment i gets seed + i, or the i-th of a list or array.
-            options: "reset_mask" (array of bool [num_envs]) names the environments that are reset; "scenario"
-                is a day that they all play in place of a training day.
+            options: "reset_mask" (array of bool [num_envs]) selects the environments to reset; "scenario" is a
+                day that they all play instead of a training day.
 
         Raises:
-            Error: V451 for a seed that is no whole number, other options, a mask that is none or names no
-                environment, or a day that has not as many vertiports as the network.
+            Error: V451 for a seed that is not a whole number, other options, a mask that is not valid or
+                selects no environment, or a day with another number of vertiports than the network.
         """
         asked = options_of(options, "reset_mask")
         scenario: Scenario | None = asked.get("scenario")
@@ -94,7 +94,7 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         """Carries a decision out in every environment; `actions` are whole numbers [num_envs].
 
         Raises:
-            Error: V451 for actions of another kind or shape, and where a day is not in progress.
+            Error: V451 for actions of another type or shape, and if a day is not in progress.
         """
         actions = actions_of(actions, self.num_envs)
         self._latest, eventful = self._batch.step(actions, self._numbers)
@@ -111,14 +111,14 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         return self._masks[self._latest].astype(np.bool_)
 
     def scenarios(self) -> list[Scenario | None]:
-        """The day of every environment, in progress or ended last; none before the first."""
+        """For every environment the day in progress, or the day that ended last; None before the first day."""
         return [self._batch.scenario(at) for at in range(self.num_envs)]
 
     def _observation(self) -> Observation:
         return dict(self._observations[self._latest])
 
     def _info(self, invalid: NDArray[np.bool_], which: NDArray[np.bool_]) -> Info:
-        """What is said of the environments that `which` has; their masks are beside those of all others."""
+        """The info of the environments that `which` selects; the array of masks has those of all others too."""
         return {
             "action_mask": self._masks[self._latest],
             "_action_mask": which,
@@ -127,11 +127,11 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         }
 
     def _add_days(self, info: Info, begun: NDArray[np.bool_]) -> None:
-        """Adds the names of the days that have begun, where any has."""
+        """Adds the names of the days that have begun, if any have."""
         places = _where(begun)
         if not places:
             return
-        # An empty array of objects is full of None.
+        # `np.empty` fills an array of objects with None.
         names = np.empty(self.num_envs, np.object_)
         for at in places:
             day = self._batch.scenario(at)
@@ -140,12 +140,12 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         info |= {"day": names, "_day": begun.copy()}
 
     def _add_ends(self, info: Info, over: NDArray[np.bool_], begun: NDArray[np.bool_]) -> None:
-        """Adds the numbers of the days that this step ended, and how they ended where others have begun."""
+        """Adds the numbers of the days that this step ended, and their final infos if new days have begun."""
         for at in _where(over):
             ended: Info = {"summary": self._batch.summary(at)}
             if begun[at]:
                 invalid = bool(info["invalid_action"][at])
-                # What the present info says is of the new day, in which nothing has been done yet.
+                # The current info belongs to the new day, in which there was no action yet.
                 info["invalid_action"][at] = False
                 final_info = {"action_mask": self._final_mask[at].copy(), "invalid_action": invalid, **ended}
                 observation = {key: array[at].copy() for key, array in self._final.items()}
@@ -153,7 +153,7 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
             self._add_info(info, ended, at)
 
     def _seed(self, seeds: list[int | None], which: NDArray[np.bool_]) -> None:
-        """Gives environments that are reset with a seed generators of their own, at first all of them."""
+        """Gives every environment a generator at first, and a new one to those that are reset with a seed."""
         if not self._generators:
             self._generators = [seeding.np_random(None)[0] for _ in range(self.num_envs)]
             self._draw(np.ones(self.num_envs, np.bool_))
@@ -163,12 +163,12 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
                 self._numbers[at] = self._generators[at].integers(TRAINING_DAYS)
 
     def _draw(self, which: NDArray[np.bool_]) -> None:
-        """Draws the numbers of the days that come next."""
+        """Draws the numbers of the next days."""
         for at in _where(which):
             self._numbers[at] = self._generators[at].integers(TRAINING_DAYS)
 
 
 def _where(which: NDArray[np.bool_]) -> list[int]:
-    """Positions of the environments that are meant, as steps need them: faster than `np.flatnonzero`."""
+    """Positions of the selected environments; faster than `np.flatnonzero`, which matters in every step."""
     places: list[int] = which.nonzero()[0].tolist()
     return places

@@ -1,4 +1,4 @@
-"""What every environment shows and takes, for a network of N vertiports."""
+"""The observations and infos of every environment, for a network of N vertiports."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ KEYS = ("nodes", "aircraft", "clock", "adjacency", "action_mask")
 
 
 def observation_space(vertiports: int) -> spaces.Dict:
-    """Boxes of one dimension each: tables are laid out row by row."""
+    """The space of observations: one-dimensional boxes, with tables laid out row by row."""
     most = float(np.finfo(np.float32).max)
 
     def box(size: int, high: float) -> spaces.Box:

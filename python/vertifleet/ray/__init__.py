@@ -1,4 +1,4 @@
-"""Many machines: comparisons and sweeps as tasks of a Ray cluster, with the results of one machine.
+"""Comparisons and sweeps as tasks of a Ray cluster, with the same results as on one machine.
 
 ::
 

@@ -28,26 +28,26 @@ def compare(
     policy_seed: SupportsIndex | None = None,
     days_per_task: int | None = None,
 ) -> Comparison:
-    """:func:`vertifleet.compare`, its days on all CPUs of a Ray cluster.
+    """Does the same as :func:`vertifleet.compare`, on all CPUs of a Ray cluster.
 
-    The result is the same, bit for bit, whatever the number of nodes and the size of the tasks (learned
-    policies: on one kind of CPU); times per decision are measurements of the nodes. What a worker or a node
-    that dies was playing is played again.
+    The result is the same, bit for bit, for any number of nodes and any size of the tasks (for learned
+    policies, if all nodes have the same kind of CPU). Times per decision are measured on the nodes. If a
+    worker or a node dies, the days that it was playing are played again.
 
-    Network, weights and functions travel with the tasks: files need to be on this machine alone. Without
-    `ray.init` before, the cluster is the one that the environment variable RAY_ADDRESS names, or one that
-    runs here, or else this machine.
+    Network, weights and functions are sent with the tasks, so the files need to be on this machine only. If
+    `ray.init` was not called before, the cluster is the one that the environment variable RAY_ADDRESS names,
+    or one that runs on this machine, or otherwise a new one on this machine.
 
     Args:
-        network: as for :func:`vertifleet.compare`, and so is all that follows but the last.
+        network: as in :func:`vertifleet.compare`, like all arguments that follow except the last.
         policies: names of the policies.
         days: number of days.
         seed: seed of the first day.
-        models: what names stand for.
-        bound: whether every day's upper bound is proven.
-        step: minutes for which the bound's prices stay the same.
+        models: weights or functions, by policy name.
+        bound: whether to prove an upper bound of every day.
+        step: length of the bound's slices in minutes.
         policy_seed: seed of the random policy and of the planner's search.
-        days_per_task: consecutive days that one task plays, on one CPU; without, so many that each CPU gets
+        days_per_task: number of consecutive days that one task plays, on one CPU; by default each CPU gets
             about sixteen tasks.
 
     Raises:
@@ -71,24 +71,24 @@ def sweep(
     policy_seed: SupportsIndex | None = None,
     days_per_task: int | None = None,
 ) -> Sweep:
-    """:func:`vertifleet.sweep`, the days of all its points on all CPUs of a Ray cluster.
+    """Does the same as :func:`vertifleet.sweep`, with the days of all points on all CPUs of a Ray cluster.
 
-    What is said of :func:`compare` holds here too.
+    The description of :func:`compare` applies here too.
 
     Args:
-        network: as for :func:`vertifleet.sweep`, and so is all that follows but the last.
-        changes: values by paths of the network file.
+        network: as in :func:`vertifleet.sweep`, like all arguments that follow except the last.
+        changes: lists of values by paths of the network file.
         policies: names of the policies.
         days: number of days.
         seed: seed of the first day.
-        models: what names stand for.
-        bound: whether every day's upper bound is proven.
-        step: minutes for which the bound's prices stay the same.
+        models: weights or functions, by policy name.
+        bound: whether to prove an upper bound of every day.
+        step: length of the bound's slices in minutes.
         policy_seed: seed of the random policy and of the planner's search.
-        days_per_task: consecutive days of a point that one task plays.
+        days_per_task: number of consecutive days of a point that one task plays.
 
     Raises:
-        Error: as :func:`vertifleet.sweep`; V409 if a node has another version.
+        Error: as :func:`vertifleet.sweep`; V409 if a node has another version of the package.
     """
     network = network_of(network)
     points = variations(network, changes)

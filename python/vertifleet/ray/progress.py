@@ -1,4 +1,4 @@
-"""A line on the terminal that says how far a long call is."""
+"""A line on the terminal that shows the progress of a long call."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ if TYPE_CHECKING:
     from types import TracebackType
 
 PATIENCE_S = 2.0
-"""Nothing is said of what is done sooner."""
+"""Calls that take less than this, in seconds, show no progress."""
 CLEAR = "\r\x1b[K"
 
 
 class Progress:
-    """Days done and time left, while a block is under way; nothing where standard error is no terminal.
+    """Shows days done and time left while a block runs, if standard error is a terminal.
 
     Args:
-        days: number of days in all.
+        days: total number of days.
     """
 
     def __init__(self, days: int) -> None:
@@ -36,7 +36,7 @@ class Progress:
             print(CLEAR, end="", file=sys.stderr, flush=True)
 
     def show(self, done: int) -> None:
-        """Says that so many days are done."""
+        """Shows that this many days are done."""
         elapsed_s = time.monotonic() - self.begun
         if elapsed_s < PATIENCE_S or not sys.stderr.isatty():
             return
@@ -46,7 +46,7 @@ class Progress:
 
 
 def _duration(seconds: float) -> str:
-    """`40 s`, `12 min`, `3 h 05 min`."""
+    """A duration such as `40 s`, `12 min` or `3 h 05 min`."""
     if seconds < 60:
         return f"{seconds:.0f} s"
     minutes = round(seconds / 60)

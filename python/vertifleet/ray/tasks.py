@@ -1,7 +1,7 @@
-"""Days as Ray tasks: each plays some consecutive days of a network, and what they find is joined in order.
+"""Days as Ray tasks: each plays some consecutive days of a network, and the results are joined in order.
 
-A task is played again, as often as need be, when its worker or node dies, which is no fault of the task; it
-is a function of its arguments, so that it finds the same again. An error of its own ends everything.
+If the worker or node of a task dies, the task is run again, as often as necessary; it is a function of its
+arguments, so its result is the same. An error of the task itself ends the whole call.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ if TYPE_CHECKING:
     """A network, a number of days, and the seed of the first."""
 
 TASKS_PER_CPU = 16
-"""So that the last one is not waited for long, and little is lost with a node."""
+"""Many tasks per CPU keep the wait for the last one short, and lose little when a node dies."""
 AHEAD = 2
-"""Tasks under way for each CPU: none waits for its next, and an error or Ctrl-C leaves few behind."""
+"""Tasks in flight for each CPU: no CPU waits for its next task, and an error or Ctrl-C leaves few behind."""
 GLANCE_S = 0.5
-"""How often is looked at what is done, and at how many CPUs there are."""
+"""Seconds between two checks of which tasks are done and how many CPUs there are."""
 
 
 def without_files(asked: Asked) -> Asked:
-    """Reads the weight files, which the nodes need not have."""
+    """The request with weight files replaced by their models, so that nodes need no files."""
     models = {name: _read(given) for name, given in asked.models.items()}
     return replace(asked, models=models)
 
@@ -50,7 +50,7 @@ def _read(given: Given) -> Given:
 
 @ray.remote(num_cpus=1, max_retries=-1)
 def play(asked: Asked, here: str, network: Network, days: int, seed: int) -> Comparison:
-    """Some days, the first of seed `seed`; `here` is the version of the package of who asked."""
+    """Plays some days, the first with seed `seed`; `here` is the package version of the calling process."""
     found = version("vertifleet")
     if found != here:
         rule = f"the parts do not go together: vertifleet {found} on a node, {here} here"
@@ -59,7 +59,7 @@ def play(asked: Asked, here: str, network: Network, days: int, seed: int) -> Com
 
 
 def comparisons(networks: Sequence[Network], asked: Asked, days_per_task: int | None) -> list[Comparison]:
-    """A comparison on each of the networks, all on days of the same seeds."""
+    """Runs a comparison on each of the networks, all on days of the same seeds."""
     if days_per_task is not None and days_per_task < 1:
         raise Error("V451", f"days_per_task must be at least 1, found {days_per_task}")
     asked = without_files(asked)
@@ -82,15 +82,15 @@ def _days_per_task(days: int) -> int:
 
 
 def _parts(days: int, most: int) -> Iterator[tuple[int, int]]:
-    """First day and number of days of each part."""
+    """The first day and the number of days of each part."""
     return ((first, min(most, days - first)) for first in range(0, days, most))
 
 
 def _play(asked: ObjectRef[Asked], parts: Sequence[Part]) -> list[Comparison]:
-    """A comparison of each part, in their order. After one that fails, or Ctrl-C, no other is begun.
+    """Plays the parts and returns their comparisons in order. After an error or Ctrl-C, no part is begun.
 
-    What is being played then goes on to its end behind the call: `ray.cancel` of a task that ends at the same
-    time can take this whole process down (seen with Ray 2.60, "Tried to complete task that was not pending").
+    Tasks in flight then run to their end in the background: `ray.cancel` of a task that ends at the same time
+    can crash this whole process (seen with Ray 2.60, "Tried to complete task that was not pending").
     """
     found: dict[int, Comparison] = {}
     playing: dict[Task, int] = {}
@@ -110,7 +110,7 @@ def _play(asked: ObjectRef[Asked], parts: Sequence[Part]) -> list[Comparison]:
 
 
 def _room(playing: int) -> int:
-    """How many tasks can be begun now."""
+    """Number of tasks that can be begun now."""
     return max(AHEAD * _cpus() - playing, 0)
 
 

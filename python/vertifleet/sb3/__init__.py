@@ -1,6 +1,6 @@
 """Training with stable-baselines3: the networks as policies of MaskablePPO, on native batches of days.
 
-What is trained here is saved as a weight file of the program::
+The trained weights are saved as a weight file of the program::
 
     import vertifleet
     from sb3_contrib import MaskablePPO

@@ -1,7 +1,7 @@
 """The networks as policies of sb3-contrib's MaskablePPO.
 
-What is trained is the network and nothing else: a features extractor runs all of it, and what
-stable-baselines3 puts behind an extractor only picks logits and value out of its answer.
+Only the network is trained: a features extractor runs all of it, and the layers that stable-baselines3 puts
+after an extractor only pick logits and value out of its output.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from stable_baselines3.common.type_aliases import Schedule
 
 INFEASIBLE = -1e8
-"""Logit of a vertiport that is not feasible: the number that MaskablePPO has for it."""
+"""Logit of a vertiport that is not feasible, the same number as in MaskablePPO."""
 NOT_TAKEN = (
     "net_arch",
     "activation_fn",
@@ -33,16 +33,16 @@ NOT_TAKEN = (
     "share_features_extractor",
     "features_extractor_class",
 )
-"""Arguments of the parent's that would change layers, of which a network has its own."""
+"""Arguments of the parent class that would change layers; the network brings its own layers."""
 
 
 class TwinExtractor(BaseFeaturesExtractor):
     """Logits and value of a network: [B, N + 1].
 
     Args:
-        observation_space: what an environment shows.
-        kind: the network.
-        sizes: of its layers; those of the weight files that come with the program where none are given.
+        observation_space: the space of an environment's observations.
+        kind: class of the network.
+        sizes: sizes of its layers; by default those of the shipped weights.
     """
 
     def __init__(self, observation_space: spaces.Dict, kind: type[Gcaps] | type[Mlp], **sizes: int) -> None:
@@ -53,8 +53,8 @@ class TwinExtractor(BaseFeaturesExtractor):
     def forward(self, observations: dict[str, Tensor]) -> Tensor:
         """Logits and value.
 
-        The mask that is shown is applied here, so that a call with no other mask decides as the program:
-        plain `predict` and `evaluate_policy` do. MaskablePPO asks the environment, whose mask is the same.
+        The observed mask is applied here, so that a call without a mask of its own, such as plain `predict`
+        or `evaluate_policy`, decides as the program does. MaskablePPO asks the environment for the same mask.
         """
         logits, values = self.twin(observations["nodes"], observations["aircraft"], observations["clock"])
         logits = logits.masked_fill(observations["action_mask"] == 0, INFEASIBLE)
@@ -62,7 +62,7 @@ class TwinExtractor(BaseFeaturesExtractor):
 
 
 class Logits(nn.Module):
-    """All but the last of an extractor's answers."""
+    """The extractor's outputs without the last."""
 
     def forward(self, answers: Tensor) -> Tensor:
         """[B, N + 1] -> [B, N]."""
@@ -70,7 +70,7 @@ class Logits(nn.Module):
 
 
 class Value(nn.Module):
-    """The last of an extractor's answers."""
+    """The last of the extractor's outputs."""
 
     def forward(self, answers: Tensor) -> Tensor:
         """[B, N + 1] -> [B, 1]."""
@@ -78,13 +78,13 @@ class Value(nn.Module):
 
 
 class TwinPolicy(MaskableActorCriticPolicy):
-    """A network as the policy, first weights and all.
+    """A network as the policy, including its first weights.
 
-    Sizes of its layers are given as ``policy_kwargs={"features_extractor_kwargs": {"width": 64}}``.
+    The sizes of its layers are given as ``policy_kwargs={"features_extractor_kwargs": {"width": 64}}``.
 
     Raises:
-        Error: V451 if there is no such size, if other layers are asked for, or if the environment does not
-            show what ``vertifleet/Fleet-v0`` does.
+        Error: V451 if there is no such size, if other layers are asked for, or if the environment's
+            observations are not those of ``vertifleet/Fleet-v0``.
     """
 
     kind: ClassVar[type[Gcaps] | type[Mlp]]
@@ -112,13 +112,13 @@ class TwinPolicy(MaskableActorCriticPolicy):
         super().__init__(observation_space, action_space, lr_schedule, **settings | fixed)
 
     def _get_constructor_parameters(self) -> dict[str, Any]:
-        """What a saved policy is made from again: what its constructor takes."""
+        """The arguments of the constructor from which a saved policy is created again."""
         parameters = super()._get_constructor_parameters()
         taken = {name: value for name, value in parameters.items() if name not in NOT_TAKEN}
         return taken | {"features_extractor_kwargs": self.twin.sizes}
 
     def _build(self, lr_schedule: Schedule) -> None:
-        """As the parent's, without its layers behind the extractor and their first weights."""
+        """Builds the policy as the parent does, but without layers after the extractor."""
         self._build_mlp_extractor()
         self.action_net = Logits()
         self.value_net = Value()  # type: ignore[assignment]  # the parent's has weights
@@ -132,7 +132,7 @@ class TwinPolicy(MaskableActorCriticPolicy):
 
 
 def _check_shown(space: spaces.Space[Any]) -> None:
-    """Refuses an environment that does not show what a network reads."""
+    """Refuses an environment whose observations are not those that a network reads."""
     hint = "train on vertifleet.sb3.FleetVecEnv, and wrap it in nothing that changes observations"
     shown = space.spaces if isinstance(space, spaces.Dict) else {}
     if any(name not in shown for name in READ):

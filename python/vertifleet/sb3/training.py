@@ -1,4 +1,4 @@
-"""Between MaskablePPO and the program: the program's settings there, and weight files of what was trained."""
+"""The program's settings for MaskablePPO, and weight files of the networks that it trained."""
 
 from __future__ import annotations
 
@@ -25,22 +25,22 @@ if TYPE_CHECKING:
     from vertifleet import Network
 
 SHARED = ("n_steps", "batch_size", "n_epochs", "gamma", "gae_lambda", "ent_coef", "vf_coef", "max_grad_norm")
-"""Settings that MaskablePPO has under the same names and keeps as they are given."""
+"""Settings that have the same name in MaskablePPO and keep the value that is given."""
 LEFT = np.linspace(1.0, 0.0, 101)
-"""Shares of the run that are left, at which schedules are looked at."""
+"""The shares of the run that are left at which schedules are sampled."""
 
 
 def ppo_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
     """The program's settings as MaskablePPO's arguments.
 
-    Where days are played and for how long is not among them: ``n_envs``, ``reward`` and ``reward_scale`` are
-    :class:`~vertifleet.sb3.FleetVecEnv`'s, ``total_steps`` is what ``learn`` takes.
+    Some settings are not among them: ``n_envs``, ``reward`` and ``reward_scale`` are arguments of
+    :class:`~vertifleet.sb3.FleetVecEnv`, and ``total_steps`` is the argument of ``learn``.
 
     Args:
-        settings: as ``vertifleet.settings("paper")`` gives them; members that are not given are those.
+        settings: settings with the names of ``vertifleet.settings("paper")``, whose values are the defaults.
 
     Raises:
-        Error: V451 if they are no dict, V302 and V303 if a member is unknown or out of its bounds.
+        Error: V451 if they are not a dict, V302 and V303 if a member is unknown or out of its bounds.
     """
     settings = checked_settings(settings)
     rate = settings["learning_rate"]
@@ -56,21 +56,23 @@ def export(
     *,
     network: str | os.PathLike[str] | Network | None = None,
 ) -> None:
-    """Writes the weights as a weight file, with which the program decides.
+    """Writes the weights as a weight file, with which the program can decide.
 
-    ``vertifleet compare --policies greedy,mine --model mine=PATH`` compares it with others. The file says how
-    the weights were trained where the program's settings can: not if rewards were normalised, say, if a rate
-    fell in another way than linearly to 0, or if the model was loaded and has not learned since.
+    ``vertifleet compare --policies greedy,mine --model mine=PATH`` compares it with other policies. The file
+    records how the weights were trained if the program's settings can express it. They cannot if rewards were
+    normalised, for example, if a rate fell in another way than linearly to 0, or if the model was loaded and
+    has not learned since.
 
     Args:
         model: the learner, with a policy of this package.
-        path: the file.
-        network: what it was trained on, its name or its path, to be compared with what its environment says.
+        path: path of the weight file.
+        network: the network that it was trained on, its name or its path, to check it against the
+            environment's network.
 
     Raises:
         Error: V304 if a weight is not finite, V102 if the file cannot be written, V451 if the model has a
             policy of another kind, was not trained on a :class:`~vertifleet.sb3.FleetVecEnv` of this network,
-            or was shown observations that VecNormalize changed, which the program does not do.
+            or was trained on observations that VecNormalize changed, which the program does not do.
     """
     policy = model.policy
     if not isinstance(policy, TwinPolicy):
@@ -82,7 +84,7 @@ def export(
 
 
 def _days_of(model: MaskablePPO) -> VecEnv:
-    """The days that the model learns from, if they are those that the program has."""
+    """The environment that the model learns from, which must be a FleetVecEnv with unchanged observations."""
     days = model.get_env()
     if days is None:
         hint = "load it with MaskablePPO.load(path, env=FleetVecEnv(...))"
@@ -98,7 +100,7 @@ def _days_of(model: MaskablePPO) -> VecEnv:
 
 
 def _settings_of(model: MaskablePPO, days: VecEnv) -> dict[str, Any] | None:
-    """What the model was trained with, under the program's names; None where these cannot say it."""
+    """The training settings under the program's names; None if these cannot express them."""
     if _learned_otherwise(model, days):
         return None
     rate, lr_schedule = _falling(model)
@@ -118,8 +120,8 @@ def _settings_of(model: MaskablePPO, days: VecEnv) -> dict[str, Any] | None:
 
 
 def _learned_otherwise(model: MaskablePPO, days: VecEnv) -> bool:
-    """Whether the model learned from other days than these, or in a way that no setting says."""
-    # stable-baselines3 forgets the last observation when it gives a model, loaded or not, other days.
+    """Whether the model learned from other days than these, or in a way that no setting expresses."""
+    # stable-baselines3 drops the last observation when a model, loaded or not, gets another environment.
     other_days = model._last_obs is None
     normalised = unwrap_vec_normalize(days)
     other_rewards = normalised is not None and normalised.norm_reward
@@ -128,18 +130,18 @@ def _learned_otherwise(model: MaskablePPO, days: VecEnv) -> bool:
 
 
 def _falling(model: MaskablePPO) -> tuple[float, str | None]:
-    """The first learning rate, and how the program calls its way down; None for another way."""
+    """The first learning rate, and the program's name of its schedule; None for any other schedule."""
     rates = _sampled(model.lr_schedule)
     if np.allclose(rates, rates[0], rtol=1e-6, atol=0.0):
         return rates[0], "constant"
-    # A run that went on fell twice.
+    # In a run that was continued, the rate fell twice.
     once = model._num_timesteps_at_start == 0
     linear = once and np.allclose(rates, rates[0] * LEFT, rtol=1e-6, atol=1e-6 * abs(rates[0]))
     return rates[0], "linear" if linear else None
 
 
 def _constant(schedule: Schedule) -> float | None:
-    """What a schedule always gives, None if it does not give the same."""
+    """The value of a constant schedule; None for a schedule that is not constant."""
     values = _sampled(schedule)
     return values[0] if np.allclose(values, values[0], rtol=1e-6, atol=0.0) else None
 

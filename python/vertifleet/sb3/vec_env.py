@@ -1,4 +1,4 @@
-"""Many days side by side as an environment of stable-baselines3, on the environments' native batch."""
+"""Many days side by side as an environment of stable-baselines3, on the native batch of days."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
 class FleetVecEnv(VecEnv):
     """Training days of a network, with action masks for MaskablePPO.
 
-    A day that is over makes room for the next in the same step; its end is in the step's infos, with the
-    day's reward ("episode") for the logs.
+    When a day is over, the next one begins in the same step. The step's infos have the final observation, and
+    the day's reward ("episode") for the logs.
 
     Args:
         network: the network or its name.
         num_envs: number of days side by side.
         reward: "terminal", all of it at the end of the day, or "dense", each flight's share when decided.
-        reward_scale: what rewards are multiplied by before learning; logs show them as they are.
-        threads: threads that advance the days; all cores by default.
+        reward_scale: factor of the rewards that are learned from; logs show the reward itself.
+        threads: number of threads that advance the days; all cores by default.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class FleetVecEnv(VecEnv):
         super().__init__(num_envs, self.days.single_observation_space, self.days.single_action_space)
 
     def reset(self) -> VecEnvObs:
-        """Begins new days, with the seeds and options given before where there are any."""
+        """Begins new days, with the seeds and options that were set before, if any."""
         if any(options != self._options[0] for options in self._options):
             raise Error("V451", "the days are reset together: set_options takes one dict for all of them")
         observations, _ = self.days.reset(seed=self._seeds, options=self._options[0])
@@ -61,11 +61,11 @@ class FleetVecEnv(VecEnv):
         return self._show(observations)
 
     def step_async(self, actions: NDArray[np.int64]) -> None:
-        """Takes note of a decision for every day [days]."""
+        """Stores the decisions of all days [days] for `step_wait`."""
         self._actions = actions
 
     def step_wait(self) -> VecEnvStepReturn:
-        """Carries the decisions out; observations stay as they are until the step after next."""
+        """Carries the decisions out; observations stay valid until the step after next."""
         observations, rewards, over, _, told = self.days.step(self._actions)
         self._decisions += 1
         infos: list[dict[str, Any]] = [{"invalid_action": held} for held in told["invalid_action"].tolist()]
@@ -95,12 +95,12 @@ class FleetVecEnv(VecEnv):
         return self._masks
 
     def get_attr(self, attr_name: str, indices: VecEnvIndices = None) -> list[Any]:
-        """What all days share, once for each of them."""
+        """An attribute that all days share, repeated for each of them."""
         value = getattr(self, attr_name)
         return [value for _ in self._get_indices(indices)]
 
     def set_attr(self, attr_name: str, value: Any, indices: VecEnvIndices = None) -> None:
-        """Sets what all days share; a single day cannot be changed."""
+        """Sets an attribute that all days share; a single day cannot be changed."""
         if indices is not None:
             raise AttributeError(f"{attr_name} is the same for all days: set it without indices")
         setattr(self, attr_name, value)
@@ -108,14 +108,14 @@ class FleetVecEnv(VecEnv):
     def env_method(
         self, method_name: str, *method_args: Any, indices: VecEnvIndices = None, **method_kwargs: Any
     ) -> list[Any]:
-        """What a method says of single days; the only one is "action_masks", for which MaskablePPO asks."""
+        """The results of a method for single days; the only one is "action_masks", which MaskablePPO calls."""
         if method_name != "action_masks" or method_args or method_kwargs:
             raise AttributeError(f"single days have a method action_masks(), no {method_name}")
         return [self._masks[day] for day in self._get_indices(indices)]
 
     def env_is_wrapped(self, wrapper_class: Any, indices: VecEnvIndices = None) -> list[bool]:
-        """Whether single days are wrapped: as if in a Monitor, for infos tell of a day's end as its do.
+        """Claims that days are wrapped in a Monitor, because their infos report a day's end as a Monitor's do.
 
-        So evaluations take the day's reward from there, not the scaled rewards that are learned from.
+        So evaluations take the day's reward from the infos, not the scaled rewards that are learned from.
         """
         return [wrapper_class is Monitor for _ in self._get_indices(indices)]

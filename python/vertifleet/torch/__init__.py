@@ -1,7 +1,7 @@
-"""The program's networks in PyTorch: the same layers, the same tensors, weight files both ways.
+"""The program's networks in PyTorch: the same layers and tensors, and weight files in both directions.
 
-Weights that the program trained are loaded to be looked at or trained further; weights that were trained
-here, on a GPU perhaps, are saved, and the program decides with them::
+Weights that the program trained can be loaded, to inspect them or to train them further. Weights that were
+trained here, perhaps on a GPU, can be saved, and the program decides with them::
 
     from vertifleet.torch import act, load, save
 

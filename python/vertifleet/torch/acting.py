@@ -1,4 +1,4 @@
-"""From logits to decisions: the mask, and the choice of the highest logit (§IV.B, greedy decoding)."""
+"""From logits to choices: the mask, and the choice of the highest logit (§IV.B, greedy decoding)."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from vertifleet.torch.twin import Twin
 
 READ = ("nodes", "aircraft", "clock", "action_mask")
-"""What is read of an observation."""
+"""The entries of an observation that the networks read."""
 
 
 def masked(logits: Tensor, mask: Tensor) -> Tensor:
@@ -31,13 +31,13 @@ def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np
 
     Args:
         twin: the network.
-        observation: what an environment shows; "nodes", "aircraft", "clock" and "action_mask" are read.
+        observation: an observation; "nodes", "aircraft", "clock" and "action_mask" are read.
 
     Returns:
         A vertiport for one observation, vertiports [B] for a batch of them.
 
     Raises:
-        Error: V451 if the observation lacks one of these, or its shapes are not those that the network reads.
+        Error: V451 if the observation lacks one of these, or has other shapes than the network reads.
     """
     missing = [name for name in READ if name not in observation]
     if missing:
@@ -61,6 +61,6 @@ def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np
 
 
 def _check(name: str, found: Tensor, expected: Sequence[int]) -> None:
-    """Refuses what was shown by another network, or to another policy."""
+    """Refuses an entry of another network's or another policy's observation."""
     if list(found.shape) != list(expected):
         raise Error("V451", f"{name} must be {list(expected)}, found {list(found.shape)}")

@@ -1,4 +1,4 @@
-"""GCAPS (§IV, Eq. 18-21, Table 3): graph-capsule encoder, attention decoder, a value head beside it.
+"""GCAPS (§IV, Eq. 18-21, Table 3): graph-capsule encoder, attention decoder, and a value head beside it.
 
 P = 2, K = 2 and L_e = 1 are fixed. h is the embedding length, h_e the number of heads, d = h / h_e.
 """
@@ -22,7 +22,7 @@ class Gcaps(Twin):
     Args:
         vertiports: N.
         width: h, the embedding length.
-        heads: h_e, the number of attention heads; divides the width.
+        heads: h_e, the number of attention heads; it divides the width.
     """
 
     kind = "gcaps"
@@ -55,10 +55,10 @@ class Gcaps(Twin):
 
 
 class GcapsX(Gcaps):
-    """The layers of :class:`Gcaps` on features that do not grow with the network.
+    """The layers of :class:`Gcaps` on features whose number does not grow with the network.
 
-    So its weights fit any number of vertiports. The features are the program's own (the environments show
-    those of the paper), and the program adds the logits to what the day's prices say.
+    So its weights fit any number of vertiports. The features are the program's own (the environments have
+    those of the paper), and the program adds the logits to the worths of choices at the day's prices.
     """
 
     kind = "gcaps-x"
@@ -91,14 +91,14 @@ class Encoder(nn.Module):
 class Hops(nn.Module):
     """Eq. 18 for one p on the complete graph: ``f_p = ReLU(sum over a of (L/N)^a F V_pa)``.
 
-    In powers of L / N rather than L = D - A: the same family of functions (W_pa = V_pa / N^a), with all terms
-    on one scale. On the complete graph L / N takes the mean over the nodes away, and doing so twice is doing
-    so once, so the sum is ``F (V_p0 + V_p1 + V_p2) - mean(F) (V_p1 + V_p2)``.
+    It uses powers of L / N instead of L = D - A, which give the same family of functions (W_pa = V_pa / N^a)
+    with all terms on one scale. On the complete graph, L / N subtracts the mean over the nodes, and
+    subtracting it twice is the same as once, so the sum is ``F (V_p0 + V_p1 + V_p2) - mean(F) (V_p1 + V_p2)``.
     """
 
     def __init__(self, width: int) -> None:
         super().__init__()
-        # Three terms add up in front of the rectifier.
+        # Three terms add up before the rectifier.
         self.hop_0 = Matrix(width, width, BEFORE_RELU, inputs_in_all=3 * width)
         self.hop_1 = Matrix(width, width, BEFORE_RELU, inputs_in_all=3 * width)
         self.hop_2 = Matrix(width, width, BEFORE_RELU, inputs_in_all=3 * width)
@@ -145,9 +145,9 @@ class Decoder(nn.Module):
     def attend(self, q: Tensor, embeddings: Tensor) -> Tensor:
         """MHA(q, E) of Eq. 20 and 21: [B, h] from a query [B, h] and embeddings [B, N, h].
 
-        There is one query for all nodes, so there is no key and no value of every node: a head's query is
-        brought to the embeddings' side, ``q · (E_i W_K) = (W_K q) · E_i``, and what its attention collects
-        goes through W_V.
+        There is one query for all nodes, so keys and values of all nodes are not computed: a head's query is
+        brought to the embeddings' side, ``q · (E_i W_K) = (W_K q) · E_i``, and W_V is applied to what its
+        attention collects.
         """
         batch, width = q.shape
         of_heads = (width, self.heads, width // self.heads)  # h x h_e x d

@@ -1,7 +1,7 @@
-"""The layers that the networks are made of, with the names, shapes and first weights of the weight files.
+"""The layers of the networks, with the names and shapes of the weight files and the same first weights.
 
 A matrix is [inputs, outputs] and used as ``x W``. First weights are uniform with mean 0 and variance
-``gain² / inputs`` (He et al. 2015, LeCun et al. 1998), drawn from torch's generator.
+``gain² / inputs`` (He et al. 2015, LeCun et al. 1998), drawn with torch's generator.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from torch import Tensor, nn
 from torch.nn.functional import layer_norm, relu
 
 BEFORE_RELU = math.sqrt(2.0)
-"""Gain in front of a rectifier, which loses half of the signal's power."""
+"""Gain before a rectifier, which loses half of the signal's power."""
 LOGITS = 0.01
-"""Gain of the logits' last matrix, as in stable-baselines3: the first policy is nearly uniform."""
+"""Gain of the last matrix of the logits, as in stable-baselines3: the first policy is nearly uniform."""
 VALUE = 0.1
-"""Gain of the value's last weights: the first values are near 0."""
+"""Gain of the last weights of the value: the first values are near 0."""
 
 
 def uniform(*shape: int, inputs: int, gain: float) -> nn.Parameter:
@@ -32,8 +32,8 @@ class Matrix(nn.Module):
     Args:
         inputs: rows of W.
         outputs: columns of W.
-        gain: of the first weights.
-        inputs_in_all: how many inputs add up where other matrices add to the same; ``inputs`` by default.
+        gain: gain of the first weights.
+        inputs_in_all: total number of inputs if other matrices add to the same output; ``inputs`` by default.
     """
 
     def __init__(self, inputs: int, outputs: int, gain: float = 1.0, inputs_in_all: int = 0) -> None:
@@ -58,7 +58,7 @@ class Linear(Matrix):
 
 
 class LayerNorm(nn.Module):
-    """Every row to mean 0 and variance 1, then a learned scale and shift (Ba et al. 2016)."""
+    """Brings every row to mean 0 and variance 1, then applies a scale and a shift (Ba et al. 2016)."""
 
     def __init__(self, width: int) -> None:
         super().__init__()
@@ -86,8 +86,8 @@ class Sum(nn.Module):
 class ValueHead(nn.Module):
     """``v = w · ReLU([features, clock] W + b) + c``.
 
-    The clock, the share of the day left, enters here only: no choice depends on it directly. ``means_width``
-    is the width of means over the nodes that the head reads as well, 0 for none.
+    The clock, the share of the day that is left, enters here only: no choice depends on it directly.
+    ``means_width`` is the width of the means over the nodes if the head reads them too, and otherwise 0.
     """
 
     def __init__(self, features: int, width: int, means_width: int = 0) -> None:

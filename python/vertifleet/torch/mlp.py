@@ -1,4 +1,4 @@
-"""The paper's baseline (§V.B): plain layers on the flattened features, the same mask and value head."""
+"""The paper's baseline (§V.B): plain layers on the flattened features, with the same mask and value head."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Mlp(Twin):
 
     Args:
         vertiports: N.
-        width: outputs of each layer.
+        width: number of outputs of each layer.
         layers: number of layers before the logits.
         value_width: width of the value head's layer.
     """

@@ -1,6 +1,6 @@
-"""Where weights come from, as the header of a weight file says it: the network, settings, seed and steps.
+"""The origin of weights for the header of a weight file: network, settings, seed and steps.
 
-Weights are worth more than what is known of them: what the program has no words for, the header leaves open.
+Weights are saved even if their origin is not known: the header leaves open what the program cannot express.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 MOST_SEED = 2**32 - 1
 MOST_STEPS = 2**64 - 1
 NEVER = 1_000_000_000
-"""For "eval_every" where validation days are not looked at, and the weights kept are the last."""
+"""Value of "eval_every" if validation days are not played, and the last weights are kept."""
 
 
 def checked_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Settings in Python's own types; members that are not given are the paper's.
+    """Settings in Python's own types; those that are not given have the paper's values.
 
     Raises:
-        Error: V451 if they are no dict, V302 and V303 if a member is unknown or out of its bounds.
+        Error: V451 if they are not a dict, V302 and V303 if a member is unknown or out of its bounds.
     """
     if not isinstance(settings, Mapping):
         hint = f"vertifleet.settings({settings!r}) gives one" if isinstance(settings, str) else None
@@ -35,19 +35,19 @@ def checked_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def settings_in_words(found: Mapping[str, Any]) -> dict[str, Any] | None:
-    """What a library trained with, under the program's names; None where the program cannot say it.
+    """The settings of a library's run under the program's names; None if these cannot express them.
 
     Args:
-        found: all settings but those of validation days, at which libraries do not look.
+        found: all settings except those of validation days, which libraries do not play.
     """
     try:
         return vertifleet.settings("paper", **found, eval_every=NEVER, eval_days=1)
-    except (Error, AttributeError, TypeError, ValueError):  # schedules and other objects are no numbers
+    except (Error, AttributeError, TypeError, ValueError):  # schedules and other objects are not numbers
         return None
 
 
 def seed_in_words(seed: Any) -> int | None:
-    """The seed of a library's run; None where there was none, or the program has none like it."""
+    """The seed of a library's run; None if there was none, or if it is not a valid seed of the program."""
     try:
         return whole("seed", seed, MOST_SEED)
     except Error:
@@ -55,7 +55,7 @@ def seed_in_words(seed: Any) -> int | None:
 
 
 def whole(name: str, number: Any, most: int) -> int:
-    """A whole number in Python's own type, whichever it comes in."""
+    """A whole number converted to Python's own type."""
     counts = isinstance(number, Real) and not isinstance(number, bool)
     if counts and 0 <= number <= most and int(number) == number:
         return int(number)
@@ -65,10 +65,10 @@ def whole(name: str, number: Any, most: int) -> int:
 def network_trained_on(
     given: str | os.PathLike[str] | Network | None, trained_on: str | os.PathLike[str] | Network
 ) -> Network:
-    """The network that weights were trained on, which is the one given if one is.
+    """The network that weights were trained on; if a network is given, it must be the same.
 
     Raises:
-        Error: V451 if another is given; others if it cannot be read.
+        Error: V451 if another network is given; others if it cannot be read.
     """
     trained_on = network_of(trained_on)
     if given is None:

@@ -1,4 +1,4 @@
-"""What the networks have in common: what they take and give, and what a weight file's header says of them."""
+"""The common part of the networks: inputs, outputs, and their description in a weight file's header."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 MOST = 4096
-"""Sizes beyond this are a damaged file's, and would ask for more memory than there is."""
+"""Larger sizes can only come from a damaged file, and could ask for more memory than there is."""
 
 
 class Twin(nn.Module, ABC):
-    """A network of the program in PyTorch: the same layers, the same tensors.
+    """A network of the program in PyTorch, with the same layers and tensors.
 
     The keys of ``state_dict()`` are the names of the tensors in weight files.
 
     Attributes:
-        vertiports: N, for which the weights fit; None where they fit any number.
-        node_features: F, numbers that a node shows.
-        aircraft_features: G, numbers that the aircraft shows.
+        vertiports: N, the number of vertiports that the weights fit; None if they fit any number.
+        node_features: F, number of features of a node.
+        aircraft_features: G, number of features of the aircraft.
         header: header of the weight file that the weights come from; None for fresh weights.
     """
 
@@ -48,7 +48,7 @@ class Twin(nn.Module, ABC):
         Args:
             nodes: node features, [B, N, F] or flat [B, N * F].
             aircraft: features of the aircraft that decides, [B, G].
-            clock: share of the day left, [B] or [B, 1]; the value alone depends on it.
+            clock: share of the day that is left, [B] or [B, 1]; only the value depends on it.
         """
 
     @property
@@ -58,12 +58,12 @@ class Twin(nn.Module, ABC):
 
     @property
     def policy(self) -> dict[str, Any]:
-        """The policy's kind and sizes, as a weight file's header has them."""
+        """The policy's kind and sizes, as they stand in the header of a weight file."""
         return {"kind": self.kind} | self.sizes
 
     @property
     def shape(self) -> dict[str, int | None]:
-        """The sizes of the features, as a weight file's header has them."""
+        """The sizes of the features, as they stand in the header of a weight file."""
         return {
             "vertiports": self.vertiports,
             "node_features": self.node_features,
@@ -71,10 +71,10 @@ class Twin(nn.Module, ABC):
         }
 
     def by_node(self, nodes: Tensor) -> Tensor:
-        """Node features as [B, N, F], whether they come flat or not.
+        """Node features as [B, N, F], from that shape or from a flat one.
 
         Raises:
-            Error: V451 if they are those of another number of vertiports, or of another policy.
+            Error: V451 if they belong to another number of vertiports or to another policy.
         """
         batch, *shown = nodes.shape
         features = self.node_features
@@ -87,12 +87,12 @@ class Twin(nn.Module, ABC):
 
 
 def paper_features(vertiports: int) -> tuple[int, int]:
-    """F and G of §IV.A on a network with so many vertiports."""
+    """F and G of §IV.A on a network with this many vertiports."""
     return 2 * vertiports + 4, 2 * vertiports + 2
 
 
 def check_size(name: str, size: int, most: int = MOST) -> int:
-    """The size in Python's own type, be it NumPy's; refuses one that no network has."""
+    """A size of Python or NumPy, converted to Python's own type; refuses sizes that no network has."""
     try:
         number = 0 if isinstance(size, bool) else operator.index(size)
     except TypeError:
@@ -106,10 +106,10 @@ Kind = TypeVar("Kind", bound=Twin)
 
 
 def of_sizes(kind: type[Kind], vertiports: int, sizes: Mapping[str, int]) -> Kind:
-    """The network for so many vertiports, with first weights; `sizes` are by the names of its arguments.
+    """The network for this many vertiports, with first weights; `sizes` are its arguments by name.
 
     Raises:
-        Error: V451 if it has no such size, or none so large.
+        Error: V451 if it has no such size, or if a size is out of bounds.
     """
     known = [name for name in signature(kind).parameters if name != "vertiports"]
     for name in sizes:

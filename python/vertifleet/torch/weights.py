@@ -1,7 +1,7 @@
-"""Weight files both ways: the program reads what is saved here, and what the program writes is loaded here.
+"""Weight files in both directions: the program reads files saved here, and files of the program load here.
 
-Files are read, checked and written by the program's own reader (:class:`vertifleet.Model`): a file that loads
-here loads there, and a damaged one is refused with the same words.
+The program's own reader (:class:`vertifleet.Model`) reads, checks and writes the files: a file that loads here
+loads in the program, and a damaged file is refused with the same message.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ def load(source: str | os.PathLike[str] | bytes) -> Twin:
         source: the file's path, or its bytes.
 
     Raises:
-        Error: V304 if it is no weight file or its tensors are not those of the policy that its header names,
-            others if it cannot be read.
+        Error: V304 if it is not a weight file, or if its tensors are not those of the policy that its header
+            names; others if it cannot be read.
     """
     model = Model.from_bytes(source) if isinstance(source, bytes) else Model.read(source)
     header: dict[str, Any] = model.header
@@ -58,17 +58,18 @@ def save(
 ) -> None:
     """Writes a weight file, whole or not at all.
 
-    What is not given stays as in the file that the weights were loaded from. Weights from no file need the
-    network and the steps; of settings and seed, the new file says that they are not known.
+    Arguments that are not given keep their values from the file that the weights were loaded from. Weights
+    that come from no file need `network` and `steps`; without `settings` or `seed`, the new file says that
+    these are not known.
 
     Args:
-        twin: the network.
-        path: the file.
-        network: what the weights were trained on: the network, its name or its path.
-        settings: the settings of the training run, with the members of ``vertifleet.settings("paper")``; of a
+        twin: the network of layers.
+        path: path of the weight file.
+        network: the network that the weights were trained on, its name or its path.
+        settings: the settings of the training run, with the members of ``vertifleet.settings("paper")``; for
             ``gcaps-x``, with those in the header of its shipped weights.
         seed: seed of the training run.
-        steps: decisions learned from.
+        steps: number of decisions learned from.
 
     Raises:
         Error: V304 if a weight is not finite, V302 and V303 if there is no such setting or it is out of its
@@ -89,7 +90,7 @@ def save_trained(
     seed: int | None,
     steps: int,
 ) -> None:
-    """As :func:`save`, of weights that were trained anew: nothing stays of a file that they started from."""
+    """Like :func:`save`, for weights that were trained anew: the header of an earlier file is dropped."""
     _write(twin, path, _new_header(twin, _said(twin, network, settings, seed, steps)))
 
 
@@ -100,7 +101,7 @@ def _write(twin: Twin, path: str | os.PathLike[str], header: Mapping[str, Any]) 
 
 
 def _of(header: Mapping[str, Any]) -> Twin:
-    """The network that a checked header describes, its weights without memory as yet."""
+    """The network that a checked header describes, without memory for its weights yet."""
     sizes = {name: size for name, size in header["policy"].items() if name != "kind"}
     with torch.device("meta"):
         match header["policy"]["kind"]:
@@ -119,7 +120,7 @@ def _said(
     seed: int | None,
     steps: int | None,
 ) -> dict[str, Any]:
-    """The members of a header that the arguments of `save` say anew; None where they are silent."""
+    """The members of a header that follow from the arguments of `save`; None for those not given."""
     said: dict[str, Any] = {
         "network": None if network is None else network.name,
         "settings": None if settings is None else _all_settings(twin, settings),
@@ -134,7 +135,7 @@ def _said(
 
 
 def _all_settings(twin: Twin, settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Checked settings, none of them made up; those of imitation are checked when they are written."""
+    """Checked settings without defaults; settings of imitation are checked when they are written."""
     if twin.kind == "gcaps-x":
         return dict(settings)
     checked = checked_settings(settings)
@@ -147,7 +148,7 @@ def _all_settings(twin: Twin, settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _scales(twin: Twin, network: Network) -> dict[str, float] | None:
-    """The scales of the network's features, if the weights fit it; None where features need no scales."""
+    """The scales of the network's features, if the weights fit it; None for features that need no scales."""
     if twin.vertiports is None:
         return None
     if len(network.vertiports) != twin.vertiports:

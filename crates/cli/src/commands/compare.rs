@@ -20,18 +20,17 @@ const SEED_ON_OWN_DAYS: u64 = 0;
 
 pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
-    let (folder, force) = (arguments.report.as_deref(), arguments.force);
-    let mut outputs = Outputs::new(force);
+    let mut outputs = Outputs::new(arguments.presented.force);
     // Ctrl-C ends the program itself, so the study is never asked to stop.
     let never = Stop::default();
     let comparison = comparison(arguments, &mut outputs, &never)?;
     reads_models(arguments.models.iter().map(|(_, model)| model), &mut outputs);
-    claim_report(folder, &mut outputs, force)?;
+    claim_report(&arguments.presented, &mut outputs)?;
     warn_of_days(comparison.days());
     for warning in comparison.warnings() {
         warn(Code(310), &warning);
     }
-    present(&comparison.run(command(), &never, &Bars)?, arguments.json, folder, force)?;
+    present(&comparison.run(command(), &never, &Bars)?, &arguments.presented)?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -19,17 +19,16 @@ const SEED: u64 = 0;
 
 pub(crate) fn run(arguments: &GeneraliseArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
-    let (folder, force) = (arguments.report.as_deref(), arguments.force);
     let (policies, models) = (&arguments.policies, &arguments.models);
     let selection = Selection { policies, models, seed: SEED };
     let step = Step::from_minutes(arguments.step)?;
     let generalisation = Generalisation::new(&selection, arguments.networks, step)?;
-    let mut outputs = Outputs::new(force);
+    let mut outputs = Outputs::new(arguments.presented.force);
     reads_models(models.iter().map(|(_, model)| model), &mut outputs);
-    claim_report(folder, &mut outputs, force)?;
+    claim_report(&arguments.presented, &mut outputs)?;
     warn_of_days(generalisation.days());
     // Ctrl-C ends the program itself, so the study is never asked to stop.
     let study = generalisation.run(command(), &Stop::default(), &Bars)?;
-    present(&study, arguments.json, folder, force)?;
+    present(&study, &arguments.presented)?;
     Ok(ExitCode::SUCCESS)
 }

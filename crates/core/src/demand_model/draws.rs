@@ -130,7 +130,8 @@ mod tests {
         for asked in [1e-300, 0.05, 0.3, 1.0, 7.0, 9.99, 10.0, 25.0, 400.0, 1e5] {
             let (mean, variance) = moments(|random| f64::from(poisson(asked, random)));
             assert!((mean - asked).abs() <= allowed(asked), "{asked}: mean {mean}");
-            // The variance of a sample's variance: (fourth central moment - variance^2) / draws = (asked + 2 asked^2) / draws.
+            // The variance of a sample's variance: (fourth central moment - variance^2) / draws = (asked + 2 asked^2) /
+            // draws.
             let error = 4.0 * ((asked + 2.0 * asked * asked) / f64::from(DRAWS)).sqrt();
             assert!((variance - asked).abs() <= error, "{asked}: variance {variance}");
         }

@@ -1,8 +1,8 @@
-//! Bounds kept in files, so that a day's bound is searched for once.
+//! Prices of bounds kept in files, so that a day's bound is searched for only once.
 //!
-//! A file holds prices, not a bound: what they prove is worked out anew. So nothing that a file may hold, be it damaged,
-//! of another day or made up, can give a wrong bound; at worst it gives a loose one. The name is a hash of all that the prices
-//! depend on.
+//! A file holds prices and not a bound; the bound that they prove is computed anew. A file that is damaged, of another
+//! day or made up can therefore never give a wrong bound, at worst a loose one. The name is a hash of everything that
+//! the prices depend on.
 
 use std::fmt::Write;
 use std::hash::Hasher;
@@ -19,24 +19,25 @@ use super::time_expanded_day::TimeExpandedDay;
 use super::{Bound, Step, upper_bound_unless};
 use crate::Error;
 
-/// Changes whenever the search would find other prices.
+/// To be raised whenever the search would find other prices.
 const VERSION: u64 = 2;
-/// No file of ours is longer.
+/// No file that this program wrote is longer.
 const LONGEST: u64 = 256 << 20;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Kept {
-    /// Length of the slices of these prices.
+    /// Length of the slices of these prices, minutes.
     minutes: u32,
     stand: Vec<i64>,
     demand: Vec<i64>,
 }
 
-/// As [`upper_bound_unless`], with the prices taken from a file in `folder` where they are there, and put there where they are not.
+/// Does the same as [`upper_bound_unless`], but takes the prices from a file in `folder` if it exists, and otherwise
+/// writes them there.
 ///
 /// # Errors
-/// Those of [`upper_bound_unless`], and [`Error::Core`] if the folder or the file cannot be written.
+/// The errors of [`upper_bound_unless`], and [`Error::Core`] if the folder or the file cannot be written.
 pub fn cached_upper_bound(
     stopped: &Stop,
     scenario: &Scenario,
@@ -55,8 +56,8 @@ pub fn cached_upper_bound(
     Ok(Some(Bound { prices: Prices { stand: kept.stand, demand: kept.demand }, ..bound }))
 }
 
-/// The bound of the prices in a file; `None` if there is no such file, or no prices for this day in it, or if `stopped` is
-/// raised meanwhile.
+/// The bound of the prices in a file. Returns `None` if there is no such file, if it has no prices for this day, or if
+/// `stopped` is requested meanwhile.
 fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound>, Error> {
     let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
     let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
@@ -66,7 +67,7 @@ fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound
     let proven = Certificate::new(&network).evaluate(&network, &prices, stopped);
     Ok(proven.map(|micro_usd| {
         let bound = Bound::of(step, &network, &Found { prices, micro_usd });
-        // Only what a search ended with is kept.
+        // Only prices of a search that came to its end are kept.
         Bound { is_final: true, ..bound }
     }))
 }

@@ -1,11 +1,11 @@
-//! The certificate: prices prove a bound, in whole numbers, however they were found.
+//! The certificate: prices prove a bound in exact whole numbers, however they were found.
 //!
-//! Let aircraft pay for the stands that they take and for the passengers that they carry, and give every stand and every
-//! passenger its price back once. A schedule that keeps to the limits pays no more than is given back. So what is given back,
-//! plus the most that each aircraft can earn for itself at these prices, is at least what any schedule earns (Lagrangian
-//! relaxation; docs/src/concepts/bound.md has the proof). The most that an aircraft can earn is a longest path through
-//! vertiports and whole seconds, found from the end of the day back to its start; flights and holds last exactly as long
-//! there as in the simulator.
+//! Let aircraft pay for the stands that they take and for the passengers that they carry, and give back the price of
+//! every stand and every passenger once. A schedule that keeps to the limits pays no more than is given back. The
+//! amount given back plus the most that each aircraft can earn at these prices is therefore at least the profit of any
+//! schedule (Lagrangian relaxation; docs/src/concepts/bound.md has the proof). The most that an aircraft can earn is a
+//! longest path through vertiports and whole seconds, found from the end of the day back to its start. Flights and
+//! holds last exactly as long on this path as in the simulator.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -13,28 +13,30 @@ use super::prices::Prices;
 use super::time_expanded_day::{Flight, TimeExpandedDay};
 use vertifleet_core::Stop;
 
-/// Seconds that are worked out side by side: their worths so far stay in the fastest memory.
+/// Seconds that are computed side by side, so that their worths so far stay in the fastest memory.
 const SIDE_BY_SIDE: usize = 256;
 
-/// What prices prove, and what it is worth at them to be ready anywhere at any time. Evaluated again and again without a new allocation.
+/// The bound that prices prove, and the worth of being ready anywhere at any time at these prices. It is evaluated
+/// again and again without a new allocation.
 #[derive(Debug, Clone)]
 pub(super) struct Certificate {
-    /// What a stand has cost from the first slice until each slice begins and the last one ends, by slice, then vertiport.
+    /// Price of a stand from the first slice until each slice begins and the last one ends, by slice, then vertiport.
     paid: Vec<i64>,
-    /// What it is worth to be ready, *less* what the stand has cost since the day began, so that what an aircraft pays from
-    /// one second to another is one subtraction; by layer, vertiport, second of the day, and as many seconds past it as are ever
-    /// read.
+    /// The worth of being ready, *less* the price of the stand since the day began, so that the payment from one second
+    /// to another is one subtraction. By layer, vertiport, second of the day, and as many seconds past its end as are
+    /// ever read.
     ///
-    /// A day has at most 5,762 slices (36 hours in minutes, 1,440 more where periods begin, and 2,161 where slots of delays
-    /// do), an aircraft flies at most 2,161 times, a flight earns at most 1,000 x 10^12, and a stand costs at most 10^14 a slice: all is below 2^62.
+    /// A day has at most 5,762 slices (36 hours in minutes, 1,440 more where periods begin, and 2,161 where slots of
+    /// delays begin). An aircraft flies at most 2,161 times, a flight earns at most 1,000 x 10^12, and a stand costs at
+    /// most 10^14 a slice, so every entry is below 2^62.
     worth_less_paid: Vec<i64>,
-    /// From a vertiport to the next in `worth_less_paid`.
+    /// Distance from a vertiport to the next in `worth_less_paid`.
     stride: usize,
     arch: Arch,
 }
 
 impl Certificate {
-    /// Room for the evaluations of a network.
+    /// A certificate with memory for the evaluations of a day.
     pub(super) fn new(network: &TimeExpandedDay) -> Self {
         let stride = (network.slices.day_s() + network.shortest_s) as usize;
         Self {
@@ -45,8 +47,8 @@ impl Certificate {
         }
     }
 
-    /// Works out what `prices` prove: before what the fleet costs whatever it does, no schedule earns more than so many micro-dollars.
-    /// None soon after `stopped` is raised.
+    /// Computes the bound that `prices` prove, micro-dollars, before the cost of the fleet is deducted. Returns `None`
+    /// soon after `stopped` is requested.
     pub(super) fn evaluate(
         &mut self,
         network: &TimeExpandedDay,
@@ -62,17 +64,18 @@ impl Certificate {
                 return None;
             }
         }
-        Some(self.fleet(network) + given_back(network, prices))
+        Some(self.fleet(network) + dual_constant(network, prices))
     }
 
-    /// What a stand at a vertiport has cost until a slice begins.
+    /// Price of a stand at a vertiport from the start of the day until a slice begins.
     #[inline]
     pub(super) fn paid(&self, network: &TimeExpandedDay, slice: usize, at: usize) -> i64 {
         self.paid[slice * network.size() + at]
     }
 
-    /// What being ready is worth, less what the stand has cost since the day began; micro-dollars. `second` counts from the first
-    /// take-off time. Past the last one there is nothing to earn, and the stand is paid for until the last slice ends.
+    /// The worth of being ready, less the price of the stand since the day began; micro-dollars. `second` counts from
+    /// the first take-off time. Past the last one nothing can be earned, and the stand is paid for until the last slice
+    /// ends.
     #[inline]
     pub(super) fn worth_less_paid(
         &self,
@@ -93,7 +96,7 @@ impl Certificate {
         }
     }
 
-    /// What the whole fleet earns for itself; nothing has been paid when the day begins.
+    /// The most that the whole fleet earns after payments. Nothing has been paid when the day begins.
     fn fleet(&self, network: &TimeExpandedDay) -> i128 {
         let starts = network.layers.iter().flat_map(|layer| &layer.starts);
         let worths = self.worth_less_paid.iter().step_by(self.stride);
@@ -101,7 +104,7 @@ impl Certificate {
     }
 }
 
-/// One layer's pass over the day, from its end back to its start.
+/// The pass of one layer over the day, from its end back to its start.
 struct LayerPass<'a> {
     network: &'a TimeExpandedDay,
     prices: &'a Prices,
@@ -113,7 +116,7 @@ struct LayerPass<'a> {
 }
 
 impl WithSimd for LayerPass<'_> {
-    /// Whether it came to its end.
+    /// Whether the pass came to its end.
     type Output = bool;
 
     #[inline(always)]
@@ -126,7 +129,7 @@ impl WithSimd for LayerPass<'_> {
             self.worths[at * self.stride..][..self.stride][day_s..].fill(over);
         }
         let second = |slice| (slices.start_s(slice) - slices.start_s(0)) as usize;
-        // No flight and no hold begins and ends in the same piece: all that a piece needs is known.
+        // No flight and no hold begins and ends in the same piece, so everything that a piece needs has been computed.
         let longest = SIDE_BY_SIDE.min(self.network.shortest_s as usize);
         for slice in (0..slices.len()).rev() {
             let (first, mut past) = (second(slice), second(slice + 1));
@@ -152,7 +155,7 @@ impl LayerPass<'_> {
         self.paid[slice * self.network.size() + at]
     }
 
-    /// Works out the seconds from `begin` to before `past`, which are in `slice`, from those after them.
+    /// Computes the seconds from `begin` until before `past`, all of which are in `slice`, from the seconds after them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn work_out_piece(&mut self, slice: usize, from: usize, begin: usize, past: usize) {
@@ -173,7 +176,7 @@ impl LayerPass<'_> {
         }
     }
 
-    /// Raises each entry of `best` to what another choice is worth: `gain`, and the worth at `to` from `ready` on.
+    /// Raises each entry of `best` to the worth of another choice: `gain`, plus the worth at `to` from `ready` on.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn raise(&self, best: &mut [i64], to: usize, ready: usize, gain: i64) {
@@ -185,8 +188,8 @@ impl LayerPass<'_> {
     }
 }
 
-/// Being ready is worth no less than being ready a second later at the same place: less what stands have cost, waiting costs
-/// nothing. `later` is the worth after the last of these seconds.
+/// Being ready is worth no less than being ready a second later at the same vertiport: apart from the price of the
+/// stand, waiting is free. `later` is the worth after the last of these seconds.
 fn wait_freely(worths: &mut [i64], mut later: i64) {
     for worth in worths.iter_mut().rev() {
         later = later.max(*worth);
@@ -194,7 +197,7 @@ fn wait_freely(worths: &mut [i64], mut later: i64) {
     }
 }
 
-/// What a flight earns at most after it has paid for its passengers.
+/// The most that a flight earns after it has paid for its passengers.
 #[inline]
 pub(super) fn earnings(network: &TimeExpandedDay, prices: &Prices, flight: &Flight) -> i64 {
     let cell = flight.cell as usize;
@@ -202,8 +205,8 @@ pub(super) fn earnings(network: &TimeExpandedDay, prices: &Prices, flight: &Flig
     i64::from(flight.passengers) * a_passenger - flight.cost
 }
 
-/// What all stands and all passengers cost together.
-fn given_back(network: &TimeExpandedDay, prices: &Prices) -> i128 {
+/// The price of all stands and all passengers together.
+fn dual_constant(network: &TimeExpandedDay, prices: &Prices) -> i128 {
     let stands = network.stands.iter().cycle().zip(&prices.stand);
     let all = stands.chain(network.demand.iter().zip(&prices.demand));
     all.map(|(&count, &price)| i128::from(count) * i128::from(price)).sum()

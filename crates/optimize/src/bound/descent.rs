@@ -1,11 +1,13 @@
-//! Good prices, found step by step: a proximal bundle method, with a bundle of ways for each group of like aircraft.
+//! The search for good prices, step by step: a proximal bundle method, with a bundle of ways for each group of like
+//! aircraft.
 //!
-//! Around the best prices so far, the model (`master.rs`) finds prices that would be better if the ways known so far were all
-//! there are, and says what they promise. They are evaluated; the ways that are worth most at them are ways that the model did
-//! not know, and from then on it does. Where the bound falls by a good part of what was promised, the model moves to the new prices
-//! and reaches farther; where it rises, the model reaches less far. This is a stabilised column generation (G. Dantzig and P. Wolfe,
-//! *Decomposition principle for linear programs*, Operations Research 8, 1960; K. Kiwiel, *Proximity control in bundle
-//! methods for convex nondifferentiable minimization*, Mathematical Programming 46, 1990).
+//! Around the best prices so far, the model (`master.rs`) finds prices that would be better if there were no ways but
+//! those known so far, and predicts the fall of the bound. The prices are evaluated. The ways that are worth most at
+//! them are new to the model and are added to it. Where the bound falls by a good part of the prediction, the model
+//! moves to the new prices and reaches farther; where it rises, the model reaches less far. This is a stabilised column
+//! generation (G. Dantzig and P. Wolfe, *Decomposition principle for linear programs*, Operations Research 8, 1960; K.
+//! Kiwiel, *Proximity control in bundle methods for convex nondifferentiable minimization*, Mathematical Programming
+//! 46, 1990).
 
 use super::certificate::Certificate;
 use super::master::{Master, Way};
@@ -14,55 +16,56 @@ use super::time_expanded_day::TimeExpandedDay;
 use super::ways::Ways;
 use vertifleet_core::Stop;
 
-/// How often each group may shift its aircraft before prices are evaluated. To go on until no shift is left takes longer than
-/// it is worth.
+/// How often each group may shift its aircraft before prices are evaluated. Continuing until no shift is left costs
+/// more time than it gains.
 const ROUNDS: u32 = 3;
-/// The model has settled when shifts are worth less than this part of what it promised last.
+/// The model has settled when shifts are worth less than this share of its last prediction.
 const SETTLED: f64 = 0.05;
-/// The reach changes so much after prices that were better by more than a part of what was promised, worse, and worse by more than was
-/// promised.
+/// The reach is multiplied by `FARTHER` after prices that were better by more than the share `KEPT` of the prediction,
+/// by `NEARER` after worse ones, and by `MUCH_NEARER` after prices that were worse by more than the whole prediction.
 const KEPT: f64 = 0.05;
 const FARTHER: f64 = 2.0;
 const NEARER: f64 = 0.98;
 const MUCH_NEARER: f64 = 0.8;
-/// Where the model promises too little, it reaches so much farther, as often as this, before that is believed.
+/// A model that predicts too little reaches farther by this factor, at most this many times, before the prediction is
+/// believed.
 const FAR: f64 = 3.0;
 const FAR_TRIES: u32 = 4;
-/// To reach farther than any price can go changes nothing.
+/// The greatest reach. Reaching farther than any price can go changes nothing.
 const FARTHEST: f64 = 1e15;
-/// The search has come to its end when so many steps lowered the bound by less than was enough, or when the model promises
-/// less than so many times that in one step.
+/// The search ends when this many steps lowered the bound by less than `enough`, or when the model predicts for one
+/// step less than this multiple of it.
 const WINDOW: u32 = 40;
 const PROMISED: f64 = 3.0;
 
-/// A part of the search.
+/// The settings of one part of the search.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Descent {
-    /// Steps at most, each with one evaluation.
+    /// The most steps, each with one evaluation.
     pub(super) steps: u32,
-    /// What the first step aims at, as a share of the bound.
+    /// The fall that the first step aims at, as a share of the bound.
     pub(super) first: f64,
-    /// What is too little to go on for, as a share of the bound.
+    /// The fall that is too small to continue for, as a share of the bound.
     pub(super) enough: f64,
 }
 
-/// The best prices of a descent, and what they prove on the clock of its network before what the fleet costs whatever it does;
-/// micro-dollars.
+/// The best prices of a descent, and the bound that they prove on the clock of its day before the cost of the fleet is
+/// deducted, micro-dollars.
 pub(super) struct Found {
     pub(super) prices: Prices,
     pub(super) micro_usd: i128,
 }
 
 impl Found {
-    /// No schedule earns more micro-dollars.
+    /// The bound, micro-dollars: no schedule earns more.
     pub(super) fn bound(&self, network: &TimeExpandedDay) -> i128 {
         self.micro_usd - i128::from(network.fleet_cost)
     }
 }
 
 impl Descent {
-    /// Looks for prices from `start` on. `watch` sees the best so far after every evaluation, and says whether to go on. None if
-    /// `stopped` is raised before the first evaluation is done.
+    /// Searches for prices from `start` on. `watch` is called with the best prices so far after every evaluation, and
+    /// returns whether to continue. Returns `None` if `stopped` is requested before the first evaluation is done.
     pub(super) fn run(
         self,
         network: &TimeExpandedDay,
@@ -104,23 +107,23 @@ impl Descent {
     }
 }
 
-/// The model, and what it promised last.
+/// The model with its last prediction.
 struct Model<'a> {
     master: Master<'a>,
     promised: f64,
-    /// What is too little to promise, micro-dollars.
+    /// A prediction that is too small to continue for, micro-dollars.
     enough: f64,
 }
 
 impl<'a> Model<'a> {
-    /// A model whose first step aims at the share of `bound` that the descent says.
+    /// A model whose first step aims at the fall that the descent's settings ask for.
     fn new(mut master: Master<'a>, descent: Descent, bound: f64) -> Self {
         let promised = descent.first * bound;
         master.reach = (promised / master.fall().max(1e-9)).min(FARTHEST);
         Self { master, promised, enough: PROMISED * descent.enough * bound }
     }
 
-    /// Finds the model's prices; whether they may lower the bound by enough to go on.
+    /// Finds the model's prices, and returns whether they may lower the bound by enough to continue.
     fn promises_enough(&mut self, best: f64) -> bool {
         let enough = self.enough;
         let mut unsettled = self.master.settle(ROUNDS, SETTLED * self.promised);
@@ -136,7 +139,7 @@ impl<'a> Model<'a> {
         false
     }
 
-    /// Takes in what an evaluation has shown: the ways that are worth most, and by how much the bound fell.
+    /// Learns from an evaluation: the ways that are worth most, and the fall of the bound.
     fn learn(&mut self, ways: Vec<(u32, Way)>, fell: f64) {
         self.master.learn(ways);
         let change = match fell / self.promised {

@@ -1,9 +1,9 @@
-//! The way to a good bound: from coarse slices to fine ones, from a coarse clock to the true one.
+//! The path to a good bound: from coarse slices to fine ones, and from a coarse clock to the true one.
 //!
-//! The way to the slices that are asked for passes through all coarser ones (`CUTS`), whatever is asked, and does the same work in
-//! each. What it proves is the best of all that was proven on the way. So a shorter step never gives a looser bound. In each, prices are first
-//! looked for on a clock that ticks once a minute, where a step takes a fraction of the time and proves nothing, and then to
-//! the second, where every step proves a bound.
+//! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work in each, whatever
+//! was requested. The result is the best bound that was proven on the path, so a shorter step never gives a looser
+//! bound. In each cut, prices are first searched for on a clock that ticks once a minute, where a step takes a fraction
+//! of the time and proves nothing, and then to the second, where every step proves a bound.
 
 use vertifleet_core::{Scenario, Stop};
 
@@ -17,14 +17,15 @@ use crate::Error;
 /// Seconds from one tick of the coarse clock to the next.
 const TICK_S: u32 = 60;
 
-/// Slices of one length, and how much work they are worth.
+/// Slices of one length, and the effort of searching in them.
 struct Cut {
     minutes: u32,
     on_coarse_clock: Descent,
     to_the_second: Descent,
 }
 
-/// From the coarsest to the finest. Prices that come from coarser slices need less of a search than those that begin at nothing.
+/// The cuts from the coarsest to the finest. Prices that come from coarser slices need less search than those that
+/// begin at zero.
 const CUTS: [Cut; 5] = [
     Cut {
         minutes: 60,
@@ -53,26 +54,26 @@ const CUTS: [Cut; 5] = [
     },
 ];
 
-/// Minutes of the longest slices on the way that are no longer than so many minutes, which are at least 1.
+/// Minutes of the longest slices in `CUTS` that are no longer than `minutes`, which must be at least 1.
 pub(super) fn cut_within(minutes: u32) -> u32 {
     let cut = CUTS.iter().find(|cut| cut.minutes <= minutes);
     cut.expect("the shortest slices are of a minute").minutes
 }
 
-/// Follows a search.
+/// An observer of a search.
 pub(crate) trait Watch: Sync {
-    /// Raised when the search shall end, soon.
+    /// The handle by which the search is asked to end soon.
     fn stopped(&self) -> &Stop;
-    /// The search has come so far, as a share of its work.
+    /// Called with the share of its work that the search has done.
     fn has_come(&self, share: f64);
-    /// This is the best bound so far.
+    /// Called with the best bound so far.
     fn has_found(&self, bound: &Bound);
-    /// Whether a bound of so many dollars is as low as any can be.
+    /// Whether a bound of this many dollars is as low as any can be.
     fn is_lowest(&self, bound_usd: f64) -> bool;
 }
 
-/// The best bound that is proven on the way to slices of `step`, or by the time that `watch` wants no more; none if that is before the
-/// first bound.
+/// The best bound that is proven on the path to slices of `step`, or until `watch` stops the search; `None` if that is
+/// before the first bound.
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step.
@@ -106,7 +107,7 @@ impl Cut {
         Step { minutes: self.minutes }
     }
 
-    /// Comparisons of all evaluations for each pair of vertiports, roughly.
+    /// The approximate number of comparisons in all evaluations for each pair of vertiports.
     fn work(&self, scenario: &Scenario) -> f64 {
         let slices = Slices::of(scenario, self.step().seconds());
         f64::from(self.on_coarse_clock.steps) * comparisons(&slices, TICK_S)
@@ -114,24 +115,25 @@ impl Cut {
     }
 }
 
-/// Comparisons of an evaluation for each pair of vertiports, roughly. To begin with another flight takes as long as some of them.
+/// The approximate number of comparisons in an evaluation for each pair of vertiports. Starting another flight takes as
+/// long as some of them.
 fn comparisons(slices: &Slices, tick_s: u32) -> f64 {
     f64::from(slices.day_s() / tick_s) + 16.0 * slices.len() as f64
 }
 
-/// A search under way.
+/// A search in progress.
 struct Climb<'a> {
     scenario: &'a Scenario,
     watch: &'a dyn Watch,
     best: Option<Bound>,
-    /// Work done, and all that there is.
+    /// Work done, and all work of the search.
     done: f64,
     in_all: f64,
 }
 
 impl Climb<'_> {
-    /// Searches in slices of one length, from the prices on that were found in coarser ones. The prices to go on from; none if
-    /// the search shall end.
+    /// Searches in slices of one length, starting with the prices that were found in coarser ones. Returns the prices
+    /// to continue with, or `None` if the search is to end.
     fn rise(
         &mut self,
         cut: &Cut,
@@ -143,7 +145,7 @@ impl Climb<'_> {
         let start = if let Some((coarser, prices)) = before {
             Some(prices.in_slices(&coarser, &slices, size))
         } else {
-            // Any prices prove a bound: nothing for everything gives the first, at once.
+            // Any prices prove a bound, so prices of zero give a first one at once.
             let network = network()?;
             let zero = Prices::zero(&network);
             self.prove(cut, &network, Descent { steps: 0, ..cut.to_the_second }, zero)
@@ -156,7 +158,7 @@ impl Climb<'_> {
         Ok(prices.map(|prices| (slices, prices)))
     }
 
-    /// Looks for prices on the coarse clock.
+    /// Searches for prices on the coarse clock.
     fn look(
         &mut self,
         cut: &Cut,
@@ -176,8 +178,8 @@ impl Climb<'_> {
         (!watch.stopped().is_requested()).then_some(found.prices)
     }
 
-    /// Looks for better prices to the second. Each proves a bound, and the best is kept. The prices to go on from, unless
-    /// the search shall end.
+    /// Searches for better prices on the clock of seconds. All of them prove a bound, and the best is kept. Returns the
+    /// prices to continue with, or `None` if the search is to end.
     fn prove(
         &mut self,
         cut: &Cut,

@@ -1,29 +1,31 @@
 //! The search's model of the day: a fleet that divides itself among the ways that are known so far, at prices that rise
-//! where more is wanted than there is.
+//! where more is asked for than is available.
 //!
-//! It is the dual of the proximal step of a bundle method with one bundle for each group of like aircraft (K. Kiwiel, *Proximity control in bundle
-//! methods for convex nondifferentiable minimization*, Mathematical Programming 46, 1990): a price is that of the centre, plus a pace
-//! times what is wanted too much, within its limits. Shifting aircraft from a way to a better one of the same group raises
-//! the model's value, and prices follow; this goes on until no shift is worth much.
+//! The model is the dual of the proximal step of a bundle method with one bundle for each group of like aircraft (K.
+//! Kiwiel, *Proximity control in bundle methods for convex nondifferentiable minimization*, Mathematical Programming
+//! 46, 1990): a price is the centre's price plus a pace times the excess, kept within its limits. Shifting aircraft
+//! from a way to a better one of the same group raises the model's value, and prices follow. This continues until no
+//! shift is worth much.
 
 use std::ops::Range;
 
 use super::prices::{MOST_FOR_A_STAND, PACE_OF_PASSENGERS, Pace, Prices, whole};
 use super::time_expanded_day::TimeExpandedDay;
 
-/// A way through the day.
+/// A way through the day for one aircraft.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Way {
-    /// What its flights earn before anything is paid, micro-dollars.
+    /// The profit of its flights before payments, micro-dollars.
     pub(super) earnings: f64,
-    /// Where the aircraft is, or flies to, when slices end: up to which slice at which vertiport, one stay after the other.
+    /// The stays of the aircraft, one after the other, each as the slice before which it ends and its vertiport: the
+    /// one where the aircraft is, or flies to, when slices end.
     pub(super) stays: Vec<(u32, u32)>,
-    /// Place of the passengers of its flights in [`TimeExpandedDay::demand`], and how many they are.
+    /// For each flight, the position of its passengers in [`TimeExpandedDay::demand`] and their number.
     pub(super) flights: Vec<(u32, u32)>,
 }
 
 impl Way {
-    /// The aircraft is at a place, or flies there, when the slices from one to before another end.
+    /// Adds a stay: the aircraft is at a vertiport, or flies there, at the ends of these slices.
     pub(super) fn stay(&mut self, place: usize, slices: Range<usize>) {
         let position = |at: usize| u32::try_from(at).expect("a day has few slices and vertiports");
         if !slices.is_empty() {
@@ -31,7 +33,7 @@ impl Way {
         }
     }
 
-    /// The slices of each stay, and where it is.
+    /// The slices and the vertiport of each stay.
     fn stays(&self) -> impl Iterator<Item = (Range<usize>, usize)> {
         let mut begin = 0;
         self.stays.iter().map(move |&(until, place)| {
@@ -41,7 +43,8 @@ impl Way {
         })
     }
 
-    /// The slices in which this way and another are at different places, this one's and the other's, in order.
+    /// The slices in which this way and another are at different vertiports, with the vertiport of this one and of the
+    /// other, in order.
     fn apart(&self, other: &Self) -> impl Iterator<Item = (Range<usize>, usize, usize)> {
         let (mut one, mut two, mut begin) = (0, 0, 0);
         std::iter::from_fn(move || {
@@ -61,7 +64,7 @@ impl Way {
     }
 }
 
-/// Aircraft of one layer that start at the same vertiport.
+/// The aircraft of one layer that start at the same vertiport.
 #[derive(Debug)]
 struct Group {
     count: f64,
@@ -73,35 +76,35 @@ struct Group {
 struct Known {
     way: Way,
     share: f64,
-    /// Since when no aircraft takes it, in rounds.
+    /// Number of rounds for which no aircraft has taken the way.
     idle: u32,
     worth: f64,
 }
 
-/// Ways that no aircraft takes are forgotten after so many rounds.
+/// Number of rounds after which a way that no aircraft takes is forgotten.
 const FORGOTTEN: u32 = 12;
-/// A group has had its turns when it has shifted so often.
+/// The most shifts of a group in one round.
 const SHIFTS: u32 = 6;
 
-/// The model, around a centre.
+/// The model around a centre, which is the best prices so far.
 pub(super) struct Master<'a> {
     network: &'a TimeExpandedDay,
     pace: &'a Pace,
     groups: Vec<Group>,
     centre: Prices,
-    /// What a price moves by where one more is wanted than there is, micro-dollars, at a pace of 1.
+    /// Micro-dollars by which a price moves for an excess of one, at a pace of 1.
     pub(super) reach: f64,
-    /// What is wanted too much or too little, and the model's prices, in the order of [`Prices`].
+    /// The number asked for less the number available, and the model's prices, in the order of [`Prices`].
     stand_excess: Vec<f64>,
     demand_excess: Vec<f64>,
     stand: Vec<f64>,
     demand: Vec<f64>,
-    /// What a stand costs from the first slice until each slice begins and the last one ends, by vertiport, then slice.
+    /// Price of a stand from the first slice until each slice begins and the last one ends, by vertiport, then slice.
     paid: Vec<f64>,
 }
 
 impl<'a> Master<'a> {
-    /// Each group takes the one way that is known, in the order of layers and vertiports.
+    /// A model in which each group takes its only known way; groups are in the order of layers and vertiports.
     pub(super) fn new(
         network: &'a TimeExpandedDay,
         pace: &'a Pace,
@@ -128,7 +131,7 @@ impl<'a> Master<'a> {
         master
     }
 
-    /// Counts what is wanted anew.
+    /// Computes the excess anew.
     fn count(&mut self) {
         let size = self.network.size();
         for (at, excess) in self.stand_excess.iter_mut().enumerate() {
@@ -152,7 +155,7 @@ impl<'a> Master<'a> {
         }
     }
 
-    /// How fast the bound would fall if what is wanted stayed the same, by the reach.
+    /// The rate at which the bound would fall with the reach if the excess stayed the same.
     pub(super) fn fall(&self) -> f64 {
         let size = self.network.size();
         let free = |excess: f64, price: i64, most: i64| {
@@ -169,12 +172,12 @@ impl<'a> Master<'a> {
         stands.sum::<f64>() + demand.sum::<f64>()
     }
 
-    /// From now on the model is around these prices.
+    /// Moves the centre of the model to these prices.
     pub(super) fn move_to(&mut self, centre: &Prices) {
         self.centre.clone_from(centre);
     }
 
-    /// One more way is known of each group, in the order of [`Master::new`].
+    /// Adds one more way to each group, in the order of [`Master::new`].
     pub(super) fn learn(&mut self, ways: Vec<(u32, Way)>) {
         for (group, (_, way)) in self.groups.iter_mut().zip(ways) {
             if group.ways.iter().all(|known| known.way != way) {
@@ -194,8 +197,8 @@ impl<'a> Master<'a> {
         (self.centre.demand[cell] as f64 + moved).clamp(0.0, self.network.margin[cell] as f64)
     }
 
-    /// Shifts aircraft until shifts are worth no more than about `enough`, micro-dollars all together, or for so many rounds; what they
-    /// are worth still.
+    /// Shifts aircraft until all shifts together are worth no more than about `enough` micro-dollars, or for `rounds`
+    /// rounds. Returns the worth of the remaining shifts.
     pub(super) fn settle(&mut self, rounds: u32, enough: f64) -> f64 {
         self.count();
         for at in 0..self.stand.len() {
@@ -223,7 +226,7 @@ impl<'a> Master<'a> {
         possible
     }
 
-    /// Sums the prices of a vertiport's stands up, from a slice on.
+    /// Sums the prices of a vertiport's stands, from a slice on.
     fn pay(&mut self, place: usize, first: usize) {
         let size = self.network.size();
         let slices = self.stand.len() / size;
@@ -235,7 +238,7 @@ impl<'a> Master<'a> {
         }
     }
 
-    /// What a way is worth at the model's prices.
+    /// The worth of a way at the model's prices.
     fn worth(&self, way: &Way) -> f64 {
         let row = self.stand.len() / self.network.size() + 1;
         let rents = way.stays().map(|(slices, place)| {
@@ -246,7 +249,7 @@ impl<'a> Master<'a> {
         way.earnings - rents.sum::<f64>() - passengers.sum::<f64>()
     }
 
-    /// Shifts aircraft of a group from bad ways to the best; what could be gained before, micro-dollars.
+    /// Shifts aircraft of a group from bad ways to the best. Returns what could have been gained before, micro-dollars.
     fn shift_group(&mut self, group: usize) -> f64 {
         let count = self.groups[group].count;
         let mut known = std::mem::take(&mut self.groups[group].ways);
@@ -274,8 +277,8 @@ impl<'a> Master<'a> {
         possible
     }
 
-    /// Shifts aircraft of a group of so many from one way to a better one, until both are worth about the same; the share of the
-    /// group that was shifted.
+    /// Shifts aircraft of a group of `count` from one way to a better one, until both are worth about the same. Returns
+    /// the share of the group that was shifted.
     fn shift_ways(&mut self, worst: &Known, best: &Known, count: f64) -> f64 {
         let (from, to) = (&worst.way, &best.way);
         let gain = best.worth - worst.worth;
@@ -285,13 +288,14 @@ impl<'a> Master<'a> {
         if left >= 0.0 {
             return share;
         }
-        // Prices that were not free to move have become so: too many went.
+        // Too many aircraft were shifted, because prices that were at a limit have left it.
         let back = share * left / (left - gain);
         self.shift(to, from, count * back);
         share - back
     }
 
-    /// By how much one aircraft that leaves one way for another lowers what the shift is worth, by the prices that are free to move.
+    /// The amount by which one aircraft that changes its way lowers the worth of the shift, through the prices that are
+    /// not at a limit.
     fn resistance(&self, from: &Way, to: &Way) -> f64 {
         let size = self.network.size();
         let free = |price: f64, most: i64| f64::from(u8::from(price > 0.0 && price < most as f64));
@@ -311,7 +315,7 @@ impl<'a> Master<'a> {
         self.reach * resistance.max(1e-3)
     }
 
-    /// Some aircraft leave one way for another, and prices follow.
+    /// Moves `aircraft` aircraft from one way to another, and updates the prices.
     fn shift(&mut self, from: &Way, to: &Way, aircraft: f64) {
         let size = self.network.size();
         for (slices, leave, take) in from.apart(to) {
@@ -351,14 +355,15 @@ impl<'a> Master<'a> {
         }
     }
 
-    /// What the model thinks that its prices prove, micro-dollars; never more than they do, but for rounding.
+    /// The model's estimate of the bound that its prices prove, micro-dollars. It is never more than the true one, but
+    /// for rounding.
     pub(super) fn value(&self) -> f64 {
         let fleet = self.groups.iter().map(|group| {
             let worths = group.ways.iter().map(|known| self.worth(&known.way));
             group.count * worths.fold(f64::NEG_INFINITY, f64::max)
         });
         let stands = self.network.stands.iter().cycle().zip(&self.stand);
-        let given_back = stands.chain(self.network.demand.iter().zip(&self.demand));
-        fleet.sum::<f64>() + given_back.map(|(&n, price)| f64::from(n) * price).sum::<f64>()
+        let dual_constant = stands.chain(self.network.demand.iter().zip(&self.demand));
+        fleet.sum::<f64>() + dual_constant.map(|(&n, price)| f64::from(n) * price).sum::<f64>()
     }
 }

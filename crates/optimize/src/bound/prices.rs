@@ -1,6 +1,6 @@
-//! Prices of what is scarce: a stand when a slice ends, and the right to carry a passenger.
+//! Prices of scarce resources: a stand when a slice ends, and the right to carry a passenger.
 //!
-//! Any prices within the limits that this file keeps to prove a bound (`certificate.rs`); good ones prove a tight one.
+//! Any prices within the limits of this file prove a bound (`certificate.rs`); good ones prove a tight one.
 
 use super::slices::Slices;
 use super::time_expanded_day::TimeExpandedDay;
@@ -8,20 +8,20 @@ use super::time_expanded_day::TimeExpandedDay;
 /// The most that a stand may cost in a slice, micro-dollars. It keeps every sum of `certificate.rs` within `i64`.
 pub(super) const MOST_FOR_A_STAND: i64 = 100_000_000_000_000;
 
-/// How fast a passenger's price moves beside that of a stand in a slice of a quarter of an hour.
+/// Pace of a passenger's price, relative to that of a stand in a slice of a quarter of an hour.
 pub(super) const PACE_OF_PASSENGERS: f64 = 0.2;
 
 /// Prices in whole micro-dollars.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Prices {
-    /// What an aircraft pays for its stand when a slice ends, by slice, then vertiport.
+    /// Price that an aircraft pays for its stand when a slice ends, by slice, then vertiport.
     pub(super) stand: Vec<i64>,
-    /// What the right to carry a passenger costs, by period, from, to; no more than the passenger earns.
+    /// Price of the right to carry a passenger, by period, from, to; no more than the passenger's margin.
     pub(super) demand: Vec<i64>,
 }
 
 impl Prices {
-    /// Everything for nothing.
+    /// Prices of zero.
     pub(super) fn zero(network: &TimeExpandedDay) -> Self {
         Self {
             stand: vec![0; network.slices.len() * network.size()],
@@ -29,7 +29,7 @@ impl Prices {
         }
     }
 
-    /// Prices that were kept, if they are prices for this day.
+    /// Prices from a file, if they are valid prices for this day.
     pub(super) fn checked(
         network: &TimeExpandedDay,
         stand: Vec<i64>,
@@ -45,8 +45,8 @@ impl Prices {
         (lengths && within).then_some(Self { stand, demand })
     }
 
-    /// The same prices in other slices of the same day: what a stand costs in a slice is spread evenly over its seconds, so that the
-    /// rent of a long stay is what it was.
+    /// The same prices in other slices of the same day. The price of a stand in a slice is spread evenly over its
+    /// seconds, so that the rent of a long stay is unchanged.
     pub(super) fn in_slices(&self, from: &Slices, to: &Slices, size: usize) -> Self {
         let mut stand = Vec::with_capacity(to.len() * size);
         for slice in 0..to.len() {
@@ -65,10 +65,10 @@ impl Prices {
     }
 }
 
-/// How fast prices move. A stand's price in a slice moves in proportion to the length of the slice, so that the rent of a stay
-/// moves as fast whatever the slices are.
+/// The pace at which prices move. A stand's price in a slice moves in proportion to the length of the slice, so that
+/// the rent of a stay moves equally fast in slices of any length.
 pub(super) struct Pace {
-    /// By slice.
+    /// The pace of a stand's price, by slice.
     stand: Vec<f64>,
 }
 
@@ -78,7 +78,7 @@ impl Pace {
         Self { stand: (0..slices.len()).map(pace).collect() }
     }
 
-    /// That of a stand in a slice.
+    /// The pace of a stand's price in a slice.
     pub(super) fn of_stands(&self, slice: usize) -> f64 {
         self.stand[slice]
     }

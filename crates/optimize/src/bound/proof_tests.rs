@@ -1,5 +1,5 @@
-//! The proof's steps, checked on real days at arbitrary prices: what an aircraft pays and earns, and what is given back. The
-//! days are of `paper`, of `disrupted`, and small ones with everything that a day may hold.
+//! Checks the steps of the proof on real days at arbitrary prices: the payments and profits of aircraft, and the
+//! amount given back. The days are of `paper`, of `disrupted`, and small ones with everything that a day may hold.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use super::money;
 use super::prices::Prices;
 use super::time_expanded_day::{Layer, TimeExpandedDay};
 
-/// A day of a shipped network, cut short to `hours`, with fewer stands free and less demand, so that limits bind.
+/// A day of a shipped network, cut to `hours`, with less demand so that limits bind.
 fn scarce_day(name: &str, seed: u64, hours: u32) -> Arc<Scenario> {
     let network = Network::shipped(name).expect("a shipped network");
     let mut day = network.draw(DaySeed::comparison(seed).expect("a seed")).into_day();
@@ -45,7 +45,7 @@ fn traces(day: &Arc<Scenario>) -> Vec<Trace> {
     played.collect()
 }
 
-/// Prices with no meaning, within their limits.
+/// Arbitrary prices within their limits.
 fn any_prices(network: &TimeExpandedDay, seed: u64) -> Prices {
     let zero = Prices::zero(network);
     let below = |at: usize, most: i64| {
@@ -57,7 +57,7 @@ fn any_prices(network: &TimeExpandedDay, seed: u64) -> Prices {
     Prices::checked(network, stand, demand).expect("within their limits")
 }
 
-/// Where an aircraft stands or flies to at the end of each slice, by what it decided until then.
+/// The vertiport where an aircraft stands or flies to at the end of each slice, by its decisions until then.
 fn places(
     day: &Scenario,
     network: &TimeExpandedDay,
@@ -81,7 +81,7 @@ fn layer_of(day: &Scenario, network: &TimeExpandedDay, aircraft: AircraftIx) -> 
     network.layers.iter().position(own).expect("every aircraft has a layer")
 }
 
-/// Plays a day by several rules and holds what each aircraft does, and what all do together, against the proof.
+/// Plays a day by several rules, and checks each aircraft, and all of them together, against the proof.
 fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
     let network = TimeExpandedDay::of(day, step_s).expect("a small day");
     let prices = any_prices(&network, mix);
@@ -104,18 +104,19 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
                 let period = day.period_at(row.time);
                 let cell = (period * network.size() + row.from.at()) * network.size() + row.to.at();
                 carried[cell] += u32::from(row.passengers);
-                // Rounded down: the proof must not need the rounding of the amounts of a real day.
+                // The amount is rounded down, because the proof must not depend on the rounding of a real day's
+                // amounts.
                 let earned = money::down(row.profit_usd());
                 profit += i128::from(earned);
                 left += earned - i64::from(row.passengers) * prices.demand[cell];
             }
-            // An aircraft does no better than the longest path.
+            // An aircraft earns no more than the longest path.
             let start = day.aircraft[aircraft.at()].at.at();
             let layer = layer_of(day, &network, aircraft);
             let worth = certificate.worth_less_paid(&network, layer, start, 0);
             assert!(left <= worth, "aircraft {aircraft:?} has {left} left, its best way {worth}");
         }
-        // What is paid is no more than what is given back.
+        // The payments are no more than the amount given back.
         for (at, &count) in taken.iter().enumerate() {
             assert!(count <= network.stands[at % network.size()]);
         }
@@ -156,7 +157,7 @@ proptest! {
     }
 }
 
-/// What prices prove for a day, micro-dollars.
+/// The bound that arbitrary prices prove for a day, micro-dollars.
 fn proven(day: &Scenario, step_s: u32, mix: u64) -> (i128, Prices) {
     let network = TimeExpandedDay::of(day, step_s).expect("a small day");
     let prices = any_prices(&network, mix);

@@ -1,8 +1,8 @@
-//! What the aircraft of a day may do, laid out for the search of their best ways: legs, holds, earnings, limits.
+//! The choices of the aircraft of a day, laid out for the search of their best ways: legs, holds, margins, limits.
 //!
-//! Aircraft of one type are alike, so there is one layer a type; those that have an outage today are a layer of their own, in
-//! which outages are dropped and waiting is free. What a flight earns depends on the slice in which it begins,
-//! never on the second within it.
+//! Aircraft of one type are alike, so there is one layer for each type. Aircraft that have an outage today form a layer
+//! of their own, in which outages are dropped and waiting is free. The profit of a flight depends on the slice in which
+//! it begins, never on the second within it.
 
 use vertifleet_core::{ClosedTimes, Matrix, Scenario, Time, TypeIx, Vertiport, VertiportIx};
 use vertifleet_sim::Legs;
@@ -12,39 +12,39 @@ use super::prices::Prices;
 use super::slices::Slices;
 use crate::Error;
 
-/// More flights than this would take more memory and time than anyone has for a bound.
+/// The most flights of a day in all slices. More would take too much memory and time.
 const MOST_FLIGHTS: usize = 20_000_000;
-/// The same for layers x vertiports x seconds of the day.
+/// The most layers x vertiports x seconds of a day, for the same reason.
 const MOST_PLACES: usize = 100_000_000;
 
-/// A flight that an aircraft of some type may begin in some slice, somewhere.
+/// A flight that an aircraft of some type may begin in some slice at some vertiport.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Flight {
-    /// Where it leads.
+    /// The vertiport that it flies to.
     pub(super) to: VertiportIx,
     /// Seconds from the decision until the aircraft may decide again, its delay included.
     pub(super) block_s: u32,
-    /// Place of its period and pair of vertiports in [`TimeExpandedDay::demand`].
+    /// Position of its period and pair of vertiports in [`TimeExpandedDay::demand`].
     pub(super) cell: u32,
-    /// The most passengers it may carry: its seats, or all who wait where those are fewer.
+    /// The most passengers that it may carry: its seats, or the whole demand if that is less.
     pub(super) passengers: u32,
-    /// The least that it may cost with or without passengers, its energy included; micro-dollars.
+    /// The least that it may cost with or without passengers, including its energy; micro-dollars.
     pub(super) cost: i64,
 }
 
-/// The aircraft of one type, those with outages or those without.
+/// The aircraft of one type, either those with outages or those without.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Layer {
     pub(super) kind: TypeIx,
-    /// Whether its aircraft may wait for any time rather than for holds: what an aircraft does that is kept on the ground by an
-    /// outage, one without outages can do too if it may wait for as long.
+    /// Whether its aircraft may wait for any time and not only for holds. An aircraft without outages that may wait for
+    /// any time can do everything that an aircraft kept on the ground by an outage does.
     pub(super) waits_freely: bool,
     pub(super) seats: u32,
-    /// Aircraft that start at each vertiport.
+    /// Number of aircraft that start at each vertiport.
     pub(super) starts: Vec<u32>,
 }
 
-/// A day, laid out.
+/// A day, laid out in time.
 #[derive(Debug, Clone)]
 pub(super) struct TimeExpandedDay {
     pub(super) slices: Slices,
@@ -54,18 +54,19 @@ pub(super) struct TimeExpandedDay {
     pub(super) stands: Vec<u32>,
     /// Passengers by period, from, to.
     pub(super) demand: Vec<u32>,
-    /// The most that a passenger may earn, by period, from, to; micro-dollars, never negative.
+    /// The highest margin of a passenger, by period, from, to; micro-dollars, never negative.
     pub(super) margin: Vec<i64>,
-    /// The least that the fleet costs whatever it does, micro-dollars.
+    /// The least that the fleet may cost, whether or not it flies, micro-dollars.
     pub(super) fleet_cost: i64,
-    /// Seconds that a hold lasts.
+    /// Duration of a hold, seconds.
     pub(super) hold_s: u32,
-    /// The shortest time from a take-off to the next one, or a hold where that is shorter; seconds, at least 1.
+    /// The shortest time from a take-off to the next one, or the duration of a hold if that is shorter; seconds, at
+    /// least 1.
     pub(super) shortest_s: u32,
-    /// Whether there is any flight for the passengers of a period, from, to.
+    /// Whether there is any flight for the passengers of a period and pair, by period, from, to.
     is_flown: Vec<bool>,
     flights: Vec<Flight>,
-    /// Where the flights from each vertiport begin, by slice, layer, vertiport.
+    /// Position in `flights` of the first flight from each vertiport, by slice, layer, vertiport.
     offsets: Vec<usize>,
 }
 
@@ -96,10 +97,10 @@ impl TimeExpandedDay {
         Ok(network)
     }
 
-    /// Whether a day is not too large for slices of at most `step_s` seconds.
+    /// Checks that a day is not too large for slices of at most `step_s` seconds.
     ///
     /// # Errors
-    /// [`Error::TooManyFlights`] if it is.
+    /// [`Error::TooManyFlights`] if the day is too large.
     pub(super) fn fits(scenario: &Scenario, step_s: u32) -> Result<(), Error> {
         let layers = layers(scenario);
         let slices = Slices::of(scenario, step_s);
@@ -118,8 +119,8 @@ impl TimeExpandedDay {
         })
     }
 
-    /// The same day on a clock that ticks every `tick_s` seconds only, and all durations rounded to whole ticks: what is worked out
-    /// on it is near the truth and takes a fraction of the time, but proves nothing.
+    /// The same day on a clock that only ticks every `tick_s` seconds, with all durations rounded to whole ticks.
+    /// Results on it are near the truth and take a fraction of the time, but prove nothing.
     pub(super) fn on_coarse_clock(mut self, tick_s: u32) -> Self {
         let nearest = |seconds: u32| ((seconds + tick_s / 2) / tick_s).max(1);
         self.hold_s = nearest(self.hold_s);
@@ -167,8 +168,8 @@ impl TimeExpandedDay {
         }
     }
 
-    /// What one more passenger is worth at most, by period, from, to; micro-dollars. If all who want to fly fill no aircraft, one
-    /// more may fly with them, and the price says nothing of that. Where no flight leads, nothing.
+    /// The most that one more passenger is worth, by period, from, to; micro-dollars. If the demand does not fill an
+    /// aircraft, one more may fly with the others, which the price does not reflect. 0 where no flight leads.
     pub(super) fn worth_of_passengers(&self, prices: &Prices) -> Vec<i64> {
         let seats = self.layers.iter().map(|layer| layer.seats).max().unwrap_or(0);
         let worth = |cell: usize| match self.demand[cell] {
@@ -191,12 +192,13 @@ impl TimeExpandedDay {
     }
 }
 
-/// Aircraft that may be at a vertiport or on their way to it. Where chargers are separate, one has a charger or a stand.
+/// Number of aircraft that may be at a vertiport or on their way to it. Where chargers are counted apart, each has a
+/// charger or a stand.
 fn room(vertiport: &Vertiport) -> u32 {
     u32::from(vertiport.stands) + vertiport.chargers.map_or(0, u32::from)
 }
 
-/// The types of the fleet's aircraft, in file order; of each those without outages first.
+/// The layers of the fleet, by aircraft type in file order; of each type, the aircraft without outages come first.
 fn layers(scenario: &Scenario) -> Vec<Layer> {
     let mut has_outage = vec![false; scenario.aircraft.len()];
     for outage in &scenario.disturbances.outages {
@@ -219,14 +221,14 @@ fn layers(scenario: &Scenario) -> Vec<Layer> {
     layers
 }
 
-/// How late flights from a vertiport take off in the slot that contains a time; seconds.
+/// Seconds by which flights from a vertiport take off late in the slot that contains a time.
 fn delay_s(scenario: &Scenario, from: VertiportIx, time_s: u32) -> u32 {
     let start = scenario.operations.start;
     let delays = scenario.disturbances.takeoff_delays.as_ref();
     delays.map_or(0, |delays| delays.at(start, Time::from_seconds(time_s), from))
 }
 
-/// Flights that may begin in each slice.
+/// Number of flights that may begin in each slice.
 fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
     let within_range = |layer: &Layer| -> usize {
         VertiportIx::all(size).map(|from| legs.within_range(layer.kind, from).iter().count()).sum()
@@ -234,7 +236,8 @@ fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
     layers.iter().map(within_range).sum()
 }
 
-/// The most that a passenger may earn, by period and pair. To carry one at a loss is never better than to carry none.
+/// The highest margin of a passenger, by period and pair. Carrying a passenger at a loss is never better than carrying
+/// none.
 fn margins(scenario: &Scenario) -> Vec<i64> {
     let costs = scenario.passenger_cost_usd.cells();
     let fares = (0..scenario.periods.len())
@@ -242,14 +245,14 @@ fn margins(scenario: &Scenario) -> Vec<i64> {
     fares.map(|(fare, cost)| money::up(fare - cost).max(0)).collect()
 }
 
-/// Exact, and nothing where aircraft cost nothing: rounding down would cost them less than that.
+/// The cost is exact, and 0 where aircraft cost nothing, which rounding down would make negative.
 fn fleet_cost(scenario: &Scenario) -> i64 {
     let an_aircraft = money::down(scenario.aircraft_cost_usd).max(0);
     let fleet = i64::try_from(scenario.aircraft.len()).expect("at most 10,000 aircraft");
     fleet * an_aircraft
 }
 
-/// The lowest price of energy at any time from the first to the second of `arrivals_s`.
+/// The lowest price of energy at any time within `arrivals_s`, both ends included.
 fn lowest_energy_price_usd(scenario: &Scenario, arrivals_s: (u32, u32)) -> f64 {
     let period = |time_s| scenario.period_at(Time::from_seconds(time_s));
     let prices = &scenario.energy_price_usd[period(arrivals_s.0)..=period(arrivals_s.1)];

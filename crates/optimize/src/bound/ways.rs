@@ -1,5 +1,5 @@
-//! What the fleet would do at given prices: every aircraft takes the way through the day that is worth most to it. What is
-//! then wanted too much, or too little, says which prices should rise and which fall.
+//! What the fleet would do at given prices: every aircraft takes the way through the day that is worth most to it.
+//! Where more or less is then asked for than is available, prices should rise or fall.
 
 use super::certificate::{Certificate, earnings};
 use super::master::Way;
@@ -14,7 +14,8 @@ pub(super) struct Ways<'a> {
 }
 
 impl Ways<'_> {
-    /// The best way of each group of aircraft of one layer that start at the same vertiport, and how many they are.
+    /// The best way of each group, which is the aircraft of one layer that start at the same vertiport, and their
+    /// number.
     pub(super) fn of_groups(&self) -> Vec<(u32, Way)> {
         let layers = self.network.layers.iter().enumerate();
         let groups = layers.flat_map(|(layer, kind)| {
@@ -53,7 +54,7 @@ impl Ways<'_> {
         self.certificate.worth_less_paid(self.network, layer, at, second as usize)
     }
 
-    /// Until when an aircraft that may wait freely does so: as long as being ready is worth as much later.
+    /// The second until which an aircraft that may wait freely does so: as long as being ready later is worth as much.
     fn waits_until(&self, layer: usize, at: usize, mut second: u32) -> u32 {
         let worth = |second| self.worth_less_paid(layer, at, second);
         while self.network.layers[layer].waits_freely
@@ -65,7 +66,7 @@ impl Ways<'_> {
         second
     }
 
-    /// The first flight in file order that is worth as much as being ready at a place, second and slice is.
+    /// The first flight in file order whose worth equals that of being ready at a vertiport, second and slice.
     fn best_flight(&self, layer: usize, at: usize, second: u32, slice: usize) -> Option<&Flight> {
         let paid = |at| self.certificate.paid(self.network, slice, at);
         let here = self.worth_less_paid(layer, at, second) + paid(at);

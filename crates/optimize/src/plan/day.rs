@@ -1,50 +1,29 @@
-//! What every flight of a day takes and earns, in the form that the search reads fastest.
+//! The duration, energy and profit of every flight of a day, in the form that the search reads fastest.
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 use super::foresight::Foresight;
-
-/// One way to go on from a vertiport for aircraft of one type.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Hop {
-    pub(super) to: VertiportIx,
-    /// Seconds from take-off to arrival.
-    pub(super) flight_s: u32,
-    /// Seconds from take-off until ready again.
-    pub(super) block_s: u32,
-    pub(super) energy_kwh: f64,
-    /// What the flight costs beside its energy, dollars.
-    flight_cost_usd: f64,
-}
-
-/// How a flight ends.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Landing {
-    /// Second of the landing.
-    pub(super) arrival_s: u32,
-    /// Second at which the aircraft decides again.
-    pub(super) ready_s: u32,
-}
+use super::hop::{Hop, Landing};
 
 /// The numbers of a day, by aircraft type and vertiport.
 #[derive(Debug)]
 pub(super) struct Day {
     pub(super) vertiports: usize,
-    /// Last second at which anyone decides, inclusive.
+    /// Last second at which aircraft decide, inclusive.
     pub(super) end_s: u32,
     pub(super) hold_s: u32,
     /// First second of each demand period.
     pub(super) period_starts_s: Vec<u32>,
     pub(super) energy_price_usd: Vec<f64>,
-    /// What the fleet costs whatever it does, dollars.
+    /// Cost of the fleet, whether or not it flies, dollars.
     pub(super) fleet_cost_usd: f64,
     /// U_max of each vertiport.
     pub(super) stands: Vec<u16>,
     /// The type of each aircraft.
     kind_of: Vec<TypeIx>,
     seats: Vec<u16>,
-    /// By type, then from: the pairs within range.
+    /// By type, then from: the flights within range.
     hops: Vec<Vec<Hop>>,
     /// Fare less passenger cost by period, from, to; dollars a passenger.
     margins_usd: Vec<f64>,
@@ -52,7 +31,7 @@ pub(super) struct Day {
 }
 
 impl Day {
-    /// The numbers that a view shows, with what is known beyond them.
+    /// Takes the numbers from a view, with what is known of the day beyond it.
     pub(super) fn of(view: View<'_>, foresight: Option<Foresight>) -> Self {
         let vertiports = view.vertiports();
         let types = view.aircraft_types();
@@ -121,7 +100,7 @@ impl Day {
         &hops[at.expect("only pairs within range are flown")]
     }
 
-    /// How a flight ends that an aircraft begins at a vertiport at a second.
+    /// The end of a flight that an aircraft begins at a vertiport at a second.
     #[inline]
     pub(super) fn landing(
         &self,
@@ -138,14 +117,14 @@ impl Day {
         }
     }
 
-    /// Whether it is known that a route is closed at a second.
+    /// Whether a route is known to be closed at a second.
     #[inline]
     pub(super) fn is_closed(&self, from: VertiportIx, to: VertiportIx, time_s: u32) -> bool {
         let foresight = self.foresight.as_ref();
         foresight.is_some_and(|foresight| foresight.is_closed(from, to, time_s))
     }
 
-    /// The demand period that contains a second, which is not before that of `earliest`.
+    /// The demand period that contains a second, which must not be before the period `earliest`.
     #[inline]
     pub(super) fn period_from(&self, earliest: usize, time_s: u32) -> usize {
         let mut period = earliest;
@@ -155,20 +134,20 @@ impl Day {
         period
     }
 
-    /// The demand of a pair in a period, as a position in the table of what is left.
+    /// Position of a pair in a period in the table of the remaining demand.
     #[inline]
     pub(super) fn cell(&self, period: usize, from: VertiportIx, to: VertiportIx) -> usize {
         (period * self.vertiports + from.at()) * self.vertiports + to.at()
     }
 
-    /// What a passenger of a [cell](Self::cell) of the demand earns, dollars.
+    /// Fare less passenger cost of a [cell](Self::cell) of the demand, dollars a passenger.
     #[inline]
     pub(super) fn margin_usd(&self, cell: usize) -> f64 {
         self.margins_usd[cell]
     }
 
-    /// What a flight that takes off in `period` and lands at `arrival_s` costs with or without passengers, dollars: charging after it,
-    /// and its own cost.
+    /// Cost, with or without passengers, of a flight that takes off in `period` and lands at `arrival_s`, dollars:
+    /// charging after it, and its own cost.
     #[inline]
     pub(super) fn flying_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
         hop.energy_kwh * self.energy_price_usd[self.period_from(period, arrival_s)]
@@ -176,7 +155,7 @@ impl Day {
     }
 }
 
-/// Fare less passenger cost by period, from, to.
+/// Fare less passenger cost by period, from, to; dollars a passenger.
 fn margins_usd(view: View<'_>) -> Vec<f64> {
     let mut margins_usd = Vec::new();
     for period in 0..view.period_starts().len() {

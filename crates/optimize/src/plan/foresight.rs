@@ -1,10 +1,10 @@
-//! What of a day is known when all of it is: how late flights take off, when routes are closed, which aircraft will fail.
+//! Knowledge of the disturbances of a whole day: delays of take-offs, closures of routes, and outages of aircraft.
 //!
-//! A plan of a whole known day reckons with it exactly. Who plans while the day goes on does not have it.
+//! A plan of a known day takes them into account exactly. Policies that decide while the day goes on do not know them.
 
 use vertifleet_core::{AircraftIx, ClosedTimes, Disturbances, Scenario, Time, VertiportIx};
 
-use super::day::{Hop, Landing};
+use super::hop::{Hop, Landing};
 
 /// The disturbances of a day, all of them known.
 #[derive(Debug)]
@@ -15,7 +15,7 @@ pub(super) struct Foresight {
 }
 
 impl Foresight {
-    /// `None` for a day without disturbances.
+    /// The foresight of a day, or `None` for a day without disturbances.
     pub(super) fn of(scenario: &Scenario) -> Option<Self> {
         let disturbances = scenario.disturbances.clone();
         let start = scenario.operations.start;
@@ -23,7 +23,7 @@ impl Foresight {
         (!disturbances.is_none()).then_some(Self { start, disturbances, closed })
     }
 
-    /// When a flight of an aircraft from a vertiport lands, and when the aircraft is ready again.
+    /// The landing of a flight of an aircraft from a vertiport, and the time at which the aircraft is ready again.
     pub(super) fn landing(
         &self,
         aircraft: AircraftIx,

@@ -1,4 +1,4 @@
-//! What all searches of one plan share: the day's numbers, where it begins, and the stand prices.
+//! The data that all searches of one plan share: the day's numbers, its start, and the stand prices.
 
 use std::sync::Arc;
 
@@ -13,19 +13,20 @@ use super::stand_prices::StandPrices;
 /// A planning problem, ready to be searched.
 pub(super) struct Problem {
     pub(super) day: Day,
-    /// Where each aircraft is when operations start.
+    /// The vertiport of each aircraft when operations start.
     pub(super) places: Vec<VertiportIx>,
     /// Passengers by period, then from, then to.
     pub(super) demand: Vec<u32>,
     pub(super) prices: StandPrices,
-    /// What a flight earns with every seat taken, in the mean over pairs and periods, before what flying costs; dollars.
+    /// Mean over pairs and periods of the margin of a flight with every seat taken, before the cost of flying; dollars.
     pub(super) full_flight_usd: f64,
-    /// When operations start.
+    /// First second of operations.
     pub(super) first_s: u32,
 }
 
 impl Problem {
-    /// A day that is known in full. Prices come from its forecast: they guide the search and bound nothing.
+    /// The problem of a day that is known in full. Its prices come from the forecast; they guide the search and prove
+    /// no bound.
     pub(super) fn of(scenario: &Arc<Scenario>) -> Self {
         let simulation = Simulation::new(Arc::clone(scenario));
         let view = simulation.view();

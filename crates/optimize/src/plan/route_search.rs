@@ -1,32 +1,32 @@
-//! The best way on for one aircraft while all others keep their flights.
+//! The best rest of the day for one aircraft while all others keep their flights.
 //!
-//! A longest path over labels (vertiport, second at which the aircraft is ready): from each, the aircraft flies to any
-//! vertiport that has a stand for it from take-off until it is ready again, or holds. Labels are settled forward in time.
-//! Of the labels of one vertiport within one minute only the best is kept, which bounds the work; each is exact to the
-//! second, so that what comes out is feasible.
+//! This is a longest path over labels (vertiport, second at which the aircraft is ready). From each label the aircraft
+//! flies to any vertiport that has a stand for it from take-off until it is ready again, or holds. Labels are settled
+//! forwards in time. Of the labels of one vertiport within one minute only the best is kept, which bounds the work.
+//! Each is exact to the second, so the result is feasible.
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 
-use super::day::Hop;
+use super::hop::Hop;
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 use super::stand_times::{Moment, Window};
 
-/// Seconds of which only the best label of a vertiport is kept. No flight and no hold is shorter, so every label leads to
-/// a later slot.
+/// Length of a slot, in which only the best label of a vertiport is kept, seconds. No flight and no hold is shorter, so
+/// every label leads to a later slot.
 pub(super) const SLOT_S: u32 = 60;
 
-/// What makes one search differ from the next, so that a route is not always completed in the same way.
+/// Variation of a search, so that a route is not always completed in the same way.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Bias {
-    /// Seconds, below [`SLOT_S`], by which slots begin earlier; another of several close labels is kept then.
+    /// Seconds, below [`SLOT_S`], by which slots begin earlier, so that another one of several close labels is kept.
     pub(super) shift_s: u32,
-    /// Share of the stand prices that the aircraft is made to pay, so that it leaves scarce stands to others.
+    /// Share of the stand prices that the aircraft has to pay, so that it leaves scarce stands to others.
     pub(super) rent_share: f64,
-    /// Most dollars by which a flight seems to earn more or less than it does, so that the aircraft may leave a flight to another,
-    /// or fly where it earns nothing to make room.
+    /// Most dollars by which the assumed profit of a flight is off, so that the aircraft may leave a flight to another,
+    /// or fly without profit to make room.
     pub(super) noise_usd: f64,
-    /// Decides by how much each pair of vertiports and period is off.
+    /// Seed of the noise of each pair of vertiports and period.
     pub(super) noise_seed: u64,
 }
 
@@ -35,15 +35,16 @@ pub(super) struct Bias {
 struct Label {
     value_usd: f64,
     ready_s: u32,
-    /// The label before, as a position in the table.
+    /// The previous label, as a position in the table.
     before: u32,
 }
 
-/// Stands for the label before the first one.
+/// In place of the label before the first one.
 const NONE: u32 = u32::MAX;
 const UNREACHED: Label = Label { value_usd: f64::NEG_INFINITY, ready_s: 0, before: NONE };
 
-/// The best way found to the plan's end: its last label, and the flight from there that passes the end, if one does.
+/// The best way found to the plan's end: its last label, and the destination of the flight from there that passes the
+/// end, if there is one.
 #[derive(Debug, Clone, Copy)]
 struct Finish {
     value_usd: f64,
@@ -51,14 +52,15 @@ struct Finish {
     last_to: Option<VertiportIx>,
 }
 
-/// The search's memory, kept from one route to the next.
+/// The memory of the search, kept from one route to the next.
 #[derive(Debug, Default)]
 pub(super) struct RouteSearch {
-    /// By slot, then vertiport.
+    /// The best label by slot, then vertiport.
     labels: Vec<Label>,
-    /// When each vertiport has a stand for one more: lists one after another, each closed by a window that never opens.
+    /// The windows in which each vertiport has a stand for one more aircraft, vertiport by vertiport. Each list ends
+    /// with a window that never opens.
     windows: Vec<Window>,
-    /// Where in `windows` the first one of each vertiport is that has not closed yet.
+    /// Position in `windows` of the first window of each vertiport that has not closed yet.
     current: Vec<usize>,
     best: Option<Finish>,
 }
@@ -76,7 +78,7 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// How much more a flight of a pair and period seems to earn than it does.
+    /// The difference between the assumed and the true profit of a flight of a pair and period, dollars.
     #[inline]
     fn noise_usd(&self, cell: usize) -> f64 {
         if self.bias.noise_usd == 0.0 {
@@ -87,7 +89,7 @@ impl Task<'_> {
     }
 }
 
-/// A label that is being settled: the aircraft decides there and then.
+/// A label that is being settled: the aircraft decides at this vertiport and time.
 #[derive(Clone, Copy)]
 struct Choice {
     label: u32,
@@ -95,15 +97,15 @@ struct Choice {
     time_s: u32,
     moment: Moment,
     value_usd: f64,
-    /// The demand period of now.
+    /// The demand period of the decision.
     period: usize,
-    /// The stand prices' minute of now.
+    /// The minute of the decision in the stand prices.
     minute: usize,
 }
 
 impl RouteSearch {
-    /// Writes to `flights` those that complete the route of `aircraft` best. Returns whether there are any: there are
-    /// none where others have taken every stand that the aircraft could stay at.
+    /// Writes the flights that complete the route of `aircraft` best to `flights`. Returns `false` if the route cannot
+    /// be completed, because others have taken every stand that the aircraft could stay at.
     pub(super) fn complete(
         &mut self,
         problem: &Problem,
@@ -201,7 +203,7 @@ impl RouteSearch {
 
     #[inline]
     fn hold(&mut self, task: &Task<'_>, choice: &Choice) {
-        // The stand is the aircraft's own at least until it decides.
+        // The aircraft has its stand at least until it decides.
         let Some(window) = self.window(choice.place, choice.moment) else { return };
         let ready_s = choice.time_s + task.problem.day.hold_s;
         self.reach(task, choice, choice.place, window, ready_s, 0.0);
@@ -222,7 +224,7 @@ impl RouteSearch {
         self.reach(task, choice, hop.to, window, landing.ready_s, profit_usd);
     }
 
-    /// The window of a vertiport that contains a moment, which is not before the slot being settled.
+    /// The window of a vertiport that contains a moment, which must not be before the slot that is being settled.
     #[inline]
     fn window(&self, vertiport: VertiportIx, moment: Moment) -> Option<Window> {
         let mut at = self.current[vertiport.at()];

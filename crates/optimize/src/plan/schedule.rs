@@ -1,7 +1,7 @@
-//! A schedule: the flights of each aircraft. When it holds, who boards and what stands are taken follow from them.
+//! A schedule: the flights of each aircraft. Holds, passengers on board and stands taken follow from them.
 //!
-//! The passengers of a pair and period are min(demand, seats of its flights) in total, in whatever order they board; so what one
-//! flight more or less earns is exact whatever the order in which flights are entered.
+//! The passengers of a pair and period are min(demand, seats of its flights) in total, in whatever order they board.
+//! The profit of one flight more or less is therefore exact in whatever order flights are entered.
 
 use vertifleet_core::{AircraftIx, VertiportIx};
 
@@ -9,7 +9,7 @@ use super::day::Day;
 use super::problem::Problem;
 use super::stand_times::{Moment, StandTimes};
 
-/// One flight of a known aircraft.
+/// One flight of an aircraft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Flight {
     pub(super) take_off_s: u32,
@@ -17,8 +17,8 @@ pub(super) struct Flight {
     pub(super) to: VertiportIx,
 }
 
-/// What one aircraft does. A route is *whole* once it reaches the end of the plan; before that its aircraft vanishes when
-/// it is ready after its last flight, and its stand is free from then on.
+/// The flights of one aircraft. A route is *whole* once it reaches the end of the plan. Before that its aircraft
+/// vanishes when it is ready after its last flight, and its stand is free from then on.
 #[derive(Debug, Clone)]
 pub(super) struct Route {
     place: VertiportIx,
@@ -27,18 +27,18 @@ pub(super) struct Route {
     whole: bool,
 }
 
-/// The flights of the fleet, with the stands they take, the demand they leave and what they earn.
+/// The flights of the fleet, with the stands that they take, the demand that they leave and their profit.
 #[derive(Debug, Clone)]
 pub(super) struct Schedule {
     routes: Vec<Route>,
     pub(super) stands: StandTimes,
-    /// Demand less seats flown, by period, then from, then to; below zero where seats stay empty.
+    /// Demand less seats flown, by period, then from, then to; negative where seats stay empty.
     left: Vec<i64>,
     value_usd: f64,
 }
 
 impl Schedule {
-    /// No flights yet. Every route waits to be completed.
+    /// A schedule without flights, in which every route has to be completed.
     pub(super) fn unplanned(problem: &Problem) -> Self {
         let Problem { day, places, demand, first_s, .. } = problem;
         let mut stands = StandTimes::empty(&day.stands);
@@ -52,7 +52,7 @@ impl Schedule {
         Self { routes, stands, left, value_usd: 0.0 - day.fleet_cost_usd }
     }
 
-    /// What the flights earn, dollars.
+    /// Profit of the schedule, dollars.
     #[inline]
     pub(super) fn value_usd(&self) -> f64 {
         self.value_usd
@@ -69,13 +69,13 @@ impl Schedule {
         self.routes[aircraft.at()].whole
     }
 
-    /// Passengers that one more flight with `seats` finds in a cell of the demand.
+    /// Number of passengers that one more flight with `seats` finds in a cell of the demand.
     #[inline]
     pub(super) fn boarding(&self, cell: usize, seats: i64) -> i64 {
         self.left[cell].clamp(0, seats)
     }
 
-    /// Where the aircraft is after its last flight, and when it is ready there.
+    /// The vertiport of the aircraft after its last flight, and the second at which it is ready there.
     pub(super) fn open_end(&self, day: &Day, aircraft: AircraftIx) -> (VertiportIx, u32) {
         let route = &self.routes[aircraft.at()];
         match route.flights.last() {
@@ -87,7 +87,7 @@ impl Schedule {
         }
     }
 
-    /// Takes the flights from the one at `first` on out of a whole route and appends them to `taken_out`.
+    /// Removes the flights from the one at `first` on from a whole route, and appends them to `taken_out`.
     pub(super) fn cut(
         &mut self,
         problem: &Problem,
@@ -113,7 +113,7 @@ impl Schedule {
         }
     }
 
-    /// Appends flights to a route that is not whole; that makes it whole.
+    /// Appends flights to a route that is not whole, which makes it whole.
     pub(super) fn complete(&mut self, problem: &Problem, aircraft: AircraftIx, flights: &[Flight]) {
         let day = &problem.day;
         if self.is_whole(aircraft) {
@@ -133,7 +133,7 @@ impl Schedule {
         route.whole = true;
     }
 
-    /// Enters a flight into the demand (`sign` 1) or takes it out (-1). Returns what it is worth, dollars.
+    /// Adds a flight to the account (`sign` 1) or removes it (-1). Returns the profit of the flight, dollars.
     fn enter_account(&mut self, day: &Day, aircraft: AircraftIx, flight: Flight, sign: i64) -> f64 {
         let hop = day.hop(day.kind(aircraft), flight.from, flight.to);
         let period = day.period_from(0, flight.take_off_s);
@@ -142,14 +142,14 @@ impl Schedule {
         let before = self.left[cell];
         let after = before - sign * seats;
         self.left[cell] = after;
-        // Passengers of the pair are demand less what is left of it, never less than none left.
+        // Passengers of the pair are the demand less the remaining demand, which is at least 0.
         let passengers = (before.max(0) - after.max(0)).abs();
         let landing = day.landing(aircraft, flight.from, hop, flight.take_off_s);
         let cost_usd = day.flying_cost_usd(hop, period, landing.arrival_s);
         passengers as f64 * day.margin_usd(cell) - cost_usd
     }
 
-    /// Sets the account to an amount known from before, so that undoing a change leaves no rounding behind.
+    /// Sets the profit to an earlier amount, so that undoing a change leaves no rounding error behind.
     pub(super) fn set_value_usd(&mut self, value_usd: f64) {
         self.value_usd = value_usd;
     }

@@ -1,9 +1,9 @@
-//! Large-neighbourhood search with annealing: take the rest of the day out of a few aircraft's routes, complete the routes
-//! one by one in the best way, and keep the outcome if it is better, or worse by little.
+//! Large-neighbourhood search with annealing: remove the rest of the day from the routes of a few aircraft, complete
+//! the routes one by one in the best way, and keep the result if it is better, or only a little worse.
 //!
 //! P. Shaw, *Using constraint programming and local search methods to solve vehicle routing problems* (1998), for the
-//! neighbourhood; S. Ropke and D. Pisinger, *An adaptive large neighborhood search heuristic for the pickup and delivery
-//! problem with time windows* (2006), for acceptance by annealing.
+//! neighbourhood; S. Ropke and D. Pisinger, *An adaptive large neighborhood search heuristic for the pickup and
+//! delivery problem with time windows* (2006), for acceptance by annealing.
 
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
@@ -16,20 +16,20 @@ use super::schedule::{Flight, Schedule};
 
 /// Most aircraft whose routes are changed at once.
 const MOST_TAKEN_OUT: usize = 4;
-/// How often the aircraft are such as leave one vertiport at about the same time; else any. Of days of `paper`, 50,000 steps
-/// without such choices earned 0.1 % less.
+/// How often aircraft are chosen that leave one vertiport at about the same time; otherwise any are. Without such
+/// choices, days of `paper` earned 0.1 % less after 50,000 steps.
 const TOGETHER: f64 = 0.5;
-/// What is about the same time, seconds.
+/// Two take-offs are at about the same time if they are this many seconds apart, or less.
 const SAME_TIME_S: u32 = 1_800;
-/// How often routes are taken out from the morning on; else from any moment of the day on.
+/// How often routes are changed from the start of the day on; otherwise from a random moment of the day.
 const WHOLE_DAYS: f64 = 0.1;
-/// How much more or less than it does a flight seems to earn at most in a noisy step, in full flights. The noise is Ropke and
-/// Pisinger's: without it no aircraft leaves a flight to another that makes more of it, or flies empty to make room. Of
-/// 2,680 days that are small enough to be searched exhaustively, 2,000 steps without noise missed the optimum of 30; with it,
-/// of 4.
+/// Most by which the assumed profit of a flight is off in a noisy step, in full flights. The noise is Ropke and
+/// Pisinger's: without it no aircraft leaves a flight to another that earns more with it, or flies empty to make room.
+/// Of 2,680 days that are small enough to be searched exhaustively, 2,000 steps without noise missed the optimum of 30;
+/// with noise, of 4.
 const MOST_NOISE: f64 = 3.0;
 
-/// One search: where it stands, the best schedule it has met, and its memory.
+/// One search: its current schedule, the best one it has found, and its memory.
 #[derive(Debug)]
 pub(super) struct Search {
     pub(super) current: Schedule,
@@ -38,23 +38,23 @@ pub(super) struct Search {
     routes: RouteSearch,
     taken_out: TakenOut,
     way_on: Vec<Flight>,
-    /// Aircraft that may be changed together with the one chosen first.
+    /// The aircraft that may be changed together with the one chosen first.
     others: Vec<AircraftIx>,
 }
 
-/// What has been taken out of the schedule and may have to be put back.
+/// The flights that have been removed from the schedule and may have to be put back.
 #[derive(Debug, Default)]
 struct TakenOut {
     aircraft: Vec<AircraftIx>,
-    /// How many flights each keeps.
+    /// Number of flights that each aircraft keeps.
     kept: Vec<usize>,
-    /// The others, one aircraft's after another's, and where each one's end.
+    /// The removed flights, one aircraft's after another's, and in `ends` the position after the last of each aircraft.
     flights: Vec<Flight>,
     ends: Vec<usize>,
 }
 
 impl Search {
-    /// A search from a schedule whose routes are all whole.
+    /// A search that starts from a schedule whose routes are all whole.
     pub(super) fn new(schedule: Schedule, seed: u64) -> Self {
         Self {
             best: schedule.clone(),
@@ -85,7 +85,7 @@ impl Search {
         }
     }
 
-    /// Chooses aircraft and a moment; flights that take off before it stay.
+    /// Chooses aircraft and a moment. Flights that take off before it stay.
     fn choose(&mut self, problem: &Problem) {
         let from_s = if self.random.random_bool(WHOLE_DAYS) {
             problem.first_s
@@ -114,7 +114,7 @@ impl Search {
         self.others = others;
     }
 
-    /// The first flight of an aircraft that does not take off before a time.
+    /// The first flight of an aircraft that takes off at or after a time.
     fn next_flight(&self, aircraft: AircraftIx, from_s: u32) -> Option<Flight> {
         let flights = self.current.flights(aircraft);
         flights.get(flights.partition_point(|flight| flight.take_off_s < from_s)).copied()
@@ -130,12 +130,12 @@ impl Search {
         }
     }
 
-    /// Completes the routes in the order in which they were chosen. Returns whether all could be.
+    /// Completes the routes in the order in which they were chosen. Returns whether all of them could be completed.
     fn put_back(&mut self, problem: &Problem) -> bool {
         let rent_share = self.random.random::<f64>();
         let noise_usd = self.draw_noise_usd(problem);
         for &aircraft in &self.taken_out.aircraft {
-            // Its last flight stays, and it is not ready again before the plan's end.
+            // Its last flight stays, and the aircraft is not ready again before the plan's end.
             if self.current.is_whole(aircraft) {
                 continue;
             }
@@ -155,8 +155,8 @@ impl Search {
         true
     }
 
-    /// The noise of this step: most steps have none, and the more aircraft there are, the fewer need any, because there is
-    /// another way to make room.
+    /// The noise of this step. Most steps have none, and in larger fleets even fewer, because there are other ways to
+    /// make room.
     fn draw_noise_usd(&mut self, problem: &Problem) -> f64 {
         if self.random.random_range(0..problem.day.fleet().len()) > 0 {
             return 0.0;
@@ -164,7 +164,7 @@ impl Search {
         MOST_NOISE * problem.full_flight_usd * self.random.random::<f64>()
     }
 
-    /// Gives every chosen aircraft its flights back. Those that have others by now lose them first.
+    /// Gives every chosen aircraft its flights back. Aircraft that have others by now lose them first.
     fn undo(&mut self, problem: &Problem) {
         let TakenOut { aircraft, kept, flights, ends } = &self.taken_out;
         for (&aircraft, &kept) in aircraft.iter().zip(kept) {
@@ -206,7 +206,7 @@ mod tests {
         let start = start::best_policy(&day, Vec::new(), &mut |_, _| true);
         let mut search = Search::new(start::schedule_of(&problem, &start.trace), 3);
         for step in 0..300 {
-            // Hot and cold, so that steps are kept as well as undone.
+            // The temperature alternates between hot and cold, so that steps are kept as well as undone.
             search.step(&problem, f64::from(step % 5) * 20.0 + 0.1);
             assert!(search.current.stands.suffice(), "step {step}");
         }

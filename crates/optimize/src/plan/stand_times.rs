@@ -1,8 +1,8 @@
-//! Who takes and frees stands when (Eq. 16), for a whole schedule at once.
+//! The times at which aircraft take and free stands (Eq. 16), for a whole schedule at once.
 //!
-//! Events of a day are totally ordered by time, then aircraft; a [`Moment`] is a place in that order. A stand is taken at
-//! take-off towards a vertiport and freed at take-off from it, so the stands taken are a step function over moments, and
-//! one more aircraft fits wherever it stays below U_max: in the *windows*.
+//! Events of a day are totally ordered by time, then aircraft; a [`Moment`] is a place in that order. A stand is taken
+//! at take-off towards a vertiport and freed at take-off from it, so the number of stands taken is a step function over
+//! moments. One more aircraft fits wherever that number stays below U_max: in the *windows*.
 
 use vertifleet_core::{AircraftIx, VertiportIx};
 
@@ -11,11 +11,11 @@ use vertifleet_core::{AircraftIx, VertiportIx};
 pub(super) struct Moment(u32);
 
 impl Moment {
-    /// Before every event.
+    /// The moment before every event.
     pub(super) const FIRST: Self = Self(0);
-    /// After every event.
+    /// The moment after every event.
     pub(super) const NEVER: Self = Self(u32::MAX);
-    /// Fleets are at most 10,000 aircraft and decisions are taken before 36:00:00, which is below 2^17 seconds.
+    /// Fleets have at most 10,000 aircraft, and decisions are taken before 36:00:00, which is below 2^17 seconds.
     const AIRCRAFT_BITS: u32 = 14;
 
     #[inline]
@@ -24,7 +24,7 @@ impl Moment {
     }
 }
 
-/// A stretch of the day in which one more aircraft fits: from `opens` on, and it has to leave before `closes`.
+/// A time in which one more aircraft fits: from `opens` on, and it has to leave before `closes`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
     pub(super) opens: Moment,
@@ -34,7 +34,7 @@ pub(super) struct Window {
 #[derive(Debug, Clone, Copy)]
 struct Change {
     moment: Moment,
-    /// 1 for a stand taken, -1 for one freed.
+    /// 1 for a stand that is taken, -1 for one that is freed.
     by: i32,
 }
 
@@ -43,12 +43,12 @@ struct Change {
 pub(super) struct StandTimes {
     limit: Vec<i32>,
     taken_at_first: Vec<i32>,
-    /// By vertiport, in order.
+    /// The changes of each vertiport, in order.
     changes: Vec<Vec<Change>>,
 }
 
 impl StandTimes {
-    /// Stands that no aircraft takes.
+    /// The stands without any aircraft.
     pub(super) fn empty(limit: &[u16]) -> Self {
         Self {
             limit: limit.iter().map(|&stands| i32::from(stands)).collect(),
@@ -57,7 +57,7 @@ impl StandTimes {
         }
     }
 
-    /// An aircraft is at `vertiport`, or on its way there, before the first event.
+    /// Records that an aircraft is at `vertiport`, or on its way there, before the first event.
     pub(super) fn take_at_first(&mut self, vertiport: VertiportIx) {
         self.taken_at_first[vertiport.at()] += 1;
     }
@@ -78,7 +78,7 @@ impl StandTimes {
         changes.insert(at, change);
     }
 
-    /// Takes back what was entered for this moment; no two changes of a vertiport share one.
+    /// Removes the change that was entered for this moment. No two changes of a vertiport share a moment.
     pub(super) fn take_back(&mut self, vertiport: VertiportIx, moment: Moment) {
         let changes = &mut self.changes[vertiport.at()];
         let at = changes.partition_point(|other| other.moment < moment);
@@ -86,7 +86,7 @@ impl StandTimes {
         changes.remove(at);
     }
 
-    /// Appends the windows of a vertiport, in order, none touching the next.
+    /// Appends the windows of a vertiport in order. No window touches the next.
     pub(super) fn append_windows(&self, vertiport: VertiportIx, windows: &mut Vec<Window>) {
         let limit = self.limit[vertiport.at()];
         let mut taken = self.taken_at_first[vertiport.at()];

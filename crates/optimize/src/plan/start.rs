@@ -12,14 +12,14 @@ use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 use crate::Rolling;
 
-/// A policy from whose day a plan may set out.
+/// A policy whose day a plan may start from.
 pub struct StartingPolicy {
     name: String,
     policy: Box<dyn Policy>,
 }
 
 impl StartingPolicy {
-    /// A policy with the name by which a plan names it ([`Plan::best_policy`](crate::Plan::best_policy)).
+    /// A policy with its name in plans ([`Plan::best_policy`](crate::Plan::best_policy)).
     pub fn new(name: &str, policy: Box<dyn Policy>) -> Self {
         Self { name: name.to_owned(), policy }
     }
@@ -32,11 +32,12 @@ pub(super) struct Played {
     pub(super) profit_usd: f64,
 }
 
-/// A day begun by one policy, until `go_on`, asked after each decision with how many there were, says no.
+/// A day that one policy plays until its end, or until `go_on`, called after each decision with the number of decisions
+/// so far, returns `false`.
 struct Begun {
     simulation: Simulation,
     trace: Trace,
-    /// Whether the policy has come to the end of the day.
+    /// Whether the policy has reached the end of the day.
     is_over: bool,
 }
 
@@ -63,13 +64,13 @@ impl Begun {
         Self { simulation, trace, is_over }
     }
 
-    /// The day, if the policy has come to its end.
+    /// The day, if the policy has reached its end.
     fn whole(self, policy: &str) -> Option<Played> {
         let profit_usd = self.simulation.ledger().profit_usd();
         self.is_over.then(|| Played { policy: policy.to_owned(), trace: self.trace, profit_usd })
     }
 
-    /// The day; greedy decides what is left of it.
+    /// The day, with the rest of it decided by greedy.
     fn finished(mut self, policy: &str) -> Played {
         play(&mut self.simulation, &mut Greedy, |row| self.trace.rows.push(*row)).expect(ANSWERS);
         let profit_usd = self.simulation.ledger().profit_usd();
@@ -79,12 +80,13 @@ impl Begun {
 
 const ANSWERS: &str = "these policies always answer, and from the mask";
 
-/// The best day of several policies: greedy, the prices, `more`, the other rules that need no learning, and the rolling horizon.
+/// The best day of several policies: greedy, the prices, `more`, the other rules that need no learning, and the rolling
+/// horizon.
 ///
-/// `go_on` is told the best profit so far in dollars, and of a day that is being played how much of it is over, as a share
-/// of greedy's decisions. When it says no, that day is left out, and before a day begins also all that follow. Greedy's is
-/// always played. The prices decide for as long as there is any time, and greedy for the rest of their day: on a large network
-/// with a short limit nothing else gets so far.
+/// `go_on` is called with the best profit so far in dollars, and while a day is being played, with the share of it that
+/// is over, in decisions of greedy's day. If it returns `false`, that day is left out; before a day begins, all
+/// following ones are too. Greedy's day is always played. The prices decide for as long as there is any time, and
+/// greedy for the rest of their day: on a large network with a short limit, no other policy gets this far.
 pub(super) fn best_policy(
     scenario: &Arc<Scenario>,
     more: Vec<StartingPolicy>,
@@ -95,7 +97,7 @@ pub(super) fn best_policy(
         return best;
     }
     let decisions = best.trace.rows.len().max(1) as f64;
-    // As if each decision were its last, so that it goes on until there is no time at all.
+    // Each decision is reported as the last one, so that the day continues until there is no time at all.
     let priced = Begun::by(&mut BidPricePolicy::default(), scenario, &mut |_| {
         go_on(best.profit_usd, Some(1.0))
     });
@@ -119,7 +121,7 @@ pub(super) fn best_policy(
     best
 }
 
-/// The day that earns more; the first of equals.
+/// The day that earns more; of equals, the first.
 fn better(one: Played, other: Played) -> Played {
     if other.profit_usd > one.profit_usd { other } else { one }
 }
@@ -138,7 +140,7 @@ pub(super) fn schedule_of(problem: &Problem, trace: &Trace) -> Schedule {
     schedule
 }
 
-/// Flies a schedule in the simulator: the trace that it leaves, and its profit in dollars.
+/// Flies a schedule in the simulator. Returns its trace and its profit in dollars.
 pub(super) fn flown(scenario: &Arc<Scenario>, schedule: &Schedule) -> (Trace, f64) {
     let mut simulation = Simulation::new(Arc::clone(scenario));
     let mut trace = Trace::default();

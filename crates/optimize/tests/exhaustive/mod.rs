@@ -1,8 +1,8 @@
-//! The best of a tiny day by trying everything: what bound and planner are held against.
+//! The best schedule of a tiny day by exhaustive search, to compare bound and planner with.
 
 use vertifleet_sim::Simulation;
 
-/// The most that any sequence of decisions earns, by trying them all; `None` where there are more than `most` of them.
+/// The highest profit of any sequence of decisions, by trying them all; `None` if there are more than `most` of them.
 pub(crate) fn best_of_all(simulation: &mut Simulation, most: &mut u32) -> Option<f64> {
     let Some(decision) = simulation.next_decision() else {
         *most = most.checked_sub(1)?;

@@ -1,6 +1,6 @@
-"""Training with RLlib: the networks as modules of its PPO, on native batches of days on any node.
+"""Training with RLlib: the networks of layers as modules of its PPO, on native batches of days on any node.
 
-What is trained here is saved as a weight file of the program::
+The trained weights are saved as a weight file of the program::
 
     import vertifleet
     from vertifleet.ray.rllib import export, ppo_config

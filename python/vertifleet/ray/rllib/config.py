@@ -27,7 +27,7 @@ TURNED_OFF: dict[str, Any] = {
     "use_gae": True,
     "use_critic": True,
 }
-"""What RLlib has beyond the program's settings, as they mean it."""
+"""Settings that only RLlib has, with the values that the program's settings imply."""
 
 
 def ppo_config(
@@ -38,33 +38,33 @@ def ppo_config(
     env_runners: int = 0,
     **sizes: int,
 ) -> PPOConfig:
-    """PPO on training days of a network.
+    """The configuration of PPO on training days of a network.
 
-    The configuration is RLlib's own, to be changed further: ``.learners(num_gpus_per_learner=1)`` learns on a
-    GPU, ``.debugging(seed=1)`` seeds. The network is part of it, so that nodes need the package and no file.
+    It is an object of RLlib and can be changed further: ``.learners(num_gpus_per_learner=1)`` learns on a
+    GPU, ``.debugging(seed=1)`` sets the seed. It contains the network, so nodes need the package but no file.
 
-    Where RLlib has another meaning than stable-baselines3, and than the program:
+    RLlib differs from stable-baselines3, and from the program, in these points:
 
     - advantages are normalised over the roll-out, not over each minibatch;
     - Adam has an epsilon of 1e-8, not 1e-5;
     - a roll-out may be a few decisions longer than ``n_envs * n_steps``, the last minibatch of a pass is
-      filled up with decisions of the next, and among those of a minibatch are a few that count for nothing;
-    - there is no ``total_steps``: the caller says when to stop, and a falling learning rate reaches 0 at
+      filled up with decisions of the next pass, and a few decisions of a minibatch do not count;
+    - there is no ``total_steps``: the caller decides when to stop, and a falling learning rate reaches 0 at
       that many decisions;
-    - validation days are not looked at (``eval_every``, ``eval_days``): the weights are always the last;
-    - what is logged as the return of an episode is the day's reward times ``reward_scale``.
+    - validation days are not played (``eval_every``, ``eval_days``): the weights are always the last;
+    - the logged return of an episode is the day's reward times ``reward_scale``.
 
     Args:
         network: the network, its name or its path.
         policy: "gcaps" or "mlp".
-        settings: as ``vertifleet.settings("paper")`` gives them; members that are not given are those.
-        env_runners: processes that play days, on any node; ``n_envs`` is shared out among them. With 0, the
-            process that learns plays too.
-        sizes: of the network's layers; those of the weight files that come with the program where not given.
+        settings: settings with the names of ``vertifleet.settings("paper")``, whose values are the defaults.
+        env_runners: number of processes that play days, on any node; they divide ``n_envs`` among them. With
+            0, the process that learns plays too.
+        sizes: sizes of the network's layers; by default those of the shipped weights.
 
     Raises:
         Error: V302 and V303 if a setting is unknown or out of its bounds, V451 if there is no such policy, if
-            it has no such size, or if `env_runners` do not share ``n_envs`` out evenly; others if the network
+            it has no such size, or if ``n_envs`` is not a multiple of `env_runners`; others if the network
             cannot be read.
     """
     network = network_of(network)
@@ -73,7 +73,7 @@ def ppo_config(
     days, playing = settings["n_envs"], max(env_runners, 1)
     if days % playing:
         raise Error("V451", f"n_envs ({days}) must be a multiple of env_runners ({env_runners})")
-    with torch.device("meta"):  # sizes are checked as the network checks them, without memory
+    with torch.device("meta"):  # the network checks its sizes, without memory
         of_sizes(kind_of(policy), len(network.vertiports), sizes)
     config: PPOConfig = PPOConfig()  # type: ignore[no-untyped-call]
     return (
@@ -93,7 +93,7 @@ def _days(network: Network, settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _training(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """RLlib's names for the settings."""
+    """The settings under RLlib's names."""
     rate = settings["learning_rate"]
     falling = [[0, rate], [settings["total_steps"], 0.0]]
     return TURNED_OFF | {

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 class FleetDays(FleetVectorEnv):
-    """A native batch of days whose observations may be kept: RLlib keeps them until it learns.
+    """A native batch of days with observations that may be kept, as RLlib keeps them until it learns.
 
     Args:
         config: RLlib's ``env_config`` with ``network``, ``reward`` and ``reward_scale``, and ``num_envs``.
     """
 
     def __init__(self, config: Mapping[str, Any]) -> None:
-        # An environment runner has the one CPU that Ray gives it.
+        # Ray gives an environment runner one CPU.
         super().__init__(config["num_envs"], config["network"], config["reward"], threads=1)
         self.reward_scale: float = config["reward_scale"]
 
@@ -33,8 +33,8 @@ class FleetDays(FleetVectorEnv):
     ) -> tuple[Observation, Info]:
         """Begins new days.
 
-        Seeds of runners follow each other, and so do those of the days of one runner, so that runners would
-        play the same days. Here a runner's days get seeds far apart.
+        RLlib gives consecutive seeds to runners, and a batch gives consecutive seeds to its days, so runners
+        would play the same days. Here the seeds of a runner's days are spread far apart.
         """
         if isinstance(seed, int):
             seed = np.random.SeedSequence(seed).generate_state(self.num_envs).tolist()

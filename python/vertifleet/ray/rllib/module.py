@@ -1,4 +1,4 @@
-"""The networks as modules of RLlib's new API stack."""
+"""The networks of layers as modules of RLlib's new API stack."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ KINDS: dict[str, type[Gcaps] | type[Mlp]] = {"gcaps": Gcaps, "mlp": Mlp}
 
 
 class FleetModule(TorchRLModule, ValueFunctionAPI):
-    """A network of the program, deciding among the feasible vertiports.
+    """A network of the program, which decides among the feasible vertiports.
 
-    Its ``model_config`` has the ``policy``, "gcaps" or "mlp", and the ``sizes`` of its layers: those of the
-    weight files that come with the program where none are given.
+    Its ``model_config`` has the ``policy``, "gcaps" or "mlp", and the ``sizes`` of its layers, which are those
+    of the shipped weights by default.
     """
 
     def setup(self) -> None:
-        """Makes the network, with first weights."""
+        """Creates the network with first weights."""
         (vertiports,) = cast("tuple[int]", cast("spaces.Dict", self.observation_space)["action_mask"].shape)
         config = cast("dict[str, Any]", self.model_config)
         self.twin = of_sizes(kind_of(config["policy"]), vertiports, config["sizes"])
@@ -38,18 +38,18 @@ class FleetModule(TorchRLModule, ValueFunctionAPI):
         return {Columns.ACTION_DIST_INPUTS: logits}
 
     def _forward_train(self, batch: dict[str, Any], **_: Any) -> dict[str, Any]:
-        # Values come with the logits: RLlib hands back to `compute_values` what is said to be embeddings.
+        # The values are returned as embeddings, because RLlib hands embeddings on to `compute_values`.
         logits, values = self._pass(batch)
         return {Columns.ACTION_DIST_INPUTS: logits, Columns.EMBEDDINGS: values}
 
     def compute_values(self, batch: dict[str, Any], embeddings: Tensor | None = None) -> Tensor:
-        """Values [B] of a batch; `embeddings` are these, where it has been through the network already."""
+        """Values [B] of a batch; `embeddings` are the values if the batch has passed the network already."""
         return self._pass(batch)[1] if embeddings is None else embeddings
 
     def _pass(self, batch: dict[str, Any]) -> tuple[Tensor, Tensor]:
-        """Logits [B, N], as low as can be where the mask is 0, and values [B].
+        """Logits [B, N], the lowest finite number where the mask is 0, and values [B].
 
-        The probability is 0 there. Minus infinity would make it so too, but times 0 it is not a number.
+        The probability is 0 there. Minus infinity would give 0 too, but its product with 0 is NaN.
         """
         shown = batch[Columns.OBS]
         logits, values = self.twin(shown["nodes"], shown["aircraft"], shown["clock"])
@@ -58,7 +58,7 @@ class FleetModule(TorchRLModule, ValueFunctionAPI):
 
 
 def kind_of(policy: str) -> type[Gcaps] | type[Mlp]:
-    """The network of that name."""
+    """The class of the network with this name."""
     if policy not in KINDS:
         raise Error("V451", f"policy must be one of {', '.join(KINDS)}, found {policy!r}")
     return KINDS[policy]

@@ -1,4 +1,4 @@
-"""Weight files of what RLlib trained, with which the program decides."""
+"""Weight files of networks that RLlib trained, for use in the program."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     import os
 
 MODULE = Path(COMPONENT_LEARNER_GROUP, COMPONENT_LEARNER, COMPONENT_RL_MODULE, DEFAULT_MODULE_ID)
-"""Where a checkpoint has the module."""
+"""The path of the module in a checkpoint."""
 DECISIONS = (ENV_RUNNER_RESULTS, NUM_ENV_STEPS_SAMPLED_LIFETIME)
-"""What RLlib calls the number of decisions learned from."""
+"""RLlib's name for the number of decisions learned from."""
 
 
 def export(
@@ -41,22 +41,23 @@ def export(
     *,
     network: str | os.PathLike[str] | Network | None = None,
 ) -> None:
-    """Writes trained weights as a weight file, with which the program decides.
+    """Writes trained weights as a weight file, with which the program can decide.
 
-    ``vertifleet compare --policies greedy,mine --model mine=PATH`` compares it with others. The file says how
-    the weights were trained where the program's settings can: not if another algorithm than PPO trained them,
-    say, or if a rate fell in another way than linearly to 0.
+    ``vertifleet compare --policies greedy,mine --model mine=PATH`` compares it with other policies. The file
+    records how the weights were trained if the program's settings can express it. They cannot if another
+    algorithm than PPO trained them, for example, or if a rate fell in another way than linearly to 0.
 
     Args:
-        source: the algorithm, built from :func:`~vertifleet.ray.rllib.ppo_config`, or the folder of a
-            checkpoint of it, for which no cluster is needed.
-        path: the file.
-        network: what it was trained on, its name or its path; needed only if its environment is not
-            :class:`~vertifleet.ray.rllib.FleetDays`.
+        source: the algorithm, built from :func:`~vertifleet.ray.rllib.ppo_config`, or the folder of one of
+            its checkpoints, which needs no cluster.
+        path: path of the weight file.
+        network: the network that it was trained on, its name or its path; needed only if the environment is
+            not :class:`~vertifleet.ray.rllib.FleetDays`.
 
     Raises:
-        Error: V304 if a weight is not finite, V102 if the file cannot be written, V451 if what was trained is
-            no :class:`~vertifleet.ray.rllib.FleetModule`, or on which network is not known, or not as given.
+        Error: V304 if a weight is not finite, V102 if the file cannot be written, V451 if the trained module
+            is not a :class:`~vertifleet.ray.rllib.FleetModule`, or if the network that it was trained on is
+            not known or is another one than `network`.
     """
     trained = _of_algorithm(source) if isinstance(source, Algorithm) else _of_checkpoint(Path(source))
     config, decisions = trained.config, trained.decisions
@@ -65,7 +66,7 @@ def export(
 
 
 class Trained(NamedTuple):
-    """What was trained."""
+    """A trained module and its training."""
 
     module: FleetModule
     config: Any
@@ -74,17 +75,17 @@ class Trained(NamedTuple):
 
 
 def _of_algorithm(algorithm: Algorithm) -> Trained:
-    """The latest weights; environment runners may have older ones, until they play again."""
+    """Takes the latest weights; environment runners may have older ones until they play again."""
     module = _checked(algorithm.get_module())
     learners, metrics = algorithm.learner_group, algorithm.metrics
-    assert learners is not None, "modules have learners"
-    assert metrics is not None, "and numbers about them"
+    assert learners is not None, "an algorithm with a module has learners"
+    assert metrics is not None, "an algorithm with a module has metrics"
     module.set_state(learners.get_weights()[DEFAULT_MODULE_ID])
     return Trained(module, algorithm.config, int(metrics.peek(DECISIONS, default=0)))
 
 
 def _of_checkpoint(folder: Path) -> Trained:
-    """The same, read from the files: to build the algorithm takes as many CPUs as the training took."""
+    """Reads them from the files, since building the algorithm takes as many CPUs as the training took."""
     module = _checked(RLModule.from_checkpoint(folder.absolute() / MODULE))
     made_from = pickle.loads((folder / Algorithm.CLASS_AND_CTOR_ARGS_FILE_NAME).read_bytes())
     (config,), _ = made_from["ctor_args_and_kwargs"]
@@ -101,7 +102,7 @@ def _checked(module: RLModule | None) -> FleetModule:
 
 
 def _network(config: AlgorithmConfig, given: str | os.PathLike[str] | Network | None) -> Network:
-    """What the module was trained on, as its environment or else the caller says."""
+    """The network that the module was trained on, from its environment or else from the caller."""
     if config.env is FleetDays:
         return network_trained_on(given, config.env_config["network"])
     if given is None:
@@ -111,7 +112,7 @@ def _network(config: AlgorithmConfig, given: str | os.PathLike[str] | Network | 
 
 
 def _settings(config: Any, steps: int) -> dict[str, Any] | None:
-    """What the module was trained with, under the program's names; None where these cannot say it."""
+    """The training settings under the program's names; None if these cannot express them."""
     if not isinstance(config, PPOConfig) or config.env is not FleetDays:
         return None
     if any(getattr(config, name) != value for name, value in TURNED_OFF.items()):
@@ -122,7 +123,7 @@ def _settings(config: Any, steps: int) -> dict[str, Any] | None:
         {
             "total_steps": falls_for or max(steps, 1),
             "n_envs": days,
-            # Not whole, and so no setting, where days do not share a roll-out evenly.
+            # This is a fraction, which no setting may be, if the roll-out is not the same for all days.
             "n_steps": config.total_train_batch_size / days,
             "batch_size": _batch_size(config),
             "n_epochs": config.num_epochs,
@@ -141,7 +142,7 @@ def _settings(config: Any, steps: int) -> dict[str, Any] | None:
 
 
 def _falling(rate: Any) -> tuple[Any, str | None, int | None]:
-    """The first learning rate, what the program calls its way down, and how many decisions that takes."""
+    """The first learning rate, the program's name of its schedule, and after how many decisions it ends."""
     if not isinstance(rate, list):
         return rate, "constant", None
     match rate:
@@ -152,6 +153,6 @@ def _falling(rate: Any) -> tuple[Any, str | None, int | None]:
 
 
 def _batch_size(config: PPOConfig) -> int:
-    """Decisions per step, of all learners together; without minibatches, all of them."""
+    """Decisions per step of all learners together; without minibatches, all decisions of a roll-out."""
     size: int = config.minibatch_size or config.train_batch_size_per_learner
     return size * max(config.num_learners, 1)

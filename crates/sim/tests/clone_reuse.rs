@@ -28,7 +28,7 @@ proptest! {
     ) {
         let mut room = None;
         let first = measure(|| room = Some(Simulation::new(another).view().imagined()));
-        prop_assert!(first.count_total > 0, "the first one does, or nothing was measured");
+        prop_assert!(first.count_total > 0, "the first imagined day takes memory, or nothing was measured");
         let mut simulation = Simulation::new(Arc::clone(&day));
         // The memory of another day is resized to fit.
         simulation.view().imagined_in(&mut room);

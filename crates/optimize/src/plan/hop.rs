@@ -1,0 +1,25 @@
+//! Flights between two vertiports as the planner reckons with them.
+
+use vertifleet_core::VertiportIx;
+
+/// A flight from a vertiport that aircraft of one type can make.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hop {
+    pub(super) to: VertiportIx,
+    /// Seconds from take-off to arrival.
+    pub(super) flight_s: u32,
+    /// Seconds from take-off until the aircraft is ready again.
+    pub(super) block_s: u32,
+    pub(super) energy_kwh: f64,
+    /// Cost of the flight beside its energy, dollars.
+    pub(super) flight_cost_usd: f64,
+}
+
+/// The end of a flight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Landing {
+    /// Second of the landing.
+    pub(super) arrival_s: u32,
+    /// Second at which the aircraft decides again.
+    pub(super) ready_s: u32,
+}
