@@ -1,8 +1,9 @@
 """Trains the paper's network with MaskablePPO and the paper's settings (Table 2), and saves a weight file.
 
-The program then compares it with the other policies on days that it has not seen; the last line says how.
-Ctrl-C ends the training, and what was learned until then is saved. The learner itself, 12 MB, is saved after
-every roll-out, in a folder beside the weight file: `MaskablePPO.load(path, env=days)` goes on with it.
+The program can then compare it with other policies on days that it has not seen; the last line of the output
+says how. Ctrl-C ends the training and saves what was learned so far. The learner itself, 12 MB, is saved
+after every roll-out, in a folder beside the weight file: `MaskablePPO.load(path, env=days)` continues from
+there.
 
     python examples/maskable_ppo.py --steps 20000 --seed 1 --out mine.safetensors
 """
@@ -22,7 +23,7 @@ NETWORK = "paper"
 
 
 def file_to_write(given: str) -> Path:
-    """The path of a file that is written hours later: whether it can be is asked now."""
+    """The path of a file that will be written hours later, after a check that it can be written."""
     path = Path(given)
     if path.is_dir():
         raise argparse.ArgumentTypeError(f"{path}: cannot be written: it is a folder; name a file in it")
@@ -34,7 +35,7 @@ def file_to_write(given: str) -> Path:
 
 
 def main() -> None:
-    """Trains, saves, and says what to do next."""
+    """Trains, saves, and prints what to do next."""
     settings = vertifleet.settings("paper")
     parser = argparse.ArgumentParser(description="Trains the paper's network with MaskablePPO.")
     parser.add_argument("--steps", type=int, default=settings["total_steps"], help="decisions to learn from")

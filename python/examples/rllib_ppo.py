@@ -20,7 +20,7 @@ NETWORK = "paper"
 
 
 def file_to_write(given: str) -> Path:
-    """The path of a file that is written hours later: whether it can be is asked now."""
+    """The path of a file that will be written hours later, after a check that it can be written."""
     path = Path(given)
     if path.is_dir():
         raise argparse.ArgumentTypeError(f"{path}: cannot be written: it is a folder; name a file in it")
@@ -32,7 +32,7 @@ def file_to_write(given: str) -> Path:
 
 
 def main() -> None:
-    """Trains, saves, and says what to do next."""
+    """Trains, saves, and prints what to do next."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--preset", choices=["paper", "default"], default="paper", help="settings")
     parser.add_argument("--steps", type=int, help="decisions to learn from; those of the preset without")

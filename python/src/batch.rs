@@ -1,7 +1,7 @@
-//! `Batch`: many days side by side, advanced by as many threads as there are; what the vector environment is made of.
+//! `Batch`: many days side by side, advanced by several threads. The vector environment is built on it.
 //!
-//! Observations of steps alternate between two sets of arrays, so that those of a step stay as they are while the next one is taken.
-//! A third set is for resets of some slots, which come between two steps.
+//! The observations of steps alternate between two sets of arrays, so that the observations of one step stay unchanged
+//! during the next step. A third set is for resets of some slots, which happen between two steps.
 
 use std::sync::{Arc, Mutex};
 
@@ -21,25 +21,26 @@ use crate::scenario::Scenario;
 use crate::threads::Threads;
 use crate::whole_number::WholeNumber;
 
-/// Days that one thread advances at a time: some ten microseconds of work, far more than it costs to share it out.
+/// Number of days that one thread advances at a time. This is about ten microseconds of work, far more than the cost of
+/// handing it to a thread.
 const GRAIN: usize = 16;
 
-/// What becomes of a day that is over.
+/// How the day that follows a finished day begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Autoreset {
-    /// The next step begins a new one, whatever the action.
+    /// The next step begins a new day, whatever the action is.
     NextStep,
-    /// The step that ends it begins a new one; how it ended is shown apart.
+    /// The step that ends a day also begins a new one. The last observation of the old day goes to separate arrays.
     SameStep,
-    /// The caller begins a new one.
+    /// The caller begins a new day.
     Disabled,
 }
 
-/// A place of the batch and the day that is played there.
+/// One position of the batch and the day that is played there.
 #[derive(Default)]
 struct Slot {
     day: Option<Day>,
-    /// The numbers of the day that the latest step ended.
+    /// The totals of the day, if the latest step ended it.
     summary: Option<DayTotals>,
 }
 
@@ -49,12 +50,12 @@ pub(crate) struct Batch {
     world: World,
     autoreset: Autoreset,
     slots: Vec<Slot>,
-    /// Two for steps, one for resets of some slots.
+    /// Two sets for steps, and one for resets of some slots.
     sets: [Observations; 3],
-    /// How days ended that were followed by others in the same step.
+    /// The last observations of days that ended and were followed by another day in the same step.
     finals: Observations,
     outcomes: Outcomes,
-    /// The set that the latest step wrote to.
+    /// The index in `sets` of the set that the latest step, or the latest reset of all slots, wrote to.
     latest: usize,
     threads: Threads,
 }
@@ -112,8 +113,9 @@ impl Batch {
         ])
     }
 
-    /// Begins days at the slots that `which` has, the training days of these numbers or a given one; every slot shows where it is.
-    /// Returns the set.
+    /// Begins a day at each slot for which `which` is true: the training day with the slot's number in `numbers`, or
+    /// `scenario` if it is given. Writes the observations of all slots, and returns the index of the set that they are
+    /// in.
     fn reset(
         &mut self,
         py: Python<'_>,
@@ -147,8 +149,8 @@ impl Batch {
         Ok(set)
     }
 
-    /// Takes a decision at every slot; `numbers` are of the training days that begin where one is due. Returns the set, and whether
-    /// any day is over or has begun.
+    /// Takes one decision at every slot. Where a new day is due, the training day with the slot's number in `numbers`
+    /// begins. Returns the index of the set that the observations are in, and whether any day is over or has begun.
     fn step(
         &mut self,
         py: Python<'_>,
@@ -184,7 +186,8 @@ impl Batch {
         self.slots.get(slot)?.day.as_ref().map(Day::scenario)
     }
 
-    /// The numbers of the day that the latest step ended at a slot, as `vertifleet simulate --json` prints them.
+    /// The results of the day that the latest step ended at a slot, as `vertifleet simulate --json` prints them, or
+    /// `None` if it ended no day there.
     fn summary<'py>(&self, py: Python<'py>, slot: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
         let summary = self.slots.get(slot).and_then(|slot| slot.summary);
         summary.map(|summary| plain(py, &summary)).transpose()
@@ -192,7 +195,7 @@ impl Batch {
 }
 
 impl Batch {
-    /// An argument that must have an entry for each slot.
+    /// Checks that an argument has one entry for each slot.
     fn one_each<'a, T>(&self, name: &str, entries: &'a [T]) -> Result<&'a [T], Failure> {
         if entries.len() == self.slots.len() {
             return Ok(entries);
@@ -212,14 +215,14 @@ impl Batch {
         }
     }
 
-    /// The set that is written to next.
+    /// Switches to the other of the two sets for steps, and returns its index.
     fn next(&mut self) -> usize {
         self.latest = 1 - self.latest;
         self.latest
     }
 
-    /// Does something at every slot, on all threads if there are enough slots, and writes to a set. Returns whether any day is over or
-    /// has begun.
+    /// Calls `each` for every slot, on all threads if there are more than [`GRAIN`] slots. The observations go to the
+    /// set with index `set`. Returns whether any day is over or has begun.
     fn on_all(
         &mut self,
         py: Python<'_>,
@@ -246,7 +249,7 @@ impl Batch {
     }
 }
 
-/// Numbers of training days.
+/// Checks that every number is the number of a training day.
 fn check_numbers(numbers: &[u64]) -> Result<(), Failure> {
     Ok(numbers.iter().try_for_each(|&number| DaySeed::training_number(number).map(|_| ()))?)
 }
@@ -272,18 +275,18 @@ impl Slot {
     }
 }
 
-/// Some slots with their rows of all arrays.
+/// A part of the slots, with their rows of all arrays.
 struct Part<'a> {
     slots: &'a mut [Slot],
     observations: ObservationRows<'a>,
     finals: ObservationRows<'a>,
     outcomes: OutcomeRows<'a>,
-    /// Position of the first of them in the batch.
+    /// Position of the first of these slots in the batch.
     first: usize,
 }
 
 impl Part<'_> {
-    /// Does something at every slot, one after the other.
+    /// Calls `each` for one slot after the other.
     fn each(self, each: &impl Fn(&mut Slot, Row<'_, '_>, usize)) {
         let Self { slots, mut observations, mut finals, mut outcomes, first } = self;
         let (observations, finals, outcomes) = (&mut observations, &mut finals, &mut outcomes);
@@ -308,7 +311,8 @@ impl Part<'_> {
     }
 }
 
-/// A share of the batch for every thread, the same in every step, so that its days stay in its core's cache.
+/// One share of the batch for each thread. The shares are the same in every step, so that the days of a share stay in
+/// the cache of the same core.
 struct Shares<'a>(Vec<Mutex<Option<Part<'a>>>>);
 
 impl<'a> Shares<'a> {
@@ -324,7 +328,8 @@ impl<'a> Shares<'a> {
         Self(shares)
     }
 
-    /// Does something at every slot of a thread's share, then of what others have not come to.
+    /// Calls `each` for every slot of the thread's own share, and then for the slots of other shares that no thread has
+    /// taken yet.
     fn each(&self, thread: usize, each: &(impl Fn(&mut Slot, Row<'_, '_>, usize) + Sync)) {
         let others = (thread..self.0.len()).chain(0..thread);
         for share in others.map(|share| &self.0[share]) {
@@ -335,7 +340,7 @@ impl<'a> Shares<'a> {
     }
 }
 
-/// Takes some slots of a share.
+/// Takes up to [`GRAIN`] slots from a share.
 fn take<'a>(share: &Mutex<Option<Part<'a>>>) -> Option<Part<'a>> {
     let mut share = share.lock().expect("no thread ends while it takes a part");
     let part = share.take()?;
@@ -367,7 +372,7 @@ impl Row<'_, '_> {
         slot.show(world, self.observations.row(self.at));
     }
 
-    /// Shows how a day ended that is followed by another in the same step.
+    /// Writes the last observation of a day that is followed by another day in the same step.
     fn show_end(&mut self, world: &World, slot: &Slot) {
         slot.show(world, self.finals.row(self.at));
     }

@@ -1,4 +1,4 @@
-//! The arrays of a batch: allocated once by numpy, filled in place from many threads, row by row.
+//! The arrays of a batch. Numpy allocates them once, and many threads fill them in place, row by row.
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::prelude::*;
@@ -7,16 +7,17 @@ use vertifleet_learn::nn::Shape;
 
 use crate::observation::ObservationRow;
 
-/// Arrays of floats that an observation has, in this order: nodes, aircraft, clock, adjacency, mask.
+/// Number of float arrays in an observation, which are, in this order: nodes, aircraft, clock, adjacency, mask.
 const FLOATS: usize = 5;
 
-/// Arrays for one observation of every day of a batch: the [`FLOATS`], and the mask once more as whole numbers.
+/// Arrays with one observation for each day of a batch: the [`FLOATS`] float arrays, and the mask again as whole
+/// numbers.
 pub(crate) struct Observations {
     floats: [Py<PyArray2<f32>>; FLOATS],
     mask_i8: Py<PyArray2<i8>>,
 }
 
-/// Arrays for one step's outcome of every day of a batch.
+/// Arrays with the outcome of one step for each day of a batch.
 pub(crate) struct Outcomes {
     rewards: Py<PyArray1<f64>>,
     over: Py<PyArray1<bool>>,
@@ -24,13 +25,13 @@ pub(crate) struct Outcomes {
     begun: Py<PyArray1<bool>>,
 }
 
-/// The right to write to [`Observations`]; Python holds the arrays meanwhile, and numpy refuses to lend them twice.
+/// Write access to [`Observations`]. Python keeps the arrays during this time, and numpy refuses to lend them twice.
 pub(crate) struct ObservationsLent<'py> {
     floats: [PyReadwriteArray2<'py, f32>; FLOATS],
     mask_i8: PyReadwriteArray2<'py, i8>,
 }
 
-/// The right to write to [`Outcomes`].
+/// Write access to [`Outcomes`].
 pub(crate) struct OutcomesLent<'py> {
     rewards: PyReadwriteArray1<'py, f64>,
     over: PyReadwriteArray1<'py, bool>,
@@ -65,13 +66,13 @@ impl Observations {
         }
     }
 
-    /// Nodes, aircraft, clock, adjacency, mask, and the mask as int8.
+    /// The arrays of nodes, aircraft, clock, adjacency and mask, and the mask as int8.
     pub(crate) fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let [nodes, aircraft, clock, adjacency, mask] = &self.floats;
         (nodes, aircraft, clock, adjacency, mask, &self.mask_i8).into_pyobject(py)
     }
 
-    /// An error if an array was made read-only.
+    /// Lends the arrays for writing, and fails if one of them was made read-only.
     pub(crate) fn lend<'py>(&self, py: Python<'py>) -> PyResult<ObservationsLent<'py>> {
         let [nodes, aircraft, clock, adjacency, mask] =
             self.floats.each_ref().map(|array| array.bind(py).try_readwrite());
@@ -93,13 +94,13 @@ impl Outcomes {
         }
     }
 
-    /// Rewards, whether days are over, whether actions were infeasible, whether new days have begun.
+    /// The rewards, whether days are over, whether actions were infeasible, and whether new days have begun.
     pub(crate) fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let Self { rewards, over, invalid, begun } = self;
         (rewards, over, invalid, begun).into_pyobject(py)
     }
 
-    /// An error if an array was made read-only.
+    /// Lends the arrays for writing, and fails if one of them was made read-only.
     pub(crate) fn lend<'py>(&self, py: Python<'py>) -> PyResult<OutcomesLent<'py>> {
         Ok(OutcomesLent {
             rewards: self.rewards.bind(py).try_readwrite()?,
@@ -144,7 +145,7 @@ impl ObservationRows<'_> {
         ObservationRow { nodes, aircraft, clock: &mut clock[0], adjacency, mask, mask_i8 }
     }
 
-    /// The rows before `first`, and the others.
+    /// Splits into the rows before row `first` and the rest.
     pub(crate) fn split(self, first: usize) -> (Self, Self) {
         let rows = self.rows;
         let [nodes, aircraft, clock, adjacency, mask] =
@@ -161,7 +162,7 @@ impl ObservationRows<'_> {
 }
 
 impl OutcomeRows<'_> {
-    /// The rows before `first`, and the others.
+    /// Splits into the rows before row `first` and the rest.
     pub(crate) fn split(self, first: usize) -> (Self, Self) {
         let (rewards, more_rewards) = self.rewards.split_at_mut(first);
         let (over, more_over) = self.over.split_at_mut(first);
@@ -177,13 +178,13 @@ impl OutcomeRows<'_> {
     }
 }
 
-/// One row of a table of so many rows.
+/// Row number `row` of a table with `rows` rows.
 fn one_of<T>(table: &mut [T], row: usize, rows: usize) -> &mut [T] {
     let width = table.len() / rows;
     &mut table[row * width..][..width]
 }
 
-/// A table of so many rows, parted before row `first`.
+/// A table with `rows` rows, split before row `first`.
 fn parted<T>(table: &mut [T], first: usize, rows: usize) -> (&mut [T], &mut [T]) {
     let width = table.len() / rows;
     table.split_at_mut(first * width)

@@ -25,7 +25,7 @@ use crate::policy_source::{Raised, policy_source};
 use crate::scenario::Scenario;
 use crate::whole_number::WholeNumber;
 
-/// Many policies on the same days: every policy's every day, and the statistics of them.
+/// The results of many policies on the same days: one row for each policy and day, and statistics.
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Comparison {
@@ -35,8 +35,8 @@ pub(crate) struct Comparison {
 
 #[pymethods]
 impl Comparison {
-    /// A row for each policy and day, as numpy arrays by column: dollars, kWh, counts. `upper_bound_usd` and `bound_share` are there where
-    /// bounds were asked for.
+    /// A row for each policy and day, as a dict of numpy arrays, one for each column, in dollars, kWh and counts.
+    /// `upper_bound_usd` and `bound_share` are present only if bounds were requested.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let columns = Columns::new(py);
@@ -59,30 +59,33 @@ impl Comparison {
         Ok(columns.into_dict())
     }
 
-    /// What is allowed but hardly meant, such as shipped weights on a changed copy of their network.
+    /// Warnings about what is allowed but probably not intended, such as shipped weights on a changed copy of their
+    /// network.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
     }
 
-    /// Its rows as a pandas frame.
+    /// The rows as a pandas `DataFrame`.
     fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(&self.columns(py)?, "pandas")
     }
 
-    /// Its rows as a polars frame.
+    /// The rows as a polars `DataFrame`.
     fn to_polars<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(&self.columns(py)?, "polars")
     }
 
-    /// The statistics, as `vertifleet compare --json` prints them: means with confidence intervals, paired tests, times per decision.
+    /// The statistics, as `vertifleet compare --json` prints them: means with confidence intervals, paired tests, times
+    /// per decision.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         loads(py, &self.study.json().map_err(Failure::from)?)
     }
 
-    /// Writes table, figures and a report page into a folder, in place of an earlier report; returns the path of the page. A folder that
-    /// holds anything else is kept under another name, which takes `force`, as does a report that is read-only.
+    /// Writes a table, figures and a report page into a folder, and returns the path of the page. An earlier report in
+    /// the folder is replaced, but a read-only one only with `force`. A folder that holds anything else is refused, or,
+    /// with `force`, kept under another name.
     #[pyo3(signature = (folder, *, force = false))]
     fn report(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<PathBuf> {
         let paths = py.detach(|| report::write(&self.study, &folder, force));
@@ -93,8 +96,8 @@ impl Comparison {
         Ok(paths.page)
     }
 
-    /// All days of some comparisons of the same policies, each of which goes on with the day after the last of the one before it.
-    /// Of the times per decision, the highest of the parts' are kept.
+    /// Joins comparisons of the same policies into one. Each part must begin with the day after the last day of the
+    /// part before it. Each time per decision in the result is the highest one among the parts.
     #[staticmethod]
     fn join(parts: Vec<PyRef<'_, Self>>) -> Result<Self, Failure> {
         let studies = parts.iter().map(|part| part.study.clone()).collect();
@@ -107,13 +110,13 @@ impl Comparison {
         Ok(Self { study: ComparisonRecords::join(studies)?, warnings })
     }
 
-    /// What `pickle` keeps, read back.
+    /// Restores a comparison from the text that `pickle` keeps.
     #[staticmethod]
     #[pyo3(signature = (text, warnings = Vec::new()))]
     fn from_json(text: &str, warnings: Vec<String>) -> Result<Self, Failure> {
         let study = serde_json::from_str(text);
         let study = study.map_err(|error| Failure::argument(format!("no comparison: {error}")))?;
-        // Whatever is shown of it rests on what statistics check.
+        // The statistics check the records, and everything that is shown of a comparison relies on these checks.
         ComparisonReport::of(&study)?;
         Ok(Self { study, warnings })
     }
@@ -133,12 +136,12 @@ impl Comparison {
     }
 }
 
-/// Days that a comparison may have, as in the program.
+/// The highest number of days in a comparison, the same as in the `vertifleet` program.
 const DAYS: u32 = 1_000_000;
 
-/// What is asked for, by its names in Python: `policies` as `vertifleet compare` names them; what names stand for in `models`, weight
-/// files, `Model`s or functions; `bound` for upper bounds with prices that stay the same for `step` minutes; `policy_seed` of the random
-/// policy and of the planner's search.
+/// The arguments of a comparison, by their names in Python. `policies` are names as in `vertifleet compare`. `models`
+/// maps names to weight files, `Model`s or functions. `bound` requests upper bounds with slices of `step` minutes.
+/// `policy_seed` is the seed of the random policy and of the planner's search.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Arguments<'py> {
@@ -151,7 +154,7 @@ pub(crate) struct Arguments<'py> {
     policy_seed: WholeNumber,
 }
 
-/// The same in Rust's types, checked one by one.
+/// The arguments of a comparison other than its days and their seed, checked and converted to Rust types.
 struct Request {
     policies: Vec<String>,
     models: Vec<(String, PolicySource)>,
@@ -159,7 +162,7 @@ struct Request {
     policy_seed: u64,
 }
 
-/// Days that are drawn.
+/// Days that are drawn from a network.
 struct Drawn {
     network: Arc<core::Network>,
     days: u32,
@@ -167,7 +170,7 @@ struct Drawn {
 }
 
 impl Request {
-    /// A function sees the days as those of `network`.
+    /// A policy that is a function sees the days as days of `network`.
     fn of(network: Option<&Network>, arguments: &Arguments<'_>, raised: &Raised) -> PyResult<Self> {
         let step = Step::from_minutes(arguments.step.of("step")?);
         let scales = network.map(|network| Scales::from(network.network.feature_scales()));
@@ -187,13 +190,13 @@ impl Request {
         Selection { policies, models, seed: *policy_seed }
     }
 
-    /// The comparison on so many of the days.
+    /// The comparison on the first `days` of the drawn days.
     fn on(&self, drawn: &Drawn, days: u32, stop: &Stop) -> Result<comparison::Comparison, Error> {
         let Drawn { network, seed, .. } = drawn;
         comparison::Comparison::new(network, &self.selection(), *seed, days, self.step, stop)
     }
 
-    /// The comparison on days of the caller's own.
+    /// The comparison on the caller's own days.
     fn on_own(&self, days: OwnDays) -> Result<comparison::Comparison, Error> {
         comparison::Comparison::of_own(days, &self.selection(), self.step)
     }
@@ -210,16 +213,16 @@ impl Drawn {
     }
 }
 
-/// Looks for all that can be found wrong with a comparison before its days are played; returns what is to be said of it.
+/// Checks everything about a comparison that can be checked before its days are played, and returns the warnings.
 #[pyfunction]
-#[pyo3(signature = (network, asked))]
+#[pyo3(signature = (network, arguments))]
 pub(crate) fn check_comparison(
     py: Python<'_>,
     network: &Network,
-    asked: Arguments<'_>,
+    arguments: Arguments<'_>,
 ) -> PyResult<Vec<String>> {
-    let request = Request::of(Some(network), &asked, &Raised::default())?;
-    let drawn = Drawn::of(network, &asked)?;
+    let request = Request::of(Some(network), &arguments, &Raised::default())?;
+    let drawn = Drawn::of(network, &arguments)?;
     let warnings = interruptible(py, 1, move |stop| {
         DaySeed::comparison(drawn.seed.saturating_add(drawn.days.saturating_sub(1).into()))?;
         Ok::<_, Error>(request.on(&drawn, drawn.days.min(1), stop)?.warnings().collect())
@@ -227,24 +230,26 @@ pub(crate) fn check_comparison(
     Ok(warnings.map_err(Failure::from)?)
 }
 
-/// Plays days of a network, the first of seed `seed`, with every policy; all meet the same days. `command` is what the report says it
-/// was made with. What is allowed but hardly meant is told by the result's `warnings`.
+/// Plays days of a network with every policy; all policies play the same days. The first day has the seed `seed`.
+/// `command` is the command that the report says it was made with. The `warnings` of the result name what is allowed
+/// but probably not intended.
 #[pyfunction]
-#[pyo3(signature = (network, asked, *, threads = None, command = ""))]
+#[pyo3(signature = (network, arguments, *, threads = None, command = ""))]
 pub(crate) fn compare(
     py: Python<'_>,
     network: &Network,
-    asked: Arguments<'_>,
+    arguments: Arguments<'_>,
     threads: Option<WholeNumber>,
     command: &str,
 ) -> PyResult<Comparison> {
     let raised = Raised::default();
-    let request = Request::of(Some(network), &asked, &raised)?;
-    let drawn = Drawn::of(network, &asked)?;
+    let request = Request::of(Some(network), &arguments, &raised)?;
+    let drawn = Drawn::of(network, &arguments)?;
     played(py, threads, command, &raised, move |stop| request.on(&drawn, drawn.days, stop))
 }
 
-/// Scenario files to be compared on, and where they came from; a folder stands for all of its files whose names end in `.json`.
+/// Reads the scenario files for a comparison, and returns the days and a text that says where they came from. A folder
+/// stands for all files in it whose names end in `.json`.
 #[pyfunction]
 pub(crate) fn read_days(paths: Vec<PathBuf>) -> Result<(Vec<Scenario>, String), Failure> {
     let days = OwnDays::read(&paths)?;
@@ -252,28 +257,28 @@ pub(crate) fn read_days(paths: Vec<PathBuf>) -> Result<(Vec<Scenario>, String), 
     Ok((scenarios.into_iter().map(|scenario| Scenario { scenario }).collect(), from))
 }
 
-/// Plays days of the caller's own with every policy; `origin` says where they came from. Of what is asked for, `days` and `seed` say
-/// nothing here. A function sees the days as those of `network`.
+/// Plays the caller's own days with every policy. `origin` says where they came from. The arguments `days` and `seed`
+/// are ignored here. A policy that is a function sees the days as days of `network`.
 #[pyfunction]
-#[pyo3(signature = (scenarios, origin, network, asked, *, threads = None, command = ""))]
+#[pyo3(signature = (scenarios, origin, network, arguments, *, threads = None, command = ""))]
 pub(crate) fn compare_own(
     py: Python<'_>,
     scenarios: Vec<Py<Scenario>>,
     origin: String,
     network: Option<&Network>,
-    asked: Arguments<'_>,
+    arguments: Arguments<'_>,
     threads: Option<WholeNumber>,
     command: &str,
 ) -> PyResult<Comparison> {
     let raised = Raised::default();
-    let request = Request::of(network, &asked, &raised)?;
+    let request = Request::of(network, &arguments, &raised)?;
     let scenario = |day: &Py<Scenario>| Arc::clone(&day.get().scenario);
     let days = OwnDays::of(scenarios.iter().map(scenario).collect(), origin);
     let days = days.map_err(Failure::from)?;
     played(py, threads, command, &raised, move |_| request.on_own(days))
 }
 
-/// Makes a comparison and plays it, on threads of its own.
+/// Makes a comparison and plays it on its own threads.
 fn played(
     py: Python<'_>,
     threads: Option<WholeNumber>,

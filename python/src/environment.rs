@@ -1,4 +1,5 @@
-//! `Environment`: one day at a time, one decision at a time; what the Gymnasium and PettingZoo environments are made of.
+//! `Environment`: one day at a time, and one decision at a time. The Gymnasium and PettingZoo environments are built on
+//! it.
 
 use std::sync::Arc;
 
@@ -15,7 +16,7 @@ use crate::observation::{Arrays, Observation, ObservationRow, Observer};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 
-/// What all days of an environment have in common.
+/// The settings that all days of an environment share.
 #[derive(Clone)]
 pub(crate) struct World {
     pub(crate) network: Network,
@@ -23,22 +24,23 @@ pub(crate) struct World {
     pub(crate) reward: Reward,
 }
 
-/// A day being played, and the decision that it stands at.
+/// A day that is being played, and its current decision.
 #[derive(Clone)]
 pub(crate) struct Day {
     simulation: Simulation,
-    /// The decision to be taken; the last one taken, from where its aircraft is now, once the day is over.
+    /// The decision to be taken. When the day is over, it is the last decision that was taken, seen from where its
+    /// aircraft is now.
     decision: Decision,
     over: bool,
 }
 
-/// What a step came to.
+/// The result of a step.
 pub(crate) struct Outcome {
     pub(crate) reward: f64,
     pub(crate) over: bool,
     /// Whether the action was infeasible, so that the aircraft held.
     pub(crate) invalid: bool,
-    /// What was done.
+    /// The choice that was applied.
     choice: VertiportIx,
 }
 
@@ -61,7 +63,7 @@ impl World {
         self.network.network.vertiports().len()
     }
 
-    /// The training day of this number.
+    /// The training day with this number.
     pub(crate) fn day(&self, number: u64) -> Result<Day, core::Error> {
         Ok(Day::new(Arc::new(self.network.network.draw(DaySeed::training_number(number)?))))
     }
@@ -87,7 +89,7 @@ impl Day {
         Scenario { scenario: Arc::clone(self.simulation.scenario()) }
     }
 
-    /// Takes the decision; an action that is not feasible holds. Nothing happens on a day that is over.
+    /// Takes the current decision. An action that is not feasible counts as a hold. The day must not be over.
     pub(crate) fn step(&mut self, action: i64, reward: Reward) -> Outcome {
         let feasible = self.simulation.view().feasible(&self.decision);
         let asked =
@@ -105,13 +107,13 @@ impl Day {
         Outcome { reward, over: self.over, invalid: asked.is_none(), choice }
     }
 
-    /// Shows the decision. A day that is over shows how it ended to the aircraft that decided last: no time is left, and nothing but
-    /// hold is feasible.
+    /// Writes the observation of the current decision. When the day is over, this is the last observation of the
+    /// aircraft that decided last: no time is left, and only hold is feasible.
     pub(crate) fn show(&self, scales: &Scales, to: ObservationRow<'_>) {
         to.fill(&self.decision, self.simulation.view(), scales, self.to(&self.decision));
     }
 
-    /// Whom a decision of this day is shown to.
+    /// The observer that a decision of this day is shown to.
     fn to(&self, decision: &Decision) -> Observer {
         if self.over {
             Observer::Finished
@@ -122,7 +124,7 @@ impl Day {
         }
     }
 
-    /// The decision as an aircraft would have it now, from where it stands or will land.
+    /// The decision that an aircraft would have if it decided now, from where it stands or will land.
     fn seen_by(&self, aircraft: AircraftIx) -> Decision {
         Decision { aircraft, at: self.simulation.view().places()[aircraft.at()], ..self.decision }
     }
@@ -131,13 +133,13 @@ impl Day {
 /// Arguments of [`Environment::resumed`].
 type Resumed = (Network, &'static str, Option<Scenario>, Vec<u16>);
 
-/// One day at a time. Can be copied, and pickled, in the middle of a day.
+/// Plays one day at a time. It can be copied and pickled in the middle of a day.
 #[pyclass(module = "vertifleet._native")]
 #[derive(Clone)]
 pub(crate) struct Environment {
     world: World,
     day: Option<Day>,
-    /// What was chosen so far today.
+    /// The choices of the current day so far.
     choices: Vec<u16>,
 }
 
@@ -148,14 +150,15 @@ impl Environment {
         Ok(Self { world: World::new(network, reward)?, day: None, choices: Vec::new() })
     }
 
-    /// Begins the training day of this number, below 2^52; returns what its first decision shows.
+    /// Begins the training day with this number, which must be below 2^52, and returns the observation of its first
+    /// decision.
     fn reset<'py>(&mut self, py: Python<'py>, number: u64) -> PyResult<Observation<'py>> {
         self.day = Some(self.world.day(number).map_err(Failure::from)?);
         self.choices.clear();
         self.present(py)
     }
 
-    /// Begins a given day.
+    /// Begins a given day, and returns the observation of its first decision.
     fn begin<'py>(&mut self, py: Python<'py>, day: &Scenario) -> PyResult<Observation<'py>> {
         self.world.network.check_fits(&day.scenario)?;
         self.day = Some(Day::new(Arc::clone(&day.scenario)));
@@ -163,7 +166,8 @@ impl Environment {
         self.present(py)
     }
 
-    /// What the day shows to an aircraft now. To one that does not decide, only hold is feasible.
+    /// The observation of an aircraft at the current time. For an aircraft that does not decide now, only hold is
+    /// feasible.
     fn observe<'py>(&self, py: Python<'py>, aircraft: u16) -> PyResult<Observation<'py>> {
         let day = self.day.as_ref();
         let day = day.filter(|day| usize::from(aircraft) < day.simulation.view().places().len());
@@ -173,7 +177,8 @@ impl Environment {
         self.shown(py, day, &day.seen_by(AircraftIx(aircraft)))
     }
 
-    /// Takes the decision. Returns what the next one shows, the reward, whether the day is over, and whether the action was infeasible.
+    /// Takes the current decision. Returns the observation of the next one, the reward, whether the day is over, and
+    /// whether the action was infeasible.
     fn step<'py>(
         &mut self,
         py: Python<'py>,
@@ -189,7 +194,7 @@ impl Environment {
         Ok((self.present(py)?, reward, over, invalid))
     }
 
-    /// An environment that has come as far in a day as another did: what pickle makes.
+    /// Restores a pickled environment: begins its day again and repeats its choices.
     #[staticmethod]
     fn resumed(
         network: &Network,
@@ -230,7 +235,7 @@ impl Environment {
         reduced::<Self, _>(py, "resumed", (network, reward, scenario, self.choices.clone()))
     }
 
-    /// The feasible actions, as booleans [N]; none before the first day.
+    /// The feasible actions, as booleans [N]. Before the first day all of them are false.
     fn mask<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         let mut mask = vec![false; self.world.vertiports()];
         if let Some(day) = &self.day {
@@ -242,13 +247,13 @@ impl Environment {
         PyArray1::from_vec(py, mask)
     }
 
-    /// Position of the aircraft that decides; of the one that decided last once the day is over.
+    /// Position of the aircraft that decides, or, when the day is over, of the aircraft that decided last.
     #[getter]
     fn aircraft(&self) -> Option<u16> {
         Some(self.day.as_ref()?.decision.aircraft.0)
     }
 
-    /// Now, seconds since midnight.
+    /// The current time, seconds since midnight.
     #[getter]
     fn time_s(&self) -> Option<u32> {
         Some(self.day.as_ref()?.decision.time.seconds())
@@ -260,7 +265,7 @@ impl Environment {
         self.day.as_ref().map(Day::scenario)
     }
 
-    /// The day's numbers so far, as `vertifleet simulate --json` prints them.
+    /// The results of the day so far, as `vertifleet simulate --json` prints them.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.day.as_ref().map(|day| plain(py, &day.totals())).transpose()
@@ -268,7 +273,7 @@ impl Environment {
 }
 
 impl Environment {
-    /// What the decision to be taken shows.
+    /// The observation of the current decision.
     fn present<'py>(&self, py: Python<'py>) -> PyResult<Observation<'py>> {
         let day = self.day.as_ref().expect("a day has begun");
         self.shown(py, day, &day.decision)

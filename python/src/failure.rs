@@ -1,11 +1,12 @@
-//! Expected errors as Python exceptions: `vertifleet.Error` with the code and the hint that the program prints.
+//! Expected errors as Python exceptions: `vertifleet.Error`, with the code and the hint that the `vertifleet` program
+//! prints.
 
 use pyo3::prelude::{PyAnyMethods, PyErr, Python};
 use pyo3::sync::PyOnceLock;
 use pyo3::{Py, types::PyType};
 use vertifleet_core::{Code, Coded};
 
-/// What went wrong, before Python hears of it: made without Python's lock, on any thread.
+/// An expected error before it becomes a Python exception. It can be made on any thread, without the GIL.
 #[derive(Debug)]
 pub(crate) struct Failure {
     code: Code,
@@ -14,7 +15,7 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
-    /// V451: an argument that is none of those that are taken. Cause and fix are in the message.
+    /// V451: an argument with a value that is not allowed. The message contains the cause and the fix.
     pub(crate) fn argument(message: String) -> Self {
         Self { code: Code(451), message, hint: None }
     }
@@ -32,7 +33,8 @@ impl From<Failure> for PyErr {
     }
 }
 
-/// The class of expected errors. It is written in Python, as subclasses of `Exception` cannot be in the limited API.
+/// The class of expected errors. It is written in Python because the limited API does not allow subclasses of
+/// `Exception` in Rust.
 fn class(py: Python<'_>) -> Result<&pyo3::Bound<'_, PyType>, PyErr> {
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     let class = CLASS.get_or_try_init(py, || {
@@ -49,7 +51,7 @@ impl<E: Coded> From<E> for Failure {
     }
 }
 
-/// Says what is allowed but hardly meant, as Python's `UserWarning`.
+/// Emits a Python `UserWarning` about something that is allowed but probably not intended.
 pub(crate) fn warn(py: Python<'_>, warning: &str) -> pyo3::PyResult<()> {
     py.import("warnings")?.call_method1("warn", (warning,))?;
     Ok(())

@@ -1,4 +1,4 @@
-//! Columns as Python likes them: a dict of numpy arrays, and frames of pandas and polars where those are installed.
+//! Tables for Python: a dict of numpy arrays, and pandas and polars frames if these libraries are installed.
 
 use numpy::ndarray::IntoDimension;
 use numpy::{Element, PyArray1, PyArrayMethods};
@@ -17,7 +17,8 @@ impl<'py> Columns<'py> {
         Self(PyDict::new(py))
     }
 
-    /// A column of whole numbers. They are signed, so that differences of columns are what they look like.
+    /// A column of whole numbers. They are signed, so that the difference of two columns can be negative and does not
+    /// wrap around.
     pub(crate) fn counts<T: TryInto<i64>>(
         &self,
         name: &str,
@@ -35,7 +36,7 @@ impl<'py> Columns<'py> {
         self.0.set_item(name, PyArray1::from_iter(self.0.py(), values))
     }
 
-    /// A column of one of the days' numbers.
+    /// A column with one of the results of each day.
     pub(crate) fn day_numbers(
         &self,
         name: &str,
@@ -51,7 +52,7 @@ impl<'py> Columns<'py> {
         if counts.is_empty() { self.numbers(name, amounts) } else { self.counts(name, counts) }
     }
 
-    /// A column of texts, as a numpy array of strings.
+    /// A column of strings, as a numpy array with a string dtype.
     pub(crate) fn texts<'a>(
         &self,
         name: &str,
@@ -70,19 +71,20 @@ impl<'py> Columns<'py> {
     }
 }
 
-/// A whole number as the arrays of the library have it.
+/// A whole number in the type that the arrays of this library use.
 pub(crate) fn count(value: impl TryInto<i64>) -> i64 {
     value.try_into().unwrap_or(i64::MAX)
 }
 
-/// An array that cannot be written to: it is a copy, and the original would not change.
+/// Makes an array read-only. The array is a copy, so writing to it would not change the original.
 pub(crate) fn read_only<T>(array: Bound<'_, T>) -> PyResult<Bound<'_, PyAny>> {
     let array = array.into_any();
     array.call_method("setflags", (), Some(&[("write", false)].into_py_dict(array.py())?))?;
     Ok(array)
 }
 
-/// The columns as `library.DataFrame`; without the library, Python's own `ModuleNotFoundError` says what to install.
+/// The columns as a `library.DataFrame`. If the library is not installed, Python's own `ModuleNotFoundError` says what
+/// to install.
 pub(crate) fn frame<'py>(
     columns: &Bound<'py, PyDict>,
     library: &str,
@@ -90,7 +92,7 @@ pub(crate) fn frame<'py>(
     columns.py().import(library)?.call_method1("DataFrame", (columns,))
 }
 
-/// An array of this shape with these entries, row by row.
+/// An array of the given shape, filled row by row with the given entries.
 pub(crate) fn table<T: Element>(
     py: Python<'_>,
     entries: impl IntoIterator<Item = T>,
@@ -109,19 +111,20 @@ pub(crate) fn loads<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyA
     py.import("json")?.call_method1("loads", (json,))
 }
 
-/// A mapping as JSON, in its order; `name` is what messages call it.
+/// The members of a mapping as JSON values, in the order of the mapping. `name` is the name of the mapping in messages.
 pub(crate) fn members(
     name: &str,
     mapping: &Bound<'_, PyMapping>,
 ) -> PyResult<Vec<(String, serde_json::Value)>> {
     let py = mapping.py();
-    // NumPy's numbers are none of JSON's; their item is.
+    // `json` does not accept the number types of numpy. Their `item` method returns a Python number, which it does
+    // accept.
     let item = py.import("operator")?.call_method1("methodcaller", ("item",))?;
     let named = [("default", item)].into_py_dict(py)?;
     let refused = |rule: String| Failure::argument(format!("{name}: {rule}"));
     let json = py.import("json")?.call_method("dumps", (mapping.items()?,), Some(&named));
     let json = json.map_err(|error| refused(error.value(py).to_string()))?;
-    // What Python writes but is no JSON is NaN and infinity.
+    // Python writes NaN and infinity, which are not valid JSON.
     let members = serde_json::from_str(&json.extract::<String>()?);
     Ok(members.map_err(|_| refused("names must be texts, and numbers finite".to_owned()))?)
 }

@@ -1,4 +1,4 @@
-//! Long calls: Python's other threads go on meanwhile, and Ctrl-C is heard at once.
+//! Long calls, during which Python's other threads can run and Ctrl-C is noticed at once.
 
 use std::ops::RangeInclusive;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -11,12 +11,12 @@ use vertifleet_core::Stop;
 use crate::failure::Failure;
 use crate::whole_number::WholeNumber;
 
-/// How often Ctrl-C is looked for.
+/// The time between two checks for Ctrl-C.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
-/// Threads that may be asked for.
+/// The numbers of threads that may be requested.
 const THREADS: RangeInclusive<usize> = 1..=1024;
 
-/// So many threads, or as many as there are cores.
+/// The requested number of threads, or the number of cores if no number is requested.
 pub(crate) fn threads(asked: Option<WholeNumber>) -> Result<usize, Failure> {
     match asked.map(|asked| asked.of("threads")).transpose()? {
         None => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
@@ -27,7 +27,7 @@ pub(crate) fn threads(asked: Option<WholeNumber>) -> Result<usize, Failure> {
     }
 }
 
-/// A pool of threads; on a machine that gives no more of them, of the thread that calls.
+/// A pool of threads. If the machine refuses to start more threads, the pool consists of the calling thread alone.
 pub(crate) fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().unwrap_or_else(|_| {
         let of_this_thread = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
@@ -35,12 +35,12 @@ pub(crate) fn pool(threads: usize) -> ThreadPool {
     })
 }
 
-/// Does `work` on so many threads of its own while the thread that called waits and listens to Ctrl-C, which raises the flag that
-/// `work` is given. The call ends with the work, since a function of the caller's that it asks must not be asked once Python ends; a
-/// second Ctrl-C does not wait.
+/// Does `work` on `threads` threads of its own, while the calling thread waits for Ctrl-C. Ctrl-C raises the flag that
+/// `work` gets. The call still returns only when the work has ended, because the work may call a Python function of the
+/// caller, which must not happen after Python has shut down. A second Ctrl-C returns without waiting.
 ///
-/// Threads are made for each call and end with it: a process that forks later, as Python's `multiprocessing` may, would find
-/// threads kept for longer gone, and wait for them for ever.
+/// The threads are started for each call and end with it. If they were kept, a process that is forked later, for
+/// example by Python's `multiprocessing`, would not have them, and would wait for them for ever.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     threads: usize,
@@ -51,7 +51,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     let raised = stop.clone();
     std::thread::spawn(move || {
         let outcome = pool(threads).install(|| work(&raised));
-        // After a second Ctrl-C there is no listener.
+        // After a second Ctrl-C nothing receives the outcome any more.
         let _ = to.send(outcome);
     });
     let mut interrupt = None;

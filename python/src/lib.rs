@@ -1,7 +1,8 @@
-//! `vertifleet._native`: the Python package's door to the crates. It converts and forwards; every rule lives below.
+//! `vertifleet._native`: the Python package's interface to the crates. It only converts and forwards; every rule is in
+//! the crates.
 //!
-//! Calls that may take long leave Python to its other threads and look for Ctrl-C (`interruptible.rs`). Arrays are filled in
-//! place; docstrings come from the comments here, types from `vertifleet/_native.pyi`.
+//! Calls that may take long release the GIL for Python's other threads, and check for Ctrl-C (`interruptible.rs`).
+//! Arrays are filled in place. The docstrings come from the comments here, and the types from `vertifleet/_native.pyi`.
 
 #![expect(
     clippy::needless_pass_by_value,
@@ -52,7 +53,7 @@ mod _native {
     use crate::trace::{Trace, check};
     #[pymodule_export]
     use crate::training::{Training, train};
-    /// Days that there are for training.
+    /// Number of training days.
     #[pymodule_export]
     const TRAINING_DAYS: u64 = vertifleet_core::DaySeed::TRAINING_DAYS;
 }

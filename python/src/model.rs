@@ -15,7 +15,8 @@ use crate::failure::Failure;
 use crate::frames::{members, plain, table};
 use crate::pickle::{Reduced, reduced};
 
-/// The weights of a learned policy: `gcaps` or `mlp` of one network, or `gcaps-x` for any. Never changes.
+/// The weights of a learned policy: `gcaps` or `mlp` for one network, or `gcaps-x` for any network. A `Model` never
+/// changes.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Model {
     pub(crate) model: Arc<vertifleet_learn::Model>,
@@ -23,13 +24,13 @@ pub(crate) struct Model {
 
 #[pymethods]
 impl Model {
-    /// Reads a weight file, a safetensors file of any of the kinds.
+    /// Reads a weight file, which is a safetensors file, of any of the three policies.
     #[staticmethod]
     fn read(path: PathBuf) -> Result<Self, Failure> {
         Ok(Self { model: Arc::new(vertifleet_learn::Model::read(&path)?) })
     }
 
-    /// The weights in the bytes of a weight file; `origin` stands for the file in messages.
+    /// Reads the weights from the bytes of a weight file. `origin` is the name of the file in messages.
     #[staticmethod]
     #[pyo3(signature = (bytes, origin = "<bytes>"))]
     fn from_bytes(bytes: &[u8], origin: &str) -> Result<Self, Failure> {
@@ -43,26 +44,26 @@ impl Model {
         Ok(Self { model: Arc::new(shipped(policy, network)?.model) })
     }
 
-    /// Writes the weights as a weight file. A file that is there and is none of the same kind, or is read-only, is replaced only with
-    /// `force`.
+    /// Writes the weights as a weight file. An existing file that is read-only or not a weight file is replaced only
+    /// with `force`.
     #[pyo3(signature = (path, *, force = false))]
     fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
         check_output(&path, &kinds::WEIGHTS, force)?;
         Ok(self.model.write(&path)?)
     }
 
-    /// The bytes of its weight file.
+    /// The weights as the bytes of a weight file.
     fn to_bytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &self.model.to_bytes())
     }
 
-    /// The policy's name: gcaps, mlp or gcaps-x.
+    /// The name of the policy: gcaps, mlp or gcaps-x.
     #[getter]
     fn kind(&self) -> &'static str {
         self.model.kind()
     }
 
-    /// What the weights are of and where they came from: the header of the file, as a dict.
+    /// The header of the weight file, as a dict. It says what the weights were trained for and where they came from.
     #[getter]
     fn header<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         plain(py, self.model.header())
@@ -80,9 +81,10 @@ impl Model {
         Ok(tensors)
     }
 
-    /// Logits [B, N], minus infinity where the mask is 0, and values [B] of a batch of decisions, as the policy in Rust works them
-    /// out. `nodes` [B, N * F] or [B, N, F], `aircraft` [B, G], `mask` [B, N] and `clock` [B] or [B, 1], the share of the day left, are
-    /// as a batch of environments shows them. Of gcaps-x these are the layers alone, without the day's prices.
+    /// The logits [B, N], minus infinity where the mask is 0, and the values [B] of a batch of decisions, as the policy
+    /// in Rust computes them. The inputs `nodes` [B, N * F] or [B, N, F], `aircraft` [B, G], `mask` [B, N] and `clock`
+    /// [B] or [B, 1], which is the share of the day that is left, are the same as in the observations of the vector
+    /// environment. For gcaps-x this is the output of the layers alone, without the day's prices.
     fn forward<'py>(
         &self,
         nodes: &Bound<'py, PyAny>,
@@ -127,7 +129,7 @@ impl Model {
     }
 }
 
-/// Rows and columns of a table.
+/// The numbers of rows and columns of the mask.
 fn sizes(table: &Bound<'_, PyAny>) -> PyResult<[usize; 2]> {
     let shape: Vec<usize> =
         table.py().import("numpy")?.call_method1("shape", (table,))?.extract()?;
@@ -136,7 +138,8 @@ fn sizes(table: &Bound<'_, PyAny>) -> PyResult<[usize; 2]> {
     })
 }
 
-/// The entries of an array row by row, of whatever kind of number; one of more or fewer dimensions may have the same rows.
+/// The entries of an array of any number type, row by row. The array may have more or fewer than two dimensions if it
+/// has the same rows.
 fn entries(
     name: &str,
     array: &Bound<'_, PyAny>,
@@ -159,8 +162,8 @@ fn pass(net: &nn::NeuralNetwork, weights: &nn::Weights, inputs: Inputs<'_>) -> n
     space
 }
 
-/// The settings of a training preset, `default` or `paper` (Table 2), by name, with the changes that are given:
-/// `settings("paper", n_envs=16)`. Changed settings are checked as `vertifleet train --set` checks them.
+/// The settings of a training preset, `default` or `paper` (Table 2), as a dict, with the given changes:
+/// `settings("paper", n_envs=16)`. Changed settings are checked in the same way as by `vertifleet train --set`.
 #[pyfunction]
 #[pyo3(signature = (preset = "default", **changes))]
 pub(crate) fn settings<'py>(
@@ -188,7 +191,7 @@ pub(crate) fn change(
     Ok(settings.set(pairs).map_err(Failure::from)?)
 }
 
-/// A whole number as one: Python's users write `1e6` for a million.
+/// Turns a float without a fraction into a whole number, because users of Python write `1e6` for a million.
 fn whole(value: serde_json::Value) -> serde_json::Value {
     match value.as_f64() {
         Some(number) if number.fract() == 0.0 && number.abs() < 1e15 =>

@@ -1,4 +1,4 @@
-//! `Network`: what days are drawn from.
+//! `Network`: the network that days are drawn from.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
@@ -14,15 +14,16 @@ use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 use crate::whole_number::WholeNumber;
 
-/// A network: vertiports, fleet, tariffs, and how demand is distributed. Days are drawn from it.
+/// A network: vertiports, fleet, tariffs, and the models that days are drawn from.
 ///
-/// `Network("paper")` is the shipped network of that name (`Network.shipped` lists them), `Network("random:7")` the random
-/// network of that number, `Network("mine.toml")` the network file at that path. Never changes; pickles with all that it says.
+/// `Network("paper")` is the shipped network with that name (`Network.shipped` lists the names), `Network("random:7")`
+/// is the random network with that number, and `Network("mine.toml")` is read from the network file at that path. A
+/// `Network` never changes. A pickle of it contains the whole network.
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Network {
     pub(crate) network: Arc<core::Network>,
-    /// How it was made, in Python.
+    /// The Python expression that made the network.
     source: String,
 }
 
@@ -36,7 +37,7 @@ impl Network {
         Self::told(py, network, source)
     }
 
-    /// The network that the text of a network file describes; `origin` stands for the file in messages.
+    /// Reads a network from the text of a network file. `origin` is the name of the file in messages.
     #[staticmethod]
     #[pyo3(signature = (text, origin = "<text>"))]
     fn from_toml(py: Python<'_>, text: &str, origin: &str) -> PyResult<Self> {
@@ -51,10 +52,11 @@ impl Network {
         core::Network::shipped_names().collect()
     }
 
-    /// The same network with some members of its file changed: `network.changed({"fleet.0.count": 52, "vertiports.V3.stands": 8})`.
+    /// The same network with some members of its network file changed: `network.changed({"fleet.0.count": 52,
+    /// "vertiports.V3.stands": 8})`.
     ///
-    /// A path names members from the outside in, a list's entries by their `id`, by their position from 0, or `*` for all of them.
-    /// The result is checked like any network file.
+    /// A path names members from the outside in. An entry of a list is named by its `id` or by its position, counted
+    /// from 0, and `*` stands for all entries. The result is checked like any network file.
     fn changed(&self, changes: &Bound<'_, PyMapping>) -> PyResult<Self> {
         let asked = members("changes", changes)?;
         let network = self.network.changed(asked.iter().map(|(path, value)| (path, value)));
@@ -62,25 +64,25 @@ impl Network {
         Ok(Self::of(network.map_err(Failure::from)?, source))
     }
 
-    /// How it was made, as Python to be read; the command of a report has it.
+    /// The Python expression that made the network, for people to read. A report contains it in its command.
     #[getter]
     fn source(&self) -> &str {
         &self.source
     }
 
-    /// Its name; the days drawn from it are called `{name}-{seed}`.
+    /// The name of the network. The days that are drawn from it are called `{name}-{seed}`.
     #[getter]
     fn name(&self) -> &str {
         self.network.name()
     }
 
-    /// The text of its network file.
+    /// The text of the network file.
     #[getter]
     fn toml(&self) -> &str {
         self.network.toml()
     }
 
-    /// Ids of the vertiports; their order is that of all arrays.
+    /// Ids of the vertiports, in the order that all arrays use.
     #[getter]
     fn vertiports(&self) -> Vec<&str> {
         self.network.vertiports().iter().map(|vertiport| vertiport.id.as_str()).collect()
@@ -92,13 +94,13 @@ impl Network {
         self.network.fleet_size()
     }
 
-    /// What the features of learned policies are divided by, as weight files state it.
+    /// The numbers that the features of learned policies are divided by, as in the headers of weight files.
     #[getter]
     fn feature_scales<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         plain(py, &self.network.feature_scales())
     }
 
-    /// Means of demand, passengers [periods, vertiports, vertiports]: what the days' draws scatter around.
+    /// Mean demand, passengers [periods, vertiports, vertiports]. The demand of the drawn days scatters around it.
     #[getter]
     fn mean_demand<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let means = self.network.mean_demand();
@@ -110,10 +112,10 @@ impl Network {
         )
     }
 
-    /// The day of a seed. The same seed gives the same day everywhere.
+    /// Draws the day of a seed. The same seed gives the same day everywhere.
     ///
-    /// Days of different purposes ("comparison", "validation", "training") are never the same, so that no policy is judged on
-    /// a day that it learned from.
+    /// Days for different purposes ("comparison", "validation", "training") are never the same, so that no policy is
+    /// judged on a day that it learned from.
     #[pyo3(signature = (seed, purpose = "comparison"))]
     fn draw(&self, seed: WholeNumber, purpose: &str) -> Result<Scenario, Failure> {
         let seed = seed.of("seed")?;
@@ -153,7 +155,7 @@ impl Network {
         self.clone()
     }
 
-    /// What pickle makes.
+    /// Restores a pickled network.
     #[staticmethod]
     fn restored(text: &str, source: String) -> Result<Self, Failure> {
         Ok(Self::of(core::Network::from_toml(text, &source)?, source))
@@ -165,7 +167,7 @@ impl Network {
 }
 
 impl Network {
-    /// A network that has just been read; what looks wrong with it is told as a warning.
+    /// Wraps a network that has just been read, and emits a Python warning for everything that looks wrong with it.
     fn told(py: Python<'_>, network: core::Network, source: String) -> PyResult<Self> {
         for warning in network.warnings() {
             warn(py, &format!("[{}] {source}: {warning}", warning.code()))?;
@@ -177,7 +179,8 @@ impl Network {
         Self { network: Arc::new(network), source }
     }
 
-    /// Whether a day has as many vertiports as what this network's days show has room for.
+    /// Checks that a day has as many vertiports as this network, which is the number that the observation arrays have
+    /// room for.
     pub(crate) fn check_fits(&self, day: &core::Scenario) -> Result<(), Failure> {
         let (expected, found) = (self.network.vertiports().len(), day.vertiports.len());
         if expected == found {

@@ -1,4 +1,5 @@
-//! What a decision shows (§IV.A), written into arrays: the features of learned policies, the pairs that can be flown, the mask.
+//! The observation of a decision (§IV.A of the paper), written into arrays: the features of learned policies, the pairs
+//! of vertiports that can be flown, and the mask.
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -7,19 +8,19 @@ use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_learn::{Scales, shape};
 use vertifleet_sim::{Decision, VertiportSet, View};
 
-/// Which aircraft's agent an observation is for.
+/// The aircraft that an observation is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Observer {
     /// The aircraft whose decision it is.
     Deciding,
-    /// Another one: only hold is feasible.
+    /// An aircraft that does not decide now. Only hold is feasible.
     Waiting,
-    /// The one that decided last on a day that is over: no time is left, and only hold is feasible.
+    /// The aircraft that decided last, on a day that is over. No time is left, and only hold is feasible.
     Finished,
 }
 
 impl Observer {
-    /// What its agent may choose.
+    /// The choices that are feasible for this observer.
     pub(crate) fn feasible(self, decision: &Decision, view: View<'_>) -> VertiportSet {
         if self == Self::Deciding {
             return view.feasible(decision);
@@ -41,7 +42,7 @@ pub(crate) struct ObservationRow<'a> {
     pub(crate) adjacency: &'a mut [f32],
     /// [N].
     pub(crate) mask: &'a mut [f32],
-    /// [N], the same as whole numbers.
+    /// [N], the same mask as whole numbers.
     pub(crate) mask_i8: &'a mut [i8],
 }
 
@@ -66,8 +67,8 @@ impl ObservationRow<'_> {
     }
 }
 
-/// 1 where aircraft of a type may fly between two vertiports now: a corridor leads there, a full battery reaches it, and the route
-/// is not closed.
+/// Writes 1 for each pair of vertiports that aircraft of a type can fly now, and 0 for the others. A pair can be flown
+/// if there is a corridor, the range with a full battery is long enough, and the route is not closed.
 fn fill_adjacency(view: View<'_>, kind: TypeIx, adjacency: &mut [f32]) {
     adjacency.fill(0.0);
     for (from, row) in adjacency.chunks_exact_mut(view.vertiports()).enumerate() {
@@ -78,10 +79,10 @@ fn fill_adjacency(view: View<'_>, kind: TypeIx, adjacency: &mut [f32]) {
     }
 }
 
-/// A dict of arrays by their names, and the mask as int8.
+/// An observation as a dict of arrays by name, and its mask as int8.
 pub(crate) type Observation<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<i8>>);
 
-/// Arrays of their own for what one decision shows.
+/// Newly allocated arrays with the observation of one decision.
 pub(crate) struct Arrays<'py> {
     nodes: Bound<'py, PyArray1<f32>>,
     aircraft: Bound<'py, PyArray1<f32>>,
@@ -122,7 +123,7 @@ impl<'py> Arrays<'py> {
         Ok(arrays)
     }
 
-    /// The observation of the environment, and the mask as int8.
+    /// The observation as the environment returns it, and its mask as int8.
     pub(crate) fn into_observation(self, py: Python<'py>) -> PyResult<Observation<'py>> {
         let observation = PyDict::new(py);
         observation.set_item("nodes", self.nodes)?;

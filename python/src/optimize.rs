@@ -1,4 +1,4 @@
-//! `bound` and `plan`: what a known day can earn at most, and a schedule that comes close to it.
+//! `bound` and `plan`: an upper bound on what a known day can earn, and a schedule that comes close to it.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -18,7 +18,7 @@ use crate::scenario::Scenario;
 use crate::trace::Trace;
 use crate::whole_number::WholeNumber;
 
-/// A proof of what a day can earn at most.
+/// A proven upper bound on what any schedule of a day earns.
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Bound {
@@ -26,10 +26,10 @@ pub(crate) struct Bound {
     step: u32,
     upper_bound_usd: f64,
     is_final: bool,
-    /// By vertiport.
-    stand_worth_usd: Vec<f64>,
-    /// By period, vertiport from, vertiport to.
-    passenger_worth_usd: Vec<f64>,
+    /// Indexed by vertiport.
+    stand_shadow_price_usd: Vec<f64>,
+    /// Indexed by period, origin and destination.
+    passenger_shadow_price_usd: Vec<f64>,
 }
 
 #[pymethods]
@@ -40,38 +40,44 @@ impl Bound {
         Scenario { scenario: Arc::clone(&self.scenario) }
     }
 
-    /// No schedule of the day earns more, dollars.
+    /// The upper bound, dollars. No schedule of the day earns more.
     #[getter]
     fn upper_bound_usd(&self) -> f64 {
         self.upper_bound_usd
     }
 
-    /// Whether the search for it came to its end; if not, a longer one may find a lower bound.
+    /// Whether the search for the bound came to its end. If not, a longer search may find a lower bound.
     #[getter]
     fn is_final(&self) -> bool {
         self.is_final
     }
 
-    /// Minutes for which the proof's prices stay the same; more than asked for where longer slices proved more.
+    /// Minutes for which the prices of the bound stay the same. This may be more than requested, if longer slices prove
+    /// a lower bound.
     #[getter]
     fn step(&self) -> u32 {
         self.step
     }
 
-    /// With one more stand all day, no schedule earns more than the bound and this, dollars [vertiports].
+    /// Shadow price of one more stand all day, dollars [vertiports]. With one more stand, no schedule earns more than
+    /// the bound plus this price.
     #[getter]
-    fn stand_worth_usd<'py>(&self, py: Python<'py>) -> pyo3::Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.stand_worth_usd)
+    fn stand_shadow_price_usd<'py>(&self, py: Python<'py>) -> pyo3::Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.stand_shadow_price_usd)
     }
 
-    /// With one more passenger, no schedule earns more than the bound and this, dollars [periods, vertiports, vertiports].
+    /// Shadow price of one more passenger, dollars [periods, vertiports, vertiports]. With one more passenger, no
+    /// schedule earns more than the bound plus this price.
     #[getter]
-    fn passenger_worth_usd<'py>(&self, py: Python<'py>) -> PyResult<pyo3::Bound<'py, PyAny>> {
+    fn passenger_shadow_price_usd<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<pyo3::Bound<'py, PyAny>> {
         let (periods, size) = (self.scenario.periods.len(), self.scenario.vertiports.len());
-        table(py, self.passenger_worth_usd.iter().copied(), [periods, size, size])
+        table(py, self.passenger_shadow_price_usd.iter().copied(), [periods, size, size])
     }
 
-    /// By which share of the bound a profit is below it.
+    /// The gap: by how much a profit is below the bound, as a share of the bound.
     fn gap(&self, profit_usd: f64) -> f64 {
         exact::gap(self.upper_bound_usd, profit_usd)
     }
@@ -80,26 +86,45 @@ impl Bound {
         format!("<Bound of {}: ${:.2}>", self.scenario.name, self.upper_bound_usd)
     }
 
-    /// What pickle makes.
+    /// Restores a pickled object.
     #[staticmethod]
     fn of_numbers(
         scenario: &Scenario,
         step: u32,
         upper_bound_usd: f64,
         is_final: bool,
-        stand_worth_usd: Vec<f64>,
-        passenger_worth_usd: Vec<f64>,
+        stand_shadow_price_usd: Vec<f64>,
+        passenger_shadow_price_usd: Vec<f64>,
     ) -> Self {
         let scenario = Arc::clone(&scenario.scenario);
-        Self { scenario, step, upper_bound_usd, is_final, stand_worth_usd, passenger_worth_usd }
+        Self {
+            scenario,
+            step,
+            upper_bound_usd,
+            is_final,
+            stand_shadow_price_usd,
+            passenger_shadow_price_usd,
+        }
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, Numbers> {
         let scenario = Scenario { scenario: Arc::clone(&self.scenario) };
-        let Self { step, upper_bound_usd, is_final, stand_worth_usd, passenger_worth_usd, .. } =
-            self.clone();
-        let numbers =
-            (scenario, step, upper_bound_usd, is_final, stand_worth_usd, passenger_worth_usd);
+        let Self {
+            step,
+            upper_bound_usd,
+            is_final,
+            stand_shadow_price_usd,
+            passenger_shadow_price_usd,
+            ..
+        } = self.clone();
+        let numbers = (
+            scenario,
+            step,
+            upper_bound_usd,
+            is_final,
+            stand_shadow_price_usd,
+            passenger_shadow_price_usd,
+        );
         reduced::<Self, _>(py, "of_numbers", numbers)
     }
 }
@@ -108,7 +133,7 @@ impl Bound {
 type Numbers = (Scenario, u32, f64, bool, Vec<f64>, Vec<f64>);
 
 impl Bound {
-    /// The numbers of a proof.
+    /// Copies the results out of a bound.
     fn of(scenario: &Arc<core::Scenario>, bound: &exact::Bound) -> Self {
         let size = scenario.vertiports.len();
         let pairs = || {
@@ -116,21 +141,23 @@ impl Bound {
                 .flat_map(move |from| VertiportIx::all(size).map(move |to| (from, to)))
         };
         let worth = (0..scenario.periods.len()).flat_map(|period| {
-            pairs().map(move |(from, to)| bound.passenger_worth_usd(period, from, to))
+            pairs().map(move |(from, to)| bound.passenger_shadow_price_usd(period, from, to))
         });
         Self {
             step: bound.step_s() / 60,
             upper_bound_usd: bound.upper_bound_usd(),
             is_final: bound.is_final(),
-            stand_worth_usd: VertiportIx::all(size).map(|at| bound.stand_worth_usd(at)).collect(),
-            passenger_worth_usd: worth.collect(),
+            stand_shadow_price_usd: VertiportIx::all(size)
+                .map(|at| bound.stand_shadow_price_usd(at))
+                .collect(),
+            passenger_shadow_price_usd: worth.collect(),
             scenario: Arc::clone(scenario),
         }
     }
 }
 
-/// Proves how much a day can earn at most. `step`: minutes for which the proof's prices stay the same at most, 1 to 60; fewer never
-/// give a looser bound, and take longer.
+/// Proves an upper bound on what any schedule of a day earns. `step` is the length of the bound's slices in minutes, 1
+/// to 60. Shorter slices never give a looser bound, but take longer.
 #[pyfunction]
 #[pyo3(signature = (scenario, *, step = WholeNumber::from(5)), text_signature = "(scenario, *, step=5)")]
 pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: WholeNumber) -> PyResult<Bound> {
@@ -163,43 +190,46 @@ impl Plan {
         self.trace.clone()
     }
 
-    /// What the day earns, as the simulator accounts for it, dollars.
+    /// Profit of the day, as the simulator accounts for it, dollars.
     #[getter]
     fn profit_usd(&self) -> f64 {
         self.profit_usd
     }
 
-    /// Name of the best policy whose day was played in time; the search began with that day.
+    /// Name of the best of the policies that finished the day in time. The search began with the schedule of that
+    /// policy.
     #[getter]
     fn best_policy(&self) -> &str {
         &self.best_policy
     }
 
-    /// What that policy earns, dollars; the plan is never worse.
+    /// Profit of that policy, dollars. The plan never earns less.
     #[getter]
     fn best_policy_usd(&self) -> f64 {
         self.best_policy_usd
     }
 
-    /// Steps of each search.
+    /// Number of steps of each search.
     #[getter]
     fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// What no schedule earns more than.
+    /// The upper bound of the day, or `None` if the day is too large for a bound or the time was too short to prove
+    /// one.
     #[getter]
     fn bound(&self) -> Option<Bound> {
         self.bound.clone()
     }
 
-    /// Share of the bound by which the plan is below it: the best schedule is at most so far ahead.
+    /// By how much the plan's profit is below the bound, as a share of the bound. The best schedule is at most this
+    /// much better.
     #[getter]
     fn gap(&self) -> Option<f64> {
         self.bound.as_ref().map(|bound| bound.gap(self.profit_usd))
     }
 
-    /// What pickle makes.
+    /// Restores a pickled object.
     #[staticmethod]
     fn of_parts(
         trace: &Trace,
@@ -239,11 +269,12 @@ impl Plan {
     }
 }
 
-/// Finds the best schedule it can for a day that is known, while a proof of what is possible runs beside it.
+/// Searches for a good schedule of a known day, and proves an upper bound of the day at the same time.
 ///
-/// Searches for `time_limit` seconds, 60 if nothing is said, or for `steps` steps of each search if those are given (the plan then depends on nothing
-/// but the day, `seed`, `steps` and `threads`), or until the gap to the bound is no more than `gap`, as 0.03. The bound is
-/// the best one that is proven when the time is over; with `steps`, the whole proof is waited for.
+/// The search takes `time_limit` seconds, 60 by default, or `steps` steps in each search if `steps` is given; the plan
+/// then depends only on the day, `seed`, `steps` and `threads`. It ends early when the gap to the bound is at most
+/// `gap`, for example 0.03. The bound is the best one that is proven when the time is over. With `steps`, the call
+/// waits for the whole proof.
 #[pyfunction]
 #[pyo3(
     signature = (scenario, *, time_limit = None, steps = None, gap = None, seed = WholeNumber::from(0), threads = None),
@@ -292,14 +323,14 @@ pub(crate) fn plan(
             best_policy: plan.best_policy,
             best_policy_usd: plan.best_policy_usd,
             steps: plan.steps,
-            // A day too large for any bound has a plan all the same.
+            // A day that is too large for a bound still gets a plan.
             bound: bound.map(|bound| Bound::of(&day, &bound)),
         })
     })?;
     Ok(outcome.map_err(Failure::from)?)
 }
 
-/// An argument that must be from 0 to `most`.
+/// Checks that an argument is from 0 to `most`.
 fn within(name: &str, found: f64, most: f64) -> Result<f64, Failure> {
     if (0.0..=most).contains(&found) {
         return Ok(found);

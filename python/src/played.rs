@@ -1,4 +1,4 @@
-//! `simulate`: a day played with one policy.
+//! `simulate`: plays a day with one policy.
 
 use std::sync::Arc;
 
@@ -35,19 +35,19 @@ impl Played {
         self.totals.profit_usd
     }
 
-    /// The day's numbers, as `vertifleet simulate --json` prints them: dollars, kWh, counts.
+    /// The results of the day, as `vertifleet simulate --json` prints them, in dollars, kWh and counts.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         plain(py, &self.totals)
     }
 
-    /// Every decision.
+    /// The trace with every decision of the day.
     #[getter]
     fn trace(&self) -> Trace {
         self.trace.clone()
     }
 
-    /// The day of a trace that was played to its end: what pickle makes.
+    /// Restores a pickled object by replaying a trace of a whole day.
     #[staticmethod]
     fn of_trace(trace: &Trace) -> Result<Self, Failure> {
         let policy = ResolvedPolicy::Replay(Arc::clone(&trace.trace));
@@ -66,7 +66,7 @@ impl Played {
     }
 }
 
-/// Who is to play.
+/// The policy that plays the day.
 #[derive(FromPyObject)]
 pub(crate) enum Player<'py> {
     Named(String),
@@ -75,9 +75,10 @@ pub(crate) enum Player<'py> {
     Function(Bound<'py, PyAny>),
 }
 
-/// Plays a day to its end with a policy: one named as `vertifleet simulate` names it, where `seed` is that of the random policy and
-/// `model` a weight file or a `Model` in place of the shipped weights; a `Model`; a `Trace` of this day, played again; or a function of
-/// the caller's own, as `compare` takes it, which sees the day as the environment of `network` shows it.
+/// Plays a day to its end with a policy. The policy is one of the following: a name as in `vertifleet simulate`, with
+/// `seed` for the random policy and `model` for a weight file or a `Model` to use instead of the shipped weights; a
+/// `Model`; a `Trace` of this day, which is replayed; or a function as for `compare`, which sees the day as the
+/// environment of `network` shows it.
 #[pyfunction]
 #[pyo3(
     signature = (scenario, policy = Player::Named("greedy".to_owned()), *, seed = WholeNumber::from(0), model = None, network = None),

@@ -1,4 +1,4 @@
-//! What a policy's name may stand for: a weight file, a model, or a function of the caller's own.
+//! The values in Python that the name of a policy may refer to: a weight file, a model, or a function of the caller.
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::observation::{Arrays, Observer};
 use crate::whole_number::WholeNumber;
 
-/// Weights: a model, or the path of a file.
+/// Weights: a model, or the path of a weight file.
 #[derive(FromPyObject)]
 pub(crate) enum Weights<'py> {
     Model(PyRef<'py, Model>),
@@ -32,7 +32,7 @@ impl From<Weights<'_>> for PolicySource {
     }
 }
 
-/// What a function of the caller's raised, to be raised again once all threads have stopped.
+/// The first exception that a function of the caller raised. It is raised again when all threads have stopped.
 #[derive(Clone, Default)]
 pub(crate) struct Raised(pub(crate) Arc<Mutex<Option<PyErr>>>);
 
@@ -42,7 +42,8 @@ impl Raised {
     }
 }
 
-/// What a value in Python stands for: weights, or a function ([`of_function`]), which takes the scales of a network.
+/// Converts a Python value into a policy source: weights, or a function ([`of_function`]), which needs the scales of a
+/// network.
 pub(crate) fn policy_source(
     value: &Bound<'_, PyAny>,
     scales: Option<Scales>,
@@ -63,7 +64,7 @@ pub(crate) fn policy_source(
     }
 }
 
-/// A function from an observation, as the environment shows it, to an action.
+/// A policy from a Python function that maps an observation, as the environment shows it, to an action.
 pub(crate) fn of_function(
     function: &Bound<'_, PyAny>,
     scales: Scales,
@@ -76,7 +77,7 @@ pub(crate) fn of_function(
     }))
 }
 
-/// A policy that is a function in Python.
+/// A policy that calls a Python function.
 struct Function {
     call: Arc<Py<PyAny>>,
     scales: Scales,
@@ -93,7 +94,8 @@ impl Policy for Function {
 }
 
 impl Function {
-    /// An action that no vertiport has is an error here; one that is not feasible is refused by the day.
+    /// Calls the function. An action that cannot be the position of a vertiport, such as a negative number, is an error
+    /// here. Any other action that is not feasible is refused later by the simulation.
     fn ask(&self, py: Python<'_>, decision: &Decision, view: View<'_>) -> PyResult<VertiportIx> {
         let arrays = Arrays::of(py, decision, view, &self.scales, Observer::Deciding)?;
         let (observation, _) = arrays.into_observation(py)?;

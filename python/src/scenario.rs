@@ -1,4 +1,4 @@
-//! `Scenario`: one operating day, nothing left to be drawn.
+//! `Scenario`: one operating day, as data.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -11,8 +11,9 @@ use crate::failure::Failure;
 use crate::frames::{count, read_only, table};
 use crate::pickle::{Reduced, reduced};
 
-/// One operating day with everything exogenous in it: network, fleet, demand, tariffs, disturbances. Never changes, and neither do its
-/// arrays; another day is drawn from a changed network, or read from a changed text of this one (`to_json`, `from_json`).
+/// One operating day with all that happens to the fleet from outside: network, fleet, demand, tariffs and disturbances.
+/// A `Scenario` never changes, and neither do its arrays. To get a different day, draw it from a changed network, or
+/// change the text of this day (`to_json`, `from_json`).
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Scenario {
@@ -27,38 +28,40 @@ impl Scenario {
         Ok(Self::of(core::Scenario::read(path)?))
     }
 
-    /// The day that the text of a scenario file describes; `origin` stands for the file in messages.
+    /// Reads a day from the text of a scenario file. `origin` is the name of the file in messages.
     #[staticmethod]
     #[pyo3(signature = (text, origin = "<text>"))]
     fn from_json(text: &str, origin: &str) -> Result<Self, Failure> {
         Ok(Self::of(core::Scenario::from_json(text.as_bytes(), origin)?))
     }
 
-    /// Writes the day as a scenario file. A file that is there and is no scenario, or is read-only, is replaced only with `force`.
+    /// Writes the day as a scenario file. An existing file that is read-only or not a scenario file is replaced only
+    /// with `force`.
     #[pyo3(signature = (path, *, force = false))]
     fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
         core::check_output(&path, &core::Scenario::FILE, force)?;
         Ok(self.scenario.write(path)?)
     }
 
-    /// The text of its scenario file.
+    /// The text of the scenario file.
     fn to_json(&self) -> String {
         self.scenario.to_json()
     }
 
-    /// What people call the day, `paper-7`.
+    /// The name of the day, for example `paper-7`.
     #[getter]
     fn name(&self) -> &str {
         &self.scenario.name
     }
 
-    /// The seed it was drawn with, of which days of all purposes have their own ranges.
+    /// The seed that the day was drawn with. The seeds of training, validation and comparison days have separate
+    /// ranges.
     #[getter]
     fn seed(&self) -> u64 {
         self.scenario.seed
     }
 
-    /// Ids of the vertiports; their order is that of all arrays.
+    /// Ids of the vertiports, in the order that all arrays use.
     #[getter]
     fn vertiports(&self) -> Vec<&str> {
         self.scenario.vertiports.iter().map(|vertiport| vertiport.id.as_str()).collect()
@@ -77,7 +80,7 @@ impl Scenario {
         read_only(PyArray1::from_iter(py, places))
     }
 
-    /// Stands of each vertiport [vertiports].
+    /// Number of stands at each vertiport [vertiports].
     #[getter]
     fn stands<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let stands = self.scenario.vertiports.iter().map(|vertiport| count(vertiport.stands));
@@ -99,14 +102,14 @@ impl Scenario {
         read_only(table(py, self.scenario.distance_mi.cells().iter().copied(), [size, size])?)
     }
 
-    /// When each demand period begins, seconds since midnight [periods].
+    /// Start of each demand period, seconds since midnight [periods].
     #[getter]
     fn periods_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let starts = self.scenario.periods.iter().map(|start| count(start.seconds()));
         read_only(PyArray1::from_iter(py, starts))
     }
 
-    /// Passengers who will want to fly [periods, vertiports, vertiports]; no policy sees this where it differs from the forecast.
+    /// Demand, passengers [periods, vertiports, vertiports]. Where it differs from the forecast, no policy sees it.
     #[getter]
     fn demand<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (periods, size) = self.shape();
@@ -114,7 +117,7 @@ impl Scenario {
         read_only(table(py, cells.map(|&passengers| count(passengers)), [periods, size, size])?)
     }
 
-    /// Fares, dollars a passenger [periods, vertiports, vertiports].
+    /// Fares, dollars per passenger [periods, vertiports, vertiports].
     #[getter]
     fn fare_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (periods, size) = self.shape();
@@ -123,7 +126,7 @@ impl Scenario {
         read_only(table(py, fares.copied(), [periods, size, size])?)
     }
 
-    /// Operating cost, dollars a passenger [vertiports, vertiports].
+    /// Passenger cost, which is what carrying a passenger costs, dollars per passenger [vertiports, vertiports].
     #[getter]
     fn passenger_cost_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let size = self.scenario.vertiports.len();
@@ -134,14 +137,15 @@ impl Scenario {
         )?)
     }
 
-    /// What a flight costs with or without passengers, beside its energy, dollars [vertiports, vertiports].
+    /// Flight cost, which is what a flight costs with or without passengers, energy excluded, dollars [vertiports,
+    /// vertiports].
     #[getter]
     fn flight_cost_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let size = self.scenario.vertiports.len();
         read_only(table(py, self.scenario.flight_cost_usd.cells().iter().copied(), [size, size])?)
     }
 
-    /// What each aircraft costs whatever it does, dollars a day.
+    /// Aircraft cost, which is what each aircraft costs regardless of its flights, dollars per day.
     #[getter]
     fn aircraft_cost_usd(&self) -> f64 {
         self.scenario.aircraft_cost_usd
@@ -153,7 +157,7 @@ impl Scenario {
         read_only(PyArray1::from_slice(py, &self.scenario.energy_price_usd))
     }
 
-    /// Revenue if every passenger flew, dollars: the denominator of the reward.
+    /// Potential: the revenue if every passenger flew, dollars. It is the denominator of the reward.
     #[getter]
     fn potential_usd(&self) -> f64 {
         self.scenario.potential_usd()
@@ -182,7 +186,7 @@ impl Scenario {
         Self { scenario: Arc::new(scenario) }
     }
 
-    /// Periods and vertiports.
+    /// The numbers of periods and vertiports.
     fn shape(&self) -> (usize, usize) {
         (self.scenario.periods.len(), self.scenario.vertiports.len())
     }

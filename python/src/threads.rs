@@ -1,4 +1,4 @@
-//! The threads of a batch of days, which live as long as it does.
+//! The threads of a batch of days, which live as long as the batch.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,21 +10,22 @@ use crate::failure::Failure;
 use crate::interruptible;
 use crate::whole_number::WholeNumber;
 
-/// So many threads, made when they are first needed.
+/// A fixed number of threads, which are started when they are first needed.
 pub(crate) struct Threads {
     number: usize,
     pool: Option<Pool>,
 }
 
-/// Threads, and the process whose they are: one that was forked from it does not have them.
+/// The threads, and the id of the process that they belong to. A process that is forked from it does not have them.
 struct Pool {
     threads: Option<ThreadPool>,
     process: u32,
-    /// How often work was begun.
+    /// How many times work has been started.
     calls: Arc<AtomicU64>,
 }
 
-/// How long threads wait awake, which keeps their cores busy: longer than a policy of a few array operations takes, no longer.
+/// How long threads busy-wait for the next call. It is just longer than a policy of a few array operations takes,
+/// because busy-waiting keeps the cores occupied.
 const AWAKE: Duration = Duration::from_micros(100);
 
 impl Threads {
@@ -32,12 +33,13 @@ impl Threads {
         Ok(Self { number: interruptible::threads(asked)?, pool: None })
     }
 
-    /// How many there are.
+    /// The number of threads.
     pub(crate) fn number(&self) -> usize {
         self.number
     }
 
-    /// Does `work` on all of them, the one that calls among them; each calls it with its position, which is always the same.
+    /// Calls `work` once on each thread, including the calling thread. Its argument is the position of the thread,
+    /// which is the same in every call.
     pub(crate) fn all(&mut self, work: impl Fn(usize) + Sync) {
         if self.number == 1 {
             return work(0);
@@ -59,7 +61,7 @@ impl Threads {
     }
 }
 
-/// To wake a thread up takes as long as a step of a hundred days, so it waits for the next call awake for a while.
+/// Busy-waits for the next call for a while, because waking a thread takes as long as a step of a hundred days.
 fn stay_awake(calls: &AtomicU64, call: u64) {
     let since = Instant::now();
     while calls.load(Ordering::Acquire) == call && since.elapsed() < AWAKE {
@@ -70,7 +72,7 @@ fn stay_awake(calls: &AtomicU64, call: u64) {
 impl Drop for Pool {
     fn drop(&mut self) {
         if self.process != std::process::id() {
-            // To end threads that this process does not have might wait for them for ever.
+            // The threads do not exist in a forked process, and dropping the pool there might wait for them for ever.
             std::mem::forget(self.threads.take());
         }
     }

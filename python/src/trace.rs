@@ -1,4 +1,4 @@
-//! `Trace`: every decision of a day, and `check`, the independent verdict on it.
+//! `Trace`: every decision of a day, and `check`, which judges a trace independently of the simulator.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,7 +13,8 @@ use crate::frames::{Columns, frame, plain};
 use crate::pickle::{Reduced, reduced};
 use crate::scenario::Scenario;
 
-/// Every decision of a day, one row each, in the order they were taken: a complete schedule.
+/// Every decision of a day with its outcome, one row each, in the order in which they were taken. It is a complete
+/// schedule.
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Trace {
@@ -29,14 +30,14 @@ impl Trace {
         Scenario { scenario: Arc::clone(&self.scenario) }
     }
 
-    /// Reads a trace of a day, a CSV file.
+    /// Reads a trace of a day from a CSV file.
     #[staticmethod]
     fn read(path: PathBuf, scenario: &Scenario) -> Result<Self, Failure> {
         let trace = sim::Trace::read(&path, &scenario.scenario)?;
         Ok(Self { scenario: Arc::clone(&scenario.scenario), trace: Arc::new(trace) })
     }
 
-    /// The trace that the text of a CSV file describes; `origin` stands for the file in messages.
+    /// Reads a trace from the text of a CSV file. `origin` is the name of the file in messages.
     #[staticmethod]
     #[pyo3(signature = (text, scenario, origin = "<text>"))]
     fn from_csv(text: &str, scenario: &Scenario, origin: &str) -> Result<Self, Failure> {
@@ -44,20 +45,21 @@ impl Trace {
         Ok(Self { scenario: Arc::clone(&scenario.scenario), trace: Arc::new(trace) })
     }
 
-    /// Writes it as a CSV file. A file that is there and is no trace, or is read-only, is replaced only with `force`.
+    /// Writes the trace as a CSV file. An existing file that is read-only or not a trace is replaced only with `force`.
     #[pyo3(signature = (path, *, force = false))]
     fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
         core::check_output(&path, &sim::Trace::FILE, force)?;
         Ok(self.trace.write(&self.scenario, &path)?)
     }
 
-    /// The text of its CSV file.
+    /// The trace as the text of a CSV file.
     fn to_csv(&self) -> String {
         self.trace.to_csv(&self.scenario)
     }
 
-    /// Its columns as numpy arrays, named as in the file: times in seconds since midnight; `aircraft`, `from` and `to` as positions in
-    /// `Scenario.aircraft` and `Scenario.vertiports`; dollars and kWh. A hold goes from a vertiport to itself.
+    /// The columns as numpy arrays, with the same names as in the file. Times are in seconds since midnight, money in
+    /// dollars and energy in kWh. `aircraft`, `from` and `to` are positions in `Scenario.aircraft` and
+    /// `Scenario.vertiports`. A hold goes from a vertiport to itself.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = &self.trace.rows;
@@ -79,12 +81,12 @@ impl Trace {
         Ok(columns.into_dict())
     }
 
-    /// Its columns as a pandas frame.
+    /// The columns as a pandas `DataFrame`.
     fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(&self.columns(py)?, "pandas")
     }
 
-    /// Its columns as a polars frame.
+    /// The columns as a polars `DataFrame`.
     fn to_polars<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(&self.columns(py)?, "polars")
     }
@@ -111,9 +113,9 @@ impl Trace {
     }
 }
 
-/// Judges a schedule by the rules, independently of the simulator. Returns the verdict as a dict: `valid`, `totals` (the day's
-/// account, worked out anew), `broken` (how often each rule is) and `findings` (where). A schedule of another day is read by the ids
-/// of its vertiports and aircraft, as a file would be.
+/// Checks a schedule against the rules, independently of the simulator. Returns the verdict as a dict: `valid`,
+/// `totals` (the results of the day, computed again), `broken` (how often each rule is broken) and `findings` (where it
+/// is broken). A schedule of another day is matched by the ids of its vertiports and aircraft, as a file would be.
 #[pyfunction]
 #[pyo3(signature = (scenario, trace))]
 pub(crate) fn check<'py>(
@@ -131,7 +133,7 @@ pub(crate) fn check<'py>(
     plain(py, &report)
 }
 
-/// Whether positions of vertiports and aircraft mean the same on two days.
+/// Whether two days have the same vertiports and aircraft at the same positions.
 fn same_ids(one: &core::Scenario, other: &core::Scenario) -> bool {
     one.vertiports.len() == other.vertiports.len() && ids(one).eq(ids(other))
 }

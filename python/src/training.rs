@@ -1,4 +1,4 @@
-//! `train`: a run of the program's own trainer, at its speed.
+//! `train`: training with the trainer of the `vertifleet` program, at the same speed.
 
 use std::path::PathBuf;
 use std::sync::{Arc, PoisonError};
@@ -21,7 +21,7 @@ use crate::network::Network;
 use crate::policy_source::Raised;
 use crate::whole_number::WholeNumber;
 
-/// What a training run has left: the model, the learning curve, and whether there is more to learn.
+/// The result of a training run: the model, the learning curve, and whether the run is complete.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Training {
     model: Arc<vertifleet_learn::Model>,
@@ -31,19 +31,21 @@ pub(crate) struct Training {
 
 #[pymethods]
 impl Training {
-    /// The weights: by PPO those that did best on the validation days, by imitation the last ones.
+    /// The weights. After PPO, these are the weights that did best on the validation days; after imitation, the last
+    /// ones.
     #[getter]
     fn model(&self) -> Model {
         Model { model: Arc::clone(&self.model) }
     }
 
-    /// Whether all that was asked for has been learned.
+    /// Whether the run has completed all the training that was requested.
     #[getter]
     fn is_done(&self) -> bool {
         self.is_done
     }
 
-    /// The learning curve as numpy arrays, named as in its CSV file; NaN where nothing was measured.
+    /// The learning curve as numpy arrays, with the same names as in its CSV file. Entries are NaN where nothing was
+    /// measured.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = rows(&self.curve);
@@ -60,12 +62,12 @@ impl Training {
         Ok(columns.into_dict())
     }
 
-    /// The learning curve as a pandas frame.
+    /// The learning curve as a pandas `DataFrame`.
     fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(&self.columns(py)?, "pandas")
     }
 
-    /// The learning curve as a polars frame.
+    /// The learning curve as a polars `DataFrame`.
     fn to_polars<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(&self.columns(py)?, "polars")
     }
@@ -77,7 +79,7 @@ impl Training {
     }
 }
 
-/// The rows of a curve, by column.
+/// The rows of a curve, each as a map from column names to values.
 fn rows(curve: &Curve) -> Vec<Map<String, Value>> {
     let rows = match curve {
         Curve::Ppo(rows) => serde_json::to_value(rows),
@@ -86,7 +88,7 @@ fn rows(curve: &Curve) -> Vec<Map<String, Value>> {
     serde_json::from_value(rows.expect("rows are plain data")).expect("rows have columns")
 }
 
-/// Trains a policy on a network. Ctrl-C sets the run aside; `resume` goes on with it.
+/// Trains a policy on a network. Ctrl-C ends the run with a checkpoint, from which `resume` continues it.
 #[pyfunction]
 #[pyo3(signature = (
     network, policy, *, out, preset = "default", settings = None, seed = None, resume = false, force = false,
@@ -148,7 +150,8 @@ fn training_of(run: &dyn TrainingRun) -> Training {
     Training { model: Arc::new(run.model()), curve: run.curve(), is_done: run.is_done() }
 }
 
-/// Shows a run: as a bar where there is a terminal, and to a function of the caller's.
+/// Shows the progress of a run, with a bar if there is a terminal, and by calling the caller's function if there is
+/// one.
 struct Shown {
     bar: Bar,
     watch: Option<Py<PyAny>>,
@@ -173,7 +176,7 @@ impl TrainingWatch for Shown {
 
     fn could_not_write(&self, error: &Error) {
         let warning = format!("{error}; the training goes on");
-        // Where even this cannot be said, the training goes on all the same.
+        // If the warning itself raises an exception, the training still goes on.
         let _ = Python::attach(|py| warn(py, &warning));
     }
 }

@@ -1,11 +1,12 @@
-//! WholeNumber numbers as Python has them: of any size, until it is known what they are for.
+//! Whole numbers from Python, which may have any size. They are checked when the type that they are needed in is known.
 
 use pyo3::prelude::*;
 use pyo3::{Borrowed, PyErr};
 
 use crate::failure::Failure;
 
-/// A whole number; one that is far beyond all that is taken anywhere is as good as any other.
+/// A whole number. A number that is too large for `i128` becomes `i128::MAX`, and one that is too small becomes
+/// `i128::MIN`; no argument accepts a number of that size in any case.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct WholeNumber(i128);
 
@@ -13,7 +14,7 @@ impl<'py> FromPyObject<'_, 'py> for WholeNumber {
     type Error = PyErr;
 
     fn extract(number: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        // NumPy's whole numbers are Python's by this; fractions are not.
+        // `operator.index` also accepts the whole numbers of numpy, but no fractions.
         let number = number.py().import("operator")?.call_method1("index", (number,))?;
         let beyond = if number.lt(0)? { i128::MIN } else { i128::MAX };
         Ok(Self(number.extract().unwrap_or(beyond)))
@@ -27,7 +28,7 @@ impl From<i32> for WholeNumber {
 }
 
 impl WholeNumber {
-    /// The number as one that an argument of this name takes.
+    /// Converts the number to the type that the argument with this name needs.
     pub(crate) fn of<T: TryFrom<i128>>(self, name: &str) -> Result<T, Failure> {
         T::try_from(self.0).map_err(|_| {
             let bits = 8 * size_of::<T>();

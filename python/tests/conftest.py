@@ -1,4 +1,4 @@
-"""What the tests share."""
+"""Common fixtures of the tests."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ import vertifleet
 
 
 def pytest_configure() -> None:
-    # Tests of Ctrl-C need it heard, also where this process was told to ignore it, as the
-    # background of a script is. What is heard here
-    # is not ignored by processes that tests start.
+    # Tests of Ctrl-C need a handler, even if this process was started with SIGINT ignored, as in the
+    # background of a script. Processes that tests start inherit an ignored signal, but not a handled one.
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 

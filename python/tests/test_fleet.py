@@ -24,7 +24,7 @@ Step = tuple[dict[str, np.ndarray], float, bool, dict[str, object]]
 def play(
     env: FleetEnv, seed: int | None, choices: np.random.Generator, infeasible: float = 0.0
 ) -> list[Step]:
-    """A whole day of random actions, a share of them drawn without looking at the mask."""
+    """Plays a whole day with random actions, a share of them drawn regardless of the mask."""
     _, info = env.reset(seed=seed)
     steps = []
     over = False
@@ -61,8 +61,8 @@ def test_the_same_seed_gives_the_same_day_and_another_seed_another() -> None:
 
     assert np.array_equal(first(3), first(3))
     later = first(None)
-    assert not np.array_equal(later, first(3)), "a reset without a seed goes on"
-    assert np.array_equal(later, first(None)), "from the same state to the same day"
+    assert not np.array_equal(later, first(3)), "a reset without a seed continues the random numbers"
+    assert np.array_equal(later, first(None)), "the same state leads to the same day"
     assert not np.array_equal(first(3), first(4))
 
 
@@ -83,7 +83,7 @@ def test_the_day_is_named_and_can_be_looked_at(day: vertifleet.Scenario) -> None
     assert info["day"] == env.scenario.name
     assert info["day"] == f"paper-{env.scenario.seed}"
     assert (env.aircraft, env.time_s) == (0, int(env.scenario.periods_s[0]))
-    assert "day" not in env.step(0)[4], "it is told once"
+    assert "day" not in env.step(0)[4], "only the info of a reset has the day"
     _, info = env.reset(options={"scenario": day})
     assert info["day"] == day.name
     assert env.scenario.to_json() == day.to_json()
@@ -214,7 +214,7 @@ def test_an_action_is_a_whole_number(action: Any) -> None:
         env.step(action)
     assert error.value.code == "V451"
     assert np.array_equal(env.action_masks(), info["action_mask"])
-    assert env.aircraft == 0, "nothing has happened"
+    assert env.aircraft == 0, "the refused call changed nothing"
 
 
 @pytest.mark.parametrize(
@@ -232,7 +232,7 @@ def test_options_that_a_reset_does_not_have_are_refused(options: Any, said: str)
     with pytest.raises(vertifleet.Error, match=said) as error:
         env.reset(seed=2, options=options)
     assert error.value.code == "V451"
-    assert (env.scenario.name, env.np_random_seed) == (info["day"], 1), "nothing has happened"
+    assert (env.scenario.name, env.np_random_seed) == (info["day"], 1), "the refused call changed nothing"
 
 
 def test_a_day_that_is_over_must_be_followed_by_a_reset() -> None:
@@ -264,8 +264,8 @@ def test_copies_share_what_never_changes_and_nothing_else() -> None:
         while not other.step(0)[2]:
             pass
         other.reset()
-        assert env.time_s == env.scenario.periods_s[0], "the day of the copy is its own"
-    assert copy.copy(env).reset()[1]["day"] == env.reset()[1]["day"], "and so are its random numbers"
+        assert env.time_s == env.scenario.periods_s[0], "the copy plays a day of its own"
+    assert copy.copy(env).reset()[1]["day"] == env.reset()[1]["day"], "the copy draws the same next day"
 
 
 def test_a_wrapped_environment_is_copied_deep() -> None:
@@ -296,4 +296,4 @@ def test_a_copy_in_the_middle_of_a_day_goes_on_as_the_day_would(how: str) -> Non
         for key, array in observation.items():
             assert np.array_equal(array, expected[0][key])
     assert info["summary"] == expected[4]["summary"]
-    assert np.array_equal(env.reset()[0]["nodes"], other.reset()[0]["nodes"]), "and to the same next day"
+    assert np.array_equal(env.reset()[0]["nodes"], other.reset()[0]["nodes"]), "the same next day follows"

@@ -1,4 +1,4 @@
-"""Many days side by side: the same as as many single environments, in all modes of autoreset."""
+"""Many days side by side behave like that many single environments, in all modes of autoreset."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MODES = [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP, AutoresetMode.DISABLE
 
 
 def same(one: Any, other: Any) -> bool:
-    """Whether two infos or observations, arrays of arrays and all, are equal."""
+    """Whether two infos or observations are equal, including arrays of arrays."""
     if isinstance(one, dict):
         return set(one) == set(other) and all(same(one[key], other[key]) for key in one)
     if isinstance(one, (list, tuple)) or (isinstance(one, np.ndarray) and one.dtype == object):
@@ -30,19 +30,19 @@ def same(one: Any, other: Any) -> bool:
 
 
 def told(info: dict[str, Any]) -> dict[str, Any]:
-    """What an info says of the environments that it is about, and which those are."""
+    """The parts of an info that belong to the environments it is about, and which environments those are."""
     said = {key: value[info[f"_{key}"]] for key, value in info.items() if key[0] != "_"}
     return said | {key: value for key, value in info.items() if key[0] == "_"}
 
 
 def actions(masks: np.ndarray, choices: np.random.Generator) -> np.ndarray:
-    """Random actions, half of them drawn without looking at the mask."""
+    """Random actions, half of them drawn regardless of the mask."""
     weights = np.where(choices.random((len(masks), 1)) < 0.5, 1.0, masks)
     return (choices.random(masks.shape) * weights).argmax(axis=1)
 
 
 def lockstep(mode: AutoresetMode, reward: str, steps: int) -> Iterator[tuple[Any, Any]]:
-    """What the native environment and Gymnasium's own loop over single ones give, step by step."""
+    """The results, step by step, of the native environment and of Gymnasium's own loop over single ones."""
     native = FleetVectorEnv(5, reward=reward, autoreset_mode=mode, threads=2)
     loop = SyncVectorEnv([lambda: FleetEnv(reward=reward)] * 5, autoreset_mode=mode)
     choices = np.random.default_rng(4)
@@ -72,7 +72,7 @@ def test_the_native_batch_is_a_loop_over_single_environments(mode: AutoresetMode
         for mine, theirs in zip(one, other, strict=True):
             assert same(mine, theirs)
         ends += int(one[1].any()) if len(one) == 4 else 0
-    assert ends >= 5, "days came to their end meanwhile"
+    assert ends >= 5, "several days ended"
 
 
 def test_the_number_of_threads_changes_nothing() -> None:
@@ -106,7 +106,7 @@ def test_observations_are_not_copied_and_last_for_a_step() -> None:
     first, info = env.reset(seed=1)
     kept = {key: array.copy() for key, array in first.items()}
     second, *_ = env.step(info["action_mask"].argmax(axis=1))
-    assert same(first, kept), "those before a step are there after it"
+    assert same(first, kept), "arrays from before a step are unchanged after it"
     third, *_ = env.step(second["action_mask"].argmax(axis=1))
     assert third["nodes"] is first["nodes"], "two sets of arrays take turns"
 
@@ -118,13 +118,13 @@ def test_observations_of_steps_outlast_a_reset_of_some() -> None:
     kept = copy.deepcopy(handed_out)
     assert same([shown for shown, *_ in handed_out], [shown for shown, *_ in kept])
     for key, array in handed_out[2][0].items():
-        assert np.array_equal(array[~some], handed_out[1][0][key][~some]), "the others are where they were"
+        assert np.array_equal(array[~some], handed_out[1][0][key][~some]), "the others are unchanged"
     assert np.array_equal(env.action_masks(), handed_out[2][1]["action_mask"])
     env.step(env.action_masks().argmax(axis=1))
-    assert same(handed_out[1][0], kept[1][0]), "those before the step are there after it"
+    assert same(handed_out[1][0], kept[1][0]), "arrays from before the step are unchanged after it"
     assert same(handed_out[2], kept[2])
     env.step(env.action_masks().argmax(axis=1))
-    assert same(handed_out[2], kept[2]), "those of a reset of some last until the next"
+    assert same(handed_out[2], kept[2]), "arrays of a reset of some last until the next such reset"
 
 
 def test_days_are_named_when_they_begin_and_can_be_looked_at() -> None:
@@ -136,7 +136,7 @@ def test_days_are_named_when_they_begin_and_can_be_looked_at() -> None:
     begun = 0
     for _ in range(1300):
         _, _, over, _, info = env.step(actions(info["action_mask"], choices))
-        assert ("day" in info) == over.any(), "it is told once"
+        assert ("day" in info) == over.any(), "only the info of a new day has its name"
         if over.any():
             names = [day.name if ended else None for day, ended in zip(env.scenarios(), over, strict=True)]
             assert info["day"].tolist() == names
@@ -247,7 +247,7 @@ def test_a_mask_of_resets_has_a_truth_value_for_each(mask: Any, said: str) -> No
     with pytest.raises(vertifleet.Error, match=f"reset_mask.*{said}") as error:
         env.reset(seed=2, options={"reset_mask": mask})
     assert error.value.code == "V451"
-    assert [day.name for day in env.scenarios()] == info["day"].tolist(), "nothing has happened"
+    assert [day.name for day in env.scenarios()] == info["day"].tolist(), "the refused call changed nothing"
 
 
 @pytest.mark.parametrize("options", [{"scenerio": None}, ["scenario"], {"scenario": "paper"}])

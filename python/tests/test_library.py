@@ -87,8 +87,8 @@ def test_everything_that_travels_arrives_as_it_was(paper: Network, day: Scenario
     plan = vertifleet.plan(day, steps=100, threads=1)
     other = pickle.loads(pickle.dumps(plan))
     assert (other.trace, other.profit_usd, other.gap) == (plan.trace, plan.profit_usd, plan.gap)
-    assert np.array_equal(other.bound.passenger_worth_usd, plan.bound.passenger_worth_usd)
-    assert np.array_equal(other.bound.stand_worth_usd, plan.bound.stand_worth_usd)
+    assert np.array_equal(other.bound.passenger_shadow_price_usd, plan.bound.passenger_shadow_price_usd)
+    assert np.array_equal(other.bound.stand_shadow_price_usd, plan.bound.stand_shadow_price_usd)
     again = pickle.loads(pickle.dumps(comparison))
     assert again.summary == comparison.summary
 
@@ -175,7 +175,7 @@ def test_what_somebody_else_wrote_is_replaced_by_force_alone(day: Scenario, tmp_
     assert path.read_text(encoding="utf-8") == "dear to somebody"
     day.write(path, force=True)
     assert Scenario.read(path) == day
-    # Its own file needs no force.
+    # Replacing a file that the program wrote needs no force.
     day.write(path)
 
 
@@ -190,8 +190,8 @@ def test_bounds_hold_and_plans_come_close_to_them(day: Scenario) -> None:
     assert plan.bound.is_final
     assert bound.gap(plan.profit_usd) >= plan.gap
     assert vertifleet.check(day, plan.trace)["valid"]
-    assert bound.stand_worth_usd.shape == (8,)
-    assert bound.passenger_worth_usd.shape == (13, 8, 8)
+    assert bound.stand_shadow_price_usd.shape == (8,)
+    assert bound.passenger_shadow_price_usd.shape == (13, 8, 8)
     again = vertifleet.plan(day, steps=2000, threads=2)
     assert again.trace == plan.trace
 

@@ -35,7 +35,7 @@ def test_ctrl_c_ends_a_long_call(call: str, tmp_path: Path) -> None:
     program = f"import vertifleet\nprint('begun', flush=True)\n{LONG[call]}\nprint('done', flush=True)"
     process = subprocess.Popen(
         [sys.executable, "-c", program],
-        # Not where the sources lie: they have no extension module beside them.
+        # Away from the sources, which have no extension module beside them.
         cwd=tmp_path,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -45,12 +45,12 @@ def test_ctrl_c_ends_a_long_call(call: str, tmp_path: Path) -> None:
     assert process.stdout.readline() == "begun\n"
     time.sleep(1.0)
     process.send_signal(signal.SIGINT)
-    # Far below what each of the calls takes.
+    # Each of the calls would take far longer than this.
     out, errors = process.communicate(timeout=15)
     assert out == ""
     assert "KeyboardInterrupt" in errors
     assert "panicked" not in errors
-    assert process.returncode in (1, 130, -signal.SIGINT), "ended by the exception, not by a crash"
+    assert process.returncode in (1, 130, -signal.SIGINT), "the exception ended the process, not a crash"
 
 
 def test_where_ctrl_c_is_ignored_a_call_goes_on_to_its_end(tmp_path: Path) -> None:
@@ -58,7 +58,7 @@ def test_where_ctrl_c_is_ignored_a_call_goes_on_to_its_end(tmp_path: Path) -> No
         "import vertifleet\nprint('begun', flush=True)\n"
         "vertifleet.plan(vertifleet.Network('paper').draw(1), time_limit=3)\nprint('done', flush=True)"
     )
-    # So a shell without job control starts what runs in its background: a child keeps what is ignored.
+    # A shell without job control starts background processes like this: a child inherits an ignored signal.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         command = [sys.executable, "-c", program]
@@ -86,7 +86,7 @@ def test_a_terminal_shows_how_far_a_long_call_is(call: str, units: bytes, tmp_pa
     process = subprocess.Popen(command, cwd=tmp_path, stderr=end)
     os.close(end)
     shown = b""
-    # Ends the read with an error if the call ends without a bar.
+    # If the call ends without a bar, the read fails with an error.
     while units not in shown:
         shown += os.read(terminal, 4096)
     process.kill()
@@ -109,4 +109,4 @@ def test_other_threads_go_on_meanwhile(day: vertifleet.Scenario) -> None:
     vertifleet.plan(day, time_limit=1.0)
     stop.set()
     clock.join()
-    assert ticks > 20, "a call that holds Python's lock would have let through a few at most"
+    assert ticks > 20, "a call that holds Python's lock would have allowed only a few ticks"

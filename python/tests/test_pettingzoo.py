@@ -1,4 +1,4 @@
-"""One agent an aircraft."""
+"""The PettingZoo environment, with one agent per aircraft."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SMALL = vertifleet.Network("paper").changed({"fleet.0.count": 6, "operations.end
 def test_pettingzoo_finds_nothing_wrong() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        # It would rather have one array than several and a mask.
+        # PettingZoo prefers one array to several arrays and a mask.
         warnings.filterwarnings("ignore", message="Observation is not a NumPy array")
         warnings.filterwarnings("ignore", message="Observation space for each agent probably should be")
         api_test(pettingzoo.env(SMALL), num_cycles=300)
@@ -56,7 +56,7 @@ def test_agents_are_paid_what_the_day_pays(reward: str) -> None:
         total += one
         agents.step(int(action))
     assert sum(paid.values()) == pytest.approx(total, abs=1e-12)
-    assert sum(value != 0 for value in paid.values()) > 35, "each is paid for its own flights"
+    assert sum(value != 0 for value in paid.values()) > 35, "every agent is paid for its own flights"
 
 
 def test_the_end_tells_the_days_numbers_to_all() -> None:
@@ -68,7 +68,7 @@ def test_the_end_tells_the_days_numbers_to_all() -> None:
     while not over:
         assert [agent for agent in agents.agents if "action_mask" in agents.infos[agent]] == [
             agents.agent_selection
-        ], "nobody is told a mask that has been used"
+        ], "no info has a mask that was used already"
         action = int(agents.infos[agents.agent_selection]["action_mask"].argmax())
         agents.step(action)
         _, _, over, _, info = single.step(action)
@@ -76,7 +76,7 @@ def test_the_end_tells_the_days_numbers_to_all() -> None:
         assert agents.infos[agent]["summary"] == info["summary"]
         mask = agents.infos[agent]["action_mask"]
         assert np.array_equal(mask, agents.observe(agent)["action_mask"])
-        assert mask.sum() == 1, "only hold is left"
+        assert mask.sum() == 1, "only hold is feasible"
 
 
 @pytest.mark.parametrize("how", [copy.copy, copy.deepcopy])
@@ -94,7 +94,7 @@ def test_copies_play_on_by_themselves_and_share_what_never_changes(how: Any) -> 
         actions.append(int(other.infos[other.agent_selection]["action_mask"].argmax()))
         other.step(actions[-1])
     after = (env.agent_selection, env.rewards, env.terminations, env._cumulative_rewards)
-    assert after == before, "the day of the copy is its own"
+    assert after == before, "the copy plays a day of its own"
     for action in actions:
         env.step(action)
     assert env._cumulative_rewards == other._cumulative_rewards
@@ -131,7 +131,7 @@ def test_an_action_is_a_whole_number(action: Any) -> None:
     with pytest.raises(vertifleet.Error, match="action must be a whole number") as error:
         env.step(action)
     assert error.value.code == "V451"
-    assert env.agent_selection == "aircraft_0", "nothing has happened"
+    assert env.agent_selection == "aircraft_0", "the refused call changed nothing"
 
 
 def test_an_aircraft_that_does_not_decide_can_only_hold() -> None:

@@ -1,4 +1,4 @@
-"""Sweeps: every combination is a comparison of its own, and columns and table say what those do."""
+"""Sweeps: every combination is a comparison of its own, and columns and table have its results."""
 
 import numpy as np
 import pytest

@@ -41,7 +41,7 @@ def test_gcaps_x_learns_in_rounds(tmp_path):
 
 def test_a_run_that_was_interrupted_goes_on_to_the_same_weights(tmp_path):
     whole = trained(tmp_path / "whole", total_steps=2_000)
-    # As Jupyter's stop button does, wherever the tests themselves run.
+    # This is what Jupyter's stop button does; it works even if the tests run with SIGINT ignored.
     heard = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         with pytest.raises(KeyboardInterrupt):

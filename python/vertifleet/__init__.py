@@ -3,9 +3,9 @@
 The Rust program does all the work here, by the same rules. `Network` draws days, `simulate` plays one day,
 `compare` plays many days with many policies, `sweep` compares on variations of a network, `bound` proves how
 much a day can earn at most, `plan` searches for the best schedule, `check` checks a schedule against the
-rules, and `train` trains the learned policies. Importing the package registers the Gymnasium environment ``vertifleet/Fleet-v0``.
-`vertifleet.torch` has the learned policies as PyTorch modules; `vertifleet.sb3` and `vertifleet.ray` train
-them with those libraries.
+rules, and `train` trains the learned policies. Importing the package registers the Gymnasium environment
+``vertifleet/Fleet-v0``. `vertifleet.torch` has the learned policies as PyTorch modules; `vertifleet.sb3` and
+`vertifleet.ray` train them with those libraries.
 """
 
 from __future__ import annotations

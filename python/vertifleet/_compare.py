@@ -16,10 +16,10 @@ from vertifleet import _native
 from vertifleet._errors import Error
 from vertifleet._native import Comparison, Model, Network, Scenario
 
-Own: TypeAlias = Callable[[dict[str, NDArray[np.float32]]], SupportsIndex]
+PolicyFunction: TypeAlias = Callable[[dict[str, NDArray[np.float32]]], SupportsIndex]
 """A policy of the caller's own: maps an observation of ``vertifleet/Fleet-v0`` to a vertiport's position."""
 
-Given: TypeAlias = str | os.PathLike[str] | Model | Own
+PolicySource: TypeAlias = str | os.PathLike[str] | Model | PolicyFunction
 """What a policy's name may refer to: a weight file, a model, or a function."""
 
 
@@ -30,7 +30,7 @@ def compare(
     days: SupportsIndex | None = None,
     seed: SupportsIndex | None = None,
     days_from: str | os.PathLike[str] | Iterable[str | os.PathLike[str] | Scenario] | None = None,
-    models: Mapping[str, Given] | None = None,
+    models: Mapping[str, PolicySource] | None = None,
     bound: bool = False,
     step: SupportsIndex = 5,
     policy_seed: SupportsIndex | None = None,
@@ -39,9 +39,9 @@ def compare(
     """Plays days of a network, or days of your own, with every policy; all policies play the same days.
 
     Args:
-        network: the network, its name, or the path of its file. With `days_from` it may be ``None``; it then
-            only sets the network whose features the functions of `models` see.
-        policies: names of policies, as in ``vertifleet compare``; "plan" is the planner, which knows the days.
+        network: the network, its name, or the path of its file. With `days_from` it may be ``None``; if it
+            is given, it is the network that the functions of `models` see the days as days of.
+        policies: names of policies as in ``vertifleet compare``; "plan" is the planner, which knows the days.
         days: number of days; 100 by default.
         seed: seed of the first day; the following days take the following seeds; 1 by default.
         days_from: days of your own instead of drawn ones: a folder of scenario files (all ``*.json``, in the
@@ -64,19 +64,19 @@ def compare(
     if days_from is not None:
         if days is not None or seed is not None:
             raise Error("V451", "days_from takes neither days nor seed: its days are all there already", None)
-        asked = Asked.of(function, policies, 0, 0, models, bound, step, policy_seed)
-        return asked.compare_own(None if network is None else network_of(network), days_from, threads)
+        request = ComparisonRequest.of(function, policies, 0, 0, models, bound, step, policy_seed)
+        return request.compare_own(None if network is None else network_of(network), days_from, threads)
     if network is None:
         raise Error("V451", "a network to draw days from is missing", "give a network, or days_from")
     network = network_of(network)
     drawn = (100 if days is None else days, 1 if seed is None else seed)
-    asked = Asked.of(function, policies, *drawn, models, bound, step, policy_seed)
-    asked.check([network])
-    return asked.compare(network, asked.days, asked.seed, threads)
+    request = ComparisonRequest.of(function, policies, *drawn, models, bound, step, policy_seed)
+    request.check([network])
+    return request.compare(network, request.days, request.seed, threads)
 
 
 @dataclass(frozen=True)
-class Asked:
+class ComparisonRequest:
     """The request for a comparison; parts of its days can be played separately."""
 
     function: str
@@ -84,7 +84,7 @@ class Asked:
     policies: tuple[str, ...]
     days: int
     seed: int
-    models: dict[str, Given]
+    models: dict[str, PolicySource]
     bound: bool
     step: int
     policy_seed: int | None
@@ -96,11 +96,11 @@ class Asked:
         policies: Iterable[str],
         days: SupportsIndex,
         seed: SupportsIndex,
-        models: Mapping[str, Given] | None,
+        models: Mapping[str, PolicySource] | None,
         bound: bool,
         step: SupportsIndex,
         policy_seed: SupportsIndex | None,
-    ) -> Asked:
+    ) -> ComparisonRequest:
         """Makes the request from a call. A single policy name is refused: it would be a list of letters."""
         if isinstance(policies, str):
             raise Error(
@@ -113,20 +113,22 @@ class Asked:
         return cls(function, names, index(days), index(seed), given, bound, index(step), seed_of_policies)
 
     def check(self, networks: Iterable[Network], stacklevel: int = 3) -> None:
-        """Refuses what cannot be played, and warns of what is probably not intended, before any day is played.
+        """Refuses what cannot be played and warns of what is probably not intended, before any day is played.
 
         Args:
             networks: the networks that the days are drawn from.
             stacklevel: number of levels from here up to the user's call.
         """
-        asked = self._on(self.days, self.seed)
-        texts = [text for network in networks for text in _native.check_comparison(network, asked)]
+        request = self._for_native(self.days, self.seed)
+        texts = [text for network in networks for text in _native.check_comparison(network, request)]
         for text in dict.fromkeys(texts):
             warnings.warn(text, stacklevel=stacklevel)
 
     def compare(self, network: Network, days: int, seed: int, threads: int | None) -> Comparison:
         """Plays some of the days."""
-        return _native.compare(network, self._on(days, seed), threads=threads, command=self._typed(network))
+        return _native.compare(
+            network, self._for_native(days, seed), threads=threads, command=self._call_text(network)
+        )
 
     def compare_own(
         self,
@@ -143,12 +145,12 @@ class Asked:
         origin = "scenarios of the caller's"
         if paths:
             scenarios, origin = _native.read_days(paths)
-        typed = self._said(f"days_from={given!r}" if paths else "days_from=...")
+        typed = self._arguments_text(f"days_from={given!r}" if paths else "days_from=...")
         found = _native.compare_own(
             scenarios,
             origin,
             network,
-            self._on(0, 0),
+            self._for_native(0, 0),
             threads=threads,
             command=f"{self.function}({None if network is None else network.source}, {typed})",
         )
@@ -156,7 +158,7 @@ class Asked:
             warnings.warn(text, stacklevel=3)
         return found
 
-    def _on(self, days: int, seed: int) -> dict[str, Any]:
+    def _for_native(self, days: int, seed: int) -> dict[str, Any]:
         return {
             "policies": list(self.policies),
             "days": days,
@@ -167,11 +169,12 @@ class Asked:
             "policy_seed": self.seed if self.policy_seed is None else self.policy_seed,
         }
 
-    def _typed(self, network: Network) -> str:
+    def _call_text(self, network: Network) -> str:
         """The call as it would be typed, for the report."""
-        return f"{self.function}({network.source}, {self._said(f'days={self.days}', f'seed={self.seed}')})"
+        arguments = self._arguments_text(f"days={self.days}", f"seed={self.seed}")
+        return f"{self.function}({network.source}, {arguments})"
 
-    def _said(self, *days: str) -> str:
+    def _arguments_text(self, *days: str) -> str:
         """The arguments after the network in the call, with `days` as the arguments about the days."""
         said = list(days)
         if self.models:
@@ -184,7 +187,7 @@ class Asked:
         return f"{list(self.policies)!r}, {', '.join(said)}"
 
 
-def _name(given: Given) -> str:
+def _name(given: PolicySource) -> str:
     """The name of a function, or the text of another source. A function's `repr` changes with every run."""
     return getattr(given, "__qualname__", None) or repr(given)
 

@@ -1,4 +1,4 @@
-"""The extension module, as `python/src` has it."""
+"""Types of the extension module, whose source is `python/src`."""
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
@@ -163,8 +163,8 @@ class Bound:
         step: int,
         upper_bound_usd: float,
         is_final: bool,
-        stand_worth_usd: Sequence[float],
-        passenger_worth_usd: Sequence[float],
+        stand_shadow_price_usd: Sequence[float],
+        passenger_shadow_price_usd: Sequence[float],
     ) -> Bound: ...
     @property
     def scenario(self) -> Scenario: ...
@@ -175,9 +175,9 @@ class Bound:
     @property
     def step(self) -> int: ...
     @property
-    def stand_worth_usd(self) -> _Float: ...
+    def stand_shadow_price_usd(self) -> _Float: ...
     @property
-    def passenger_worth_usd(self) -> _Float: ...
+    def passenger_shadow_price_usd(self) -> _Float: ...
     def gap(self, profit_usd: float) -> float: ...
 
 @final
@@ -304,16 +304,16 @@ def plan(
     threads: SupportsIndex | None = None,
 ) -> Plan: ...
 def check(scenario: Scenario, trace: Trace) -> dict[str, Any]: ...
-def check_comparison(network: Network, asked: Mapping[str, Any]) -> list[str]: ...
+def check_comparison(network: Network, arguments: Mapping[str, Any]) -> list[str]: ...
 def compare(
-    network: Network, asked: Mapping[str, Any], *, threads: SupportsIndex | None = None, command: str = ""
+    network: Network, arguments: Mapping[str, Any], *, threads: SupportsIndex | None = None, command: str = ""
 ) -> Comparison: ...
 def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]: ...
 def compare_own(
     scenarios: Sequence[Scenario],
     origin: str,
     network: Network | None,
-    asked: Mapping[str, Any],
+    arguments: Mapping[str, Any],
     *,
     threads: SupportsIndex | None = None,
     command: str = "",

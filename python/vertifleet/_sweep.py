@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
-from vertifleet._compare import Asked, network_of
+from vertifleet._compare import ComparisonRequest, network_of
 from vertifleet._errors import Error
 
 if TYPE_CHECKING:
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     import polars
     from numpy.typing import NDArray
 
-    from vertifleet._compare import Given
+    from vertifleet._compare import PolicySource
     from vertifleet._native import Comparison, Network
 
 MEANS = ("profit_usd", "profit_low_usd", "profit_high_usd", "reward", "flights", "load_factor", "bound_share")
-"""The columns that are means over the days; the last exists only if bounds were asked for."""
+"""The columns that are means over the days; the last exists only if bounds were request for."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -35,7 +35,7 @@ class Sweep:
     network: str
     """Name of the network."""
     policies: tuple[str, ...]
-    """The policies, in the order they were asked for."""
+    """The policies, in the order they were request for."""
     points: tuple[tuple[dict[str, Any], Comparison], ...]
     """The variations in their order: what was changed, and the comparison with that change."""
 
@@ -46,7 +46,7 @@ class Sweep:
         The first columns are what was changed, one for each path of the network file. Then come ``policy``
         and the means over the days: ``profit_usd`` with its 95 % confidence interval from ``profit_low_usd``
         to ``profit_high_usd`` (NaN for a single day), ``reward``, ``flights``, ``load_factor``, and
-        ``bound_share`` if bounds were asked for.
+        ``bound_share`` if bounds were request for.
         """
         rows = list(self._rows())
         return {name: _column([row[name] for row in rows]) for name in rows[0]}
@@ -89,7 +89,7 @@ def sweep(
     *,
     days: SupportsIndex = 100,
     seed: SupportsIndex = 1,
-    models: Mapping[str, Given] | None = None,
+    models: Mapping[str, PolicySource] | None = None,
     bound: bool = False,
     step: SupportsIndex = 5,
     policy_seed: SupportsIndex | None = None,
@@ -121,10 +121,12 @@ def sweep(
     """
     network = network_of(network)
     points = variations(network, changes)
-    asked = Asked.of("vertifleet.compare", policies, days, seed, models, bound, step, policy_seed)
-    asked.check(variation for _, variation in points)
-    comparisons = [asked.compare(variation, asked.days, asked.seed, threads) for _, variation in points]
-    return Sweep(network.name, asked.policies, together(points, comparisons))
+    request = ComparisonRequest.of(
+        "vertifleet.compare", policies, days, seed, models, bound, step, policy_seed
+    )
+    request.check(variation for _, variation in points)
+    comparisons = [request.compare(variation, request.days, request.seed, threads) for _, variation in points]
+    return Sweep(network.name, request.policies, together(points, comparisons))
 
 
 def variations(

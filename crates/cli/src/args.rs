@@ -105,7 +105,7 @@ pub(crate) struct BoundArguments {
     /// longer
     #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Print bounds and worths as JSON
+    /// Print bounds and shadow prices as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }

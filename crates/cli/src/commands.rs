@@ -64,7 +64,8 @@ fn warn_of_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     }
 }
 
-/// Makes sure, before any day is played, that the report can be written where it is asked for and replaces nothing that is read.
+/// Checks, before any day is played, that the report can be written to its folder without replacing anything that is
+/// read.
 fn claim_report(arguments: &PresentedArguments, outputs: &mut Outputs) -> Result<(), Failure> {
     if let Some(folder) = &arguments.report {
         outputs.replaces_folder(folder)?;

@@ -7,10 +7,10 @@ mod args;
 mod commands;
 mod failure;
 mod interrupt;
-mod mean_worth;
+mod mean_shadow_prices;
 mod output;
+mod shadow_prices;
 mod typed;
-mod worth;
 
 use std::process::ExitCode;
 

@@ -22,7 +22,7 @@ fn stdout(folder: &Path, arguments: &str) -> String {
     String::from_utf8(output).expect("text")
 }
 
-/// What a failing command says, and that it says it on stderr alone.
+/// Runs a command that must fail, and returns its stderr. Its stdout must be empty.
 fn failure(folder: &Path, arguments: &str, code: i32) -> String {
     let assert = vertifleet(folder, arguments).assert().code(code);
     assert!(assert.get_output().stdout.is_empty(), "stdout is for results");
@@ -66,7 +66,7 @@ fn a_day_is_bounded_above_what_a_rule_earns() {
     assert!(number(&greedy["profit_usd"]) < number(&bound["upper_bound_usd"]));
     assert_eq!(bound["step_s"], 900);
     assert!(number(&bound["seconds"]) > 0.0);
-    assert_eq!(bound["stand_worth_usd"].as_object().map(serde_json::Map::len), Some(8));
+    assert_eq!(bound["stand_shadow_price_usd"].as_object().map(serde_json::Map::len), Some(8));
     let people = stdout(at, "bound day.json --step 60");
     assert!(people.contains("upper bound") && people.contains("one more stand"));
     assert!(failure(at, "bound day.json --step 0", 2).contains("error[V501]"));
@@ -92,13 +92,14 @@ fn several_days_are_bounded_with_means() {
     };
     let of = |name: &str| days.iter().map(|day| number(&day[name])).collect();
     near(&found["mean"]["upper_bound_usd"], of("upper_bound_usd"));
-    for (id, mean) in found["mean"]["stand_worth_usd"].as_object().expect("vertiports") {
-        near(mean, days.iter().map(|day| number(&day["stand_worth_usd"][id])).collect());
-        // Its chargers are a pool of their own, counted together with the stands.
-        assert_eq!(mean, &found["mean"]["charger_worth_usd"][id]);
+    for (id, mean) in found["mean"]["stand_shadow_price_usd"].as_object().expect("vertiports") {
+        near(mean, days.iter().map(|day| number(&day["stand_shadow_price_usd"][id])).collect());
+        // The vertiport has chargers beside its other stands, and the bound does not tell the two apart.
+        assert_eq!(mean, &found["mean"]["charger_shadow_price_usd"][id]);
     }
-    assert_eq!(days[0]["charger_worth_usd"], days[0]["stand_worth_usd"]);
-    let passengers = found["mean"]["passenger_worth_usd"].as_array().expect("pairs and periods");
+    assert_eq!(days[0]["charger_shadow_price_usd"], days[0]["stand_shadow_price_usd"]);
+    let passengers =
+        found["mean"]["passenger_shadow_price_usd"].as_array().expect("pairs and periods");
     assert!(passengers.iter().all(|passenger| number(&passenger["mean"]) > 0.0));
 
     let first = days[0]["name"].as_str().expect("a name");
@@ -123,7 +124,7 @@ fn a_day_is_planned_between_the_best_policy_and_the_bound() {
     assert!(number("profit_usd") <= number("upper_bound_usd"));
     let gap = (number("upper_bound_usd") - number("profit_usd")) / number("upper_bound_usd");
     assert!((number("gap") - gap).abs() < 1e-9);
-    assert!(number("seconds") > 0.0 && planned["stand_worth_usd"]["V1"].is_number());
+    assert!(number("seconds") > 0.0 && planned["stand_shadow_price_usd"]["V1"].is_number());
     let replayed = stdout(at, "simulate day.json --policy replay:plan.csv --json");
     let replayed: Value = serde_json::from_str(&replayed).expect("JSON");
     assert_eq!(replayed["profit_usd"], planned["profit_usd"]);
@@ -135,7 +136,7 @@ fn a_day_is_planned_between_the_best_policy_and_the_bound() {
 }
 
 #[test]
-fn nobody_plans_where_chargers_are_beside_the_stands() {
+fn a_day_with_chargers_beside_the_stands_is_not_planned() {
     let folder = folder();
     let at = folder.path();
     stdout(at, "scenario as-coded --seed 1 -o day.json");
@@ -177,7 +178,7 @@ fn the_same_command_prints_the_same_on_any_number_of_threads() {
             ),
         );
         let mut results: Value = serde_json::from_str(&text).expect("JSON");
-        // Times per decision and the command itself are the only things that may differ.
+        // Only the times per decision and the command itself may differ.
         results["command"].take();
         for policy in results["policies"].as_array_mut().expect("a list") {
             policy["decision_ns"].take();

@@ -7,7 +7,7 @@ use assert_cmd::Command;
 use assert_cmd::cargo::cargo_bin_cmd;
 use serde_json::Value;
 
-/// A folder with a network of short days and few aircraft in it, so that plans are soon made.
+/// A folder that contains a network with short days and few aircraft, so that planning is fast.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let paper = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks/paper.toml");
@@ -30,7 +30,7 @@ fn stdout(mut command: Command) -> String {
     String::from_utf8(output).expect("text")
 }
 
-/// The results but for times, which alone may differ between two runs.
+/// The results without the times and the command, because only these may differ between two runs.
 fn results(text: &str) -> Value {
     let mut results: Value = serde_json::from_str(text).expect("JSON");
     results["command"].take();

@@ -1,4 +1,5 @@
-//! The documentation is true: error index, links, architecture page and command reference match code and tree.
+//! Checks that the documentation is true: the error index, the links, the architecture page and the command reference
+//! must match the code and the folders.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -24,7 +25,7 @@ fn text(path: impl AsRef<Path>) -> String {
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// All files below a folder whose name ends in `ending`.
+/// All files below a folder with names that end in `ending`.
 fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder of the project") {
@@ -39,7 +40,7 @@ fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     found
 }
 
-/// The pages of the book, and those at the root of the project.
+/// The pages of the book, and the pages at the root of the project.
 fn pages() -> Vec<PathBuf> {
     let mut pages = files(&root().join("docs/src"), ".md");
     pages.extend(
@@ -48,7 +49,7 @@ fn pages() -> Vec<PathBuf> {
     pages
 }
 
-/// The page without blocks of code that stand between fences.
+/// The page without its fenced code blocks.
 fn prose(page: &str) -> String {
     page.split("```").step_by(2).collect()
 }
@@ -65,7 +66,7 @@ fn code(text: &str) -> Option<&str> {
     (digits == 3).then(|| &text[..3])
 }
 
-/// The codes that stand right behind `before`, wherever it occurs.
+/// The codes directly after each occurrence of `before`.
 fn codes_behind(text: &str, before: &str) -> Vec<String> {
     text.split(before).skip(1).filter_map(code).map(|digits| format!("V{digits}")).collect()
 }
@@ -153,7 +154,7 @@ fn the_benchmark_page_shows_the_latest_figures_of_the_history() {
     let mut history = csv::Reader::from_path(history).expect("the history");
     let rows = history.deserialize::<BTreeMap<String, String>>();
     let rows = rows.map(|row| row.expect("a row"));
-    // A later row is a later measurement.
+    // Later rows are later measurements, so the last row of a benchmark is the latest.
     let latest: BTreeMap<String, _> = rows.map(|row| (row["bench"].clone(), row)).collect();
     let (_, table) = page.split_once("<!-- begin of criterion.csv -->").expect("a table");
     let (table, _) = table.split_once("<!-- end of criterion.csv -->").expect("its end");
@@ -178,19 +179,19 @@ fn the_benchmark_page_shows_the_latest_figures_of_the_history() {
     }
 }
 
-/// What `vertifleet ... --help` prints.
+/// The output of `vertifleet ... --help`.
 fn help(arguments: &[&str]) -> String {
     let output = Command::cargo_bin("vertifleet").expect("the program").args(arguments).output();
     String::from_utf8(output.expect("the program runs").stdout).expect("help is text")
 }
 
-/// Long flags in a text, where a word begins with two dashes.
+/// The long flags in a text, which are the words that begin with two dashes.
 fn long_flags(text: &str) -> Names {
     let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
     words.filter(|word| word.len() > 2 && word.starts_with("--")).map(str::to_owned).collect()
 }
 
-/// The flags that help lists; what it says about them may mention others.
+/// The flags that help lists. Their descriptions are left out, because they may mention other flags.
 fn flags_in_help(help: &str) -> Names {
     let options = help.lines().filter(|line| line.trim_start().starts_with('-'));
     options
@@ -204,7 +205,7 @@ fn flags_in_section(section: &str) -> Names {
     rows.flat_map(|row| long_flags(row.split('|').nth(1).expect("a first cell"))).collect()
 }
 
-/// The section of the command reference under this heading.
+/// The section of the command reference with this heading.
 fn section(heading: &str) -> String {
     let page = text("docs/src/reference/commands.md");
     let (_, rest) = page.split_once(&format!("\n## {heading}\n")).expect("a section of that name");
@@ -255,7 +256,7 @@ fn the_command_reference_lists_the_rules_of_the_checker() {
     }
 }
 
-/// A setting as the training page writes it, compared with its value.
+/// Whether a table cell of the training page states the value of a setting.
 fn says(cell: &str, value: &Value) -> bool {
     match (value.as_f64(), cell.trim().replace(',', "").parse::<f64>()) {
         (Some(value), Ok(written)) => (value - written).abs() <= 1e-6 * written.abs(),

@@ -1,7 +1,8 @@
-//! A disk that is full: what was to be written is refused with V102, what was there before is still there, and nothing half done is.
+//! Tests with a full disk: a command that cannot write ends with V102, the earlier files are unchanged, and no
+//! incomplete file is left.
 //!
-//! Two kinds of full disk are tried: a limit on the length of files, which every Unix has and which files meet in the middle, and a
-//! small file system, where this user may mount one.
+//! Two kinds of full disk are tried: a limit on the length of files, which every Unix has and which stops writing in
+//! the middle of a file, and a small file system, if this user may mount one.
 #![cfg(unix)]
 
 mod common;
@@ -15,7 +16,7 @@ use contents::contents;
 
 const REPORT: &str = "compare --network small.toml --policies greedy,prices --days 3 --report out";
 
-/// Where every command has written once.
+/// A folder in which every command has written its files once.
 fn prepared() -> tempfile::TempDir {
     let folder = folder();
     let at = folder.path();
@@ -35,8 +36,8 @@ fn train(out: &str) -> String {
     )
 }
 
-/// The program where no file may be longer than so many blocks of 512 bytes (of 1,024 in some shells). Without the trap the
-/// system would end it at the first byte too many.
+/// Runs the program with a limit on the length of files: `blocks` blocks of 512 bytes, or of 1,024 bytes in some
+/// shells. Without the trap, the system would kill the program at the first byte beyond the limit.
 fn with_short_files(at: &Path, blocks: u32, arguments: &str) -> Output {
     let program = env!("CARGO_BIN_EXE_vertifleet");
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec {program} {arguments}");
@@ -53,7 +54,8 @@ fn refuses(output: &Output, arguments: &str) {
     assert!(!said.contains("panicked"), "{arguments}: {said}");
 }
 
-/// TensorBoard's file grows, and a run does without it: it is no result.
+/// All files except TensorBoard's event files. These grow during a run, and a run goes on if they cannot be written, so
+/// they do not count as results.
 fn results(at: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let events = |path: &Path| path.components().any(|part| part.as_os_str() == "tensorboard");
     contents(at).into_iter().filter(|(path, _)| !events(path)).collect()
@@ -69,7 +71,7 @@ fn where_files_meet_a_limit_everything_is_as_it_was() {
         (2, "scenario small.toml --seed 2 -o new.json".to_owned()),
         (1, "simulate day.json --policy prices --trace trace.csv".to_owned()),
         (1, "plan day.json --time-limit 0 -o trace.csv".to_owned()),
-        // The first file of the report fits, the pictures do not.
+        // The first file of the report fits, but the pictures do not.
         (8, format!("{REPORT} --seed 2")),
         (8, format!("{REPORT} --seed 2").replace("out", "above/new")),
     ] {
@@ -112,7 +114,7 @@ fn results_that_stdout_does_not_take_are_no_success() {
     }
 }
 
-/// A file system of so many KiB, as long as this lives.
+/// A small file system that is mounted at this path until the value is dropped.
 struct SmallDisk(PathBuf);
 
 impl SmallDisk {
@@ -144,7 +146,7 @@ fn where_the_disk_is_full_everything_is_as_it_was() {
     let report = |seed: u32| REPORT.replace("out", "disk/out") + &format!(" --seed {seed}");
     run(at, &report(1));
     run(at, "scenario small.toml --seed 1 -o disk/day.json");
-    // Room is left for some of a report's files, and for less than a day.
+    // The remaining room is enough for some of a report's files, but not for a day.
     let used: usize =
         contents(&disk.0).values().map(|bytes| bytes.len().div_ceil(4096) * 4096).sum();
     let room: usize = (512 << 10) - used;

@@ -1,4 +1,4 @@
-//! `generalise` and networks by their numbers, as a user runs them.
+//! `generalise` and random networks by number, as a user runs them.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! Ctrl-C: a training ends cleanly, and the run goes on as if nothing had happened; a comparison and a proof end at once and
-//! leave nothing half done.
+//! Tests of Ctrl-C: a training ends cleanly, and the resumed run goes on as if it had not been interrupted; a
+//! comparison and a proof end at once and leave no incomplete files.
 #![cfg(unix)]
 
 use std::fs;
@@ -13,12 +13,12 @@ use std::time::{Duration, Instant};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
-/// A run of many short updates, so that a signal never finds it at its end.
+/// A run of many short updates, so that it never ends before a signal arrives.
 const TRAIN: &str = "train --network paper --policy mlp --seed 5 --steps 6000 --set n_envs=4 --set n_steps=25 \
                      --set batch_size=100 --set n_epochs=1 --set eval_days=1 --set eval_every=20 --threads 1";
 
-/// The program, which hears signals even if these tests were told to ignore them, as the background of a script is: a signal that this
-/// process hears itself is one that its children do not ignore.
+/// The program, with signals enabled even if this test process was started with signals ignored, as in the background
+/// of a script. Children inherit ignored signals, but not handled ones, so this process registers handlers.
 fn vertifleet(folder: &Path, arguments: &str) -> Command {
     let end = Arc::new(AtomicBool::new(true));
     for signal in [SIGINT, SIGTERM, SIGHUP] {
@@ -35,7 +35,7 @@ fn train(folder: &Path, more: &str) -> Command {
     vertifleet(folder, &format!("{TRAIN} {more}"))
 }
 
-/// What a person at the keyboard does.
+/// Sends the signal that Ctrl-C sends.
 fn press_ctrl_c(child: &Child) {
     send("INT", child);
 }
@@ -45,7 +45,8 @@ fn send(signal: &str, child: &Child) {
     assert!(Command::new("sh").args(["-c", &signal]).status().expect("a shell").success());
 }
 
-/// Ctrl-C ends this one with the exit code of an interrupted program, nothing on stdout, and soon.
+/// Checks that Ctrl-C ends a program within two seconds, with the exit code of an interrupted program and nothing on
+/// stdout.
 fn ends_at_once(child: Child) {
     press_ctrl_c(&child);
     let pressed = Instant::now();
@@ -68,7 +69,7 @@ fn event_files(out: &Path) -> Vec<PathBuf> {
     entries.map(|entry| entry.expect("an entry").path()).collect()
 }
 
-/// Waits until the run has told of its first update: then it has long listened for signals.
+/// Waits until the run has logged its first update. By then it has long been listening for signals.
 fn wait_for_first_update(child: &mut Child, out: &Path) {
     let told = || {
         let files = event_files(out);
@@ -121,7 +122,7 @@ fn a_training_of_gcaps_x_ended_by_ctrl_c_goes_on_to_the_same_weights() {
     assert!(whole.status.success(), "{whole:?}");
 
     let mut child = train("--out cut").spawn().expect("the program runs");
-    // When the first round's checkpoint is there, the second round is under way.
+    // When the checkpoint of the first round exists, the second round has begun.
     while !at.join("cut/gcaps-x-checkpoint.safetensors").exists() {
         assert!(child.try_wait().expect("a child").is_none(), "the run ended before it began");
         sleep(Duration::from_millis(1));
@@ -150,7 +151,8 @@ fn a_comparison_ended_by_ctrl_c_leaves_whole_bounds_and_no_report() {
     let asked = "compare --network paper --policies rolling --days 400 --seed 1 --bound --step 60";
     let compare = |report: &str| vertifleet(folder.path(), &format!("{asked} --report {report}"));
     let mut child = compare("new/report").spawn().expect("the program runs");
-    // It is in the middle of its bounds when some of them are there, and has long listened for signals.
+    // When some of the bounds exist, the command is still computing the others, and has long been listening for
+    // signals.
     while names(&kept).iter().filter(|name| name.starts_with("bound-")).count() < 5 {
         assert!(child.try_wait().expect("a child").is_none(), "it ended before it began");
         sleep(Duration::from_millis(1));
@@ -163,8 +165,8 @@ fn a_comparison_ended_by_ctrl_c_leaves_whole_bounds_and_no_report() {
     }
 }
 
-/// Runs a command that reads a file called `pipe`, and gives it this text for it. When it has read it, it listens for signals
-/// and begins to work.
+/// Runs a command that reads a file called `pipe`, and gives it this text through that pipe. When the command has read
+/// the text, it listens for signals and begins to work.
 fn begin(folder: &Path, arguments: &str, text: &[u8]) -> Child {
     let pipe = folder.join("pipe");
     assert!(Command::new("mkfifo").arg(&pipe).status().expect("a command").success());
@@ -194,7 +196,8 @@ fn a_proof_ended_by_ctrl_c_says_nothing() {
     ends_at_once(begin(folder.path(), "bound pipe --step 1", &day));
 }
 
-/// As `nohup`, and a shell without job control for what it begins in the background, begin a program.
+/// Some signals are ignored at the start of the program, as they are under `nohup`, or in the background of a shell
+/// without job control.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_is_ignored_at_the_start_stays_ignored() {

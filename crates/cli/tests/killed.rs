@@ -1,5 +1,5 @@
-//! kill -9 at any moment: every file that is there is whole, as it was before or as it was to be. What was not finished has a name
-//! that begins with `.vertifleet-`, and nothing takes it for a result.
+//! Tests with `kill -9` at any moment: every file is complete, with either its old or its new content. Unfinished files
+//! have names that begin with `.vertifleet-`, and nothing takes them for results.
 #![cfg(unix)]
 
 mod common;
@@ -17,10 +17,10 @@ use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{Curve, Model, TrainingPlan, TrainingSettings};
 use vertifleet_sim::Trace;
 
-/// Kills of each command: 25 in all.
+/// Number of kills of each command; 25 in total.
 const KILLS: u32 = 5;
 
-/// Names in a folder but for those of what was not finished.
+/// The names in a folder, without those of unfinished files.
 fn finished(folder: &Path) -> Vec<String> {
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
     let name = |entry: std::io::Result<fs::DirEntry>| entry.expect("an entry").file_name();
@@ -30,21 +30,22 @@ fn finished(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Runs the command to its end and then kills it five times, at moments spread over the time that it took; `check` looks at the folder
-/// after each. The moments are always the same shares of that time; what they meet is up to the machine.
+/// Runs the command to its end once, and then kills it in five further runs, at moments spread over the time that the
+/// first run took. `check` looks at the folder after each run. The moments are always the same shares of that time, but
+/// what the program is doing at each moment depends on the machine.
 fn kill_on_the_way(at: &Path, arguments: &str, mut check: impl FnMut(&Path)) {
     let begun = Instant::now();
     run(at, arguments);
     let whole = begun.elapsed();
     check(at);
     for kill in 0..KILLS {
-        // Most of the writing comes late.
+        // Most of the writing happens late in a run.
         let share = [0.35, 0.7, 0.85, 0.95, 1.02][kill as usize];
         let mut command: Command = vertifleet(at, arguments);
         command.stdout(Stdio::null()).stderr(Stdio::null());
         let mut child = command.spawn().expect("the program runs");
         sleep(whole.mul_f64(share));
-        // It may be done by now.
+        // The program may have ended by now.
         let _ = child.kill();
         child.wait().expect("it ends");
         check(at);
@@ -63,7 +64,7 @@ fn days_are_whole_whenever_the_program_is_killed() {
             Scenario::read(at.join("days").join(name)).expect("a whole day");
         }
     });
-    // What was not finished is none of the days to be compared on.
+    // An unfinished file must not count as one of the days to compare on.
     fs::write(folder.path().join("days/.vertifleet-abc123"), "{").expect("a file");
     run(folder.path(), "compare --days-from days --policies greedy");
 }
@@ -105,7 +106,7 @@ fn a_report_is_whole_whenever_the_program_is_killed() {
             assert!(png.ends_with(b"IEND\xaeB`\x82"), "{} has its end", path.display());
         }
     });
-    // The next report is not in the way of what is left, and the other way round.
+    // The files that the killed runs left must not prevent the next report.
     run(folder.path(), compare);
 }
 
@@ -119,7 +120,7 @@ const SETTINGS: [(&str, &str); 6] = [
     ("eval_every", "2"),
 ];
 
-/// The training of which `--steps 800` asks with these settings.
+/// The training that `--steps 800` with these settings requests.
 fn small_training(at: &Path) -> TrainingPlan {
     let policy = Architecture::named("mlp").expect("a policy with sizes");
     let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
@@ -140,7 +141,8 @@ fn a_training_is_whole_whenever_the_program_is_killed() {
     );
     let first = "--steps 400";
     run(folder.path(), &format!("{} --out run", train.replace("--steps 800", first)));
-    // Each run is a new one whose files take the place of those of the run before, but for the checkpoint, which people remove.
+    // Each run is a new one, and its files replace those of the run before. The checkpoint is the exception: it has to
+    // be removed by hand.
     let train = format!("{train} --out run");
     fs::remove_file(folder.path().join("run/mlp-checkpoint.safetensors")).expect("a checkpoint");
     kill_on_the_way(folder.path(), &train, |at| {
@@ -159,7 +161,7 @@ fn a_training_is_whole_whenever_the_program_is_killed() {
 }
 
 #[test]
-fn what_is_left_of_a_killed_program_is_in_nobodys_way() {
+fn what_a_killed_program_leaves_is_in_no_ones_way() {
     let folder = folder();
     let at = folder.path();
     small_network(at);

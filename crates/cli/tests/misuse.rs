@@ -1,5 +1,5 @@
-//! Misuse: about a hundred and fifty ways to get a command wrong. Each is answered with what is wrong, ends with exit code 2 (1 where
-//! the arguments were right), and leaves every file as it was and none behind.
+//! Tests of about a hundred and fifty wrong commands. Each command must say what is wrong, end with exit code 2 (1 if
+//! the arguments were right), leave every file unchanged, and create none.
 #![cfg(unix)]
 
 mod common;
@@ -14,7 +14,7 @@ use common::{folder, run, shipped, small_network, vertifleet};
 use contents::contents;
 use misuses::Misuse;
 
-/// Files of every kind, good and bad.
+/// A folder with files of every kind, valid and invalid.
 fn prepared() -> tempfile::TempDir {
     let folder = folder();
     let at = folder.path();
@@ -73,7 +73,7 @@ fn prepared() -> tempfile::TempDir {
     folder
 }
 
-/// Whether the answer is none of a program that lost control.
+/// Checks that a misuse is answered by an orderly error message, with the right exit code and no panic.
 fn is_in_control(at: &Path, misuse: &Misuse) -> Result<(), String> {
     let (arguments, code, named) = *misuse;
     let output = vertifleet(at, arguments).output().expect("the program runs");
@@ -157,7 +157,7 @@ fn two_results_never_go_to_one_file() {
         assert!(said.contains("error[V142]") && said.contains(named), "{said}");
     }
     assert!(fs::read(at.join("trace.csv")).expect("a trace") == before);
-    // A pipe is no file that anything could be lost in.
+    // A pipe has no content that could be overwritten, so the trace and the printed results may both go to it.
     let output = run(at, "simulate day.json --policy greedy --trace /dev/stdout");
     let text = String::from_utf8(output.stdout).expect("text");
     assert!(text.starts_with("time,aircraft") && text.contains("load factor"), "{text}");

@@ -1,4 +1,4 @@
-//! `compare --days-from`: days of one's own in place of drawn ones.
+//! `compare --days-from`: the user's own days instead of drawn ones.
 
 mod common;
 

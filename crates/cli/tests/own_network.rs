@@ -1,5 +1,5 @@
-//! A network of one's own, with a table of demand and costs of its own, from the file to the plan; and what is said where a
-//! file is of the wrong kind or a vertiport out of reach.
+//! Tests of a user's own network, with its own table of demand and its own costs, from the network file to the plan,
+//! and of the messages about a file of the wrong kind and a vertiport out of reach.
 
 use std::fs;
 use std::path::Path;
@@ -21,13 +21,13 @@ fn json(folder: &Path, arguments: &str) -> Value {
     serde_json::from_slice(&output).expect("JSON")
 }
 
-/// What a command says on stderr.
+/// The stderr of a command that ends with the exit code `code`.
 fn said(folder: &Path, arguments: &str, code: i32) -> String {
     let assert = vertifleet(folder, arguments).assert().code(code);
     String::from_utf8(assert.get_output().stderr.clone()).expect("text")
 }
 
-/// Demand of two pairs from a table, and costs with or without passengers.
+/// Writes a network with the demand of two pairs from a table, and with flight costs.
 fn own_network(folder: &Path) {
     let begin = NEW_YORK.find("[daily_demand]").expect("a demand model");
     let end = NEW_YORK.find("[disturbances.forecast_error]").expect("what follows it");
@@ -56,7 +56,7 @@ fn a_day_of_a_network_with_a_table_and_costs_is_played_checked_bounded_and_plann
     own_network(at);
     said(at, "scenario own.toml --seed 3 -o day.json", 0);
     let played = json(at, "simulate day.json --policy greedy --trace day.csv --json");
-    // What this program wrote is replaced without a question, with the column of flight costs too.
+    // A trace that this program wrote is replaced without `--force`, even if it has the column of flight costs.
     json(at, "simulate day.json --policy greedy --trace day.csv --json");
     let verdict = json(at, "check day.json day.csv --json");
     assert_eq!(verdict["valid"], true, "{verdict}");
@@ -68,8 +68,8 @@ fn a_day_of_a_network_with_a_table_and_costs_is_played_checked_bounded_and_plann
     }
     let bound = number(&json(at, "bound day.json --step 15 --json"), "upper_bound_usd");
     let plan = json(at, "plan day.json --time-limit 1 -o plan.csv --json");
-    for pair in plan["passenger_worth_usd"].as_array().expect("a list") {
-        assert_ne!(pair["from"], pair["to"], "nobody can fly from a vertiport to itself");
+    for pair in plan["passenger_shadow_price_usd"].as_array().expect("a list") {
+        assert_ne!(pair["from"], pair["to"], "no passenger flies from a vertiport to itself");
     }
     assert!(number(&plan, "profit_usd") >= number(&played, "profit_usd"));
     assert!(number(&plan, "profit_usd") <= bound, "{plan}: {bound}");

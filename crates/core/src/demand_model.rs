@@ -94,7 +94,7 @@ impl DemandModel {
 impl Level {
     fn draw(self, random: &mut ChaCha8Rng) -> u32 {
         let deviation: f64 = StandardNormal.sample(random);
-        whole_passengers(self.mean + self.sd * deviation)
+        to_whole(self.mean + self.sd * deviation)
     }
 }
 
@@ -104,7 +104,7 @@ impl Level {
     clippy::cast_sign_loss,
     reason = "not negative, and means and sds are bounded"
 )]
-pub(crate) fn whole_passengers(drawn: f64) -> u32 {
+pub(crate) fn to_whole(drawn: f64) -> u32 {
     drawn.round().max(0.0) as u32
 }
 

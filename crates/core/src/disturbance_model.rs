@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use serde::Deserialize;
 
-use crate::demand_model::{rounded_by_chance, whole_passengers};
+use crate::demand_model::{rounded_by_chance, to_whole};
 use crate::limits::{self, Limits};
 use crate::raw::{Positions, each};
 use crate::raw_disturbances::RawRoute;
@@ -61,7 +61,7 @@ impl ForecastError {
                         expected = f64::from(rounded_by_chance(expected, random));
                     }
                     let drawn = expected * (1.0 + self.noise * deviation);
-                    table[(from, to)] = whole_passengers(drawn.min(limits::MOST_PASSENGERS));
+                    table[(from, to)] = to_whole(drawn.min(limits::MOST_PASSENGERS));
                 }
             }
         }
@@ -109,7 +109,7 @@ impl Late {
             return 0;
         }
         // `libm`, because the system's logarithm differs between machines.
-        whole_passengers((-self.mean_s * libm::log(1.0 - size)).min(self.most_s))
+        to_whole((-self.mean_s * libm::log(1.0 - size)).min(self.most_s))
     }
 }
 

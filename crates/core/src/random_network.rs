@@ -54,7 +54,7 @@ fn text(purpose: Purpose, number: u64) -> String {
             energy_price = random.random_range(0.1..0.3),
         ),
     );
-    write_demand(&mut text, (vertiports, fleet, seats, hours), &mut random);
+    write_demand(&mut text, vertiports, fleet, seats, hours, &mut random);
     text.push_str(
         "\n[feature_scales]\nstands = 6\npassengers = 300\nfare_usd = 40\npassenger_cost_usd = 20\n\
          energy_price_usd = 0.2\nbattery_kwh = 110\npower_kw = 65\n",
@@ -89,7 +89,10 @@ fn write_vertiports(text: &mut String, vertiports: usize, fleet: usize, random: 
 /// Writes demand between half and ten times what the fleet can carry at about 0.8 flights an hour for each aircraft.
 fn write_demand(
     text: &mut String,
-    (vertiports, fleet, seats, hours): (usize, usize, u32, u32),
+    vertiports: usize,
+    fleet: usize,
+    seats: u32,
+    hours: u32,
     random: &mut ChaCha8Rng,
 ) {
     let capacity = 0.8 * fleet as f64 * f64::from(seats);

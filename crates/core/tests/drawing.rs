@@ -204,7 +204,7 @@ fn a_full_network_can_be_drawn() {
 }
 
 #[test]
-fn a_network_without_demand_has_fares_and_nobody_flies() {
+fn a_network_without_demand_has_fares_and_no_passengers() {
     let text = include_str!("data/small.toml");
     let text =
         ["10, sd = 2", "5, sd = 2", "3, sd = 1"].iter().fold(text.to_owned(), |text, level| {

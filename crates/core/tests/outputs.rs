@@ -150,7 +150,7 @@ fn a_folder_that_cannot_be_written_is_as_it_was_before() {
 }
 
 #[test]
-fn whoever_ends_the_process_waits_for_a_folder_to_be_whole() {
+fn the_end_of_the_process_waits_for_a_folder_to_be_whole() {
     let folder = folder();
     let target = folder.path().join("book");
     let end = vertifleet_core::block_writes();

@@ -72,7 +72,7 @@ pub struct Bound {
     slices: Slices,
     prices: Prices,
     /// By period, from, to: the most that one more passenger is worth, micro-dollars.
-    passenger_worth: Vec<i64>,
+    passenger_shadow_price_usd: Vec<i64>,
     micro_usd: i128,
     is_final: bool,
 }
@@ -145,7 +145,7 @@ impl Bound {
         Self {
             step,
             slices: network.slices.clone(),
-            passenger_worth: network.worth_of_passengers(&found.prices),
+            passenger_shadow_price_usd: network.worth_of_passengers(&found.prices),
             prices: found.prices.clone(),
             micro_usd: found.bound(network),
             is_final: false,
@@ -177,7 +177,7 @@ impl Bound {
 
     /// Price of a stand over the whole day, dollars. With one more stand all day, no schedule earns more than the bound
     /// plus this amount.
-    pub fn stand_worth_usd(&self, vertiport: VertiportIx) -> f64 {
+    pub fn stand_shadow_price_usd(&self, vertiport: VertiportIx) -> f64 {
         let prices = self.prices.stand.iter().skip(vertiport.at());
         money::usd(prices.step_by(self.size()).sum())
     }
@@ -185,9 +185,14 @@ impl Bound {
     /// With one more passenger of a demand period, no schedule earns more than the bound plus this amount in dollars.
     /// It is the passenger's price, or the whole margin of a passenger where fewer want to fly than an aircraft has
     /// seats.
-    pub fn passenger_worth_usd(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
+    pub fn passenger_shadow_price_usd(
+        &self,
+        period: usize,
+        from: VertiportIx,
+        to: VertiportIx,
+    ) -> f64 {
         let size = self.size();
-        money::usd(self.passenger_worth[(period * size + from.at()) * size + to.at()])
+        money::usd(self.passenger_shadow_price_usd[(period * size + from.at()) * size + to.at()])
     }
 
     /// Number of vertiports.

@@ -37,7 +37,7 @@ impl Policy for Rolling {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
         let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
         prices.refresh(*view, decision.time);
-        let listed = self.shortlist.rank_with_empty_flights(prices, *view, decision);
+        let listed = self.shortlist.rank_with_repositioning(prices, *view, decision);
         Ok(self.evaluator.best_choice(prices, *view, decision, listed))
     }
 }

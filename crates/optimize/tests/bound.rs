@@ -203,7 +203,7 @@ fn stands_and_passengers_have_prices_where_they_are_scarce() {
     let bound = upper_bound(&day, minutes(15)).expect("a small day");
     assert_eq!(bound.step_s(), 900);
     let size = day.vertiports.len();
-    let worth: f64 = VertiportIx::all(size).map(|place| bound.stand_worth_usd(place)).sum();
+    let worth: f64 = VertiportIx::all(size).map(|place| bound.stand_shadow_price_usd(place)).sum();
     assert!(worth > 0.0, "48 stands for 40 aircraft are scarce");
     let after = Time::from_seconds(30 * 3600);
     assert_eq!(bound.stand_price_usd(VertiportIx::new(0), after), 0.0);
@@ -217,7 +217,7 @@ fn stands_and_passengers_have_prices_where_they_are_scarce() {
     let pairs =
         VertiportIx::all(size).flat_map(|from| VertiportIx::all(size).map(move |to| (from, to)));
     let dearest =
-        pairs.map(|(from, to)| bound.passenger_worth_usd(0, from, to)).fold(0.0, f64::max);
+        pairs.map(|(from, to)| bound.passenger_shadow_price_usd(0, from, to)).fold(0.0, f64::max);
     assert!(dearest > 0.0, "single passengers are scarce");
 }
 
@@ -341,9 +341,9 @@ fn with_one_more_stand_or_passenger_no_sequence_earns_more_than_the_bound_and_it
             }
         };
         for at in VertiportIx::all(size) {
-            holds(with_one_more_stand(&day, at), bound.stand_worth_usd(at));
+            holds(with_one_more_stand(&day, at), bound.stand_shadow_price_usd(at));
             for to in VertiportIx::all(size).filter(|to| *to != at) {
-                let worth_usd = bound.passenger_worth_usd(0, at, to);
+                let worth_usd = bound.passenger_shadow_price_usd(0, at, to);
                 holds(with_one_more_passenger(&day, 0, (at, to)), worth_usd);
             }
         }
@@ -360,7 +360,7 @@ fn a_day_with_one_more_stand_solved_again_is_bounded_by_the_bound_and_the_worth_
     for at in VertiportIx::all(day.vertiports.len()).step_by(3) {
         let more = with_one_more_stand(&day, at);
         let again = upper_bound(&more, step).expect("a small day").upper_bound_usd();
-        let most = bound.upper_bound_usd() + bound.stand_worth_usd(at);
+        let most = bound.upper_bound_usd() + bound.stand_shadow_price_usd(at);
         // The search does not reach the very lowest bound, so a small tolerance is needed.
         assert!(again <= 1.003 * most, "{at:?}: {again} is proven anew, {most} by the worth");
         let earned = earned_usd(&more, &mut BidPricePolicy::default());

@@ -118,7 +118,7 @@ fn a_plan_of_paper_gets_better_with_more_steps_and_keeps_every_rule() {
 }
 
 #[test]
-fn the_plan_of_a_day_on_which_nobody_flies_is_done_without_a_search() {
+fn the_plan_of_a_day_without_demand_is_done_without_a_search() {
     let mut day = paper_day(1).as_ref().clone().into_day();
     day.demand.iter_mut().flat_map(Matrix::cells_mut).for_each(|cell| *cell = 0);
     let day = Arc::new(day.check("a day without passengers").expect("a day within the rules"));
@@ -195,7 +195,7 @@ fn a_plan_is_never_below_a_policy_that_it_is_given() {
 }
 
 #[test]
-fn nobody_flies_where_nothing_can_be_earned() {
+fn there_are_no_flights_where_nothing_can_be_earned() {
     let mut idle = Scenario::clone(&paper_day(4)).into_day();
     idle.demand.iter_mut().for_each(|table| table.cells_mut().fill(0));
     let idle = Arc::new(idle.check("no demand").expect("a day without demand is a day"));

@@ -147,7 +147,7 @@ fn where_demand_is_thin_it_earns_as_much_as_the_rule_that_it_looks_ahead_with() 
 }
 
 #[test]
-fn where_nobody_wants_to_fly_nobody_flies() {
+fn without_demand_there_are_no_flights() {
     let mut idle = Scenario::clone(&thin_day(1)).into_day();
     for table in idle.demand.iter_mut().chain(idle.disturbances.forecast.iter_mut().flatten()) {
         table.cells_mut().fill(0);

@@ -20,7 +20,7 @@ use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
 
 use base_rule::BaseRule;
-pub(crate) use base_rule::is_empty_flight;
+pub(crate) use base_rule::is_repositioning;
 use relaxation::Relaxation;
 use units::units_usd;
 use volume::{Effort, Volume};

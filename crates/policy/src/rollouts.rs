@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
 
-use crate::prices::is_empty_flight;
+use crate::prices::is_repositioning;
 use crate::{DayPrices, PricedChoice, draw};
 
 /// Settings of roll-outs.
@@ -110,7 +110,7 @@ impl RolloutEvaluator {
         let mut first_day_usd = None;
         for at in 0..self.better.len() {
             let to = self.better[at].to;
-            if !is_empty_flight(view, decision, to) {
+            if !is_repositioning(view, decision, to) {
                 return to;
             }
             let first_day_usd =

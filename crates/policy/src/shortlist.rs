@@ -2,7 +2,7 @@
 
 use vertifleet_sim::{Decision, View};
 
-use crate::prices::is_empty_flight;
+use crate::prices::is_repositioning;
 use crate::{DayPrices, PricedChoice};
 
 /// The shortlist of a decision: the choices that are worth most at the prices.
@@ -30,13 +30,13 @@ impl Shortlist {
         self.rank_open(prices, view, decision);
         let best = self.ranked[0].to;
         self.ranked
-            .retain(|choice| choice.to == best || !is_empty_flight(view, decision, choice.to));
+            .retain(|choice| choice.to == best || !is_repositioning(view, decision, choice.to));
         self.keep_near(prices, view, decision)
     }
 
     /// Ranks choices like [`rank`](Self::rank), but keeps flights without passengers, for an evaluator that
     /// [confirms](crate::RolloutEvaluator::best_choice) them.
-    pub fn rank_with_empty_flights(
+    pub fn rank_with_repositioning(
         &mut self,
         prices: &DayPrices,
         view: View<'_>,

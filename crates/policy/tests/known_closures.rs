@@ -64,7 +64,7 @@ fn alone_and_with_room_an_aircraft_earns_what_its_prices_say_of_a_day_with_known
 }
 
 #[test]
-fn to_know_a_curfew_earns_more_than_to_be_surprised_by_it_and_strands_nobody() {
+fn to_know_a_curfew_earns_more_than_to_be_surprised_by_it_and_strands_no_aircraft() {
     const DAYS: u64 = 8;
     let curfew = Time::from_seconds(14 * 3600);
     let (mut gains_usd, mut stranded) = (Vec::new(), [0, 0]);

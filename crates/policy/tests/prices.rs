@@ -47,7 +47,7 @@ fn shut_in(seed: u64, closed_s: u32) -> Arc<Scenario> {
 }
 
 #[test]
-fn nobody_counts_on_a_route_that_is_closed() {
+fn no_policy_counts_on_a_route_that_is_closed() {
     let day = shut_in(1, 600);
     let mut simulation = Simulation::new(Arc::clone(&day));
     let decision = simulation.next_decision().expect("the day is young");
@@ -78,7 +78,7 @@ fn prices_are_found_anew_at_once_when_routes_open() {
 }
 
 #[test]
-fn what_nobody_lacks_is_free() {
+fn what_is_not_scarce_is_free() {
     let roomy = changed(1, 8, 40);
     let prices = prices_of(&roomy);
     assert_eq!(all_rents_usd(&roomy, &prices), 0.0, "40 stands suffice for 8 aircraft");
@@ -185,7 +185,7 @@ fn where_hardly_anybody_wants_to_fly_prices_earn_as_much_as_greedy() {
 }
 
 #[test]
-fn nothing_is_at_stake_where_nobody_wants_to_fly() {
+fn nothing_is_at_stake_without_demand() {
     let mut idle = Scenario::clone(&paper_day(1)).into_day();
     idle.demand.iter_mut().for_each(|table| table.cells_mut().fill(0));
     let idle = Arc::new(idle.check("a day without demand").expect("a day"));

@@ -155,7 +155,7 @@ proptest! {
     }
 
     #[test]
-    fn round_numbers_put_nobody_in_doubt(day in small_day(), draws in draws()) {
+    fn round_numbers_are_not_doubted(day in small_day(), draws in draws()) {
         let (_, trace) = play(&in_round_numbers(&day), &draws);
         let report = check(&in_round_numbers(&day), &trace);
         prop_assert!(report.is_valid(), "{report}");

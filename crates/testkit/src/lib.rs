@@ -1,4 +1,5 @@
-//! Days for the tests of the other crates: strategies for property tests, days drawn from a number, and days of `paper`.
+//! Days for the tests of the other crates: strategies for property tests, days drawn from a number, and days of
+//! `paper`.
 //!
 //! This crate builds on `vertifleet-core` alone and is a dependency of tests only.
 //!

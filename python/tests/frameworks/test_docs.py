@@ -1,4 +1,4 @@
-"""Every example of the package's pages runs."""
+"""Runs every example of the package's pages."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_an_example_runs(page: str, number: int, code: str, tmp_path: Path) -> N
             pytest.importorskip(needed)
     file = tmp_path / f"{Path(page).stem}_{number}.py"
     file.write_text(code, encoding="utf-8")
-    # Not the user's own token, which Ray would write into the home directory.
+    # Ray would write a token into the user's home directory.
     ray = {"RAY_AUTH_MODE": "token", "RAY_AUTH_TOKEN": secrets.token_hex(32), "RAY_USAGE_STATS_ENABLED": "0"}
     command = [sys.executable, file.name]
     done = subprocess.run(

@@ -1,6 +1,6 @@
-"""Comparisons on a cluster of three nodes, all on this machine: they find what one machine does.
+"""Comparisons on a cluster of three nodes, all on this machine, have the results of a single process.
 
-Tasks say where they are by files in a folder, the stage, and are told there what to do.
+Tasks report their state by files in a folder, the stage, and tests tell them there what to do.
 """
 
 import io
@@ -17,7 +17,7 @@ import pytest
 import vertifleet
 
 os.environ["RAY_USAGE_STATS_ENABLED"] = "0"
-# Not the user's own token, which Ray would write into the home directory.
+# Ray would write a token into the user's home directory.
 os.environ["RAY_AUTH_MODE"] = "token"
 os.environ["RAY_AUTH_TOKEN"] = secrets.token_hex(32)
 
@@ -26,7 +26,7 @@ ray = pytest.importorskip("ray")
 from ray.cluster_utils import Cluster  # noqa: E402
 
 import vertifleet.ray  # noqa: E402
-from vertifleet._compare import Asked  # noqa: E402
+from vertifleet._compare import ComparisonRequest  # noqa: E402
 from vertifleet.ray import progress, tasks  # noqa: E402
 
 POLICIES = ["greedy", "random", "prices"]
@@ -36,7 +36,7 @@ LONG_S = 60
 
 
 class Stage:
-    """The folder."""
+    """The folder by which tests and tasks communicate."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -59,15 +59,15 @@ class Stage:
 def wait_until(true):
     end = time.monotonic() + LONG_S
     while not true():
-        assert time.monotonic() < end, "waited in vain"
+        assert time.monotonic() < end, "the condition did not become true in time"
         time.sleep(0.05)
 
 
 def on_stage(folder):
-    """`tasks.play`, that does as the stage tells it before it plays."""
+    """A `tasks.play` that follows the files on the stage before it plays."""
     play = tasks.play._function
 
-    def acted(asked, here, network, days, seed):
+    def acted(request, here, network, days, seed):
         def told(what):
             return (folder / what).exists()
 
@@ -79,7 +79,7 @@ def on_stage(folder):
         if told(f"crash-{seed}"):
             (folder / f"crash-{seed}").unlink()
             os.kill(os.getpid(), signal.SIGKILL)
-        # The doomed node plays a part to its end and hangs in the next. The others wait for that.
+        # The doomed node plays one part to its end and hangs in the next; the other nodes wait for that.
         if told(f"doomed-{node}") and parts > 0:
             (folder / "hanging").touch()
             time.sleep(LONG_S)
@@ -87,7 +87,7 @@ def on_stage(folder):
         while (doomed and not told("hanging")) or told(f"hold-{seed}"):
             (folder / f"held-{seed}").touch()
             time.sleep(0.05)
-        return play(asked, here, network, days, seed)
+        return play(request, here, network, days, seed)
 
     return ray.remote(**tasks.play._default_options)(acted)
 
@@ -131,16 +131,16 @@ def test_the_days_are_those_of_one_machine_in_parts_of_any_size(paper, days_per_
 
 @pytest.mark.usefixtures("stage")
 def test_bounds_and_seeds_reach_the_tasks(paper):
-    asked = {"days": 3, "seed": 5, "policy_seed": 77, "bound": True, "step": 15}
-    found = vertifleet.ray.compare(paper, ["random"], **asked, days_per_task=2)
-    assert_same(found, vertifleet.compare(paper, ["random"], **asked))
+    request = {"days": 3, "seed": 5, "policy_seed": 77, "bound": True, "step": 15}
+    found = vertifleet.ray.compare(paper, ["random"], **request, days_per_task=2)
+    assert_same(found, vertifleet.compare(paper, ["random"], **request))
     assert "bound_share" in found.columns
 
 
 @pytest.mark.usefixtures("stage")
 def test_weights_travel_with_the_tasks(paper, tmp_path, monkeypatch):
     vertifleet.Model.shipped("mlp").write(tmp_path / "weights.safetensors")
-    monkeypatch.chdir(tmp_path)  # where no worker is
+    monkeypatch.chdir(tmp_path)  # no worker has this working directory
     days = {"days": 2, "seed": 5, "models": {"mine": "weights.safetensors"}}
     found = vertifleet.ray.compare(paper, ["mine"], **days)
     assert_same(found, vertifleet.compare(paper, ["mine"], **days))
@@ -168,9 +168,9 @@ def test_a_network_file_needs_to_be_here_alone(paper, tmp_path):
 
 @pytest.mark.usefixtures("stage")
 def test_a_sweep_is_that_of_one_machine(paper):
-    asked = {"changes": {"fleet.0.count": [36, 40], "vertiports.*.stands": [6, 8]}, "days": 3, "seed": 9}
-    found = vertifleet.ray.sweep(paper, policies=POLICIES, **asked, days_per_task=2)
-    expected = vertifleet.sweep(paper, policies=POLICIES, **asked)
+    request = {"changes": {"fleet.0.count": [36, 40], "vertiports.*.stands": [6, 8]}, "days": 3, "seed": 9}
+    found = vertifleet.ray.sweep(paper, policies=POLICIES, **request, days_per_task=2)
+    expected = vertifleet.sweep(paper, policies=POLICIES, **request)
     assert [changes for changes, _ in found.points] == [changes for changes, _ in expected.points]
     for (_, comparison), (_, same) in zip(found.points, expected.points, strict=True):
         assert_same(comparison, same)
@@ -195,23 +195,23 @@ def test_an_error_of_a_task_is_an_error_of_the_call(paper):
 
 @pytest.mark.usefixtures("stage")
 def test_what_cannot_be_split_is_refused(paper):
-    for asked, code in [({"days": 0}, "V402"), ({"days": 4, "days_per_task": 0}, "V451")]:
+    for request, code in [({"days": 0}, "V402"), ({"days": 4, "days_per_task": 0}, "V451")]:
         with pytest.raises(vertifleet.Error) as refused:
-            vertifleet.ray.compare(paper, ["greedy"], **asked)
+            vertifleet.ray.compare(paper, ["greedy"], **request)
         assert refused.value.code == code
 
 
 def test_a_node_with_another_version_is_refused(paper):
-    asked = Asked.of("compare", ["greedy"], 1, 1, None, False, 5, None)
+    request = ComparisonRequest.of("compare", ["greedy"], 1, 1, None, False, 5, None)
     with pytest.raises(vertifleet.Error) as refused:
-        tasks.play._function(asked, "0.0.0", paper, 1, 1)
+        tasks.play._function(request, "0.0.0", paper, 1, 1)
     assert refused.value.code == "V409"
     assert "0.0.0" in refused.value.message
 
 
 @pytest.fixture
 def held(stage):
-    """The first parts of many, those in flight: they wait. Afterwards they go on, and no other is begun."""
+    """Makes the first parts, those in flight, wait. Afterwards they continue, and no other part is begun."""
     in_flight = set(range(1, tasks.AHEAD * NODES + 1))
     for seed in in_flight:
         stage.tell(f"hold-{seed}")

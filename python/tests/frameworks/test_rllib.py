@@ -1,4 +1,4 @@
-"""Training with RLlib: what it plays, what it learns, and that the program decides as what was trained."""
+"""Training with RLlib: what it plays, what it learns, and that the program decides as the trained network."""
 
 import os
 import secrets
@@ -12,7 +12,7 @@ import pytest
 import vertifleet
 
 os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
-# Not the user's own token, which Ray would write into the home directory.
+# Ray would write a token into the user's home directory.
 os.environ.setdefault("RAY_AUTH_MODE", "token")
 os.environ.setdefault("RAY_AUTH_TOKEN", secrets.token_hex(32))
 
@@ -53,7 +53,7 @@ def cluster():
 
 @pytest.fixture(scope="module")
 def trained(cluster, tmp_path_factory):  # noqa: ARG001
-    """Two iterations in this process: the algorithm, weights before, infeasible choices, and a checkpoint."""
+    """Trains for two iterations; gives algorithm, earlier weights, infeasible choices and a checkpoint."""
     infeasible = []
     step = FleetVectorEnv.step
 
@@ -83,7 +83,7 @@ def module(policy="gcaps", **sizes):
 
 
 def observed(network, number=6, seed=1):
-    """A batch of what days show after some steps, and the environments."""
+    """A batch of observations after some steps, and the environments."""
     days = FleetDays({"network": network, "reward": "dense", "reward_scale": 1.0, "num_envs": number})
     shown, _ = days.reset(seed=seed)
     for _ in range(120):
@@ -286,7 +286,7 @@ def test_weights_of_another_module_are_refused(tmp_path):
 
 
 def header_of(config, path, **arguments):
-    """The header of the file of what this configuration trained, without the time that it takes to train."""
+    """The header of the weight file for this configuration, without spending the time to train."""
     trained = rllib_weights.Trained(module(**SMALL), config, 960)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rllib_weights, "_of_checkpoint", lambda _: trained)

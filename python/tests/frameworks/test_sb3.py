@@ -30,7 +30,7 @@ from vertifleet.envs import FleetEnv  # noqa: E402
 from vertifleet.sb3 import FleetVecEnv, GcapsPolicy, MlpPolicy, export, ppo_settings  # noqa: E402
 from vertifleet.torch import Gcaps, Mlp, act, load, masked  # noqa: E402
 
-# Where other programs run, more threads cost these small networks more than they bring.
+# When other programs run, more threads make these small networks slower.
 torch.set_num_threads(1)
 NETWORK = vertifleet.Network("paper")
 POLICIES = {
@@ -40,7 +40,7 @@ POLICIES = {
 
 
 def learner(kind, days, **changed):
-    """A small learner; its settings are those of the program but for the sizes and what is changed."""
+    """A small learner with the settings of the program, except for the sizes and the given changes."""
     policy, _, sizes = POLICIES[kind]
     settings = ppo_settings(vertifleet.settings("default")) | {"n_steps": 32, "batch_size": 64} | changed
     policy_kwargs = {"features_extractor_kwargs": sizes}
@@ -81,7 +81,7 @@ def test_the_same_seed_gives_the_same_days():
 
 
 def play_until_one_is_over(days):
-    """Holds or flies, whatever is feasible first; rewards of each day up to the step in which a day ends."""
+    """Takes the first feasible action; returns the rewards of each day up to the step in which a day ends."""
     days.seed(2)
     days.reset()
     rewards = []
@@ -101,7 +101,7 @@ def test_a_day_that_is_over_makes_room_for_the_next_and_tells_how_it_went():
     assert told["episode"]["r"] == pytest.approx(rewards[:, ended].sum() / 100.0, rel=1e-4)
     assert told["TimeLimit.truncated"] is False
     assert told["terminal_observation"].keys() == observations.keys()
-    # The day that was over had no time left; the one that is shown is new.
+    # No time was left of the day that ended; the observation is of the new day.
     assert told["terminal_observation"]["clock"] == 0.0
     assert observations["clock"][ended] == 1.0
 
@@ -237,7 +237,7 @@ def test_infeasible_actions_and_ended_days_are_told():
     days = FleetVecEnv(NETWORK, 2, reward_scale=100.0)
     observations = days.reset()
     told = 0
-    # 49 holds of each of 40 aircraft are the longest day.
+    # In the longest possible day, each of 40 aircraft holds 49 times.
     for _ in range(2100):
         infeasible = observations["action_mask"].argmin(axis=1)
         expected = [not mask[action] for mask, action in zip(days.action_masks(), infeasible, strict=True)]
@@ -258,7 +258,7 @@ def test_given_days_are_played():
     single, _ = FleetEnv(NETWORK).reset(options={"scenario": day})
     for row in range(2):
         np.testing.assert_array_equal(shown["nodes"][row], single["nodes"])
-    assert not np.array_equal(days.reset()["nodes"][0], single["nodes"]), "options count once"
+    assert not np.array_equal(days.reset()["nodes"][0], single["nodes"]), "options apply to one reset only"
 
 
 def test_what_the_program_would_not_do_is_not_exported(tmp_path):
@@ -465,7 +465,7 @@ def test_the_example_asks_first_whether_the_file_can_be_written(tmp_path):
 
 
 def test_the_example_saves_what_was_learned_when_it_is_stopped(tmp_path):
-    # Ctrl-C at the fourth decision of each of the 40 days; checkpoints after every second.
+    # Ctrl-C comes at the fourth decision of each of the 40 days; checkpoints come after every second one.
     stopped = f"""
 import runpy, sys
 from stable_baselines3.common.callbacks import CheckpointCallback

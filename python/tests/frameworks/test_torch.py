@@ -33,7 +33,7 @@ def small(kind, seed=1):
 
 
 def inputs(twin, batch=3, vertiports=VERTIPORTS):
-    """Nodes [B, N, F], aircraft [B, G] and clock [B] out of nothing."""
+    """Random nodes [B, N, F], aircraft [B, G] and clock [B]."""
     random = torch.Generator().manual_seed(7)
 
     def draw(*shape):
@@ -43,12 +43,12 @@ def inputs(twin, batch=3, vertiports=VERTIPORTS):
 
 
 def gcaps_to_the_letter(w, heads, nodes, aircraft, clock):
-    """Eq. 18-21 with the Laplacian as a matrix, and a key and a value for every node."""
+    """Eq. 18-21 computed literally, with the Laplacian as a matrix and a key and a value for every node."""
     n, h = nodes.shape[1], w["encoder.node.bias"].shape[0]
     laplacian = n * torch.eye(n, dtype=nodes.dtype) - torch.ones(n, n, dtype=nodes.dtype)
     powers = [torch.eye(n, dtype=nodes.dtype), laplacian, laplacian @ laplacian]
     f_0 = nodes @ w["encoder.node.weight"] + w["encoder.node.bias"]
-    # W_pa = V_pa / N^a: the files hold V_pa.
+    # The files contain V_pa, and W_pa = V_pa / N^a.
     capsules = [
         relu(sum(powers[a] @ f_0**p @ w[f"encoder.moment_{p}.hop_{a}.weight"] / n**a for a in (0, 1, 2)))
         for p in (1, 2)
@@ -158,7 +158,7 @@ def test_the_gradient_is_that_of_the_letter(kind):
 
 
 def first_spread(kind):
-    """What each tensor's first entries have as standard deviation, for the default sizes on 8 vertiports."""
+    """The standard deviation of each tensor's first weights, for the default sizes on 8 vertiports."""
     if kind == "mlp":
         return {
             "trunk.1.weight": GAIN_RELU / math.sqrt(8 * 20 + 18),
@@ -195,7 +195,7 @@ def test_first_weights_are_spread_as_those_of_the_program(kind):
     spread = first_spread(kind)
     for name, weight in twin.state_dict().items():
         if name in spread:
-            # Uniform: the largest entry says what the reach is, the spread that nothing is piled up.
+            # The largest entry shows the range of the distribution, the spread that it is uniform.
             reach = math.sqrt(3) * spread[name]
             assert 0.95 * reach < weight.abs().max() <= reach, name
             assert weight.std().item() == pytest.approx(spread[name], rel=0.15), name
@@ -238,7 +238,7 @@ def test_what_is_masked_has_no_probability():
 
 
 class Fixed(Mlp):
-    """Gives its first aircraft features as logits."""
+    """A network that returns its first aircraft features as logits."""
 
     def forward(self, nodes, aircraft, clock):  # noqa: ARG002
         return aircraft[:, : self.vertiports], clock
@@ -287,7 +287,7 @@ def test_what_is_no_whole_number_is_no_size(size):
 
 
 def shown(twin, *batch, vertiports=VERTIPORTS):
-    """An observation out of nothing, or a batch, all of it feasible."""
+    """A made-up observation or a batch of them, with all actions feasible."""
     sizes = {"nodes": vertiports * twin.node_features, "aircraft": twin.aircraft_features, "clock": 1}
     return {name: np.ones((*batch, size), np.float32) for name, size in sizes.items()} | {
         "action_mask": np.ones((*batch, vertiports), np.float32)

@@ -42,7 +42,7 @@ def save_fresh(twin, path):
 
 
 def played(day, decisions):
-    """What the environment shows before each of these decisions, [decisions, ...]."""
+    """The observations before each of these decisions, [decisions, ...]."""
     environment = gymnasium.make("vertifleet/Fleet-v0", network=NETWORK, disable_env_checker=True)
     seen, _ = environment.reset(options={"scenario": day})
     shown = [seen]
@@ -54,7 +54,7 @@ def played(day, decisions):
 
 
 def made_up(twin, vertiports, batch=16):
-    """Observations out of nothing, [B, ...]."""
+    """Random observations, [B, ...]."""
     random = np.random.default_rng(2)
     mask = random.random((batch, vertiports)) < 0.7
     mask[:, random.integers(vertiports)] = True
@@ -95,7 +95,7 @@ def test_a_file_that_is_loaded_and_saved_has_the_same_bytes(kind, tmp_path):
     twin = load(SHIPPED[kind])
     assert twin.header == vertifleet.Model.read(SHIPPED[kind]).header
     save(twin, tmp_path / "again.safetensors")
-    # The shipped files may be of an earlier format; what is written is of the present one.
+    # The shipped files may have an earlier format; new files have the current one.
     again = (tmp_path / "again.safetensors").read_bytes()
     assert again == vertifleet.Model.read(SHIPPED[kind]).to_bytes()
     save(load(again), tmp_path / "once-more.safetensors")
@@ -147,7 +147,7 @@ def test_fresh_weights_are_read_by_the_program_and_answer_alike(kind, tmp_path):
 
 @pytest.mark.parametrize(("kind", "days"), [("gcaps", 100), ("mlp", 10)])
 def test_a_twin_decides_as_the_program_does(kind, days):
-    # Rounding decides nothing here: no two best logits are closer than 1e-4 on these days.
+    # Rounding cannot change a choice here: no two best logits are closer than 1e-4 on these days.
     twin = load(SHIPPED[kind])
     for seed in range(1, days + 1):
         day = NETWORK.draw(seed)
@@ -176,7 +176,7 @@ def test_only_what_is_said_anew_changes_in_a_header(tmp_path):
 
 
 def parts(path):
-    """A file's tensors, and its header as a dict."""
+    """The tensors of a file, and its header as a dict."""
     file = path.read_bytes()
     (length,) = struct.unpack_from("<Q", file)
     text = json.loads(file[8 : 8 + length])["__metadata__"]["vertifleet"]
@@ -184,7 +184,7 @@ def parts(path):
 
 
 def damaged(change):
-    """The bytes of a file after `change` was done to its tensors and its header."""
+    """The bytes of a file after `change` was applied to its tensors and its header."""
     tensors, header = parts(SHIPPED["gcaps-x"])
     change(tensors, header)
     return safetensors.save(tensors, metadata={"vertifleet": json.dumps(header)})

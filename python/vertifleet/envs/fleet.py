@@ -18,7 +18,7 @@ from vertifleet.envs.spaces import Info, Observation, observation_space
 
 
 class FleetEnv(Copied, gymnasium.Env[Observation, np.int64]):
-    """One aircraft after the other needs a decision: to which vertiport does it fly next?
+    """An environment in which one aircraft after the other needs a choice of where it flies next.
 
     The action is the position of a vertiport; the aircraft's own vertiport means hold. An action that is not
     feasible holds, and sets ``info["invalid_action"]``. The mask of feasible actions is given as
@@ -27,8 +27,8 @@ class FleetEnv(Copied, gymnasium.Env[Observation, np.int64]):
     or each flight's share when it is decided (``"dense"``).
 
     `reset` draws a training day from ``np_random``, or plays ``options={"scenario": scenario}``; the name of
-    the day is ``info["day"]``. The last step's info has the day's numbers as ``summary``. An environment can be copied
-    and pickled in the middle of a day; copies share its network and spaces.
+    the day is ``info["day"]``. The last step's info has the day's numbers as ``summary``. An environment can
+    be copied and pickled in the middle of a day; copies share its network and spaces.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - declared so by Gymnasium

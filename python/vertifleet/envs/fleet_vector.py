@@ -57,7 +57,7 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         self._final_mask = final[-1]
         self._latest = 0
         self._generators: list[np.random.Generator] = []
-        # Numbers of the next days, drawn early so that a new day can begin in the step in which one ends.
+        # Numbers of the next days, drawn early so that a day can begin in the step in which one ends.
         self._numbers = np.zeros(num_envs, np.uint64)
 
     def reset(
@@ -70,8 +70,8 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
 
         Args:
             seed: environment i gets seed + i, or the i-th of a list or array.
-            options: "reset_mask" (array of bool [num_envs]) selects the environments to reset; "scenario" is a
-                day that they all play instead of a training day.
+            options: "reset_mask" (array of bool [num_envs]) selects the environments to reset; "scenario" is
+                a day that they all play instead of a training day.
 
         Raises:
             Error: V451 for a seed that is not a whole number, other options, a mask that is not valid or
@@ -111,14 +111,14 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         return self._masks[self._latest].astype(np.bool_)
 
     def scenarios(self) -> list[Scenario | None]:
-        """For every environment the day in progress, or the day that ended last; None before the first day."""
+        """For every environment the day in progress, or the one that ended last; None before the first."""
         return [self._batch.scenario(at) for at in range(self.num_envs)]
 
     def _observation(self) -> Observation:
         return dict(self._observations[self._latest])
 
     def _info(self, invalid: NDArray[np.bool_], which: NDArray[np.bool_]) -> Info:
-        """The info of the environments that `which` selects; the array of masks has those of all others too."""
+        """The info of the environments in `which`; the array of masks has those of all others too."""
         return {
             "action_mask": self._masks[self._latest],
             "_action_mask": which,

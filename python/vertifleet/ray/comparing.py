@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
-from vertifleet._compare import Asked, network_of
+from vertifleet._compare import ComparisonRequest, network_of
 from vertifleet._sweep import Sweep, together, variations
 from vertifleet.ray.tasks import comparisons
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Iterable, Mapping
 
-    from vertifleet._compare import Given
+    from vertifleet._compare import PolicySource
     from vertifleet._native import Comparison, Network
 
 
@@ -22,7 +22,7 @@ def compare(
     *,
     days: SupportsIndex = 100,
     seed: SupportsIndex = 1,
-    models: Mapping[str, Given] | None = None,
+    models: Mapping[str, PolicySource] | None = None,
     bound: bool = False,
     step: SupportsIndex = 5,
     policy_seed: SupportsIndex | None = None,
@@ -54,8 +54,10 @@ def compare(
         Error: as :func:`vertifleet.compare`; V409 if a node has another version of the package.
     """
     network = network_of(network)
-    asked = Asked.of("vertifleet.ray.compare", policies, days, seed, models, bound, step, policy_seed)
-    return comparisons([network], asked, days_per_task)[0]
+    request = ComparisonRequest.of(
+        "vertifleet.ray.compare", policies, days, seed, models, bound, step, policy_seed
+    )
+    return comparisons([network], request, days_per_task)[0]
 
 
 def sweep(
@@ -65,7 +67,7 @@ def sweep(
     *,
     days: SupportsIndex = 100,
     seed: SupportsIndex = 1,
-    models: Mapping[str, Given] | None = None,
+    models: Mapping[str, PolicySource] | None = None,
     bound: bool = False,
     step: SupportsIndex = 5,
     policy_seed: SupportsIndex | None = None,
@@ -92,6 +94,8 @@ def sweep(
     """
     network = network_of(network)
     points = variations(network, changes)
-    asked = Asked.of("vertifleet.ray.compare", policies, days, seed, models, bound, step, policy_seed)
-    found = comparisons([variation for _, variation in points], asked, days_per_task)
-    return Sweep(network.name, asked.policies, together(points, found))
+    request = ComparisonRequest.of(
+        "vertifleet.ray.compare", policies, days, seed, models, bound, step, policy_seed
+    )
+    found = comparisons([variation for _, variation in points], request, days_per_task)
+    return Sweep(network.name, request.policies, together(points, found))

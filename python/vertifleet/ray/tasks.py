@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ray import ObjectRef
 
     from vertifleet import Network
-    from vertifleet._compare import Asked, Given
+    from vertifleet._compare import ComparisonRequest, PolicySource
 
     Task: TypeAlias = ObjectRef[Comparison]
     Part: TypeAlias = tuple[ObjectRef[Network], int, int]
@@ -38,41 +38,43 @@ GLANCE_S = 0.5
 """Seconds between two checks of which tasks are done and how many CPUs there are."""
 
 
-def without_files(asked: Asked) -> Asked:
+def without_files(request: ComparisonRequest) -> ComparisonRequest:
     """The request with weight files replaced by their models, so that nodes need no files."""
-    models = {name: _read(given) for name, given in asked.models.items()}
-    return replace(asked, models=models)
+    models = {name: _read(given) for name, given in request.models.items()}
+    return replace(request, models=models)
 
 
-def _read(given: Given) -> Given:
+def _read(given: PolicySource) -> PolicySource:
     return given if isinstance(given, Model) or callable(given) else Model.read(given)
 
 
 @ray.remote(num_cpus=1, max_retries=-1)
-def play(asked: Asked, here: str, network: Network, days: int, seed: int) -> Comparison:
+def play(request: ComparisonRequest, here: str, network: Network, days: int, seed: int) -> Comparison:
     """Plays some days, the first with seed `seed`; `here` is the package version of the calling process."""
     found = version("vertifleet")
     if found != here:
         rule = f"the parts do not go together: vertifleet {found} on a node, {here} here"
         raise Error("V409", rule, "install the same version on all nodes")
-    return asked.compare(network, days, seed, threads=1)
+    return request.compare(network, days, seed, threads=1)
 
 
-def comparisons(networks: Sequence[Network], asked: Asked, days_per_task: int | None) -> list[Comparison]:
+def comparisons(
+    networks: Sequence[Network], request: ComparisonRequest, days_per_task: int | None
+) -> list[Comparison]:
     """Runs a comparison on each of the networks, all on days of the same seeds."""
     if days_per_task is not None and days_per_task < 1:
         raise Error("V451", f"days_per_task must be at least 1, found {days_per_task}")
-    asked = without_files(asked)
-    asked.check(networks, stacklevel=4)
+    request = without_files(request)
+    request.check(networks, stacklevel=4)
     if not ray.is_initialized():
         ray.init()
-    most = days_per_task or _days_per_task(asked.days * len(networks))
+    most = days_per_task or _days_per_task(request.days * len(networks))
     parts = [
-        (here, number, asked.seed + first)
+        (here, number, request.seed + first)
         for here in map(ray.put, networks)
-        for first, number in _parts(asked.days, most)
+        for first, number in _parts(request.days, most)
     ]
-    found = _play(ray.put(asked), parts)
+    found = _play(ray.put(request), parts)
     each = len(found) // len(networks)
     return [Comparison.join(found[at : at + each]) for at in range(0, len(found), each)]
 
@@ -86,7 +88,7 @@ def _parts(days: int, most: int) -> Iterator[tuple[int, int]]:
     return ((first, min(most, days - first)) for first in range(0, days, most))
 
 
-def _play(asked: ObjectRef[Asked], parts: Sequence[Part]) -> list[Comparison]:
+def _play(request: ObjectRef[ComparisonRequest], parts: Sequence[Part]) -> list[Comparison]:
     """Plays the parts and returns their comparisons in order. After an error or Ctrl-C, no part is begun.
 
     Tasks in flight then run to their end in the background: `ray.cancel` of a task that ends at the same time
@@ -99,7 +101,7 @@ def _play(asked: ObjectRef[Asked], parts: Sequence[Part]) -> list[Comparison]:
         while len(found) < len(parts):
             begun = len(found) + len(playing)
             for part in range(begun, min(begun + _room(len(playing)), len(parts))):
-                playing[play.remote(asked, version("vertifleet"), *parts[part])] = part
+                playing[play.remote(request, version("vertifleet"), *parts[part])] = part
             done, _ = ray.wait(list(playing), timeout=GLANCE_S)
             for task in done:
                 part = playing.pop(task)

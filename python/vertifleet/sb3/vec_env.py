@@ -108,13 +108,13 @@ class FleetVecEnv(VecEnv):
     def env_method(
         self, method_name: str, *method_args: Any, indices: VecEnvIndices = None, **method_kwargs: Any
     ) -> list[Any]:
-        """The results of a method for single days; the only one is "action_masks", which MaskablePPO calls."""
+        """The results of a method for single days: only "action_masks", which MaskablePPO calls."""
         if method_name != "action_masks" or method_args or method_kwargs:
             raise AttributeError(f"single days have a method action_masks(), no {method_name}")
         return [self._masks[day] for day in self._get_indices(indices)]
 
     def env_is_wrapped(self, wrapper_class: Any, indices: VecEnvIndices = None) -> list[bool]:
-        """Claims that days are wrapped in a Monitor, because their infos report a day's end as a Monitor's do.
+        """Claims that days are wrapped in a Monitor, since their infos report a day's end as a Monitor does.
 
         So evaluations take the day's reward from the infos, not the scaled rewards that are learned from.
         """

@@ -93,7 +93,8 @@ class Hops(nn.Module):
 
     It uses powers of L / N instead of L = D - A, which give the same family of functions (W_pa = V_pa / N^a)
     with all terms on one scale. On the complete graph, L / N subtracts the mean over the nodes, and
-    subtracting it twice is the same as once, so the sum is ``F (V_p0 + V_p1 + V_p2) - mean(F) (V_p1 + V_p2)``.
+    subtracting it twice is the same as once, so the sum is ``F (V_p0 + V_p1 + V_p2) - mean(F) (V_p1 +
+    V_p2)``.
     """
 
     def __init__(self, width: int) -> None:

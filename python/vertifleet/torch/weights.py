@@ -1,7 +1,7 @@
 """Weight files in both directions: the program reads files saved here, and files of the program load here.
 
-The program's own reader (:class:`vertifleet.Model`) reads, checks and writes the files: a file that loads here
-loads in the program, and a damaged file is refused with the same message.
+The program's own reader (:class:`vertifleet.Model`) reads, checks and writes the files: a file that loads
+here loads in the program, and a damaged file is refused with the same message.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def save(
             bounds, V102 if the file cannot be written, V451 if the arguments do not fit.
     """
     network = None if network is None else network_of(network)
-    said = _said(twin, network, settings, seed, steps)
+    said = _arguments_text(twin, network, settings, seed, steps)
     anew = {member: value for member, value in said.items() if value is not None}
     header = _new_header(twin, said) if twin.header is None else twin.header | anew
     _write(twin, path, header)
@@ -91,7 +91,7 @@ def save_trained(
     steps: int,
 ) -> None:
     """Like :func:`save`, for weights that were trained anew: the header of an earlier file is dropped."""
-    _write(twin, path, _new_header(twin, _said(twin, network, settings, seed, steps)))
+    _write(twin, path, _new_header(twin, _arguments_text(twin, network, settings, seed, steps)))
 
 
 def _write(twin: Twin, path: str | os.PathLike[str], header: Mapping[str, Any]) -> None:
@@ -113,7 +113,7 @@ def _of(header: Mapping[str, Any]) -> Twin:
                 return Mlp(header["shape"]["vertiports"], **sizes)
 
 
-def _said(
+def _arguments_text(
     twin: Twin,
     network: Network | None,
     settings: Mapping[str, Any] | None,

@@ -13,9 +13,9 @@ use crate::args::BoundArguments;
 use crate::commands::{read_scenario, warn_of_days};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
-use crate::mean_worth::{self, Mean};
+use crate::mean_shadow_prices::{self, Mean};
 use crate::output::print;
-use crate::worth;
+use crate::shadow_prices;
 
 pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
@@ -64,9 +64,9 @@ impl<'a> Day<'a> {
             "upper_bound_usd": bound.upper_bound_usd(),
             "step_s": bound.step_s(),
             "seconds": seconds,
-            "stand_worth_usd": worth::of_stands(scenario, bound),
-            "charger_worth_usd": worth::of_chargers(scenario, bound),
-            "passenger_worth_usd": worth::of_passengers(scenario, bound),
+            "stand_shadow_price_usd": shadow_prices::of_stands(scenario, bound),
+            "charger_shadow_price_usd": shadow_prices::of_chargers(scenario, bound),
+            "passenger_shadow_price_usd": shadow_prices::of_passengers(scenario, bound),
         })
     }
 
@@ -79,7 +79,7 @@ impl<'a> Day<'a> {
                 self.bound.step_s() / 60
             ),
         ];
-        lines.extend(worth::lines(self.scenario, &self.bound));
+        lines.extend(shadow_prices::lines(self.scenario, &self.bound));
         lines
     }
 }
@@ -95,7 +95,7 @@ fn pairs<'a>(days: &'a [Day<'a>]) -> Vec<(&'a Scenario, &'a Bound)> {
 }
 
 fn numbers_of_days(days: &[Day<'_>]) -> Value {
-    let mut mean = mean_worth::numbers(&pairs(days));
+    let mut mean = mean_shadow_prices::numbers(&pairs(days));
     mean.insert("upper_bound_usd".to_owned(), mean_bound(days).number());
     json!({ "days": days.iter().map(Day::numbers).collect::<Vec<_>>(), "mean": mean })
 }
@@ -107,6 +107,6 @@ fn lines_of_days(days: &[Day<'_>]) -> Vec<String> {
         format!("  {name:<15} {bound_usd:>12.2} $    steps of {} min", day.bound.step_s() / 60)
     }));
     lines.push(format!("  {:<15} {}", "mean", mean_bound(days).text()));
-    lines.extend(mean_worth::lines(&pairs(days)));
+    lines.extend(mean_shadow_prices::lines(&pairs(days)));
     lines
 }

@@ -18,7 +18,7 @@ use crate::commands::read_scenario;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::worth::{self, PassengerWorth};
+use crate::shadow_prices::{self, PassengerShadowPrice};
 
 pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let scenario = Arc::new(read_scenario(&arguments.scenario)?);
@@ -63,8 +63,8 @@ struct Numbers<'a> {
     bound_is_final: Option<bool>,
     seconds: f64,
     steps: u64,
-    stand_worth_usd: Option<Map<String, Value>>,
-    passenger_worth_usd: Option<Vec<PassengerWorth<'a>>>,
+    stand_shadow_price_usd: Option<Map<String, Value>>,
+    passenger_shadow_price_usd: Option<Vec<PassengerShadowPrice<'a>>>,
 }
 
 impl<'a> Numbers<'a> {
@@ -79,8 +79,9 @@ impl<'a> Numbers<'a> {
             bound_is_final: bound.map(Bound::is_final),
             seconds,
             steps: plan.steps,
-            stand_worth_usd: bound.map(|bound| worth::of_stands(scenario, bound)),
-            passenger_worth_usd: bound.map(|bound| worth::of_passengers(scenario, bound)),
+            stand_shadow_price_usd: bound.map(|bound| shadow_prices::of_stands(scenario, bound)),
+            passenger_shadow_price_usd: bound
+                .map(|bound| shadow_prices::of_passengers(scenario, bound)),
         }
     }
 }
@@ -111,6 +112,6 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
     lines.push(format!(
         "  gap             {gap_percent:>12.2} %    {share}: no schedule is further ahead of this one"
     ));
-    lines.extend(worth::lines(scenario, bound));
+    lines.extend(shadow_prices::lines(scenario, bound));
     lines.join("\n")
 }

@@ -1,6 +1,6 @@
-"""Writes gcaps.json and mlp.json: what the networks give in PyTorch, in double precision, with its gradients.
+"""Writes gcaps.json and mlp.json: outputs and gradients of the networks in PyTorch, in double precision.
 
-An independent statement of the networks: Eq. 18-21 to the letter, with the explicit Laplacian and its square, keys
+This is an independent form of the networks: Eq. 18-21 to the letter, with the explicit Laplacian and its square, keys
 and values for all nodes, PyTorch's own layer normalisation and derivatives. Weights and inputs come from a formula on
 whole numbers that ../nn_reference.rs repeats, so only results are stored.
 
@@ -20,7 +20,7 @@ WHOLE = np.uint64(0xFFFFFFFF)
 
 
 def noise(name: str, shape: tuple[int, ...]) -> np.ndarray:
-    """Numbers in [-1, 1), exact in single precision, that the name and their index decide."""
+    """Numbers in [-1, 1), exact in single precision, that follow from a name and their index."""
     start = 2166136261
     for byte in name.encode():
         start = (start ^ byte) * 16777619 & 0xFFFFFFFF
@@ -52,7 +52,7 @@ def gcaps(sizes: dict, w: dict, nodes, aircraft, clock):
     capsules = []
     for p in (1, 2):
         f = f0 if p == 1 else f0 * f0
-        # W_pa = V_pa / N^a: the networks store V_pa.
+        # The networks store V_pa, and W_pa = V_pa / N^a.
         terms = [powers[a] @ f @ (w[f"encoder.moment_{p}.hop_{a}.weight"] / n**a) for a in (0, 1, 2)]
         capsules.append(relu(terms[0] + terms[1] + terms[2]))
     f1 = torch.cat(capsules, dim=-1)

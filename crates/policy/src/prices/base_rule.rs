@@ -26,17 +26,17 @@ impl BaseRule {
     pub(super) fn best(prices: &DayPrices, view: View<'_>, room: &mut Option<Imagined>) -> Self {
         let mut played_out = |rule: Self| {
             let day = view.imagined_in(room);
-            let mut empty_flights = 0_u32;
+            let mut repositioning_flights = 0_u32;
             while let Some(decision) = day.next_decision() {
                 let choice = rule.choice(prices, day.view(), &decision);
                 let row = day.apply(choice).expect("every rule chooses from the mask");
-                empty_flights += u32::from(row.to != row.from && row.passengers == 0);
+                repositioning_flights += u32::from(row.to != row.from && row.passengers == 0);
             }
-            (day.ledger().profit_usd(), empty_flights)
+            (day.ledger().profit_usd(), repositioning_flights)
         };
-        let (prices_usd, empty_flights) = played_out(Self::Prices);
+        let (prices_usd, repositioning_flights) = played_out(Self::Prices);
         let mut best = (prices_usd, Self::Prices);
-        let others: &[Self] = match empty_flights {
+        let others: &[Self] = match repositioning_flights {
             0 => &[Self::Greedy],
             _ => &[Self::PricesCarrying, Self::Greedy],
         };
@@ -73,12 +73,12 @@ impl BaseRule {
     /// Whether an aircraft may make a choice under a rule that decides by prices.
     #[inline]
     pub(super) fn allows(self, view: View<'_>, decision: &Decision, to: VertiportIx) -> bool {
-        self == Self::Prices || !is_empty_flight(view, decision, to)
+        self == Self::Prices || !is_repositioning(view, decision, to)
     }
 }
 
 /// Whether a choice is a flight without passengers.
 #[inline]
-pub(crate) fn is_empty_flight(view: View<'_>, decision: &Decision, to: VertiportIx) -> bool {
+pub(crate) fn is_repositioning(view: View<'_>, decision: &Decision, to: VertiportIx) -> bool {
     to != decision.at && view.demand_left(view.period(), decision.at, to) == 0
 }

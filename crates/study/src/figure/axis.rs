@@ -16,7 +16,8 @@ impl Scale {
     /// If all values are equal, there is room on either side of them; without values the scale goes from 0 to 1.
     pub(super) fn around(
         values: impl Iterator<Item = f64>,
-        (from, to): (f64, f64),
+        from: f64,
+        to: f64,
         ticks: usize,
     ) -> Self {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -73,7 +74,7 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_inside() {
-        let scale = Scale::around([0.0, 97.0].into_iter(), (0.0, 100.0), 5);
+        let scale = Scale::around([0.0, 97.0].into_iter(), 0.0, 100.0, 5);
         assert_eq!(scale.ticks(), [0.0, 25.0, 50.0, 75.0, 100.0]);
         assert_eq!(scale.decimals(1.0), 0);
         assert_eq!(scale.decimals(1000.0), 3);
@@ -82,7 +83,7 @@ mod tests {
     #[test]
     fn values_that_do_not_differ_stand_in_the_middle() {
         for value in [0.0, -3.0, 40_000.0] {
-            let scale = Scale::around([value, value].into_iter(), (10.0, 20.0), 5);
+            let scale = Scale::around([value, value].into_iter(), 10.0, 20.0, 5);
             assert!((scale.pixel(value) - 15.0).abs() < 1e-9);
             assert!(!scale.ticks().is_empty());
         }
@@ -90,7 +91,7 @@ mod tests {
 
     #[test]
     fn a_scale_of_no_values_is_still_a_scale() {
-        let scale = Scale::around([].into_iter(), (0.0, 100.0), 5);
+        let scale = Scale::around([].into_iter(), 0.0, 100.0, 5);
         assert!(scale.ticks().iter().all(|tick| tick.is_finite()));
     }
 }

@@ -126,7 +126,7 @@ fn draw(summary: &ComparisonReport, measure: &Measure, source: &str) -> Figure {
     let left = names.map(|name| text_width(&name, 13.0)).fold(least, f64::max) + 32.0;
     let values = policies.iter().flat_map(|policy| (measure.daily)(policy).iter().copied());
     let limit = measure.limit.map(|(limit, _)| limit);
-    let scale = Scale::around(values.chain(limit), (left, WIDTH - RIGHT), 9);
+    let scale = Scale::around(values.chain(limit), left, WIDTH - RIGHT, 9);
 
     let mut canvas = Canvas::new(WIDTH, bottom + BOTTOM, measure.title, &measure.subtitle);
     let dots = summary.days <= MOST_DOTS;

@@ -36,7 +36,7 @@ pub(super) fn figure(summary: &ComparisonReport) -> Option<Figure> {
         format!("{} minus {}, day by day", shortened(&first.name, 22), shortened(&second.name, 22));
     let mut canvas =
         Canvas::new(WIDTH, HEIGHT, &title, "Difference of the daily profit on the same day, $");
-    let scale = Scale::around(differences.iter().copied().chain([0.0]), (HEIGHT - BOTTOM, TOP), 6);
+    let scale = Scale::around(differences.iter().copied().chain([0.0]), HEIGHT - BOTTOM, TOP, 6);
     draw_axis(&mut canvas, &scale);
     let bars = bars(&differences, &scale);
     let (ahead, behind) = looks(comparison);

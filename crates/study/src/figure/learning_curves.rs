@@ -1,4 +1,5 @@
-//! Learning curves: mean reward against decisions learned from, on the training days (Fig. 3) and on the validation days.
+//! Learning curves: mean reward against decisions learned from, on the training days (Fig. 3) and on the validation
+//! days.
 
 use super::Figure;
 use super::axis::Scale;
@@ -7,7 +8,6 @@ use super::key;
 use super::palette::{Paint, dash};
 use crate::numbers::{grouped, typeset};
 use crate::origin::NetworkOrigin;
-use crate::record::LearningCurve;
 use crate::summary::ComparisonReport;
 
 const WIDTH: f64 = 760.0;
@@ -54,7 +54,7 @@ const ON_VALIDATION_DAYS: Chart = Chart {
 };
 
 /// The training runs of a policy; the first is the run whose weights play.
-struct Lesson<'a> {
+struct PolicyCurves<'a> {
     name: &'a str,
     runs: Vec<Vec<Point>>,
 }
@@ -68,19 +68,20 @@ struct Lines {
 
 /// Fig. 3; `None` if no curve has a point.
 pub(super) fn on_training_days(summary: &ComparisonReport) -> Option<Figure> {
-    let curves = summary.curves.iter();
-    let lesson = |curve: &'_ LearningCurve| vec![defined(&curve.points)];
-    let lessons = curves.map(|curve| Lesson { name: &curve.name, runs: lesson(curve) });
-    draw(summary, &ON_TRAINING_DAYS, lessons.collect())
+    let policies = summary
+        .curves
+        .iter()
+        .map(|curve| PolicyCurves { name: &curve.name, runs: vec![defined(&curve.points)] });
+    draw(summary, &ON_TRAINING_DAYS, policies.collect())
 }
 
 /// The learning curves on the validation days, with a line for each run; `None` if no policy was trained.
 pub(super) fn on_validation_days(summary: &ComparisonReport) -> Option<Figure> {
-    let lessons = summary.trainings.iter().map(|training| Lesson {
+    let policies = summary.trainings.iter().map(|training| PolicyCurves {
         name: &training.policy,
         runs: training.curves.iter().map(|run| defined(run)).collect(),
     });
-    draw(summary, &ON_VALIDATION_DAYS, lessons.collect())
+    draw(summary, &ON_VALIDATION_DAYS, policies.collect())
 }
 
 /// The points of a curve; before the first day ends there is no mean reward to draw.
@@ -89,28 +90,32 @@ fn defined(points: &[(u64, f64)]) -> Vec<Point> {
     points.map(|&(steps, reward)| (steps as f64, reward)).collect()
 }
 
-fn draw(summary: &ComparisonReport, chart: &Chart, mut lessons: Vec<Lesson<'_>>) -> Option<Figure> {
-    lessons.retain(|lesson| lesson.runs.iter().any(|run| !run.is_empty()));
-    if lessons.is_empty() {
+fn draw(
+    summary: &ComparisonReport,
+    chart: &Chart,
+    mut policies: Vec<PolicyCurves<'_>>,
+) -> Option<Figure> {
+    policies.retain(|policy| policy.runs.iter().any(|run| !run.is_empty()));
+    if policies.is_empty() {
         return None;
     }
-    let names: Vec<String> = lessons.iter().map(|lesson| shortened(lesson.name, 22)).collect();
+    let names: Vec<String> = policies.iter().map(|policy| shortened(policy.name, 22)).collect();
     let (places, last_row) = key::places(&names, KEY_LINE, WIDTH);
     let top = last_row + 24.0;
     let floor = top + PLOT_HEIGHT;
-    let values = || lessons.iter().flat_map(|lesson| &lesson.runs).flatten();
-    let x = Scale::around(values().map(|p| p.0).chain([0.0]), (LEFT, WIDTH - RIGHT), 6);
-    let y = Scale::around(values().map(|p| p.1), (floor, top), 6);
+    let values = || policies.iter().flat_map(|policy| &policy.runs).flatten();
+    let x = Scale::around(values().map(|p| p.0).chain([0.0]), LEFT, WIDTH - RIGHT, 6);
+    let y = Scale::around(values().map(|p| p.1), floor, top, 6);
     let pixels = |run: &Vec<Point>| run.iter().map(|p| (x.pixel(p.0), y.pixel(p.1))).collect();
-    let lines = lessons.iter().zip(names).enumerate().map(|(position, (lesson, name))| Lines {
+    let lines = policies.iter().zip(names).enumerate().map(|(position, (policy, name))| Lines {
         name,
-        series: series(summary, lesson.name, position),
-        runs: lesson.runs.iter().map(pixels).collect(),
+        series: series(summary, policy.name, position),
+        runs: policy.runs.iter().map(pixels).collect(),
     });
     let lines: Vec<Lines> = lines.collect();
 
     let mut canvas = Canvas::new(WIDTH, floor + BOTTOM, chart.title, chart.subtitle);
-    draw_axes(&mut canvas, (&x, chart.axis), &y, floor);
+    draw_axes(&mut canvas, &x, chart.axis, &y, floor);
     for lines in &lines {
         draw_lines(&mut canvas, lines);
     }
@@ -146,7 +151,7 @@ fn series(summary: &ComparisonReport, name: &str, position: usize) -> usize {
     policy.unwrap_or(summary.policies.len() + position)
 }
 
-fn draw_axes(canvas: &mut Canvas, (x, axis): (&Scale, &str), y: &Scale, floor: f64) {
+fn draw_axes(canvas: &mut Canvas, x: &Scale, axis: &str, y: &Scale, floor: f64) {
     let decimals = y.decimals(1.0);
     for tick in y.ticks() {
         let height = y.pixel(tick);

@@ -69,13 +69,10 @@ fn draw_panel(canvas: &mut Canvas, summary: &GeneralisationReport, size: &Size, 
     let floor = top + PANEL_HEIGHT;
     let networks = || summary.networks.iter();
     let shares = networks().flat_map(|network| &network.results).map(|outcome| outcome.bound_share);
-    let x = Scale::around(
-        networks().map(|network| (size.of)(network) as f64),
-        (LEFT, WIDTH - RIGHT),
-        8,
-    );
-    let y = Scale::around(shares.map(|share| 100.0 * share).chain([100.0]), (floor, top), 6);
-    draw_axes(canvas, (&x, &y), size.axis, (top, floor));
+    let x =
+        Scale::around(networks().map(|network| (size.of)(network) as f64), LEFT, WIDTH - RIGHT, 8);
+    let y = Scale::around(shares.map(|share| 100.0 * share).chain([100.0]), floor, top, 6);
+    draw_axes(canvas, &x, &y, size.axis, top, floor);
     // Marks are drawn policy by policy: where marks overlap, those of the policy named later are visible.
     for (position, _) in summary.policies.iter().enumerate() {
         for network in networks() {
@@ -85,7 +82,7 @@ fn draw_panel(canvas: &mut Canvas, summary: &GeneralisationReport, size: &Size, 
     }
 }
 
-fn draw_axes(canvas: &mut Canvas, (x, y): (&Scale, &Scale), name: &str, (top, floor): (f64, f64)) {
+fn draw_axes(canvas: &mut Canvas, x: &Scale, y: &Scale, name: &str, top: f64, floor: f64) {
     let small = |anchor| Lettering::SMALL.anchored(anchor);
     canvas.text((16.0, top - 10.0), Lettering::SMALL, "share of the bound, %");
     let decimals = y.decimals(1.0);

@@ -23,8 +23,8 @@ KINDS: dict[str, type[Gcaps] | type[Mlp]] = {"gcaps": Gcaps, "mlp": Mlp}
 class FleetModule(TorchRLModule, ValueFunctionAPI):
     """A network of the program, which decides among the feasible vertiports.
 
-    Its ``model_config`` has the ``policy``, "gcaps" or "mlp", and the ``sizes`` of its layers, which are those
-    of the shipped weights by default.
+    Its ``model_config`` has the ``policy``, "gcaps" or "mlp", and the ``sizes`` of its layers, which are
+    those of the shipped weights by default.
     """
 
     def setup(self) -> None:

@@ -54,7 +54,7 @@ pub(crate) struct DecoderSpace {
     branch_slopes: Vec<f32>,
 }
 
-/// What the encoder gave, and where its slopes go.
+/// The output of the encoder, and the place for its slopes.
 pub(crate) struct Capsules<'a> {
     pub(crate) values: &'a [f32],
     pub(crate) slopes: &'a mut [f32],

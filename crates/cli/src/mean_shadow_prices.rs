@@ -1,11 +1,11 @@
-//! The shadow prices of stands and passengers in the mean of several days.
+//! The mean shadow prices of stands and passengers over several days.
 
 use serde_json::{Map, Value, json};
 use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_optimize::Bound;
 use vertifleet_study::statistics::{mean, standard_deviation};
 
-use crate::worth::{self, ALL_STANDS, PASSENGERS, PassengerWorth, SHOWN_PASSENGERS};
+use crate::shadow_prices::{self, ALL_STANDS, PASSENGERS, PassengerShadowPrice, SHOWN_PASSENGERS};
 
 /// A mean over days.
 #[derive(Debug, Clone, Copy)]
@@ -34,34 +34,36 @@ impl Mean {
     }
 }
 
-/// The mean worth of one more stand, by vertiport.
+/// The mean shadow price of one more stand, by vertiport.
 fn of_stands(days: &[(&Scenario, &Bound)]) -> Vec<(String, Mean)> {
     let Some((first, _)) = days.first() else { return Vec::new() };
     let mean = |at: VertiportIx| {
-        let worth: Vec<f64> = days.iter().map(|(_, bound)| bound.stand_worth_usd(at)).collect();
-        (first.vertiports[at.at()].id.clone(), Mean::of(&worth))
+        let prices: Vec<f64> =
+            days.iter().map(|(_, bound)| bound.stand_shadow_price_usd(at)).collect();
+        (first.vertiports[at.at()].id.clone(), Mean::of(&prices))
     };
     VertiportIx::all(first.vertiports.len()).map(mean).collect()
 }
 
-/// The mean worth of one more passenger, by pair and period, highest first. Only those with a worth on some day are
-/// listed. A day on which the worth is zero, or which has no such period, counts as zero.
+/// The mean shadow price of one more passenger, by pair and period, highest first. Only those with a price above zero
+/// on some day are listed. A day on which the price is zero, or which has no such period, counts as zero.
 fn of_passengers(days: &[(&Scenario, &Bound)]) -> Vec<([String; 3], Mean)> {
-    let mut worths: Vec<([String; 3], Vec<f64>)> = Vec::new();
+    let mut prices: Vec<([String; 3], Vec<f64>)> = Vec::new();
     let mut places = std::collections::BTreeMap::new();
     for (number, (scenario, bound)) in days.iter().enumerate() {
-        for PassengerWorth { from, to, period, worth_usd } in worth::of_passengers(scenario, bound)
+        for PassengerShadowPrice { from, to, period, shadow_price_usd } in
+            shadow_prices::of_passengers(scenario, bound)
         {
             let key = [from.to_owned(), to.to_owned(), period];
             let place = *places.entry(key.clone()).or_insert_with(|| {
-                worths.push((key, vec![0.0; days.len()]));
-                worths.len() - 1
+                prices.push((key, vec![0.0; days.len()]));
+                prices.len() - 1
             });
-            worths[place].1[number] = worth_usd;
+            prices[place].1[number] = shadow_price_usd;
         }
     }
     let mut means: Vec<_> =
-        worths.into_iter().map(|(key, worths)| (key, Mean::of(&worths))).collect();
+        prices.into_iter().map(|(key, prices)| (key, Mean::of(&prices))).collect();
     means.sort_by(|one, other| {
         other.1.mean.total_cmp(&one.1.mean).then_with(|| one.0.cmp(&other.0))
     });
@@ -90,9 +92,9 @@ pub(crate) fn numbers(days: &[(&Scenario, &Bound)]) -> Map<String, Value> {
         })
     });
     let numbers = [
-        ("stand_worth_usd", json!(by_id(&|_| true))),
-        ("charger_worth_usd", json!(by_id(&separate))),
-        ("passenger_worth_usd", passengers.collect()),
+        ("stand_shadow_price_usd", json!(by_id(&|_| true))),
+        ("charger_shadow_price_usd", json!(by_id(&separate))),
+        ("passenger_shadow_price_usd", passengers.collect()),
     ];
     numbers.map(|(name, number)| (name.to_owned(), number)).into_iter().collect()
 }
@@ -110,6 +112,6 @@ pub(crate) fn lines(days: &[(&Scenario, &Bound)]) -> Vec<String> {
     lines.extend(passengers.iter().take(SHOWN_PASSENGERS).map(|([from, to, period], mean)| {
         format!("  {:<15} {}, period from {period}", format!("{from} -> {to}"), mean.text())
     }));
-    lines.extend(worth::more_passengers(passengers.len()));
+    lines.extend(shadow_prices::more_passengers(passengers.len()));
     lines
 }
