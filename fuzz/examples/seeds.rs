@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use vertifleet_core::Network;
 use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
-use vertifleet_learn::{TrainingPlan, TrainingSettings};
+use vertifleet_learn::{TrainingRequest, TrainingSettings};
 
 /// A network of three vertiports, as many as the day of the fuzzed policies has.
 const NETWORK: &str = include_str!("../../crates/core/tests/data/small.toml");
@@ -23,7 +23,7 @@ fn main() {
         let path = folder.join(policy.name());
         let settings = TrainingSettings::preset(&policy, "default").expect("a preset");
         let (network, commit) = (Arc::clone(&network), String::new());
-        let plan = TrainingPlan { network, policy, settings, seed: 1, commit };
+        let plan = TrainingRequest { network, policy, settings, seed: 1, commit };
         let model = plan.start().expect("settings within their bounds").model();
         model.write(&path).expect("a folder of ours");
     }

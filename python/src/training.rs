@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use vertifleet_core::{Outputs, Stop};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{
-    Curve, Error, RunFolder, TrainingPlan, TrainingRun, TrainingSettings, TrainingWatch,
+    Curve, Error, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
 };
 use vertifleet_progress::Bar;
 
@@ -116,7 +116,7 @@ pub(crate) fn train(
     if let Some(settings) = settings {
         change(&mut of_run, settings)?;
     }
-    let plan = TrainingPlan {
+    let plan = TrainingRequest {
         network: Arc::clone(&network.network),
         policy,
         settings: of_run,

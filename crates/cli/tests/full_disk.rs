@@ -81,7 +81,7 @@ fn where_files_meet_a_limit_everything_is_as_it_was() {
 }
 
 #[test]
-fn a_training_that_cannot_be_set_aside_keeps_the_weights_of_the_one_before() {
+fn a_training_whose_checkpoint_cannot_be_written_keeps_the_weights_of_the_one_before() {
     let folder = prepared();
     let at = folder.path();
     let weights = |at: &Path| std::fs::read(at.join("old/mlp.safetensors")).expect("weights");

@@ -14,7 +14,7 @@ use std::time::Instant;
 use common::{folder, run, small_network, vertifleet};
 use vertifleet_core::{Network, Scenario};
 use vertifleet_learn::nn::Architecture;
-use vertifleet_learn::{Curve, Model, TrainingPlan, TrainingSettings};
+use vertifleet_learn::{Curve, Model, TrainingRequest, TrainingSettings};
 use vertifleet_sim::Trace;
 
 /// Number of kills of each command; 25 in total.
@@ -121,12 +121,12 @@ const SETTINGS: [(&str, &str); 6] = [
 ];
 
 /// The training that `--steps 800` with these settings requests.
-fn small_training(at: &Path) -> TrainingPlan {
+fn small_training(at: &Path) -> TrainingRequest {
     let policy = Architecture::named("mlp").expect("a policy with sizes");
     let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
     settings.set(SETTINGS.into_iter().chain([("total_steps", "800")])).expect("good settings");
     let network = Arc::new(Network::read(at.join("small.toml")).expect("our network"));
-    TrainingPlan { network, policy, settings, seed: 1, commit: String::new() }
+    TrainingRequest { network, policy, settings, seed: 1, commit: String::new() }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 use vertifleet_core::FeatureScales;
 
 use crate::nn::{self, Architecture, Shape};
-use crate::run::TrainingPlan;
+use crate::run::TrainingRequest;
 use crate::settings::TrainingSettings;
 use crate::{features, gcaps_x};
 
@@ -78,7 +78,7 @@ struct RawHeader {
 impl Header {
     /// The header of a run's models before its first step.
     pub(crate) fn of_run(
-        plan: &TrainingPlan,
+        plan: &TrainingRequest,
         feature_scales: Option<FeatureScales>,
         shape: FeatureShape,
     ) -> Self {

@@ -2,7 +2,7 @@
 //! models.
 //!
 //! This crate builds on `vertifleet-policy`. A [`Model`] holds a policy's weights and says where they came from; a
-//! [`TrainingPlan`] starts a [`TrainingRun`], which learns by PPO or by imitation of roll-outs; a [`RunFolder`] writes
+//! [`TrainingRequest`] starts a [`TrainingRun`], which learns by PPO or by imitation of roll-outs; a [`RunFolder`] writes
 //! the files of a run.
 //!
 //! ```
@@ -51,7 +51,7 @@ pub use header::{FeatureShape, Header};
 pub use imitation::{ImitationRow, ImitationSettings};
 pub use learned::Learned;
 pub use model::Model;
-pub use ppo::{PpoRow, PpoSettings, Reward, Schedule};
-pub use run::{Curve, RunFolder, TrainingPlan, TrainingRun, TrainingWatch, Work};
+pub use ppo::{LearningRateSchedule, PpoRow, PpoSettings, Reward};
+pub use run::{Curve, RunFolder, TrainingRequest, TrainingRun, TrainingWatch, Work};
 pub use settings::TrainingSettings;
 pub use shipped::{Shipped, shipped};

@@ -9,4 +9,4 @@ mod update;
 
 pub use row::PpoRow;
 pub(crate) use run::PpoRun;
-pub use settings::{PpoSettings, Reward, Schedule};
+pub use settings::{LearningRateSchedule, PpoSettings, Reward};

@@ -30,7 +30,7 @@ use crate::settings::TrainingSettings;
 
 /// What a training run is asked to do.
 #[derive(Debug, Clone)]
-pub struct TrainingPlan {
+pub struct TrainingRequest {
     /// The network whose days are learned from; imitation also learns from days of random networks.
     pub network: Arc<Network>,
     /// The kind of the policy, with its sizes.
@@ -83,7 +83,7 @@ pub struct Work {
     pub units: &'static str,
 }
 
-impl TrainingPlan {
+impl TrainingRequest {
     /// Starts a run.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use rayon::ThreadPoolBuilder;
 use vertifleet_core::{Coded, DaySeed, Network, Purpose, Stop};
 use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
-use vertifleet_learn::{Curve, Error, Model, TrainingPlan, TrainingRun, TrainingSettings};
+use vertifleet_learn::{Curve, Error, Model, TrainingRequest, TrainingRun, TrainingSettings};
 
 fn paper() -> Arc<Network> {
     Arc::new(Network::shipped("paper").expect("a shipped network"))
@@ -26,7 +26,7 @@ fn small_gcaps_x() -> Architecture {
 }
 
 /// A short run of a policy, with these settings changed.
-fn plan_with(policy: Architecture, changes: &[(&str, &str)]) -> TrainingPlan {
+fn plan_with(policy: Architecture, changes: &[(&str, &str)]) -> TrainingRequest {
     let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
     let short: &[(&str, &str)] = match policy {
         Architecture::GcapsX(_) => &[
@@ -50,10 +50,10 @@ fn plan_with(policy: Architecture, changes: &[(&str, &str)]) -> TrainingPlan {
         ],
     };
     settings.set(short.iter().chain(changes).copied()).expect("settings within their bounds");
-    TrainingPlan { network: paper(), policy, settings, seed: 3, commit: "test".to_owned() }
+    TrainingRequest { network: paper(), policy, settings, seed: 3, commit: "test".to_owned() }
 }
 
-fn plan(policy: Architecture) -> TrainingPlan {
+fn plan(policy: Architecture) -> TrainingRequest {
     plan_with(policy, &[])
 }
 
@@ -121,7 +121,7 @@ fn a_run_that_is_stopped_stands_as_before_and_goes_on() {
 }
 
 /// The run whose files in `tests/former` an earlier version left, after some of its rows.
-fn former(policy: Architecture) -> TrainingPlan {
+fn former(policy: Architecture) -> TrainingRequest {
     let (network, settings) = if matches!(policy, Architecture::GcapsX(_)) {
         let end = ("operations.end".to_owned(), "06:30:00".into());
         let short = paper().changed([(&end.0, &end.1)]).expect("a network");
@@ -149,7 +149,7 @@ fn former(policy: Architecture) -> TrainingPlan {
     };
     let mut all = TrainingSettings::preset(&policy, "default").expect("a preset");
     all.set(settings.iter().copied()).expect("settings within their bounds");
-    TrainingPlan { network, policy, settings: all, seed: 3, commit: "v0".to_owned() }
+    TrainingRequest { network, policy, settings: all, seed: 3, commit: "v0".to_owned() }
 }
 
 fn former_file(name: &str) -> PathBuf {
@@ -157,7 +157,7 @@ fn former_file(name: &str) -> PathBuf {
 }
 
 #[test]
-fn a_run_that_an_earlier_version_set_aside_goes_on_to_the_weights_that_it_would_have_left() {
+fn a_checkpoint_of_an_earlier_version_goes_on_to_the_weights_that_it_would_have_left() {
     let mlp = Architecture::Mlp(MlpSettings { width: 4, layers: 1, value_width: 2 });
     let gcaps_x = Architecture::GcapsX(GcapsSettings { width: 4, heads: 2 });
     for (policy, checkpoint, weights) in [
@@ -172,7 +172,7 @@ fn a_run_that_an_earlier_version_set_aside_goes_on_to_the_weights_that_it_would_
     }
 }
 
-fn refused(plan: TrainingPlan, checkpoint: &Path) -> String {
+fn refused(plan: TrainingRequest, checkpoint: &Path) -> String {
     let error = plan.resume(checkpoint).err().expect("another run");
     assert_eq!(error.code().to_string(), "V306", "{error}");
     error.to_string()
@@ -193,17 +193,21 @@ fn a_checkpoint_of_another_run_is_refused() {
         let asked = plan(policy.clone());
         asked.clone().start().expect("a plan").write_checkpoint(&path).expect("a file");
         assert!(
-            refused(TrainingPlan { seed: 9, ..asked.clone() }, &path).contains("seed 3, but 9")
+            refused(TrainingRequest { seed: 9, ..asked.clone() }, &path).contains("seed 3, but 9")
         );
         assert!(refused(plan_with(policy, &[setting]), &path).contains(setting.0));
-        assert!(refused(TrainingPlan { policy: other, ..asked.clone() }, &path).contains("policy"));
+        assert!(
+            refused(TrainingRequest { policy: other, ..asked.clone() }, &path).contains("policy")
+        );
         let text = include_str!("../../../networks/paper.toml")
             .replace("stands = 6\nbusy = true", "stands = 7\nbusy = true");
         let network = Arc::new(Network::from_toml(&text, "changed").expect("a network"));
-        assert!(refused(TrainingPlan { network, ..asked.clone() }, &path).contains("has changed"));
+        assert!(
+            refused(TrainingRequest { network, ..asked.clone() }, &path).contains("has changed")
+        );
         let network = Arc::new(Network::shipped("new-york").expect("a shipped network"));
         assert!(
-            refused(TrainingPlan { network, ..asked.clone() }, &path).contains("network paper")
+            refused(TrainingRequest { network, ..asked.clone() }, &path).contains("network paper")
         );
         assert!(asked.resume(&path).is_ok());
     }
@@ -258,7 +262,7 @@ fn a_damaged_checkpoint_is_refused() {
 
 #[test]
 fn another_seed_gives_other_weights() {
-    let other = TrainingPlan { seed: 4, ..plan(small_gcaps()) };
+    let other = TrainingRequest { seed: 4, ..plan(small_gcaps()) };
     let [one, two] = [plan(small_gcaps()), other].map(|plan| plan.start().expect("a plan").model());
     assert_ne!(one.params(), two.params());
 }
@@ -266,7 +270,8 @@ fn another_seed_gives_other_weights() {
 #[test]
 fn settings_of_another_way_to_learn_are_refused() {
     let settings = plan(small_gcaps_x()).settings;
-    let error = TrainingPlan { settings, ..plan(small_mlp()) }.start().err().expect("no such run");
+    let error =
+        TrainingRequest { settings, ..plan(small_mlp()) }.start().err().expect("no such run");
     assert_eq!(error.code().to_string(), "V303");
 }
 

@@ -19,7 +19,7 @@ mod slices;
 mod time_expanded_day;
 mod ways;
 
-use vertifleet_core::{Scenario, Stop, Time, VertiportIx};
+use vertifleet_core::{Scenario, Stop, VertiportIx};
 
 use crate::Error;
 use descent::Found;
@@ -141,13 +141,13 @@ impl Watch for Unless<'_> {
 
 impl Bound {
     /// The bound that the found prices prove.
-    fn of(step: Step, network: &TimeExpandedDay, found: &Found) -> Self {
+    fn of(step: Step, day: &TimeExpandedDay, found: &Found) -> Self {
         Self {
             step,
-            slices: network.slices.clone(),
-            passenger_shadow_price_usd: network.worth_of_passengers(&found.prices),
+            slices: day.slices.clone(),
+            passenger_shadow_price_usd: day.passenger_shadow_prices(&found.prices),
             prices: found.prices.clone(),
-            micro_usd: found.bound(network),
+            micro_usd: found.bound(day),
             is_final: false,
         }
     }
@@ -166,13 +166,6 @@ impl Bound {
     /// prove more.
     pub fn step_s(&self) -> u32 {
         self.step.seconds()
-    }
-
-    /// Price of one more stand during the slice that contains a time, dollars. 0 past the last take-off time.
-    pub fn stand_price_usd(&self, vertiport: VertiportIx, time: Time) -> f64 {
-        let slice = self.slices.containing(time.seconds());
-        let at = slice * self.size() + vertiport.at();
-        self.prices.stand.get(at).map_or(0.0, |&price| money::usd(price))
     }
 
     /// Price of a stand over the whole day, dollars. With one more stand all day, no schedule earns more than the bound

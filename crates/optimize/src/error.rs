@@ -20,7 +20,7 @@ pub enum Error {
     /// V502. The day is too large for a bound: types x pairs of vertiports x slices, or types x vertiports x seconds.
     /// Fix: a longer step for the first; fewer vertiports, types or hours for the second.
     #[error(
-        "steps of {step_s} s give {flights} possible flights and {places} places and seconds, and a bound takes at most \
+        "slices of {step_s} s give {flights} possible flights and {places} places and seconds, and a bound takes at most \
          {most_flights} and {most_places}"
     )]
     TooManyFlights {

@@ -255,7 +255,7 @@ impl Simulation {
     }
 
     /// The vertiports that the deciding aircraft may choose: its own, and every other within range that has a free
-    /// stand.
+    /// stand and to which the route is not closed.
     #[inline]
     pub(crate) fn feasible(&self, decision: &Decision) -> VertiportSet {
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;

@@ -36,7 +36,8 @@ impl<'a> View<'a> {
         self.scenario().vertiports.len()
     }
 
-    /// The mask: hold, and every other vertiport within range that has a stand free. Never empty.
+    /// The mask: hold, and every other vertiport within range that has a free stand and to which the route is not closed.
+    /// Never empty.
     #[inline]
     pub fn feasible(&self, decision: &Decision) -> VertiportSet {
         self.simulation.feasible(decision)

@@ -11,7 +11,8 @@ use crate::error::Error;
 use crate::numbers::grouped;
 use crate::policy_spec::{PolicySource, PolicySpec, ResolveFor};
 use crate::record::{LearningCurve, ValidationCurves};
-use crate::resolved_policy::{ResolvedPolicy, starting_policies};
+use crate::resolved_policy::ResolvedPolicy;
+use crate::starting_policies::starting_policies;
 
 /// Number of steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; other
 /// days get as many steps as are the same amount of work. There is no time limit, so the plan is the same on every

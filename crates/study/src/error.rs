@@ -176,9 +176,9 @@ impl Coded for Error {
                 Some("name a folder that is yours, or one that is not there yet")
             }
             Self::Empty { .. } => Some("a comparison takes at least one policy and one day"),
-            Self::DuplicatePolicy { .. } => Some(
-                "give a second model of the same kind a name of its own, with --model NAME=PATH",
-            ),
+            Self::DuplicatePolicy { .. } => {
+                Some("give a second model of the same kind a name of its own among the models")
+            }
             Self::Unpaired { .. } => Some("run all policies in one comparison"),
             Self::Stuck { .. } => Some(
                 "a replay needs the trace of the very day that is played; any other policy must choose what is feasible",
@@ -190,9 +190,9 @@ impl Coded for Error {
             Self::DaysDiffer { .. } => {
                 Some("days of one comparison have the same vertiports, and each a name of its own")
             }
-            Self::UnknownPolicy { meant, .. } => {
-                Some(meant.as_deref().unwrap_or("for weights of your own, name them with --model"))
-            }
+            Self::UnknownPolicy { meant, .. } => Some(
+                meant.as_deref().unwrap_or("for weights of your own, give a model under this name"),
+            ),
             Self::NotFinite { .. } | Self::Stopped => None,
         }
     }

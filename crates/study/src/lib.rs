@@ -46,6 +46,7 @@ pub mod record;
 pub mod report;
 mod resolved_policy;
 pub mod run;
+mod starting_policies;
 pub mod statistics;
 mod study;
 pub mod summary;
@@ -55,10 +56,11 @@ pub use error::Error;
 pub use kept_bounds::KeptBounds;
 pub use origin::NetworkOrigin;
 pub use own_days::OwnDays;
-pub use policy_spec::{PolicyFactory, PolicySource, PolicySpec, ResolveFor};
+pub use policy_spec::{PolicySource, PolicySpec, ResolveFor};
 pub use record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
 };
-pub use resolved_policy::{ResolvedPolicy, starting_policies};
+pub use resolved_policy::{PolicyFactory, ResolvedPolicy};
+pub use starting_policies::starting_policies;
 pub use study::{Unwatched, Watch};
 pub use summary::ComparisonReport;

@@ -46,6 +46,11 @@ impl NetworkOrigin {
     }
 }
 
+/// The name of the network that a day was drawn from: `paper` for `paper-7`.
+pub(crate) fn network_of(scenario: &Scenario) -> &str {
+    scenario.name.strip_suffix(&format!("-{}", scenario.seed)).unwrap_or(&scenario.name)
+}
+
 #[cfg(test)]
 mod tests {
     use vertifleet_core::{DaySeed, Network};

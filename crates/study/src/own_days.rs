@@ -13,8 +13,7 @@ use std::sync::Arc;
 use vertifleet_core::Scenario;
 
 use crate::error::Error;
-use crate::origin::NetworkOrigin;
-use crate::policy_spec::network_of;
+use crate::origin::{NetworkOrigin, network_of};
 
 /// The user's own days, which go together.
 #[derive(Debug, Clone)]

@@ -65,7 +65,7 @@ fn opening(summary: &ComparisonReport) -> Markup {
     let changed = summary.network_origin == NetworkOrigin::Changed;
     html! {
         p.program { "Vertifleet " (summary.program_version) " · comparison of policies" }
-        h1 { (contenders(summary)) " on " (days) }
+        h1 { (counted_competitors(summary)) " on " (days) }
         p.headline { (headline::text(summary)) }
         dl {
             div { dt { "Network" } dd { (summary.network) ", " (origin(summary.network_origin)) } }
@@ -100,8 +100,8 @@ fn origin(origin: NetworkOrigin) -> &'static str {
 }
 
 /// A text such as `4 policies and 1 reference`.
-fn contenders(summary: &ComparisonReport) -> String {
-    let references = summary.policies.iter().filter(|policy| policy.is_offline()).count();
+fn counted_competitors(summary: &ComparisonReport) -> String {
+    let references = summary.policies.iter().filter(|policy| policy.knows_the_day()).count();
     let policies = summary.policies.len() - references;
     let counts = [
         (policies, counted(policies, "policy", "policies")),
@@ -117,10 +117,10 @@ fn results(summary: &ComparisonReport) -> Markup {
         p.lead { "Means a day, highest profit first. ± is the 95 % interval of the mean (Student’s t), sd the standard "
             "deviation between days."
             @if let Some(bound) = &summary.bound {
-                " Of bound: profit as a share of what is proven that no schedule of the day earns more than (steps of "
+                " Of bound: profit as a share of what is proven that no schedule of the day earns more than (slices of "
                 (minutes(bound.step_s)) ")."
             }
-            @if summary.policies.iter().any(PolicySummary::is_offline) {
+            @if summary.policies.iter().any(PolicySummary::knows_the_day) {
                 " What knows the day plans it as a whole, beforehand: a reference, no policy."
             } }
         div.wide { table {
@@ -152,7 +152,7 @@ fn result_cells(policy: &PolicySummary) -> Markup {
     html! {
         th scope="row" title=(policy.name) {
             (policy.name)
-            @if policy.is_offline() { br; small { "knows the day" } }
+            @if policy.knows_the_day() { br; small { "knows the day" } }
         }
         td { (estimate(&policy.profit_usd, |value| grouped(value, 0))) }
         td { (policy.profit_usd.standard_deviation.map_or("n/a".to_owned(), |value| grouped(value, 0))) }

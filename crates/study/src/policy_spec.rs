@@ -3,18 +3,17 @@
 //!
 //! All commands and the Python package name policies in this way.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use vertifleet_core::{Scenario, nearest};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{Curve, GcapsX, Model, Shipped, shipped};
-use vertifleet_policy::Policy;
 use vertifleet_sim::Trace;
 
 use crate::error::Error;
-use crate::resolved_policy::ResolvedPolicy;
+use crate::origin::network_of;
+use crate::resolved_policy::{PolicyFactory, ResolvedPolicy};
 
 /// The policy whose weights fit networks of any size.
 const ANY_SIZE: &str = "gcaps-x";
@@ -59,16 +58,6 @@ pub enum PolicySource {
     Model(Arc<Model>),
     /// A policy of the user's own.
     Own(PolicyFactory),
-}
-
-/// Makes policies, one for each thread that needs one.
-#[derive(Clone)]
-pub struct PolicyFactory(pub Arc<dyn Fn() -> Box<dyn Policy> + Send + Sync>);
-
-impl fmt::Debug for PolicyFactory {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("PolicyFactory")
-    }
 }
 
 /// The days that a policy is resolved for.
@@ -241,9 +230,4 @@ impl ResolveFor<'_> {
             Self::DaysOf(network) => network,
         }
     }
-}
-
-/// The name of the network that a day was drawn from: `paper` for `paper-7`.
-pub(crate) fn network_of(scenario: &Scenario) -> &str {
-    scenario.name.strip_suffix(&format!("-{}", scenario.seed)).unwrap_or(&scenario.name)
 }

@@ -57,7 +57,7 @@ pub struct PolicyRecord {
     pub description: String,
     /// One record for each day, in the study's order of days.
     pub days: Vec<DayRecord>,
-    /// The time that one decision of this policy takes; `None` for an offline reference, which planned each day as a
+    /// The time that one decision of this policy takes; `None` for an reference, which planned each day as a
     /// whole with the day known.
     pub decision_ns: Option<LatencySummary>,
 }

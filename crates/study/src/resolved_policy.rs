@@ -1,10 +1,11 @@
 //! A policy with everything that it needs to decide; each thread that needs the policy builds its own.
 
+use std::fmt;
 use std::sync::Arc;
 
 use vertifleet_core::{Scenario, Stop};
 use vertifleet_learn::{Curve, Model};
-use vertifleet_optimize::{Rolling, StartingPolicy};
+use vertifleet_optimize::Rolling;
 use vertifleet_policy::{
     BidPricePolicy, Greedy, Lookahead, Policy, Random, Replay, Stoppable, play,
 };
@@ -12,8 +13,7 @@ use vertifleet_sim::{DayTotals, Simulation, Trace};
 
 use crate::error::Error;
 use crate::numbers::grouped;
-use crate::origin::NetworkOrigin;
-use crate::policy_spec::{PolicyFactory, PolicySpec, ResolveFor, network_of};
+use crate::origin::{NetworkOrigin, network_of};
 
 /// A policy that can be built.
 #[derive(Debug, Clone)]
@@ -43,6 +43,16 @@ pub enum ResolvedPolicy {
         /// Whether the program ships the weights.
         is_shipped: bool,
     },
+}
+
+/// Makes policies, one for each thread that needs one.
+#[derive(Clone)]
+pub struct PolicyFactory(pub Arc<dyn Fn() -> Box<dyn Policy> + Send + Sync>);
+
+impl fmt::Debug for PolicyFactory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("PolicyFactory")
+    }
 }
 
 impl ResolvedPolicy {
@@ -90,7 +100,7 @@ impl ResolvedPolicy {
         }
     }
 
-    /// The [`warning`](Self::warning) for one day.
+    /// The warning V310 for one day: shipped weights are to decide on a changed copy of their network.
     pub fn warning_for(&self, name: &str, day: &Scenario) -> Option<String> {
         let network = network_of(day);
         self.warning(name, network, NetworkOrigin::of(network, [day]))
@@ -122,7 +132,7 @@ impl ResolvedPolicy {
             Self::Greedy => "takes the flight with the highest profit per hour".to_owned(),
             Self::Lookahead => "takes the first of the best two flights in a row".to_owned(),
             Self::BidPrices => "takes what is worth most at the day's prices".to_owned(),
-            Self::Rolling => "tries out what is worth most at the day's prices".to_owned(),
+            Self::Rolling => "rolls out what is worth nearly most at the day's prices".to_owned(),
             Self::Own(_) => "decides in a way of its own".to_owned(),
             Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
             Self::Learned { model, most_rolled_out, .. } => {
@@ -173,16 +183,4 @@ impl ResolvedPolicy {
         runs.retain(|run| !run.is_empty());
         runs
     }
-}
-
-/// The learned policies that the program ships for a day's network and for every network. Together with the rules,
-/// these are the policies from whose days a search for a plan can start.
-pub fn starting_policies(scenario: &Scenario) -> Vec<StartingPolicy> {
-    let names = ["gcaps-x", "gcaps", "mlp"];
-    let shipped = names.into_iter().filter_map(|name| {
-        let spec = PolicySpec::parse(name).ok()?;
-        let policy = spec.resolve(None, ResolveFor::Day(scenario), 0).ok()?;
-        policy.check_fits(scenario).is_ok().then(|| StartingPolicy::new(name, policy.build()))
-    });
-    shipped.collect()
 }

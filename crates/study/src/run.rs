@@ -216,7 +216,7 @@ mod tests {
             plan.profit_usd.mean > greedy.profit_usd.mean,
             "it begins from the best policy's days"
         );
-        assert!(plan.is_offline() && plan.decision_ns.is_none());
+        assert!(plan.knows_the_day() && plan.decision_ns.is_none());
         for policy in [greedy, random] {
             assert!(policy.decision_ns.is_some_and(|time| time.p99 > 0));
         }

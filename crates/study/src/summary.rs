@@ -146,7 +146,7 @@ pub struct PolicySummary {
     pub spilled_passengers: f64,
     /// Mean of the days' load factors, 0 to 1.
     pub load_factor: f64,
-    /// Time of one decision; `None` for an offline reference, which knows the whole day.
+    /// Time of one decision; `None` for an reference, which knows the whole day.
     pub decision_ns: Option<Latency>,
     /// Profit of each day, in the study's order of days.
     #[serde(skip)]
@@ -244,7 +244,7 @@ impl ComparisonReport {
         !self.published.is_empty()
     }
 
-    /// The policy with the highest mean profit. An offline reference counts only if there is nothing else.
+    /// The policy with the highest mean profit. An reference counts only if there is nothing else.
     ///
     /// # Panics
     /// Never panics: a summary has at least one policy.
@@ -254,7 +254,7 @@ impl ComparisonReport {
 
     /// The position of the best policy.
     pub(crate) fn best_position(&self) -> usize {
-        self.policies.iter().position(|policy| !policy.is_offline()).unwrap_or(0)
+        self.policies.iter().position(|policy| !policy.knows_the_day()).unwrap_or(0)
     }
 
     /// The comparison that says most about the best policy: with `greedy`, or with the next best policy if `greedy` is
@@ -262,7 +262,7 @@ impl ComparisonReport {
     pub fn best_against_reference(&self) -> Option<&PairedDifference> {
         let best = self.best_position();
         let others =
-            || (best + 1..self.policies.len()).filter(|&at| !self.policies[at].is_offline());
+            || (best + 1..self.policies.len()).filter(|&at| !self.policies[at].knows_the_day());
         let second =
             others().find(|&at| self.policies[at].name == "greedy").or_else(|| others().next())?;
         self.comparisons.iter().find(|comparison| comparison.pair == (best, second))
@@ -271,7 +271,7 @@ impl ComparisonReport {
 
 impl PolicySummary {
     /// Whether the days were planned with the whole day known.
-    pub fn is_offline(&self) -> bool {
+    pub fn knows_the_day(&self) -> bool {
         self.decision_ns.is_none()
     }
 

@@ -9,8 +9,8 @@ use crate::summary::{ComparisonReport, PairedDifference, PolicySummary};
 
 /// The column of the share of the bound.
 const SHARE_COLUMN: usize = 3;
-/// The mark after the name of an offline reference.
-const OFFLINE_MARK: char = '*';
+/// The mark after the name of an reference.
+const REFERENCE_MARK: char = '*';
 
 /// The alignment of a cell's text.
 #[derive(Clone, Copy)]
@@ -59,13 +59,15 @@ pub(crate) fn text(summary: &ComparisonReport) -> String {
         let amount = estimate(&bound.upper_bound_usd, |value| grouped(value, 0));
         let _ = write!(
             text,
-            "\nof bound: share of the certified bound, which no schedule passes: $ {amount} (steps of {})",
+            "\nof bound: share of the certified bound, which no schedule passes: $ {amount} (slices of {})",
             minutes(bound.step_s)
         );
     }
-    if summary.policies.iter().any(PolicySummary::is_offline) {
-        let _ =
-            write!(text, "\n{OFFLINE_MARK} knows the whole day beforehand: a reference, no policy");
+    if summary.policies.iter().any(PolicySummary::knows_the_day) {
+        let _ = write!(
+            text,
+            "\n{REFERENCE_MARK} knows the whole day beforehand: a reference, no policy"
+        );
     }
     if summary.comparisons.is_empty() {
         return text;
@@ -84,7 +86,7 @@ fn heading<const N: usize>(cells: [&str; N]) -> Vec<String> {
 }
 
 fn policy_row(policy: &PolicySummary) -> Vec<String> {
-    let mark = if policy.is_offline() { format!(" {OFFLINE_MARK}") } else { String::new() };
+    let mark = if policy.knows_the_day() { format!(" {REFERENCE_MARK}") } else { String::new() };
     let time = |time: Option<u64>| time.map_or("n/a".to_owned(), duration);
     let share = |share: &Estimate| estimate(share, |value| grouped(100.0 * value, 2));
     vec![

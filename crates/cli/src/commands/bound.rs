@@ -74,7 +74,7 @@ impl<'a> Day<'a> {
         let mut lines = vec![
             format!("{} bounded in {:.1} s", self.scenario.name, self.seconds),
             format!(
-                "  upper bound     {:>12.2} $    no schedule earns more (steps of {} min)",
+                "  upper bound     {:>12.2} $    no schedule earns more (slices of {} min)",
                 self.bound.upper_bound_usd(),
                 self.bound.step_s() / 60
             ),
@@ -104,7 +104,7 @@ fn lines_of_days(days: &[Day<'_>]) -> Vec<String> {
     let mut lines = vec!["no schedule earns more than".to_owned()];
     lines.extend(days.iter().map(|day| {
         let (name, bound_usd) = (&day.scenario.name, day.bound.upper_bound_usd());
-        format!("  {name:<15} {bound_usd:>12.2} $    steps of {} min", day.bound.step_s() / 60)
+        format!("  {name:<15} {bound_usd:>12.2} $    slices of {} min", day.bound.step_s() / 60)
     }));
     lines.push(format!("  {:<15} {}", "mean", mean_bound(days).text()));
     lines.extend(mean_shadow_prices::lines(&pairs(days)));

@@ -107,7 +107,7 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
     let share = if bound_usd > 0.0 { "of the bound" } else { "of the loss" };
     let longer = if bound.is_final() { "" } else { "; a longer search may lower it" };
     lines.push(format!(
-        "  upper bound     {bound_usd:>12.2} $    no schedule earns more (steps of {step_min} min{longer})"
+        "  upper bound     {bound_usd:>12.2} $    no schedule earns more (slices of {step_min} min{longer})"
     ));
     lines.push(format!(
         "  gap             {gap_percent:>12.2} %    {share}: no schedule is further ahead of this one"

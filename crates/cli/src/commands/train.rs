@@ -7,7 +7,7 @@ use anstream::eprintln;
 use vertifleet_core::{DaySeed, Network, Outputs};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{
-    Curve, Error, RunFolder, TrainingPlan, TrainingRun, TrainingSettings, TrainingWatch,
+    Curve, Error, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
 };
 use vertifleet_progress::Bar;
 
@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn plan(arguments: &TrainArguments, network: Network) -> Result<TrainingPlan, Failure> {
+fn plan(arguments: &TrainArguments, network: Network) -> Result<TrainingRequest, Failure> {
     let policy = Architecture::named(arguments.policy.name())
         .expect("every kind that can be trained has its sizes");
     if arguments.steps.is_some() && matches!(policy, Architecture::GcapsX(_)) {
@@ -47,7 +47,7 @@ fn plan(arguments: &TrainArguments, network: Network) -> Result<TrainingPlan, Fa
     let steps = steps.iter().map(|steps| ("total_steps", steps.as_str()));
     let named = arguments.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
     settings.set(steps.chain(named))?;
-    Ok(TrainingPlan {
+    Ok(TrainingRequest {
         network: Arc::new(network),
         policy,
         settings,

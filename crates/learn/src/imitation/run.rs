@@ -27,7 +27,9 @@ use crate::imitation::update::{Fit, Learner, Pace};
 use crate::imitation::{ImitationRow, ImitationSettings};
 use crate::model::Model;
 use crate::nn::{self, Weights};
-use crate::run::{Curve, RunIdentity, TrainingPlan, TrainingRun, Work, check_finite, checkpoint};
+use crate::run::{
+    Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite, checkpoint,
+};
 
 /// About how many decisions of a day are rolled out; on a day with more decisions, a random share of them is.
 const SAMPLES_A_DAY: f64 = 400.0;
@@ -60,7 +62,7 @@ struct Progress {
 impl ImitationRun {
     /// A run before its first round, or one that is resumed from a checkpoint.
     pub(crate) fn new(
-        plan: &TrainingPlan,
+        plan: &TrainingRequest,
         identity: RunIdentity,
         settings: ImitationSettings,
         from: Option<&Path>,
@@ -68,7 +70,7 @@ impl ImitationRun {
         let net = nn::NeuralNetwork::new(plan.policy.clone(), shape(1))
             .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
         let (params, adam, dataset, curve) = if let Some(path) = from {
-            set_aside(path, &identity, &settings, net.layout().len())?
+            read_checkpoint(path, &identity, &settings, net.layout().len())?
         } else {
             let params = net.init(u64::from(plan.seed));
             let adam = Adam::new(params.len());
@@ -272,9 +274,10 @@ impl TrainingRun for ImitationRun {
     }
 }
 
-/// Writes the checkpoint: parameters, moments, samples and curve. Which days a round plays, and the order in which it
-/// meets its samples, follow from the seed and the round's number, so nothing else needs to be stored.
-fn set_aside(
+/// Reads the parameters, moments, samples and curve of a checkpoint, and checks that they can be those of this run. Which
+/// days a round plays, and the order in which it meets its samples, follow from the seed and the round's number, so that
+/// nothing else is stored.
+fn read_checkpoint(
     path: &Path,
     identity: &RunIdentity,
     settings: &ImitationSettings,

@@ -21,7 +21,7 @@ use crate::ppo::buffer::{Buffer, DayInProgress, Source};
 use crate::ppo::update::{Ppo, Update};
 use crate::ppo::{PpoRow, PpoSettings};
 use crate::run::checkpoint::{self, tensor};
-use crate::run::{Curve, RunIdentity, TrainingPlan, TrainingRun, Work, check_finite};
+use crate::run::{Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite};
 
 /// Number of days whose rewards the curve averages, as in stable-baselines3.
 const RECENT_DAYS: usize = 100;
@@ -64,7 +64,7 @@ struct Progress {
 impl PpoRun {
     /// A run before its first update, or one that is resumed from a checkpoint.
     pub(crate) fn new(
-        plan: &TrainingPlan,
+        plan: &TrainingRequest,
         identity: RunIdentity,
         settings: PpoSettings,
         from: Option<&Path>,
@@ -73,7 +73,7 @@ impl PpoRun {
         let net = nn::NeuralNetwork::new(plan.policy.clone(), shape)
             .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
         let (params, adam, mut progress) = if let Some(path) = from {
-            set_aside(path, &identity, &settings, net.layout().len())?
+            read_checkpoint(path, &identity, &settings, net.layout().len())?
         } else {
             let params = net.init(u64::from(plan.seed));
             (params.clone(), Adam::new(params.len()), Progress::new(params))
@@ -216,8 +216,8 @@ impl TrainingRun for PpoRun {
     }
 }
 
-/// Writes the checkpoint: parameters, moments and progress.
-fn set_aside(
+/// Reads the parameters, moments and progress of a checkpoint, and checks that they can be those of this run.
+fn read_checkpoint(
     path: &Path,
     identity: &RunIdentity,
     settings: &PpoSettings,

@@ -40,7 +40,7 @@ fn share(profit_usd: f64, potential_usd: f64) -> f64 {
 /// How the learning rate changes over the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Schedule {
+pub enum LearningRateSchedule {
     /// It stays constant.
     Constant,
     /// It falls in a straight line to 0 at the end of the run.
@@ -65,7 +65,7 @@ pub struct PpoSettings {
     /// Adam's step size.
     pub learning_rate: f32,
     /// How the step size changes over the run.
-    pub lr_schedule: Schedule,
+    pub lr_schedule: LearningRateSchedule,
     /// Discount per decision.
     pub gamma: f32,
     /// λ of generalised advantage estimation.
@@ -99,7 +99,7 @@ impl PpoSettings {
             batch_size: 10_000,
             n_epochs: 100,
             learning_rate: 1e-6,
-            lr_schedule: Schedule::Constant,
+            lr_schedule: LearningRateSchedule::Constant,
             gamma: 1.0,
             gae_lambda: 0.95,
             clip_range: 0.2,
@@ -122,7 +122,7 @@ impl PpoSettings {
             batch_size: 2_048,
             n_epochs: 2,
             learning_rate: 4e-4,
-            lr_schedule: Schedule::Linear,
+            lr_schedule: LearningRateSchedule::Linear,
             gamma: 0.995,
             gae_lambda: 0.95,
             clip_range: 0.2,
@@ -149,8 +149,8 @@ impl PpoSettings {
     /// The step size of an update, counted from 0.
     pub fn learning_rate_at(&self, update: u64) -> f32 {
         match self.lr_schedule {
-            Schedule::Constant => self.learning_rate,
-            Schedule::Linear => {
+            LearningRateSchedule::Constant => self.learning_rate,
+            LearningRateSchedule::Linear => {
                 self.learning_rate * (1.0 - update as f32 / self.updates() as f32).max(0.0)
             }
         }

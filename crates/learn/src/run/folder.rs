@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::kinds;
 use crate::nn::Architecture;
 use crate::run::event_file::EventFile;
-use crate::run::{Curve, TrainingPlan, TrainingRun};
+use crate::run::{Curve, TrainingRequest, TrainingRun};
 
 /// After a row of the curve, a checkpoint is written only if at least this many times as long has passed since the
 /// last one as writing it took.
@@ -58,11 +58,11 @@ impl RunFolder {
     /// file is overwritten: a file that exists already must be one that an earlier run wrote.
     ///
     /// # Errors
-    /// The same as those of [`TrainingPlan::start`] and [`TrainingPlan::resume`]; [`Error::EarlierRun`] if a run is to
+    /// The same as those of [`TrainingRequest::start`] and [`TrainingRequest::resume`]; [`Error::EarlierRun`] if a run is to
     /// start where another run's checkpoint is; [`Error::Core`] for files that would be lost.
     pub fn begin(
         &self,
-        plan: TrainingPlan,
+        plan: TrainingRequest,
         resume: bool,
         outputs: &mut Outputs,
     ) -> Result<Box<dyn TrainingRun>, Error> {

@@ -37,11 +37,11 @@ pub(super) struct Certificate {
 
 impl Certificate {
     /// A certificate with memory for the evaluations of a day.
-    pub(super) fn new(network: &TimeExpandedDay) -> Self {
-        let stride = (network.slices.day_s() + network.shortest_s) as usize;
+    pub(super) fn new(day: &TimeExpandedDay) -> Self {
+        let stride = (day.slices.day_s() + day.shortest_s) as usize;
         Self {
-            paid: Vec::with_capacity((network.slices.len() + 1) * network.size()),
-            worth_less_paid: vec![0; network.layers.len() * network.size() * stride],
+            paid: Vec::with_capacity((day.slices.len() + 1) * day.size()),
+            worth_less_paid: vec![0; day.layers.len() * day.size() * stride],
             stride,
             arch: Arch::new(),
         }
@@ -51,26 +51,26 @@ impl Certificate {
     /// soon after `stopped` is requested.
     pub(super) fn evaluate(
         &mut self,
-        network: &TimeExpandedDay,
+        day: &TimeExpandedDay,
         prices: &Prices,
         stopped: &Stop,
     ) -> Option<i128> {
-        self.pay(network, prices);
-        let layers = self.worth_less_paid.chunks_exact_mut(self.stride * network.size());
+        self.pay(day, prices);
+        let layers = self.worth_less_paid.chunks_exact_mut(self.stride * day.size());
         for (layer, worths) in layers.enumerate() {
             let (paid, stride) = (&self.paid[..], self.stride);
-            let pass = LayerPass { network, prices, paid, layer, stride, worths, stopped };
+            let pass = LayerPass { day, prices, paid, layer, stride, worths, stopped };
             if !self.arch.dispatch(pass) {
                 return None;
             }
         }
-        Some(self.fleet(network) + dual_constant(network, prices))
+        Some(self.fleet(day) + dual_constant(day, prices))
     }
 
     /// Price of a stand at a vertiport from the start of the day until a slice begins.
     #[inline]
-    pub(super) fn paid(&self, network: &TimeExpandedDay, slice: usize, at: usize) -> i64 {
-        self.paid[slice * network.size() + at]
+    pub(super) fn paid(&self, day: &TimeExpandedDay, slice: usize, at: usize) -> i64 {
+        self.paid[slice * day.size() + at]
     }
 
     /// The worth of being ready, less the price of the stand since the day began; micro-dollars. `second` counts from
@@ -79,26 +79,26 @@ impl Certificate {
     #[inline]
     pub(super) fn worth_less_paid(
         &self,
-        network: &TimeExpandedDay,
+        day: &TimeExpandedDay,
         layer: usize,
         at: usize,
         second: usize,
     ) -> i64 {
-        let second = second.min(network.slices.day_s() as usize);
-        self.worth_less_paid[(layer * network.size() + at) * self.stride + second]
+        let second = second.min(day.slices.day_s() as usize);
+        self.worth_less_paid[(layer * day.size() + at) * self.stride + second]
     }
 
-    fn pay(&mut self, network: &TimeExpandedDay, prices: &Prices) {
+    fn pay(&mut self, day: &TimeExpandedDay, prices: &Prices) {
         self.paid.clear();
-        self.paid.resize(network.size(), 0);
+        self.paid.resize(day.size(), 0);
         for (at, price) in prices.stand.iter().enumerate() {
             self.paid.push(self.paid[at] + price);
         }
     }
 
     /// The most that the whole fleet earns after payments. Nothing has been paid when the day begins.
-    fn fleet(&self, network: &TimeExpandedDay) -> i128 {
-        let starts = network.layers.iter().flat_map(|layer| &layer.starts);
+    fn fleet(&self, day: &TimeExpandedDay) -> i128 {
+        let starts = day.layers.iter().flat_map(|layer| &layer.starts);
         let worths = self.worth_less_paid.iter().step_by(self.stride);
         starts.zip(worths).map(|(&count, &worth)| i128::from(count) * i128::from(worth)).sum()
     }
@@ -106,7 +106,7 @@ impl Certificate {
 
 /// The pass of one layer over the day, from its end back to its start.
 struct LayerPass<'a> {
-    network: &'a TimeExpandedDay,
+    day: &'a TimeExpandedDay,
     prices: &'a Prices,
     paid: &'a [i64],
     layer: usize,
@@ -122,15 +122,15 @@ impl WithSimd for LayerPass<'_> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn with_simd<S: Simd>(mut self, _: S) -> bool {
-        let slices = &self.network.slices;
+        let slices = &self.day.slices;
         let day_s = slices.day_s() as usize;
-        for at in 0..self.network.size() {
+        for at in 0..self.day.size() {
             let over = -self.paid(slices.len(), at);
             self.worths[at * self.stride..][..self.stride][day_s..].fill(over);
         }
         let second = |slice| (slices.start_s(slice) - slices.start_s(0)) as usize;
         // No flight and no hold begins and ends in the same piece, so everything that a piece needs has been computed.
-        let longest = SIDE_BY_SIDE.min(self.network.shortest_s as usize);
+        let longest = SIDE_BY_SIDE.min(self.day.shortest_s as usize);
         for slice in (0..slices.len()).rev() {
             let (first, mut past) = (second(slice), second(slice + 1));
             while past > first {
@@ -138,7 +138,7 @@ impl WithSimd for LayerPass<'_> {
                     return false;
                 }
                 let begin = first.max(past.saturating_sub(longest));
-                for from in 0..self.network.size() {
+                for from in 0..self.day.size() {
                     self.work_out_piece(slice, from, begin, past);
                 }
                 past = begin;
@@ -152,7 +152,7 @@ impl LayerPass<'_> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "part of the pass")]
     fn paid(&self, slice: usize, at: usize) -> i64 {
-        self.paid[slice * self.network.size() + at]
+        self.paid[slice * self.day.size() + at]
     }
 
     /// Computes the seconds from `begin` until before `past`, all of which are in `slice`, from the seconds after them.
@@ -162,15 +162,15 @@ impl LayerPass<'_> {
         let mut best = [i64::MIN; SIDE_BY_SIDE];
         let best = &mut best[..past - begin];
         let stays = self.paid(slice, from);
-        self.raise(best, from, begin + self.network.hold_s as usize, 0);
-        for flight in self.network.flights(slice, self.layer, from) {
+        self.raise(best, from, begin + self.day.hold_s as usize, 0);
+        for flight in self.day.flights(slice, self.layer, from) {
             let to = flight.to.at();
-            let flies = earnings(self.network, self.prices, flight) + self.paid(slice, to) - stays;
+            let flies = earnings(self.day, self.prices, flight) + self.paid(slice, to) - stays;
             self.raise(best, to, begin + flight.block_s as usize, flies);
         }
         let own = &mut self.worths[from * self.stride..][..self.stride];
         own[begin..past].copy_from_slice(best);
-        if self.network.layers[self.layer].waits_freely {
+        if self.day.layers[self.layer].waits_freely {
             let afterwards = own[past];
             wait_freely(&mut own[begin..past], afterwards);
         }
@@ -180,7 +180,7 @@ impl LayerPass<'_> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn raise(&self, best: &mut [i64], to: usize, ready: usize, gain: i64) {
-        let ready = ready.min(self.network.slices.day_s() as usize);
+        let ready = ready.min(self.day.slices.day_s() as usize);
         let worths = &self.worths[to * self.stride + ready..][..best.len()];
         for (best, worth) in best.iter_mut().zip(worths) {
             *best = (*best).max(gain + worth);
@@ -199,15 +199,15 @@ fn wait_freely(worths: &mut [i64], mut later: i64) {
 
 /// The most that a flight earns after it has paid for its passengers.
 #[inline]
-pub(super) fn earnings(network: &TimeExpandedDay, prices: &Prices, flight: &Flight) -> i64 {
+pub(super) fn earnings(day: &TimeExpandedDay, prices: &Prices, flight: &Flight) -> i64 {
     let cell = flight.cell as usize;
-    let a_passenger = network.margin[cell] - prices.demand[cell];
+    let a_passenger = day.margin[cell] - prices.demand[cell];
     i64::from(flight.passengers) * a_passenger - flight.cost
 }
 
 /// The price of all stands and all passengers together.
-fn dual_constant(network: &TimeExpandedDay, prices: &Prices) -> i128 {
-    let stands = network.stands.iter().cycle().zip(&prices.stand);
-    let all = stands.chain(network.demand.iter().zip(&prices.demand));
+fn dual_constant(day: &TimeExpandedDay, prices: &Prices) -> i128 {
+    let stands = day.stands.iter().cycle().zip(&prices.stand);
+    let all = stands.chain(day.demand.iter().zip(&prices.demand));
     all.map(|(&count, &price)| i128::from(count) * i128::from(price)).sum()
 }

@@ -58,8 +58,8 @@ pub(super) struct Found {
 
 impl Found {
     /// The bound, micro-dollars: no schedule earns more.
-    pub(super) fn bound(&self, network: &TimeExpandedDay) -> i128 {
-        self.micro_usd - i128::from(network.fleet_cost)
+    pub(super) fn bound(&self, day: &TimeExpandedDay) -> i128 {
+        self.micro_usd - i128::from(day.fleet_cost)
     }
 }
 
@@ -68,18 +68,18 @@ impl Descent {
     /// returns whether to continue. Returns `None` if `stopped` is requested before the first evaluation is done.
     pub(super) fn run(
         self,
-        network: &TimeExpandedDay,
+        day: &TimeExpandedDay,
         pace: &Pace,
         start: Prices,
         stopped: &Stop,
         watch: &mut dyn FnMut(&Found) -> bool,
     ) -> Option<Found> {
-        let mut certificate = Certificate::new(network);
-        let micro_usd = certificate.evaluate(network, &start, stopped)?;
+        let mut certificate = Certificate::new(day);
+        let micro_usd = certificate.evaluate(day, &start, stopped)?;
         let mut trial = start.clone();
         let mut best = Found { prices: start, micro_usd };
-        let ways = Ways { network, prices: &trial, certificate: &certificate }.of_groups();
-        let master = Master::new(network, pace, trial.clone(), ways);
+        let ways = Ways { day, prices: &trial, certificate: &certificate }.of_groups();
+        let master = Master::new(day, pace, trial.clone(), ways);
         let mut model = Model::new(master, self, micro_usd as f64);
         let mut before = best.micro_usd;
         for step in 1..=self.steps {
@@ -87,8 +87,8 @@ impl Descent {
                 break;
             }
             model.master.prices(&mut trial);
-            let Some(micro_usd) = certificate.evaluate(network, &trial, stopped) else { break };
-            let ways = Ways { network, prices: &trial, certificate: &certificate }.of_groups();
+            let Some(micro_usd) = certificate.evaluate(day, &trial, stopped) else { break };
+            let ways = Ways { day, prices: &trial, certificate: &certificate }.of_groups();
             model.learn(ways, (best.micro_usd - micro_usd) as f64);
             if micro_usd < best.micro_usd {
                 best.micro_usd = micro_usd;

@@ -140,21 +140,21 @@ impl Climb<'_> {
         before: Option<(Slices, Prices)>,
     ) -> Result<Option<(Slices, Prices)>, Error> {
         let slices = Slices::of(self.scenario, cut.step().seconds());
-        let network = || TimeExpandedDay::of(self.scenario, cut.step().seconds());
+        let day = || TimeExpandedDay::of(self.scenario, cut.step().seconds());
         let size = self.scenario.vertiports.len();
         let start = if let Some((coarser, prices)) = before {
             Some(prices.in_slices(&coarser, &slices, size))
         } else {
             // Any prices prove a bound, so prices of zero give a first one at once.
-            let network = network()?;
-            let zero = Prices::zero(&network);
-            self.prove(cut, &network, Descent { steps: 0, ..cut.to_the_second }, zero)
+            let day = day()?;
+            let zero = Prices::zero(&day);
+            self.prove(cut, &day, Descent { steps: 0, ..cut.to_the_second }, zero)
         };
-        let coarse = network()?.on_coarse_clock(TICK_S);
+        let coarse = day()?.on_coarse_clock(TICK_S);
         let found = start.and_then(|start| self.look(cut, &coarse, &slices, start));
         drop(coarse);
         let Some(found) = found else { return Ok(None) };
-        let prices = self.prove(cut, &network()?, cut.to_the_second, found);
+        let prices = self.prove(cut, &day()?, cut.to_the_second, found);
         Ok(prices.map(|prices| (slices, prices)))
     }
 
@@ -183,19 +183,19 @@ impl Climb<'_> {
     fn prove(
         &mut self,
         cut: &Cut,
-        network: &TimeExpandedDay,
+        day: &TimeExpandedDay,
         descent: Descent,
         start: Prices,
     ) -> Option<Prices> {
-        let (pace, step) = (Pace::of(&network.slices), comparisons(&network.slices, 1));
+        let (pace, step) = (Pace::of(&day.slices), comparisons(&day.slices, 1));
         let done = self.done;
         self.done += f64::from(descent.steps) * step;
         let (watch, in_all, best, mut steps) = (self.watch, self.in_all, &mut self.best, 0.0);
-        let found = descent.run(network, &pace, start, watch.stopped(), &mut |found| {
+        let found = descent.run(day, &pace, start, watch.stopped(), &mut |found| {
             watch.has_come((done + steps * step) / in_all);
             steps += 1.0;
-            if best.as_ref().is_none_or(|best| found.bound(network) < best.micro_usd) {
-                let bound = Bound::of(cut.step(), network, found);
+            if best.as_ref().is_none_or(|best| found.bound(day) < best.micro_usd) {
+                let bound = Bound::of(cut.step(), day, found);
                 watch.has_found(&bound);
                 *best = Some(bound);
             }

@@ -88,7 +88,7 @@ const SHIFTS: u32 = 6;
 
 /// The model around a centre, which is the best prices so far.
 pub(super) struct Master<'a> {
-    network: &'a TimeExpandedDay,
+    day: &'a TimeExpandedDay,
     pace: &'a Pace,
     groups: Vec<Group>,
     centre: Prices,
@@ -106,7 +106,7 @@ pub(super) struct Master<'a> {
 impl<'a> Master<'a> {
     /// A model in which each group takes its only known way; groups are in the order of layers and vertiports.
     pub(super) fn new(
-        network: &'a TimeExpandedDay,
+        day: &'a TimeExpandedDay,
         pace: &'a Pace,
         centre: Prices,
         ways: Vec<(u32, Way)>,
@@ -116,7 +116,7 @@ impl<'a> Master<'a> {
             ways: vec![Known { way, share: 1.0, idle: 0, worth: 0.0 }],
         };
         let mut master = Self {
-            network,
+            day,
             pace,
             groups: ways.into_iter().map(group).collect(),
             reach: 0.0,
@@ -124,7 +124,7 @@ impl<'a> Master<'a> {
             demand_excess: vec![0.0; centre.demand.len()],
             stand: centre.stand.iter().map(|&price| price as f64).collect(),
             demand: centre.demand.iter().map(|&price| price as f64).collect(),
-            paid: vec![0.0; centre.stand.len() + network.size()],
+            paid: vec![0.0; centre.stand.len() + day.size()],
             centre,
         };
         master.count();
@@ -133,11 +133,11 @@ impl<'a> Master<'a> {
 
     /// Computes the excess anew.
     fn count(&mut self) {
-        let size = self.network.size();
+        let size = self.day.size();
         for (at, excess) in self.stand_excess.iter_mut().enumerate() {
-            *excess = -f64::from(self.network.stands[at % size]);
+            *excess = -f64::from(self.day.stands[at % size]);
         }
-        for (excess, &waiting) in self.demand_excess.iter_mut().zip(&self.network.demand) {
+        for (excess, &waiting) in self.demand_excess.iter_mut().zip(&self.day.demand) {
             *excess = -f64::from(waiting);
         }
         for group in &self.groups {
@@ -157,7 +157,7 @@ impl<'a> Master<'a> {
 
     /// The rate at which the bound would fall with the reach if the excess stayed the same.
     pub(super) fn fall(&self) -> f64 {
-        let size = self.network.size();
+        let size = self.day.size();
         let free = |excess: f64, price: i64, most: i64| {
             let stuck = if excess < 0.0 { price <= 0 } else { price >= most };
             if stuck { 0.0 } else { excess * excess }
@@ -166,7 +166,7 @@ impl<'a> Master<'a> {
         let stands = stands.map(|(at, (&excess, &price))| {
             self.pace.of_stands(at / size) * free(excess, price, MOST_FOR_A_STAND)
         });
-        let demand = self.demand_excess.iter().zip(&self.centre.demand).zip(&self.network.margin);
+        let demand = self.demand_excess.iter().zip(&self.centre.demand).zip(&self.day.margin);
         let demand =
             demand.map(|((&excess, &price), &most)| PACE_OF_PASSENGERS * free(excess, price, most));
         stands.sum::<f64>() + demand.sum::<f64>()
@@ -187,14 +187,13 @@ impl<'a> Master<'a> {
     }
 
     fn stand_price(&self, at: usize) -> f64 {
-        let moved =
-            self.reach * self.pace.of_stands(at / self.network.size()) * self.stand_excess[at];
+        let moved = self.reach * self.pace.of_stands(at / self.day.size()) * self.stand_excess[at];
         (self.centre.stand[at] as f64 + moved).clamp(0.0, MOST_FOR_A_STAND as f64)
     }
 
     fn demand_price(&self, cell: usize) -> f64 {
         let moved = self.reach * PACE_OF_PASSENGERS * self.demand_excess[cell];
-        (self.centre.demand[cell] as f64 + moved).clamp(0.0, self.network.margin[cell] as f64)
+        (self.centre.demand[cell] as f64 + moved).clamp(0.0, self.day.margin[cell] as f64)
     }
 
     /// Shifts aircraft until all shifts together are worth no more than about `enough` micro-dollars, or for `rounds`
@@ -204,7 +203,7 @@ impl<'a> Master<'a> {
         for at in 0..self.stand.len() {
             self.stand[at] = self.stand_price(at);
         }
-        for place in 0..self.network.size() {
+        for place in 0..self.day.size() {
             self.pay(place, 0);
         }
         for cell in 0..self.demand.len() {
@@ -228,7 +227,7 @@ impl<'a> Master<'a> {
 
     /// Sums the prices of a vertiport's stands, from a slice on.
     fn pay(&mut self, place: usize, first: usize) {
-        let size = self.network.size();
+        let size = self.day.size();
         let slices = self.stand.len() / size;
         let row = &mut self.paid[place * (slices + 1)..][..=slices];
         let mut paid = row[first];
@@ -240,7 +239,7 @@ impl<'a> Master<'a> {
 
     /// The worth of a way at the model's prices.
     fn worth(&self, way: &Way) -> f64 {
-        let row = self.stand.len() / self.network.size() + 1;
+        let row = self.stand.len() / self.day.size() + 1;
         let rents = way.stays().map(|(slices, place)| {
             self.paid[place * row + slices.end] - self.paid[place * row + slices.start]
         });
@@ -297,7 +296,7 @@ impl<'a> Master<'a> {
     /// The amount by which one aircraft that changes its way lowers the worth of the shift, through the prices that are
     /// not at a limit.
     fn resistance(&self, from: &Way, to: &Way) -> f64 {
-        let size = self.network.size();
+        let size = self.day.size();
         let free = |price: f64, most: i64| f64::from(u8::from(price > 0.0 && price < most as f64));
         let mut resistance = 0.0;
         for (slices, leave, take) in from.apart(to) {
@@ -308,7 +307,7 @@ impl<'a> Master<'a> {
         }
         for &(cell, passengers) in from.flights.iter().chain(&to.flights) {
             let cell = cell as usize;
-            let passenger = free(self.demand[cell], self.network.margin[cell]);
+            let passenger = free(self.demand[cell], self.day.margin[cell]);
             resistance +=
                 PACE_OF_PASSENGERS * passenger * f64::from(passengers) * f64::from(passengers);
         }
@@ -317,7 +316,7 @@ impl<'a> Master<'a> {
 
     /// Moves `aircraft` aircraft from one way to another, and updates the prices.
     fn shift(&mut self, from: &Way, to: &Way, aircraft: f64) {
-        let size = self.network.size();
+        let size = self.day.size();
         for (slices, leave, take) in from.apart(to) {
             for slice in slices.clone() {
                 for (place, change) in [(leave, -aircraft), (take, aircraft)] {
@@ -362,8 +361,8 @@ impl<'a> Master<'a> {
             let worths = group.ways.iter().map(|known| self.worth(&known.way));
             group.count * worths.fold(f64::NEG_INFINITY, f64::max)
         });
-        let stands = self.network.stands.iter().cycle().zip(&self.stand);
-        let dual_constant = stands.chain(self.network.demand.iter().zip(&self.demand));
+        let stands = self.day.stands.iter().cycle().zip(&self.stand);
+        let dual_constant = stands.chain(self.day.demand.iter().zip(&self.demand));
         fleet.sum::<f64>() + dual_constant.map(|(&n, price)| f64::from(n) * price).sum::<f64>()
     }
 }

@@ -22,26 +22,20 @@ pub(super) struct Prices {
 
 impl Prices {
     /// Prices of zero.
-    pub(super) fn zero(network: &TimeExpandedDay) -> Self {
-        Self {
-            stand: vec![0; network.slices.len() * network.size()],
-            demand: vec![0; network.demand.len()],
-        }
+    pub(super) fn zero(day: &TimeExpandedDay) -> Self {
+        Self { stand: vec![0; day.slices.len() * day.size()], demand: vec![0; day.demand.len()] }
     }
 
     /// Prices from a file, if they are valid prices for this day.
     pub(super) fn checked(
-        network: &TimeExpandedDay,
+        day: &TimeExpandedDay,
         stand: Vec<i64>,
         demand: Vec<i64>,
     ) -> Option<Self> {
-        let lengths = stand.len() == network.slices.len() * network.size()
-            && demand.len() == network.demand.len();
+        let lengths =
+            stand.len() == day.slices.len() * day.size() && demand.len() == day.demand.len();
         let within = stand.iter().all(|price| (0..=MOST_FOR_A_STAND).contains(price))
-            && demand
-                .iter()
-                .zip(&network.margin)
-                .all(|(price, margin)| (0..=*margin).contains(price));
+            && demand.iter().zip(&day.margin).all(|(price, margin)| (0..=*margin).contains(price));
         (lengths && within).then_some(Self { stand, demand })
     }
 

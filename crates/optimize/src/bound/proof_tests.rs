@@ -46,63 +46,64 @@ fn traces(day: &Arc<Scenario>) -> Vec<Trace> {
 }
 
 /// Arbitrary prices within their limits.
-fn any_prices(network: &TimeExpandedDay, seed: u64) -> Prices {
-    let zero = Prices::zero(network);
+fn any_prices(expanded: &TimeExpandedDay, seed: u64) -> Prices {
+    let zero = Prices::zero(expanded);
     let below = |at: usize, most: i64| {
         let part = draw(seed, 0, u32::try_from(at).expect("few prices")) % 1_000;
         i64::try_from(part).expect("small") * most / 1_000
     };
     let stand = (0..zero.stand.len()).map(|at| below(at, 20_000_000)).collect();
-    let demand = network.margin.iter().enumerate().map(|(at, &most)| below(at, most)).collect();
-    Prices::checked(network, stand, demand).expect("within their limits")
+    let demand = expanded.margin.iter().enumerate().map(|(at, &most)| below(at, most)).collect();
+    Prices::checked(expanded, stand, demand).expect("within their limits")
 }
 
 /// The vertiport where an aircraft stands or flies to at the end of each slice, by its decisions until then.
 fn places(
     day: &Scenario,
-    network: &TimeExpandedDay,
+    expanded: &TimeExpandedDay,
     trace: &Trace,
     aircraft: AircraftIx,
 ) -> Vec<usize> {
     let at_end = |slice| {
-        let end = Time::from_seconds(network.slices.last_s(slice));
+        let end = Time::from_seconds(expanded.slices.last_s(slice));
         let mut decided =
             trace.rows.iter().filter(|row| row.aircraft == aircraft && row.time <= end);
         decided.next_back().map_or(day.aircraft[aircraft.at()].at, |row| row.to).at()
     };
-    (0..network.slices.len()).map(at_end).collect()
+    (0..expanded.slices.len()).map(at_end).collect()
 }
 
 /// The layer that an aircraft belongs to.
-fn layer_of(day: &Scenario, network: &TimeExpandedDay, aircraft: AircraftIx) -> usize {
+fn layer_of(day: &Scenario, expanded: &TimeExpandedDay, aircraft: AircraftIx) -> usize {
     let waits_freely = day.disturbances.outages.iter().any(|outage| outage.aircraft == aircraft);
     let kind = day.aircraft[aircraft.at()].kind;
     let own = |layer: &Layer| (layer.kind, layer.waits_freely) == (kind, waits_freely);
-    network.layers.iter().position(own).expect("every aircraft has a layer")
+    expanded.layers.iter().position(own).expect("every aircraft has a layer")
 }
 
 /// Plays a day by several rules, and checks each aircraft, and all of them together, against the proof.
 fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
-    let network = TimeExpandedDay::of(day, step_s).expect("a small day");
-    let prices = any_prices(&network, mix);
-    let mut certificate = Certificate::new(&network);
+    let expanded = TimeExpandedDay::of(day, step_s).expect("a small day");
+    let prices = any_prices(&expanded, mix);
+    let mut certificate = Certificate::new(&expanded);
     let never = Stop::default();
-    let bound = certificate.evaluate(&network, &prices, &never).expect("it is not stopped");
+    let bound = certificate.evaluate(&expanded, &prices, &never).expect("it is not stopped");
     for trace in traces(day) {
         let mut taken = vec![0; prices.stand.len()];
         let mut carried = vec![0; prices.demand.len()];
         let mut profit = 0;
         for aircraft in AircraftIx::all(day.aircraft.len()) {
             let mut left = 0;
-            for (slice, place) in places(day, &network, &trace, aircraft).into_iter().enumerate() {
-                taken[slice * network.size() + place] += 1;
-                left -= prices.stand[slice * network.size() + place];
+            for (slice, place) in places(day, &expanded, &trace, aircraft).into_iter().enumerate() {
+                taken[slice * expanded.size() + place] += 1;
+                left -= prices.stand[slice * expanded.size() + place];
             }
             for row in
                 trace.rows.iter().filter(|row| row.aircraft == aircraft && row.to != row.from)
             {
                 let period = day.period_at(row.time);
-                let cell = (period * network.size() + row.from.at()) * network.size() + row.to.at();
+                let cell =
+                    (period * expanded.size() + row.from.at()) * expanded.size() + row.to.at();
                 carried[cell] += u32::from(row.passengers);
                 // The amount is rounded down, because the proof must not depend on the rounding of a real day's
                 // amounts.
@@ -112,15 +113,15 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
             }
             // An aircraft earns no more than the longest path.
             let start = day.aircraft[aircraft.at()].at.at();
-            let layer = layer_of(day, &network, aircraft);
-            let worth = certificate.worth_less_paid(&network, layer, start, 0);
+            let layer = layer_of(day, &expanded, aircraft);
+            let worth = certificate.worth_less_paid(&expanded, layer, start, 0);
             assert!(left <= worth, "aircraft {aircraft:?} has {left} left, its best way {worth}");
         }
         // The payments are no more than the amount given back.
         for (at, &count) in taken.iter().enumerate() {
-            assert!(count <= network.stands[at % network.size()]);
+            assert!(count <= expanded.stands[at % expanded.size()]);
         }
-        for (&count, &waiting) in carried.iter().zip(&network.demand) {
+        for (&count, &waiting) in carried.iter().zip(&expanded.demand) {
             assert!(count <= waiting);
         }
         assert!(profit <= bound, "{profit} is earned, the bound is {bound}");
@@ -159,10 +160,10 @@ proptest! {
 
 /// The bound that arbitrary prices prove for a day, micro-dollars.
 fn proven(day: &Scenario, step_s: u32, mix: u64) -> (i128, Prices) {
-    let network = TimeExpandedDay::of(day, step_s).expect("a small day");
-    let prices = any_prices(&network, mix);
+    let expanded = TimeExpandedDay::of(day, step_s).expect("a small day");
+    let prices = any_prices(&expanded, mix);
     let never = Stop::default();
-    let micro_usd = Certificate::new(&network).evaluate(&network, &prices, &never);
+    let micro_usd = Certificate::new(&expanded).evaluate(&expanded, &prices, &never);
     (micro_usd.expect("it is not stopped"), prices)
 }
 

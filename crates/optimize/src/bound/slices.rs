@@ -89,8 +89,8 @@ mod tests {
 
     #[test]
     fn every_take_off_time_is_in_one_slice_and_every_slice_in_one_period() {
-        let network = Network::shipped("paper").expect("a shipped network");
-        let day = network.draw(DaySeed::comparison(1).expect("a seed"));
+        let day = Network::shipped("paper").expect("a shipped day");
+        let day = day.draw(DaySeed::comparison(1).expect("a seed"));
         for step_s in [60, 300, 420, 3_600] {
             let slices = Slices::of(&day, step_s);
             assert_eq!(slices.day_s(), 12 * 3600 + 1, "18:00:00 is a take-off time");

@@ -80,7 +80,7 @@ impl TimeExpandedDay {
         let legs = Legs::of(scenario);
         let layers = layers(scenario);
         let slices = Slices::of(scenario, step_s);
-        let mut network = Self {
+        let mut day = Self {
             stands: scenario.vertiports.iter().map(room).collect(),
             demand: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
             margin: margins(scenario),
@@ -93,8 +93,8 @@ impl TimeExpandedDay {
             slices,
             layers,
         };
-        network.add_flights(scenario, &legs);
-        Ok(network)
+        day.add_flights(scenario, &legs);
+        Ok(day)
     }
 
     /// Checks that a day is not too large for slices of at most `step_s` seconds.
@@ -170,7 +170,7 @@ impl TimeExpandedDay {
 
     /// The most that one more passenger is worth, by period, from, to; micro-dollars. If the demand does not fill an
     /// aircraft, one more may fly with the others, which the price does not reflect. 0 where no flight leads.
-    pub(super) fn worth_of_passengers(&self, prices: &Prices) -> Vec<i64> {
+    pub(super) fn passenger_shadow_prices(&self, prices: &Prices) -> Vec<i64> {
         let seats = self.layers.iter().map(|layer| layer.seats).max().unwrap_or(0);
         let worth = |cell: usize| match self.demand[cell] {
             _ if !self.is_flown[cell] => 0,

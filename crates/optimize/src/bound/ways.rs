@@ -8,7 +8,7 @@ use super::time_expanded_day::{Flight, TimeExpandedDay};
 
 /// A day at the prices that its certificate was evaluated with last.
 pub(super) struct Ways<'a> {
-    pub(super) network: &'a TimeExpandedDay,
+    pub(super) day: &'a TimeExpandedDay,
     pub(super) prices: &'a Prices,
     pub(super) certificate: &'a Certificate,
 }
@@ -17,7 +17,7 @@ impl Ways<'_> {
     /// The best way of each group, which is the aircraft of one layer that start at the same vertiport, and their
     /// number.
     pub(super) fn of_groups(&self) -> Vec<(u32, Way)> {
-        let layers = self.network.layers.iter().enumerate();
+        let layers = self.day.layers.iter().enumerate();
         let groups = layers.flat_map(|(layer, kind)| {
             kind.starts.iter().enumerate().map(move |(at, &count)| (layer, at, count))
         });
@@ -26,7 +26,7 @@ impl Ways<'_> {
     }
 
     fn way(&self, layer: usize, mut at: usize) -> Way {
-        let slices = &self.network.slices;
+        let slices = &self.day.slices;
         let day_s = slices.day_s();
         let mut way = Way { earnings: 0.0, stays: Vec::new(), flights: Vec::new() };
         let (mut second, mut slice) = (0, 0);
@@ -35,13 +35,13 @@ impl Ways<'_> {
             if leaves > second {
                 second = leaves;
             } else if let Some(flight) = self.best_flight(layer, at, second, slice) {
-                let margin = self.network.margin[flight.cell as usize] as f64;
+                let margin = self.day.margin[flight.cell as usize] as f64;
                 way.earnings += f64::from(flight.passengers) * margin - flight.cost as f64;
                 way.flights.push((flight.cell, flight.passengers));
                 at = flight.to.at();
                 second += flight.block_s;
             } else {
-                second += self.network.hold_s;
+                second += self.day.hold_s;
             }
             let until = slices.containing(slices.start_s(0) + second.min(day_s));
             way.stay(at, slice..until);
@@ -51,14 +51,14 @@ impl Ways<'_> {
     }
 
     fn worth_less_paid(&self, layer: usize, at: usize, second: u32) -> i64 {
-        self.certificate.worth_less_paid(self.network, layer, at, second as usize)
+        self.certificate.worth_less_paid(self.day, layer, at, second as usize)
     }
 
     /// The second until which an aircraft that may wait freely does so: as long as being ready later is worth as much.
     fn waits_until(&self, layer: usize, at: usize, mut second: u32) -> u32 {
         let worth = |second| self.worth_less_paid(layer, at, second);
-        while self.network.layers[layer].waits_freely
-            && second < self.network.slices.day_s()
+        while self.day.layers[layer].waits_freely
+            && second < self.day.slices.day_s()
             && worth(second) == worth(second + 1)
         {
             second += 1;
@@ -68,12 +68,12 @@ impl Ways<'_> {
 
     /// The first flight in file order whose worth equals that of being ready at a vertiport, second and slice.
     fn best_flight(&self, layer: usize, at: usize, second: u32, slice: usize) -> Option<&Flight> {
-        let paid = |at| self.certificate.paid(self.network, slice, at);
+        let paid = |at| self.certificate.paid(self.day, slice, at);
         let here = self.worth_less_paid(layer, at, second) + paid(at);
-        self.network.flights(slice, layer, at).iter().find(|flight| {
+        self.day.flights(slice, layer, at).iter().find(|flight| {
             let to = flight.to.at();
             let goes_on = self.worth_less_paid(layer, to, second + flight.block_s);
-            here == earnings(self.network, self.prices, flight) + paid(to) + goes_on
+            here == earnings(self.day, self.prices, flight) + paid(to) + goes_on
         })
     }
 }

@@ -22,7 +22,7 @@ const LONGEST_NAME: usize = 22;
 /// With more days the dots would run into each other and say less than the box.
 const MOST_DOTS: usize = 400;
 
-/// The remark below the name of an offline reference.
+/// The remark below the name of an reference.
 const OFFLINE_REMARK: &str = "knows the day";
 
 /// The quantity that a box plot shows for each policy.
@@ -98,7 +98,7 @@ pub(super) fn bound_share(summary: &ComparisonReport) -> Option<Figure> {
         limit: Some((1.0, "bound")),
     };
     let source = format!(
-        "No schedule of a day earns more than its upper bound, the line at 100 % (proven with steps of {}). ",
+        "No schedule of a day earns more than its upper bound, the line at 100 % (proven with slices of {}). ",
         minutes(bound.step_s)
     );
     Some(draw(summary, &measure, &source))
@@ -121,7 +121,7 @@ fn draw(summary: &ComparisonReport, measure: &Measure, source: &str) -> Figure {
     let policies = &summary.policies;
     let bottom = TOP + ROW * policies.len() as f64;
     let names = policies.iter().map(|policy| shortened(&policy.name, LONGEST_NAME));
-    let remark = policies.iter().any(PolicySummary::is_offline).then_some(OFFLINE_REMARK);
+    let remark = policies.iter().any(PolicySummary::knows_the_day).then_some(OFFLINE_REMARK);
     let least = remark.map_or(60.0, |remark| text_width(remark, 12.0));
     let left = names.map(|name| text_width(&name, 13.0)).fold(least, f64::max) + 32.0;
     let values = policies.iter().flat_map(|policy| (measure.daily)(policy).iter().copied());
@@ -142,7 +142,7 @@ fn draw(summary: &ComparisonReport, measure: &Measure, source: &str) -> Figure {
         let name = shortened(&policy.name, LONGEST_NAME);
         let lettering = Lettering::LABEL.bold().anchored(Anchor::End);
         canvas.text((left - 14.0, middle + 4.5), lettering, &name);
-        if policy.is_offline() {
+        if policy.knows_the_day() {
             let lettering = Lettering::SMALL.anchored(Anchor::End);
             canvas.text((left - 14.0, middle + 19.0), lettering, OFFLINE_REMARK);
         }

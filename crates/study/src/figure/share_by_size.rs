@@ -42,7 +42,7 @@ pub(crate) fn share_by_size(summary: &GeneralisationReport) -> Figure {
     let top = last_row + 42.0;
     let height = top + 2.0 * PANEL_HEIGHT + BETWEEN + BOTTOM;
     let subtitle = format!(
-        "A day each of {}; the bound with steps of {}",
+        "A day each of {}; the bound with slices of {}",
         counted(summary.networks.len(), "random network", "random networks"),
         minutes(summary.bound_step_s)
     );

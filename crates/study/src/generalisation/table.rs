@@ -5,7 +5,7 @@ use crate::numbers::{counted, grouped, minutes, p_value, signed};
 use crate::table::{append_aligned, estimate};
 
 /// The mark after the name of a reference that knows the day.
-const OFFLINE_MARK: &str = " *";
+const REFERENCE_MARK: &str = " *";
 
 /// The text that `generalise` prints, without a line end after the last line.
 pub(super) fn text(summary: &GeneralisationReport) -> String {
@@ -24,7 +24,7 @@ pub(super) fn text(summary: &GeneralisationReport) -> String {
     rows.extend(summary.policies.iter().map(|policy| row(policy, summary.networks.len())));
     append_aligned(&mut text, &rows);
     text.push_str("means over the networks; ± is the 95 % interval of the mean; p is of paired t-tests, two-sided\n");
-    text.push_str("of bound: share of the certified bound, which no schedule passes (steps of ");
+    text.push_str("of bound: share of the certified bound, which no schedule passes (slices of ");
     text.push_str(&minutes(summary.bound_step_s));
     text.push(')');
     if summary.policies.iter().any(|policy| policy.knows_the_day) {
@@ -34,7 +34,7 @@ pub(super) fn text(summary: &GeneralisationReport) -> String {
 }
 
 fn row(policy: &PolicyShare, networks: usize) -> Vec<String> {
-    let mark = if policy.knows_the_day { OFFLINE_MARK } else { "" };
+    let mark = if policy.knows_the_day { REFERENCE_MARK } else { "" };
     let percent = |share: f64| grouped(100.0 * share, 2);
     let [above, minus, p] = match &policy.minus_first {
         None => [const { String::new() }; 3],
