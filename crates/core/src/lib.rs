@@ -2,7 +2,8 @@
 //!
 //! A [`Scenario`] is one operating day with everything exogenous in it and nothing left to be drawn. Days are drawn
 //! from a [`Network`]. Both are read in two stages: raw text, then checked types that cannot hold nonsense. This crate
-//! has no simulation clock, no policies and no motion. Its only randomness draws days and networks.
+//! builds on no other crate here, and has no simulation clock, no policies and no motion. Its only randomness draws days
+//! and networks.
 //!
 //! ```
 //! use vertifleet_core::{DaySeed, Network};

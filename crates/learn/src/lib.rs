@@ -22,6 +22,30 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! Training, an update at a time:
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use vertifleet_core::{Network, Stop};
+//! use vertifleet_learn::nn::Architecture;
+//! use vertifleet_learn::{TrainingRequest, TrainingSettings};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let policy = Architecture::named("mlp").ok_or("a kind of policy")?;
+//! let mut settings = TrainingSettings::preset(&policy, "default")?;
+//! settings.set([("total_steps", "200"), ("n_envs", "4"), ("n_steps", "25"), ("batch_size", "100"), ("eval_days", "1")])?;
+//! let network = Arc::new(Network::find("paper")?);
+//! let request = TrainingRequest { network, policy, settings, seed: 1, commit: String::new() };
+//! let mut run = request.start()?;
+//! while !run.is_done() {
+//!     run.advance(&Stop::default(), &|_| ())?;
+//! }
+//! assert_eq!(run.curve().steps(), 200);
+//! # Ok(())
+//! # }
+//! ```
 
 #![expect(
     clippy::cast_possible_truncation,
