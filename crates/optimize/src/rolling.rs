@@ -9,7 +9,7 @@
 
 use vertifleet_core::VertiportIx;
 use vertifleet_policy::{
-    DayMemory, DayPrices, Policy, PolicyError, RolloutEvaluator, RolloutSettings, Shortlist,
+    Policy, PolicyError, PriceMemory, RolloutEvaluator, RolloutSettings, Shortlist,
 };
 use vertifleet_sim::{Decision, View};
 
@@ -21,22 +21,21 @@ const ROLLOUTS: RolloutSettings =
 /// Prices the rest of the day and rolls choices out. It remembers one day at a time.
 #[derive(Debug, Clone)]
 pub struct Rolling {
-    day: DayMemory<DayPrices>,
+    prices: PriceMemory,
     shortlist: Shortlist,
     evaluator: RolloutEvaluator,
 }
 
 impl Default for Rolling {
     fn default() -> Self {
-        let (day, shortlist) = (DayMemory::default(), Shortlist::default());
-        Self { day, shortlist, evaluator: RolloutEvaluator::new(ROLLOUTS) }
+        let (prices, shortlist) = (PriceMemory::default(), Shortlist::default());
+        Self { prices, shortlist, evaluator: RolloutEvaluator::new(ROLLOUTS) }
     }
 }
 
 impl Policy for Rolling {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
-        let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
-        prices.refresh(*view, decision.time);
+        let prices = self.prices.at(*view, decision);
         let listed = self.shortlist.rank_with_repositioning(prices, *view, decision);
         Ok(self.evaluator.best_choice(prices, *view, decision, listed))
     }

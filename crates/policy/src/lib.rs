@@ -20,13 +20,13 @@
 //! # }
 //! ```
 
-mod day_memory;
+mod bid_prices;
 mod draw;
 mod greedy;
 mod lookahead;
 mod play;
 mod policy;
-mod priced;
+mod price_memory;
 mod prices;
 mod random;
 mod replay;
@@ -34,13 +34,13 @@ mod rollouts;
 mod shortlist;
 mod stoppable;
 
-pub use day_memory::DayMemory;
+pub use bid_prices::BidPricePolicy;
 pub use draw::draw;
 pub use greedy::Greedy;
 pub use lookahead::Lookahead;
 pub use play::{PlayError, play};
 pub use policy::{Policy, PolicyError};
-pub use priced::BidPricePolicy;
+pub use price_memory::PriceMemory;
 pub use prices::{DayPrices, PricedChoice};
 pub use random::Random;
 pub use replay::Replay;

@@ -8,7 +8,7 @@ use vertifleet_sim::{Decision, View};
 /// A choice depends on the decision, the view and the policy's own settings, and on nothing that the policy did on
 /// another day. Days that are played from their first decision to their last therefore have the same outcome in any
 /// order and on any number of threads. Most policies remember nothing and can also play many days by turns with the
-/// same outcome. A policy that looks ahead may remember the day that it is playing ([`DayMemory`](crate::DayMemory)),
+/// same outcome. A policy that looks ahead may remember the day that it is playing ([`PriceMemory`](crate::PriceMemory)),
 /// to continue from its earlier results; it must be able to start in the middle of any day without that memory.
 pub trait Policy: Send {
     /// Chooses a vertiport of [`View::feasible`], where the aircraft's own vertiport means hold.

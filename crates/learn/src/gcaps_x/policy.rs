@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use vertifleet_core::VertiportIx;
-use vertifleet_policy::{DayMemory, DayPrices, Policy, PolicyError, PricedChoice, Shortlist};
+use vertifleet_policy::{Policy, PolicyError, PriceMemory, PricedChoice, Shortlist};
 use vertifleet_sim::{Decision, View};
 
 use crate::gcaps_x::features::Scene;
@@ -18,7 +18,7 @@ pub struct GcapsX {
     weights: Arc<Weights>,
     /// The scorer for the number of vertiports of the day, kept until a day has another number.
     scorer: Option<Scorer>,
-    day: DayMemory<DayPrices>,
+    prices: PriceMemory,
     shortlist: Shortlist,
     /// The choices with their worth by prices and network, dollars.
     scored: Vec<PricedChoice>,
@@ -46,7 +46,7 @@ impl GcapsX {
             architecture,
             weights,
             scorer: None,
-            day: DayMemory::default(),
+            prices: PriceMemory::default(),
             shortlist: Shortlist::default(),
             scored: Vec::new(),
             rollouts: (most > 1).then(|| (most, RolloutPlayer::default())),
@@ -56,8 +56,7 @@ impl GcapsX {
 
 impl Policy for GcapsX {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
-        let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
-        prices.refresh(*view, decision.time);
+        let prices = self.prices.at(*view, decision);
         let listed = self.shortlist.rank(prices, *view, decision);
         if let [only] = listed {
             return Ok(only.to);
@@ -70,10 +69,10 @@ impl Policy for GcapsX {
             }
         };
         let scene = Scene::of(*view, decision, prices);
-        scorer.score(scene, listed);
         let Some((most_rolled_out, rollouts)) = &mut self.rollouts else {
-            return Ok(scorer.best_of_row(0, scene.addition_usd(), listed));
+            return Ok(scorer.best(scene, listed));
         };
+        scorer.score(scene, listed);
         let addition_usd = scene.addition_usd();
         let score = |&choice: &PricedChoice| PricedChoice {
             worth_usd: scorer.worth_usd(0, addition_usd, choice),

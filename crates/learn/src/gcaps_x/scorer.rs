@@ -54,7 +54,7 @@ impl Scorer {
             return only.to;
         }
         self.score(scene, listed);
-        self.best_of_row(0, scene.addition_usd(), listed)
+        self.best_of_first_row(scene.addition_usd(), listed)
     }
 
     /// Scores one decision, in row 0.
@@ -69,16 +69,11 @@ impl Scorer {
         self.net.forward(&self.weights, self.rows.inputs(), &mut self.workspace);
     }
 
-    /// The choice with the highest worth in a row of the latest [`forward`](Self::forward).
-    pub(crate) fn best_of_row(
-        &self,
-        row: usize,
-        addition_usd: f64,
-        listed: &[PricedChoice],
-    ) -> VertiportIx {
+    /// The choice with the highest worth in row 0.
+    fn best_of_first_row(&self, addition_usd: f64, listed: &[PricedChoice]) -> VertiportIx {
         let mut best = (f64::NEG_INFINITY, listed[0].to);
         for &choice in listed {
-            let usd = self.worth_usd(row, addition_usd, choice);
+            let usd = self.worth_usd(0, addition_usd, choice);
             if usd > best.0 {
                 best = (usd, choice.to);
             }

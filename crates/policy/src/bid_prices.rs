@@ -4,19 +4,18 @@
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, View};
 
-use crate::{DayMemory, DayPrices, Policy, PolicyError};
+use crate::{Policy, PolicyError, PriceMemory};
 
-/// Decides by bid prices ([`DayPrices`]): a choice is worth its flight's profit plus the worth of being ready where and
-/// when it ends, less the prices of its passengers and of its stand.
+/// Decides by bid prices ([`DayPrices`](crate::DayPrices)): a choice is worth its flight's profit plus the worth of
+/// being ready where and when it ends, less the prices of its passengers and of its stand.
 #[derive(Debug, Clone, Default)]
 pub struct BidPricePolicy {
-    day: DayMemory<DayPrices>,
+    prices: PriceMemory,
 }
 
 impl Policy for BidPricePolicy {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
-        let prices = self.day.of_day(*view, decision, || DayPrices::of(*view, decision.time));
-        prices.refresh(*view, decision.time);
+        let prices = self.prices.at(*view, decision);
         Ok(prices.best_choice(*view, decision))
     }
 }
