@@ -140,7 +140,7 @@ impl Bound {
             VertiportIx::all(size)
                 .flat_map(move |from| VertiportIx::all(size).map(move |to| (from, to)))
         };
-        let worth = (0..scenario.periods.len()).flat_map(|period| {
+        let passengers = (0..scenario.periods.len()).flat_map(|period| {
             pairs().map(move |(from, to)| bound.passenger_shadow_price_usd(period, from, to))
         });
         Self {
@@ -150,7 +150,7 @@ impl Bound {
             stand_shadow_price_usd: VertiportIx::all(size)
                 .map(|at| bound.stand_shadow_price_usd(at))
                 .collect(),
-            passenger_shadow_price_usd: worth.collect(),
+            passenger_shadow_price_usd: passengers.collect(),
             scenario: Arc::clone(scenario),
         }
     }

@@ -74,7 +74,7 @@ impl Comparison {
     /// network (V310).
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         self.study.competitors.iter().filter_map(|competitor| {
-            competitor.policy()?.warning(&competitor.name, &self.network, self.origin)
+            competitor.policy()?.warning(&competitor.name, &self.network, || self.origin)
         })
     }
 

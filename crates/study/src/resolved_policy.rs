@@ -103,7 +103,7 @@ impl ResolvedPolicy {
     /// The warning V310 for one day: shipped weights are to decide on a changed copy of their network.
     pub fn warning_for(&self, name: &str, day: &Scenario) -> Option<String> {
         let network = network_of(day);
-        self.warning(name, network, NetworkOrigin::of(network, [day]))
+        self.warning(name, network, || NetworkOrigin::of(network, [day]))
     }
 
     /// V310: the warning for shipped weights that decide on a network that only has the name of their own. Cause: the
@@ -113,11 +113,11 @@ impl ResolvedPolicy {
         &self,
         name: &str,
         network: &str,
-        origin: NetworkOrigin,
+        origin: impl FnOnce() -> NetworkOrigin,
     ) -> Option<String> {
         let Self::Learned { is_shipped: true, model, .. } = self else { return None };
         let is_for_another =
-            origin == NetworkOrigin::Changed && model.header().shape.vertiports.is_some();
+            model.header().shape.vertiports.is_some() && origin() == NetworkOrigin::Changed;
         is_for_another.then(|| {
             format!(
                 "policy {name:?} was trained on network {network:?} as it is shipped, but this is a changed copy of it; `vertifleet train` makes weights for the copy"
