@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use exhaustive::best_of_all;
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use vertifleet_core::{Matrix, Scenario, VertiportIx};
 use vertifleet_optimize::{Budget, Plan, SearchSettings, StartingPolicy, plan};
 use vertifleet_policy::{
@@ -106,6 +107,30 @@ fn a_tiny_day_is_planned_to_its_optimum_where_no_aircraft_may_take_what_is_best_
         let found = planned(&day, 2_000).profit_usd;
         assert!((found - best).abs() < 1e-6, "day {number}: planned {found}, possible {best}");
     }
+}
+
+/// Takes a minute in a debug build, and so is run by hand:
+/// `cargo test --release --workspace --locked --test planner -- --ignored --nocapture`.
+#[test]
+#[ignore = "plans 2,680 days"]
+fn of_thousands_of_tiny_days_a_handful_are_planned_below_their_optimum() {
+    let sizes = [(3, 3, 2), (3, 2, 3), (2, 3, 2), (4, 3, 2)];
+    let size = |(vertiports, fleet, hours)| Size { vertiports, fleet, hours };
+    let days = |number| [any_day, any_extended_day].map(|kind| move |size| kind(number, size));
+    let days: Vec<Arc<Scenario>> = sizes
+        .into_iter()
+        .flat_map(|one| (5_000..5_400).flat_map(days).map(move |day| day(size(one))))
+        .collect();
+    let missed_usd = |day: &Arc<Scenario>| {
+        let best = best_of_all(&mut Simulation::new(Arc::clone(day)), &mut 200_000)?;
+        let settings = SearchSettings { budget: Budget::Steps(2_000), searches: 2, seed: 5 };
+        let plan = plan(day, &settings, Vec::new(), &mut |_| true).ok()?;
+        Some(best - plan.profit_usd)
+    };
+    let missed_usd: Vec<f64> = days.par_iter().filter_map(missed_usd).collect();
+    let missed = missed_usd.iter().filter(|&&missed_usd| missed_usd > 1e-6).count();
+    println!("{missed} of {} optima are missed", missed_usd.len());
+    assert!(missed_usd.len() > 2_000 && missed < 10, "{missed} of {}", missed_usd.len());
 }
 
 #[test]
