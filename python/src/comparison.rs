@@ -13,7 +13,8 @@ use vertifleet_progress::Bars;
 use vertifleet_study::competitor::Selection;
 use vertifleet_study::report::{self, Records as _};
 use vertifleet_study::{
-    ComparisonRecords, ComparisonReport, DayRecord, Error, OwnDays, PolicySource, comparison,
+    ComparisonRecords, ComparisonReport, DayRecord, Error, MOST_DAYS, OwnDays, PolicySource,
+    comparison,
 };
 
 use crate::failure::{Failure, warn};
@@ -136,9 +137,6 @@ impl Comparison {
     }
 }
 
-/// The highest number of days in a comparison, the same as in the `vertifleet` program.
-const DAYS: u32 = 1_000_000;
-
 /// The arguments of a comparison, by their names in Python. `policies` are names as in `vertifleet compare`. `models`
 /// maps names to weight files, `Model`s or functions. `bound` requests upper bounds with slices of `step` minutes.
 /// `policy_seed` is the seed of the random policy and of the planner's search.
@@ -146,70 +144,87 @@ const DAYS: u32 = 1_000_000;
 #[pyo3(from_item_all)]
 pub(crate) struct Arguments<'py> {
     policies: Vec<String>,
-    days: WholeNumber,
-    seed: WholeNumber,
+    days: Days,
     models: BTreeMap<String, Bound<'py, PyAny>>,
     bound: bool,
     step: WholeNumber,
     policy_seed: WholeNumber,
 }
 
-/// The arguments of a comparison other than its days and their seed, checked and converted to Rust types.
+/// The days of a comparison: `days` of them drawn from a network, the first from `seed`, or the caller's own, with a
+/// text that says where they came from.
+#[derive(FromPyObject)]
+enum Days {
+    Own { scenarios: Vec<Py<Scenario>>, origin: String },
+    Drawn { days: WholeNumber, seed: WholeNumber },
+}
+
+/// A comparison that was asked for, with its arguments checked and converted to Rust types.
 struct Request {
+    network: Option<Arc<core::Network>>,
+    days: RequestedDays,
     policies: Vec<String>,
     models: Vec<(String, PolicySource)>,
     step: Option<Step>,
     policy_seed: u64,
 }
 
-/// Days that are drawn from a network.
-struct Drawn {
-    network: Arc<core::Network>,
-    days: u32,
-    seed: u64,
+enum RequestedDays {
+    Own(OwnDays),
+    Drawn { days: u32, seed: u64 },
 }
 
 impl Request {
     /// A policy that is a function sees the days as days of `network`.
-    fn of(network: Option<&Network>, arguments: &Arguments<'_>, raised: &Raised) -> PyResult<Self> {
+    fn of(network: Option<&Network>, arguments: Arguments<'_>, raised: &Raised) -> PyResult<Self> {
+        let network = network.map(|network| Arc::clone(&network.network));
         let step = Step::from_minutes(arguments.step.of("step")?);
-        let scales = network.map(|network| Scales::from(network.network.feature_scales()));
-        let source = |(name, value): (&String, &Bound<'_, PyAny>)| {
-            Ok((name.clone(), policy_source(value, scales, raised)?))
+        let scales = network.as_ref().map(|network| Scales::from(network.feature_scales()));
+        let source = |(name, value): (String, Bound<'_, PyAny>)| {
+            Ok((name, policy_source(&value, scales, raised)?))
         };
         Ok(Self {
-            policies: arguments.policies.clone(),
-            models: arguments.models.iter().map(source).collect::<PyResult<_>>()?,
+            network,
+            days: arguments.days.checked()?,
+            policies: arguments.policies,
+            models: arguments.models.into_iter().map(source).collect::<PyResult<_>>()?,
             step: arguments.bound.then_some(step).transpose().map_err(Failure::from)?,
             policy_seed: arguments.policy_seed.of("policy_seed")?,
         })
     }
 
-    fn selection(&self) -> Selection<'_> {
-        let Self { policies, models, policy_seed, .. } = self;
-        Selection { policies, models, seed: *policy_seed }
-    }
-
-    /// The comparison on the first `days` of the drawn days.
-    fn on(&self, drawn: &Drawn, days: u32, stop: &Stop) -> Result<comparison::Comparison, Error> {
-        let Drawn { network, seed, .. } = drawn;
-        comparison::Comparison::new(network, &self.selection(), *seed, days, self.step, stop)
-    }
-
-    /// The comparison on the caller's own days.
-    fn on_own(&self, days: OwnDays) -> Result<comparison::Comparison, Error> {
-        comparison::Comparison::of_own(days, &self.selection(), self.step)
+    /// The comparison on the days, or on no more than `most` of them where days are drawn.
+    fn comparison(self, most: u32, stop: &Stop) -> Result<comparison::Comparison, Error> {
+        let Self { network, days, policies, models, step, policy_seed } = self;
+        let selection = Selection { policies: &policies, models: &models, seed: policy_seed };
+        match (days, network) {
+            (RequestedDays::Drawn { days, seed }, Some(network)) => {
+                let days = days.min(most);
+                comparison::Comparison::new(&network, &selection, seed, days, step, stop)
+            }
+            (RequestedDays::Own(days), _) => comparison::Comparison::of_own(days, &selection, step),
+            (RequestedDays::Drawn { .. }, None) => unreachable!("days are drawn from a network"),
+        }
     }
 }
 
-impl Drawn {
-    fn of(network: &Network, arguments: &Arguments<'_>) -> Result<Self, Failure> {
-        let days = arguments.days.of("days")?;
-        if days > DAYS {
-            return Err(Failure::argument(format!("days must be at most {DAYS}, found {days}")));
-        }
-        let network = Arc::clone(&network.network);
-        Ok(Self { network, days, seed: arguments.seed.of("seed")? })
+impl Days {
+    fn checked(self) -> PyResult<RequestedDays> {
+        Ok(match self {
+            Self::Own { scenarios, origin } => {
+                let scenarios = scenarios.iter().map(|day| Arc::clone(&day.get().scenario));
+                let days = OwnDays::of(scenarios.collect(), origin).map_err(Failure::from)?;
+                RequestedDays::Own(days)
+            }
+            Self::Drawn { days, seed } => {
+                let (days, seed) = (days.of("days")?, seed.of("seed")?);
+                if days > MOST_DAYS {
+                    let rule = format!("days must be at most {MOST_DAYS}, found {days}");
+                    return Err(Failure::argument(rule).into());
+                }
+                RequestedDays::Drawn { days, seed }
+            }
+        })
     }
 }
 
@@ -218,34 +233,17 @@ impl Drawn {
 #[pyo3(signature = (network, arguments))]
 pub(crate) fn check_comparison(
     py: Python<'_>,
-    network: &Network,
+    network: Option<&Network>,
     arguments: Arguments<'_>,
 ) -> PyResult<Vec<String>> {
-    let request = Request::of(Some(network), &arguments, &Raised::default())?;
-    let drawn = Drawn::of(network, &arguments)?;
+    let request = Request::of(network, arguments, &Raised::default())?;
     let warnings = interruptible(py, 1, move |stop| {
-        DaySeed::comparison(drawn.seed.saturating_add(drawn.days.saturating_sub(1).into()))?;
-        Ok::<_, Error>(request.on(&drawn, drawn.days.min(1), stop)?.warnings().collect())
+        if let RequestedDays::Drawn { days, seed } = request.days {
+            DaySeed::comparison(seed.saturating_add(days.saturating_sub(1).into()))?;
+        }
+        Ok::<_, Error>(request.comparison(1, stop)?.warnings().collect())
     })?;
     Ok(warnings.map_err(Failure::from)?)
-}
-
-/// Plays days of a network with every policy; all policies play the same days. The first day has the seed `seed`.
-/// `command` is the command that the report says it was made with. The `warnings` of the result name what is allowed
-/// but probably not intended.
-#[pyfunction]
-#[pyo3(signature = (network, arguments, *, threads = None, command = ""))]
-pub(crate) fn compare(
-    py: Python<'_>,
-    network: &Network,
-    arguments: Arguments<'_>,
-    threads: Option<WholeNumber>,
-    command: &str,
-) -> PyResult<Comparison> {
-    let raised = Raised::default();
-    let request = Request::of(Some(network), &arguments, &raised)?;
-    let drawn = Drawn::of(network, &arguments)?;
-    played(py, threads, command, &raised, move |stop| request.on(&drawn, drawn.days, stop))
 }
 
 /// Reads the scenario files for a comparison, and returns the days and a text that says where they came from. A folder
@@ -257,38 +255,22 @@ pub(crate) fn read_days(paths: Vec<PathBuf>) -> Result<(Vec<Scenario>, String), 
     Ok((scenarios.into_iter().map(|scenario| Scenario { scenario }).collect(), from))
 }
 
-/// Plays the caller's own days with every policy. `origin` says where they came from. The arguments `days` and `seed`
-/// are ignored here. A policy that is a function sees the days as days of `network`.
+/// Plays days with every policy; all policies play the same days. A policy that is a function sees the caller's own
+/// days as days of `network`. `command` is the command that the report says it was made with. The `warnings` of the
+/// result name what is allowed but probably not intended.
 #[pyfunction]
-#[pyo3(signature = (scenarios, origin, network, arguments, *, threads = None, command = ""))]
-pub(crate) fn compare_own(
+#[pyo3(signature = (network, arguments, *, threads, command))]
+pub(crate) fn compare(
     py: Python<'_>,
-    scenarios: Vec<Py<Scenario>>,
-    origin: String,
     network: Option<&Network>,
     arguments: Arguments<'_>,
     threads: Option<WholeNumber>,
-    command: &str,
+    command: String,
 ) -> PyResult<Comparison> {
     let raised = Raised::default();
-    let request = Request::of(network, &arguments, &raised)?;
-    let scenario = |day: &Py<Scenario>| Arc::clone(&day.get().scenario);
-    let days = OwnDays::of(scenarios.iter().map(scenario).collect(), origin);
-    let days = days.map_err(Failure::from)?;
-    played(py, threads, command, &raised, move |_| request.on_own(days))
-}
-
-/// Makes a comparison and plays it on its own threads.
-fn played(
-    py: Python<'_>,
-    threads: Option<WholeNumber>,
-    command: &str,
-    raised: &Raised,
-    made: impl FnOnce(&Stop) -> Result<comparison::Comparison, Error> + Send + 'static,
-) -> PyResult<Comparison> {
-    let (threads, command) = (interruptible::threads(threads)?, command.to_owned());
-    let outcome = interruptible(py, threads, move |stop| {
-        let comparison = made(stop)?;
+    let request = Request::of(network, arguments, &raised)?;
+    let outcome = interruptible(py, interruptible::threads(threads)?, move |stop| {
+        let comparison = request.comparison(u32::MAX, stop)?;
         let warnings = comparison.warnings().collect();
         let study = comparison.run(command, stop, &Bars)?;
         Ok::<_, Error>(Comparison { study, warnings })

@@ -36,7 +36,7 @@ mod _native {
     #[pymodule_export]
     use crate::batch::Batch;
     #[pymodule_export]
-    use crate::comparison::{Comparison, check_comparison, compare, compare_own, read_days};
+    use crate::comparison::{Comparison, check_comparison, compare, read_days};
     #[pymodule_export]
     use crate::environment::Environment;
     #[pymodule_export]

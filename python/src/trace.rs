@@ -113,7 +113,7 @@ impl Trace {
     }
 }
 
-/// Checks a schedule against the rules, independently of the simulator. Returns the verdict as a dict: `valid`,
+/// Checks a schedule against the rules, independently of the simulator. Returns the report as a dict: `valid`,
 /// `totals` (the results of the day, computed again), `broken` (how often each rule is broken) and `findings` (where it
 /// is broken). A schedule of another day is matched by the ids of its vertiports and aircraft, as a file would be.
 #[pyfunction]

@@ -101,9 +101,9 @@ def test_a_trace_is_a_schedule_that_can_be_kept_replayed_and_judged(day: Scenari
     assert vertifleet.simulate(day, f"replay:{path}").summary == played.summary
     assert vertifleet.simulate(day, played.trace).summary == played.summary
     assert played.trace.scenario == day
-    verdict = vertifleet.check(day, played.trace)
-    assert verdict["valid"]
-    assert verdict["totals"]["profit_usd"] == pytest.approx(played.profit_usd)
+    report = vertifleet.check(day, played.trace)
+    assert report["valid"]
+    assert report["totals"]["profit_usd"] == pytest.approx(played.profit_usd)
     columns = played.trace.columns
     profit = (columns["revenue"] - columns["passenger_cost"] - columns["energy_cost"]).sum()
     assert profit == pytest.approx(played.profit_usd)

@@ -60,19 +60,62 @@ def compare(
     Raises:
         Error: with the program's code for the error; an exception of a function of `models` passes through.
     """
-    function = "vertifleet.compare"
-    if days_from is not None:
-        if days is not None or seed is not None:
-            raise Error("V451", "days_from takes neither days nor seed: its days are all there already", None)
-        request = ComparisonRequest.of(function, policies, 0, 0, models, bound, step, policy_seed)
-        return request.compare_own(None if network is None else network_of(network), days_from, threads)
-    if network is None:
+    if days_from is None:
+        chosen: DrawnDays | OwnDays = DrawnDays.of(days, seed)
+    elif days is None and seed is None:
+        chosen = OwnDays.of(days_from)
+    else:
+        raise Error("V451", "days_from takes neither days nor seed: its days are all there already", None)
+    request = ComparisonRequest.of("vertifleet.compare", policies, chosen, models, bound, step, policy_seed)
+    if network is not None:
+        network = network_of(network)
+    elif days_from is None:
         raise Error("V451", "a network to draw days from is missing", "give a network, or days_from")
-    network = network_of(network)
-    drawn = (100 if days is None else days, 1 if seed is None else seed)
-    request = ComparisonRequest.of(function, policies, *drawn, models, bound, step, policy_seed)
     request.check([network])
-    return request.compare(network, request.days, request.seed, threads)
+    return request.compare(network, threads)
+
+
+@dataclass(frozen=True)
+class DrawnDays:
+    """Days drawn from a network, the first from this seed and the others from the seeds that follow."""
+
+    days: int
+    seed: int
+
+    @classmethod
+    def of(cls, days: SupportsIndex | None, seed: SupportsIndex | None) -> DrawnDays:
+        """The days of a call; by default 100 from seed 1 on."""
+        return cls(100 if days is None else index(days), 1 if seed is None else index(seed))
+
+    @property
+    def text(self) -> str:
+        """These arguments as they would be typed."""
+        return f"days={self.days}, seed={self.seed}"
+
+
+@dataclass(frozen=True)
+class OwnDays:
+    """Days of the caller's own."""
+
+    scenarios: list[Scenario]
+    origin: str
+    """Where the days came from, for the report."""
+    text: str
+    """This argument as it would be typed."""
+    seed: int = 0
+    """The seed of the random policy and of the planner's search, if the call gives none."""
+
+    @classmethod
+    def of(cls, days_from: str | os.PathLike[str] | Iterable[str | os.PathLike[str] | Scenario]) -> OwnDays:
+        """The days that a call names, or has."""
+        given = [days_from] if isinstance(days_from, (str, os.PathLike)) else list(days_from)
+        scenarios = [day for day in given if isinstance(day, Scenario)]
+        paths = [day for day in given if not isinstance(day, Scenario)]
+        if scenarios and paths:
+            raise Error("V451", "days_from takes scenarios or files, not both", None)
+        if not paths:
+            return cls(scenarios, "scenarios of the caller's", "days_from=...")
+        return cls(*_native.read_days(paths), f"days_from={given!r}")
 
 
 @dataclass(frozen=True)
@@ -82,8 +125,7 @@ class ComparisonRequest:
     function: str
     """The function of the package that was called."""
     policies: tuple[str, ...]
-    days: int
-    seed: int
+    days: DrawnDays | OwnDays
     models: dict[str, PolicySource]
     bound: bool
     step: int
@@ -94,8 +136,7 @@ class ComparisonRequest:
         cls,
         function: str,
         policies: Iterable[str],
-        days: SupportsIndex,
-        seed: SupportsIndex,
+        days: DrawnDays | OwnDays,
         models: Mapping[str, PolicySource] | None,
         bound: bool,
         step: SupportsIndex,
@@ -110,73 +151,40 @@ class ComparisonRequest:
             )
         seed_of_policies = None if policy_seed is None else index(policy_seed)
         names, given = tuple(name.strip() for name in policies), dict(models or {})
-        return cls(function, names, index(days), index(seed), given, bound, index(step), seed_of_policies)
+        return cls(function, names, days, given, bound, index(step), seed_of_policies)
 
-    def check(self, networks: Iterable[Network], stacklevel: int = 3) -> None:
+    def check(self, networks: Iterable[Network | None], stacklevel: int = 3) -> None:
         """Refuses what cannot be played and warns of what is probably not intended, before any day is played.
 
         Args:
-            networks: the networks that the days are drawn from.
+            networks: the networks that the days are drawn from, or that own days are seen as days of.
             stacklevel: number of levels from here up to the user's call.
         """
-        request = self._for_native(self.days, self.seed)
+        request = self._for_native(self.days)
         texts = [text for network in networks for text in _native.check_comparison(network, request)]
         for text in dict.fromkeys(texts):
             warnings.warn(text, stacklevel=stacklevel)
 
-    def compare(self, network: Network, days: int, seed: int, threads: int | None) -> Comparison:
-        """Plays some of the days."""
-        return _native.compare(
-            network, self._for_native(days, seed), threads=threads, command=self._call_text(network)
-        )
-
-    def compare_own(
-        self,
-        network: Network | None,
-        days_from: str | os.PathLike[str] | Iterable[str | os.PathLike[str] | Scenario],
-        threads: int | None,
+    def compare(
+        self, network: Network | None, threads: int | None, part: DrawnDays | None = None
     ) -> Comparison:
-        """Plays days of the caller's own, and warns of what is probably not intended."""
-        given = [days_from] if isinstance(days_from, (str, os.PathLike)) else list(days_from)
-        scenarios = [day for day in given if isinstance(day, Scenario)]
-        paths = [day for day in given if not isinstance(day, Scenario)]
-        if scenarios and paths:
-            raise Error("V451", "days_from takes scenarios or files, not both", None)
-        origin = "scenarios of the caller's"
-        if paths:
-            scenarios, origin = _native.read_days(paths)
-        typed = self._arguments_text(f"days_from={given!r}" if paths else "days_from=...")
-        found = _native.compare_own(
-            scenarios,
-            origin,
-            network,
-            self._for_native(0, 0),
-            threads=threads,
-            command=f"{self.function}({None if network is None else network.source}, {typed})",
-        )
-        for text in dict.fromkeys(found.warnings):
-            warnings.warn(text, stacklevel=3)
-        return found
+        """Plays the days, or a part of them."""
+        request = self._for_native(part or self.days)
+        return _native.compare(network, request, threads=threads, command=self._call_text(network))
 
-    def _for_native(self, days: int, seed: int) -> dict[str, Any]:
+    def _for_native(self, days: DrawnDays | OwnDays) -> dict[str, Any]:
         return {
             "policies": list(self.policies),
             "days": days,
-            "seed": seed,
             "models": self.models,
             "bound": self.bound,
             "step": self.step,
-            "policy_seed": self.seed if self.policy_seed is None else self.policy_seed,
+            "policy_seed": self.days.seed if self.policy_seed is None else self.policy_seed,
         }
 
-    def _call_text(self, network: Network) -> str:
+    def _call_text(self, network: Network | None) -> str:
         """The call as it would be typed, for the report."""
-        arguments = self._arguments_text(f"days={self.days}", f"seed={self.seed}")
-        return f"{self.function}({network.source}, {arguments})"
-
-    def _arguments_text(self, *days: str) -> str:
-        """The arguments after the network in the call, with `days` as the arguments about the days."""
-        said = list(days)
+        said = [f"{list(self.policies)!r}", self.days.text]
         if self.models:
             models = ", ".join(f"{name!r}: {_name(given)}" for name, given in self.models.items())
             said.append(f"models={{{models}}}")
@@ -184,7 +192,8 @@ class ComparisonRequest:
             said += ["bound=True", f"step={self.step}"]
         if self.policy_seed is not None:
             said.append(f"policy_seed={self.policy_seed}")
-        return f"{list(self.policies)!r}, {', '.join(said)}"
+        source = None if network is None else network.source
+        return f"{self.function}({source}, {', '.join(said)})"
 
 
 def _name(given: PolicySource) -> str:

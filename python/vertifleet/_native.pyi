@@ -32,7 +32,6 @@ __all__ = [
     "check",
     "check_comparison",
     "compare",
-    "compare_own",
     "plan",
     "read_days",
     "settings",
@@ -304,20 +303,15 @@ def plan(
     threads: SupportsIndex | None = None,
 ) -> Plan: ...
 def check(scenario: Scenario, trace: Trace) -> dict[str, Any]: ...
-def check_comparison(network: Network, arguments: Mapping[str, Any]) -> list[str]: ...
+def check_comparison(network: Network | None, arguments: Mapping[str, Any]) -> list[str]: ...
 def compare(
-    network: Network, arguments: Mapping[str, Any], *, threads: SupportsIndex | None = None, command: str = ""
-) -> Comparison: ...
-def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]: ...
-def compare_own(
-    scenarios: Sequence[Scenario],
-    origin: str,
     network: Network | None,
     arguments: Mapping[str, Any],
     *,
-    threads: SupportsIndex | None = None,
-    command: str = "",
+    threads: SupportsIndex | None,
+    command: str,
 ) -> Comparison: ...
+def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]: ...
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]: ...
 def train(
     network: Network,

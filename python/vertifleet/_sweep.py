@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
-from vertifleet._compare import ComparisonRequest, network_of
+from vertifleet._compare import ComparisonRequest, DrawnDays, network_of
 from vertifleet._errors import Error
 
 if TYPE_CHECKING:
@@ -122,10 +122,10 @@ def sweep(
     network = network_of(network)
     points = variations(network, changes)
     request = ComparisonRequest.of(
-        "vertifleet.compare", policies, days, seed, models, bound, step, policy_seed
+        "vertifleet.compare", policies, DrawnDays.of(days, seed), models, bound, step, policy_seed
     )
     request.check(variation for _, variation in points)
-    comparisons = [request.compare(variation, request.days, request.seed, threads) for _, variation in points]
+    comparisons = [request.compare(variation, threads) for _, variation in points]
     return Sweep(network.name, request.policies, together(points, comparisons))
 
 

@@ -29,7 +29,7 @@ pub(crate) enum Command {
     Scenario(ScenarioArguments),
     /// Play a day with one policy
     Simulate(SimulateArguments),
-    /// Judge a schedule by the rules, independently of the simulator
+    /// Check a schedule against the rules, independently of the simulator
     Check(CheckArguments),
     /// Prove how much a known day can earn at most
     Bound(BoundArguments),
@@ -91,7 +91,7 @@ pub(crate) struct CheckArguments {
     pub(crate) scenario: PathBuf,
     /// Trace of the whole day, as simulate --trace writes it
     pub(crate) trace: PathBuf,
-    /// Print the verdict as JSON
+    /// Print the findings as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -196,7 +196,7 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "DIR|FILE", num_args = 1.., conflicts_with_all = ["network", "days", "seed"])]
     pub(crate) days_from: Vec<PathBuf>,
     /// Policies, separated by commas: random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K (which
-    /// tries its K best choices out), names given by --model, and plan, the planner, which knows the days beforehand
+    /// rolls its K best choices out), names given by --model, and plan, the planner, which knows the days beforehand
     #[arg(long, value_delimiter = ',', required = true, value_parser = parse_name)]
     pub(crate) policies: Vec<String>,
     /// Number of days

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use vertifleet_study::PolicySource;
+use vertifleet_study::{MOST_DAYS, PolicySource};
 
 pub(crate) fn parse_pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
@@ -28,8 +28,8 @@ pub(crate) fn parse_name(text: &str) -> Result<String, String> {
 /// A number of days or networks.
 pub(crate) fn parse_count(text: &str) -> Result<u32, String> {
     match text.parse() {
-        Ok(count @ 1..=1_000_000) => Ok(count),
-        _ => Err("expected a whole number from 1 to 1000000".to_owned()),
+        Ok(count @ 1..=MOST_DAYS) => Ok(count),
+        _ => Err(format!("expected a whole number from 1 to {MOST_DAYS}")),
     }
 }
 

@@ -39,15 +39,15 @@ fn a_day_is_drawn_played_checked_and_replayed() {
             at,
             &format!("simulate day.json --policy {policy} --seed 3 --trace {policy}.csv --json"),
         );
-        let verdict = stdout(at, &format!("check day.json {policy}.csv --json"));
+        let report = stdout(at, &format!("check day.json {policy}.csv --json"));
         let replayed =
             stdout(at, &format!("simulate day.json --policy replay:{policy}.csv --json"));
         assert_eq!(played, replayed, "{policy}");
 
         let played: Value = serde_json::from_str(&played).expect("JSON");
-        let verdict: Value = serde_json::from_str(&verdict).expect("JSON");
-        assert_eq!(verdict["valid"], true);
-        let (found, stated) = (&verdict["totals"]["profit_usd"], &played["profit_usd"]);
+        let report: Value = serde_json::from_str(&report).expect("JSON");
+        assert_eq!(report["valid"], true);
+        let (found, stated) = (&report["totals"]["profit_usd"], &played["profit_usd"]);
         let apart = found.as_f64().expect("dollars") - stated.as_f64().expect("dollars");
         assert!(apart.abs() < 1e-6, "{policy}: {found} is not {stated}");
     }

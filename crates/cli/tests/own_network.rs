@@ -58,12 +58,12 @@ fn a_day_of_a_network_with_a_table_and_costs_is_played_checked_bounded_and_plann
     let played = json(at, "simulate day.json --policy greedy --trace day.csv --json");
     // A trace that this program wrote is replaced without `--force`, even if it has the column of flight costs.
     json(at, "simulate day.json --policy greedy --trace day.csv --json");
-    let verdict = json(at, "check day.json day.csv --json");
-    assert_eq!(verdict["valid"], true, "{verdict}");
+    let report = json(at, "check day.json day.csv --json");
+    assert_eq!(report["valid"], true, "{report}");
     let number = |value: &Value, member: &str| value[member].as_f64().expect("a number");
     assert!(number(&played, "flight_cost_usd") > 0.0 && number(&played, "aircraft_cost_usd") > 0.0);
     for member in ["profit_usd", "flight_cost_usd", "aircraft_cost_usd"] {
-        let found = number(&verdict["totals"], member);
+        let found = number(&report["totals"], member);
         assert!((found - number(&played, member)).abs() < 1e-6, "{member}: {found}");
     }
     let bound = number(&json(at, "bound day.json --step 15 --json"), "upper_bound_usd");

@@ -142,7 +142,7 @@ impl Check<'_> {
         number(operations.landing_s, &limits::PHASE_S, "landing_s")?;
         number(
             operations.takeoff_s + operations.landing_s,
-            &limits::JOURNEY_S,
+            &limits::FLIGHT_S,
             "takeoff_s + landing_s",
         )?;
         number(operations.hold_s, &limits::HOLD_S, "hold_s")

@@ -21,7 +21,7 @@ pub struct FeatureScales {
     pub energy_price_usd: f64,
     /// B, the battery's charge, kWh.
     pub battery_kwh: f64,
-    /// g_ij, the mean power of a journey, kW.
+    /// g_ij, the mean power of a flight, kW.
     pub power_kw: f64,
 }
 

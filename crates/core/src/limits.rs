@@ -117,10 +117,10 @@ pub(crate) const SEED_LIMIT: u64 = 1 << 53;
 /// The latest time of day that operations and periods may name.
 pub(crate) const LATEST: Time = Time::from_seconds(36 * 3600);
 
-/// The shortest take-off and landing together. A journey over no distance lasts this long, which bounds the number of
+/// The shortest take-off and landing together. A flight over no distance lasts this long, which bounds the number of
 /// decisions of a day.
-pub(crate) const JOURNEY_S: Limits = Limits::between(60.0, f64::INFINITY)
-    .hint("journeys that take no time would let a day go on for ever");
+pub(crate) const FLIGHT_S: Limits = Limits::between(60.0, f64::INFINITY)
+    .hint("flights that take no time would let a day go on for ever");
 pub(crate) const PHASE_S: Limits = Limits::whole(0, 86_400);
 pub(crate) const HOLD_S: Limits =
     Limits::whole(60, 86_400).hint("an aircraft that holds is asked again after hold_s seconds");
@@ -132,12 +132,12 @@ pub(crate) const STANDS: Limits = Limits::whole(1, 10_000)
 pub(crate) const CHARGERS: Limits = Limits::whole(1, 10_000)
     .hint("chargers counts the aircraft that charge at the vertiport or are on their way to it");
 
-/// A slot of delays lasts at least as long as the shortest journey, so that a day has a bounded number of slots.
+/// A slot of delays lasts at least as long as the shortest flight, so that a day has a bounded number of slots.
 pub(crate) const SLOT_S: Limits = Limits::whole(60, 86_400);
 
 pub(crate) const SEATS: Limits =
     Limits::whole(1, 1_000).hint("seats counts passengers, not the pilot");
-// The least speed and charging power bound a journey to 1,000 hours and a charge to 5,000, so that every time of a day
+// The least speed and charging power bound a flight to 1,000 hours and a charge to 5,000, so that every time of a day
 // can be written in the four digits for hours that `Time` reads.
 pub(crate) const SPEED_MPH: Limits = Limits::between(10.0, 1_000.0);
 pub(crate) const BATTERY_KWH: Limits = Limits::above_zero(5_000.0);

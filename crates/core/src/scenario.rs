@@ -7,7 +7,7 @@ use std::ops::Deref;
 
 use crate::{Disturbances, Fares, Matrix, Route, Time, TypeIx, VertiportIx};
 
-/// When decisions are taken, and how long each part of a journey takes apart from cruise and charging.
+/// When decisions are taken, and how long each part of a flight takes apart from cruise and charging.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Operations {
     /// First instant at which an aircraft may decide.

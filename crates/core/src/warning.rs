@@ -168,7 +168,7 @@ impl Scenario {
         self.is_corridor(from, to) && self.reaches(kind, self.distance_mi[(from, to)])
     }
 
-    /// Whether a full battery lasts for a flight, which takes e d_ij and the self-discharge of the journey. Cruise is
+    /// Whether a full battery lasts for a flight, which takes e d_ij and the self-discharge on the way. Cruise is
     /// rounded to whole seconds.
     fn reaches(&self, kind: &AircraftType, distance_mi: f64) -> bool {
         let cruise_s = (3600.0 * distance_mi / kind.speed_mph).round();

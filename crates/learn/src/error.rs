@@ -79,9 +79,11 @@ pub enum Error {
     },
     /// V309: training diverged, and a weight is infinite or NaN. Fix: train with a smaller `learning_rate`, from the
     /// last checkpoint or from the start.
-    #[error("training diverged in update {update}: a weight is no finite number any more")]
+    #[error(
+        "training diverged: after update or round {update}, a weight is no finite number any more"
+    )]
     Diverged {
-        /// The update, counted from 1.
+        /// The update of PPO, or the round of imitation, counted from 1.
         update: u64,
     },
     /// V311: a run was to start in a folder that holds the checkpoint of an earlier run of the same policy. Fix:

@@ -17,6 +17,6 @@ use vertifleet_policy::RolloutSettings;
 
 pub use policy::GcapsX;
 
-/// The settings of the roll-outs of `gcaps-x`, if its choices are rolled out at all.
-const ROLLOUTS: RolloutSettings =
+/// The settings of the roll-outs that `gcaps-x` learns from, and of its own, if its choices are rolled out at all.
+pub(crate) const ROLLOUTS: RolloutSettings =
     RolloutSettings { horizon_s: 7_200, rollouts: 8, noise: 0.06, price_weight: 0.5 };

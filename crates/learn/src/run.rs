@@ -145,7 +145,7 @@ fn network_fingerprint(network: &Network) -> Result<u32, Error> {
     Ok(crc32c::crc32c_append(crc32c::crc32c(day.to_json().as_bytes()), scales.as_bytes()))
 }
 
-/// Refuses weights that are infinite or NaN after an update, which is counted from 1.
+/// Refuses weights that are infinite or NaN after an update or a round, which is counted from 1.
 pub(crate) fn check_finite(params: &[f32], update: u64) -> Result<(), Error> {
     if params.iter().all(|weight| weight.is_finite()) {
         return Ok(());

@@ -2,13 +2,15 @@
 //!
 //! Stands and passengers get prices (`bound/prices.rs`). Any prices prove a bound in exact arithmetic
 //! (`bound/certificate.rs`), over a day that is laid out once (`bound/time_expanded_day.rs`). What the fleet would do
-//! at the prices (`bound/ways.rs`) shows how to improve them (`bound/descent.rs`), from coarse slices of time to fine
-//! ones (`bound/ladder.rs`). docs/src/concepts/bound.md has the proof. The prices of a bound can be kept in a file
-//! (`bound/cache.rs`).
+//! at the prices (`bound/best_itineraries.rs`) shows how to improve them (`bound/descent.rs`), from coarse slices of
+//! time to fine ones (`bound/ladder.rs`). docs/src/concepts/bound.md has the proof. The prices of a bound can be kept
+//! in a file (`bound/kept.rs`).
 
-mod cache;
+mod best_itineraries;
 mod certificate;
 mod descent;
+mod itinerary;
+mod kept;
 mod ladder;
 mod master;
 mod money;
@@ -16,8 +18,8 @@ mod prices;
 #[cfg(test)]
 mod proof_tests;
 mod slices;
+mod step;
 mod time_expanded_day;
-mod ways;
 
 use vertifleet_core::{Scenario, Stop, VertiportIx};
 
@@ -25,45 +27,15 @@ use crate::Error;
 use descent::Found;
 use prices::Prices;
 use slices::Slices;
+use step::STEPS;
 use time_expanded_day::TimeExpandedDay;
 
-pub use cache::cached_upper_bound;
-pub(crate) use ladder::Watch;
+pub use kept::kept_upper_bound;
+pub(crate) use ladder::{Watch, search};
+pub use step::Step;
 
-/// The longest time over which prices stay the same: a whole number of minutes from 1 to 60. A shorter step never gives
-/// a looser bound, and takes longer.
-///
-/// Slices of time have 60, 15, 5, 3 or 1 minutes: the longest of these that is no longer than the requested step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Step {
-    minutes: u32,
-}
-
-impl Step {
-    /// A step in which prices stay the same for at most `minutes`.
-    ///
-    /// # Errors
-    /// [`Error::Step`] unless `minutes` is from 1 to 60.
-    pub fn from_minutes(minutes: u32) -> Result<Self, Error> {
-        if (1..=60).contains(&minutes) {
-            Ok(Self { minutes: ladder::cut_within(minutes) })
-        } else {
-            Err(Error::Step { found: minutes })
-        }
-    }
-
-    /// The length of the slices, seconds.
-    pub fn seconds(self) -> u32 {
-        60 * self.minutes
-    }
-}
-
-impl Default for Step {
-    /// A step of 5 minutes.
-    fn default() -> Self {
-        Self { minutes: 5 }
-    }
-}
+/// A difference of profits that is too small to matter.
+pub(crate) const CENT_USD: f64 = 0.01;
 
 /// A proven bound, and the prices that prove it.
 #[derive(Debug, Clone)]
@@ -99,25 +71,11 @@ pub fn upper_bound_unless(
     Ok(bound.filter(|_| !stopped.is_requested()))
 }
 
-/// Does the same as [`upper_bound`] while `watch` follows it. Returns the best bound when `watch` stops the search, or
-/// `None` if that is before the first bound.
-///
-/// # Errors
-/// The errors of [`upper_bound`].
-pub(crate) fn search(
-    scenario: &Scenario,
-    step: Step,
-    watch: &dyn Watch,
-) -> Result<Option<Bound>, Error> {
-    ladder::climb(scenario, step, watch)
-}
-
-/// Checks that a day is not too large for a bound with this step.
-///
-/// # Errors
-/// [`Error::TooManyFlights`] if the day is too large.
-pub(crate) fn fits(scenario: &Scenario, step: Step) -> Result<(), Error> {
-    TimeExpandedDay::fits(scenario, step.seconds())
+/// The shortest step of a few minutes for which a day is not too large; `None` if it is too large for all. Slices of a
+/// minute are left out, because they take long and prove little more.
+pub(crate) fn finest_step(scenario: &Scenario) -> Option<Step> {
+    let fits = |step: &Step| TimeExpandedDay::fits(scenario, step.seconds()).is_ok();
+    STEPS.into_iter().rev().filter(|step| step.minutes > 1).find(fits)
 }
 
 /// Ignores all progress, and only passes a request to stop on.
@@ -157,6 +115,16 @@ impl Bound {
         money::usd_up(self.micro_usd)
     }
 
+    /// Whether a profit equals the bound to the cent, so that no schedule earns more.
+    pub fn is_reached_by(&self, profit_usd: f64) -> bool {
+        self.upper_bound_usd() <= profit_usd + CENT_USD
+    }
+
+    /// The [`gap`] of a profit to this bound.
+    pub fn gap(&self, profit_usd: f64) -> f64 {
+        gap(self.upper_bound_usd(), profit_usd)
+    }
+
     /// Whether the search came to its end. If not, it ran out of time, and a longer search may find a lower bound.
     pub fn is_final(&self) -> bool {
         self.is_final
@@ -191,5 +159,38 @@ impl Bound {
     /// Number of vertiports.
     fn size(&self) -> usize {
         self.prices.stand.len() / self.slices.len()
+    }
+}
+
+/// The amount by which a profit is below a bound, as a share of the bound. Where nothing can be earned, or a loss can
+/// only be kept small, it is the share of the loss that might be avoided, from 0 to 1.
+pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
+    if bound_usd > 0.0 {
+        (bound_usd - profit_usd) / bound_usd
+    } else if profit_usd < 0.0 {
+        (bound_usd - profit_usd) / -profit_usd
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::gap;
+
+    #[test]
+    fn a_gap_is_a_share_of_what_can_be_earned_or_of_the_loss() {
+        for (bound_usd, profit_usd, share) in [
+            (200.0, 150.0, 0.25),
+            (200.0, -100.0, 1.5),
+            (0.0, 0.0, 0.0),
+            (0.0, -70.0, 1.0),
+            // $100 of the loss cannot be avoided, $25 can.
+            (-100.0, -125.0, 0.2),
+            (-100.0, -100.0, 0.0),
+        ] {
+            let found = gap(bound_usd, profit_usd);
+            assert!((found - share).abs() < 1e-12, "{bound_usd}, {profit_usd}: {found}");
+        }
     }
 }

@@ -37,9 +37,9 @@ pub enum Error {
     },
 
     /// V503. A vertiport has chargers beside its stands, which the planner does not support. Fix: play such days with a
-    /// policy, or give the vertiport one pool.
+    /// policy, or give the vertiport stands only.
     #[error(
-        "{day}: vertiport {vertiport:?} has chargers beside its stands, and the planner knows one pool only"
+        "{day}: vertiport {vertiport:?} has chargers beside its stands; the planner takes only vertiports whose stands all charge"
     )]
     SeparateChargers {
         /// The day's name.

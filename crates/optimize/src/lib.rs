@@ -1,8 +1,8 @@
 //! Upper bounds on the profit of a day, and schedules that come close to them.
 //!
 //! [`upper_bound`] proves how much no schedule of a known day can exceed. The planner, [`plan()`], searches for the
-//! schedule that earns the most, and [`plan_with_proof`] shows how far it can be from the best. [`Rolling`] decides while the day goes
-//! on.
+//! schedule that earns the most, and [`plan_with_proof`] shows how far it can be from the best. [`Rolling`] decides
+//! while the day goes on.
 //!
 //! This crate builds on `vertifleet-policy`; the planner starts from days played by its policies.
 //!
@@ -40,12 +40,12 @@ mod proof;
 mod proven_plan;
 mod rolling;
 
-pub use bound::{Bound, Step, cached_upper_bound, upper_bound, upper_bound_unless};
+pub use bound::{Bound, Step, gap, kept_upper_bound, upper_bound, upper_bound_unless};
 pub use error::Error;
 pub use plan::{
     Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, can_plan, plan,
     steps_of_equal_work,
 };
-pub use proof::{Proof, gap};
+pub use proof::Proof;
 pub use proven_plan::{ProvenPlan, plan_with_proof};
 pub use rolling::Rolling;

@@ -2,13 +2,14 @@
 //!
 //! [`plan`] starts from the best day of any policy (`plan/start.rs`) and improves it by large-neighbourhood search
 //! (`plan/search.rs`). The moves of the search are exact: each finds the best rest of the day for one aircraft while
-//! the others keep their flights (`plan/route_search.rs`). The plan that is returned has been played in the simulator.
+//! the others keep their flights (`plan/itinerary_search.rs`). The plan that is returned has been played in the
+//! simulator.
 
 mod day;
 mod foresight;
 mod hop;
+mod itinerary_search;
 mod problem;
-mod route_search;
 mod schedule;
 mod search;
 mod stand_prices;

@@ -6,11 +6,7 @@ use std::time::{Duration, Instant};
 
 use vertifleet_core::{Scenario, Stop};
 
-use crate::bound::{Watch, fits, search};
-use crate::{Bound, Step};
-
-/// Minutes of the bound's slices, finest first. The later ones are for days that are too large for the first.
-const STEPS_MIN: [u32; 4] = [3, 5, 15, 60];
+use crate::bound::{Bound, CENT_USD, Watch, finest_step, search};
 
 /// The proof of a bound on a thread of its own, with the finest slices for which the day is not too large. The best
 /// bound so far is available at any time, as soon as there is a first one.
@@ -154,63 +150,16 @@ impl Watch for Shared {
     }
 }
 
-/// The time past its limit that a plan waits for a first bound, and the interval at which it looks for one.
+/// The time past its limit that a plan waits for a first bound.
 const GRACE: Duration = Duration::from_millis(800);
-const POLL_INTERVAL: Duration = Duration::from_millis(10);
-/// A difference too small to matter to a plan.
-const CENT_USD: f64 = 0.01;
-
-impl Bound {
-    /// Whether a profit equals the bound to the cent, so that no schedule earns more.
-    pub fn is_reached_by(&self, profit_usd: f64) -> bool {
-        self.upper_bound_usd() <= profit_usd + CENT_USD
-    }
-
-    /// The [`gap`] of a profit to this bound.
-    pub fn gap(&self, profit_usd: f64) -> f64 {
-        gap(self.upper_bound_usd(), profit_usd)
-    }
-}
-
-/// The amount by which a profit is below a bound, as a share of the bound. Where nothing can be earned, or a loss can
-/// only be kept small, it is the share of the loss that might be avoided, from 0 to 1.
-pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
-    if bound_usd > 0.0 {
-        (bound_usd - profit_usd) / bound_usd
-    } else if profit_usd < 0.0 {
-        (bound_usd - profit_usd) / -profit_usd
-    } else {
-        0.0
-    }
-}
+/// The interval at which one who waits for a proof looks for the next thing to end the waiting.
+pub(crate) const POLL_INTERVAL: Duration = Duration::from_millis(10);
 
 /// Searches for the bound with the finest slices for which the day is not too large. Finds nothing if it is too large
 /// for all.
 fn prove(scenario: &Scenario, watch: &Shared) {
-    let mut steps = STEPS_MIN.into_iter().filter_map(|minutes| Step::from_minutes(minutes).ok());
-    let Some(step) = steps.find(|&step| fits(scenario, step).is_ok()) else { return };
+    let Some(step) = finest_step(scenario) else { return };
     if let Ok(Some(bound)) = search(scenario, step, watch) {
         watch.has_found(&bound);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::gap;
-
-    #[test]
-    fn a_gap_is_a_share_of_what_can_be_earned_or_of_the_loss() {
-        for (bound_usd, profit_usd, share) in [
-            (200.0, 150.0, 0.25),
-            (200.0, -100.0, 1.5),
-            (0.0, 0.0, 0.0),
-            (0.0, -70.0, 1.0),
-            // $100 of the loss cannot be avoided, $25 can.
-            (-100.0, -125.0, 0.2),
-            (-100.0, -100.0, 0.0),
-        ] {
-            let found = gap(bound_usd, profit_usd);
-            assert!((found - share).abs() < 1e-12, "{bound_usd}, {profit_usd}: {found}");
-        }
     }
 }

@@ -1,16 +1,13 @@
 //! A plan with a proof of how good it is. Search and proof run at the same time, and each helps the other to end.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use vertifleet_core::{Scenario, Stop};
 
 use crate::plan::{Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, plan};
-use crate::proof::Proof;
+use crate::proof::{POLL_INTERVAL, Proof};
 use crate::{Bound, Error};
-
-/// The interval at which a request to stop is looked for while the rest of a proof is waited for.
-const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// A plan, and the best bound that was proven meanwhile; `None` if there was no time for one, or the day is too large
 /// for any.

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use vertifleet_core::{
     Coded, DaySeed, Matrix, Network, Scenario, Stop, TakeoffDelays, Time, TypeIx, VertiportIx,
 };
-use vertifleet_optimize::{Error, Rolling, Step, cached_upper_bound, upper_bound};
+use vertifleet_optimize::{Error, Rolling, Step, kept_upper_bound, upper_bound};
 use vertifleet_policy::{BidPricePolicy, Greedy, Lookahead, Policy, Random, play};
 use vertifleet_sim::Simulation;
 use vertifleet_testkit::{Size, any_day, any_extended_day, paper_day};
@@ -228,18 +228,18 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
         let entries = fs::read_dir(&folder).expect("a folder of ours");
         entries.map(|entry| entry.expect("an entry").path()).collect()
     };
-    let cached = |day: &Scenario, step| {
-        let bound = cached_upper_bound(&Stop::default(), day, minutes(step), &folder);
+    let kept = |day: &Scenario, step| {
+        let bound = kept_upper_bound(&Stop::default(), day, minutes(step), &folder);
         bound.expect("a folder of ours").expect("it is not stopped").upper_bound_usd()
     };
     let found = bound_usd(&day, 30);
-    assert_eq!(cached(&day, 30), found);
-    assert_eq!(cached(&day, 30), found);
+    assert_eq!(kept(&day, 30), found);
+    assert_eq!(kept(&day, 30), found);
     let file = &files()[0];
     let whole = fs::read(file).expect("the file is there");
     for damaged in [&b""[..], &whole[..whole.len() / 2], br#"{"stand":[1],"demand":[]}"#] {
         fs::write(file, damaged).expect("a folder of ours");
-        assert_eq!(cached(&day, 30), found);
+        assert_eq!(kept(&day, 30), found);
         assert_eq!(fs::read(file).expect("the file is there"), whole);
     }
     // Prices of zero are valid prices; the bound that they prove is loose but true.
@@ -247,11 +247,11 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
     let numbers = |c: char| c.is_ascii_digit();
     let nothing: Vec<&str> = nothing.split(numbers).collect();
     fs::write(file, nothing.join("0")).expect("a folder of ours");
-    assert!(cached(&day, 30) >= found);
+    assert!(kept(&day, 30) >= found);
     assert_eq!(files().len(), 1);
 
-    cached(&any_day(8, Size { vertiports: 5, fleet: 9, hours: 4 }), 30);
-    cached(&day, 60);
+    kept(&any_day(8, Size { vertiports: 5, fleet: 9, hours: 4 }), 30);
+    kept(&day, 60);
     assert_eq!(files().len(), 3, "another day and another step have files of their own");
 }
 
@@ -261,8 +261,7 @@ fn a_proof_that_is_stopped_leaves_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let stopped = Stop::default();
     stopped.request();
-    let bound =
-        cached_upper_bound(&stopped, &day, minutes(30), folder.path()).expect("a small day");
+    let bound = kept_upper_bound(&stopped, &day, minutes(30), folder.path()).expect("a small day");
     assert!(bound.is_none());
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
 }

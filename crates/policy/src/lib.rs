@@ -44,6 +44,6 @@ pub use price_memory::PriceMemory;
 pub use prices::{DayPrices, PricedChoice};
 pub use random::Random;
 pub use replay::Replay;
-pub use rollouts::{RolloutEvaluator, RolloutSettings, fleet_worth_usd, noise};
+pub use rollouts::{RolloutEvaluator, RolloutSettings, fleet_worth_usd};
 pub use shortlist::Shortlist;
 pub use stoppable::Stoppable;

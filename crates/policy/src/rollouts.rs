@@ -74,8 +74,7 @@ impl RolloutEvaluator {
         let rollouts = self.roll_out(prices, view, decision, listed);
         self.values_usd.clear();
         for (choice, rollouts_usd) in listed.iter().zip(self.rollouts_usd.chunks_exact(rollouts)) {
-            let mean_usd = rollouts_usd.iter().sum::<f64>() / rollouts as f64;
-            self.values_usd.push(self.settings.price_weight * choice.worth_usd + mean_usd);
+            self.values_usd.push(self.settings.value_usd(choice.worth_usd, rollouts_usd));
         }
         &self.values_usd
     }
@@ -219,9 +218,21 @@ impl RolloutSettings {
         if rollout == 0 {
             return prices.best_choice(view, decision);
         }
-        let noise_usd = self.noise * prices.stake_usd();
+        self.perturbed_best(prices, decision, rollout, prices.open_choices(view, decision))
+    }
+
+    /// The choice whose worth, perturbed by the noise of a roll-out, is highest. The first roll-out, number 0, has no
+    /// noise. Without choices, the aircraft holds.
+    pub fn perturbed_best(
+        &self,
+        prices: &DayPrices,
+        decision: &Decision,
+        rollout: u32,
+        choices: impl IntoIterator<Item = PricedChoice>,
+    ) -> VertiportIx {
+        let noise_usd = if rollout == 0 { 0.0 } else { self.noise * prices.stake_usd() };
         let mut best = (f64::NEG_INFINITY, decision.at);
-        for PricedChoice { worth_usd, to } in prices.open_choices(view, decision) {
+        for PricedChoice { worth_usd, to } in choices {
             let usd = worth_usd + noise_usd * noise(rollout, decision, to);
             if usd > best.0 {
                 best = (usd, to);
@@ -229,12 +240,18 @@ impl RolloutSettings {
         }
         best.1
     }
+
+    /// The value of a choice: the mean of its roll-outs, and with its weight its worth at the prices; dollars.
+    pub fn value_usd(&self, worth_usd: f64, rollouts_usd: &[f64]) -> f64 {
+        let mean_usd = rollouts_usd.iter().sum::<f64>() / rollouts_usd.len() as f64;
+        self.price_weight * worth_usd + mean_usd
+    }
 }
 
 /// Noise that belongs to a roll-out, the aircraft and time of a decision, and a vertiport: approximately normal with
 /// mean 0 and standard deviation 1 (the sum of four uniform numbers).
 #[inline]
-pub fn noise(rollout: u32, decision: &Decision, to: VertiportIx) -> f64 {
+fn noise(rollout: u32, decision: &Decision, to: VertiportIx) -> f64 {
     let key = u64::from(decision.aircraft.0) << 32 | u64::from(decision.time.seconds());
     let bits = draw(u64::from(rollout), key, u32::from(to.0));
     let sum: u32 = [0, 16, 32, 48].iter().map(|shift| (bits >> shift & 0xffff) as u32).sum();

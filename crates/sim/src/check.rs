@@ -1,4 +1,4 @@
-//! The schedule checker: an independent verdict on a complete schedule, which names every broken rule.
+//! The schedule checker: an independent report on a complete schedule, which names every broken rule.
 //!
 //! The checker is written from the rules alone (paper §III, Eq. 2-16). It shares no code with the simulator, not even
 //! the rounding of durations, so that a mistake in one of the two shows as a disagreement. Each row is judged against

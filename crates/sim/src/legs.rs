@@ -9,7 +9,7 @@ use crate::VertiportSet;
 pub struct Leg {
     /// Energy of the flight, kWh: e d_ij and the battery's own losses. It is charged again after landing (Eq. 13, 15).
     pub energy_kwh: f64,
-    /// g_ij: mean power drawn from the battery over the journey, kW (the interpretation under which Eq. 13 and 17
+    /// g_ij: mean power drawn from the battery over the flight, kW (the interpretation under which Eq. 13 and 17
     /// agree).
     pub mean_power_kw: f64,
     /// Seconds from the decision to arrival: take-off, cruise, landing (Eq. 7).

@@ -215,7 +215,7 @@ fn a_hold_gives_the_charger_back_where_a_stand_is_free() {
 }
 
 #[test]
-fn the_verdict_reads_well() {
+fn the_report_reads_well() {
     let (mut day, mut trace) = (day(), schedule());
     day.vertiports[2].stands = 1;
     trace.rows[0].passengers = 5;
@@ -243,7 +243,7 @@ fn the_verdict_reads_well() {
 }
 
 #[test]
-fn machines_get_the_same_verdict() {
+fn machines_get_the_same_report() {
     let (day, mut trace) = (day(), schedule());
     trace.rows.truncate(4);
     let json = serde_json::to_string_pretty(&judge(day, &trace)).expect("a report");

@@ -53,13 +53,13 @@ fn a_day_with_flight_costs_has_a_column_for_them() {
     assert!(csv.contains(",07:35:00,7.25\n"), "{csv}");
     let marked = format!("\u{feff}{}", csv.replace('\n', "\r\n").replace("\n06:", "\n6:"));
     assert_eq!(Trace::from_csv(marked.as_bytes(), &day, "day.csv").expect("a trace"), trace);
-    let verdict = check(&day, &trace);
-    assert!(verdict.is_valid(), "{verdict}");
-    let totals = verdict.totals;
+    let report = check(&day, &trace);
+    assert!(report.is_valid(), "{report}");
+    let totals = report.totals;
     assert_eq!((totals.flight_cost_usd, totals.aircraft_cost_usd), (2.0 * 7.25, 2.0 * 100.0));
     let plain = check(&scenario(), &schedule()).totals;
     assert!((totals.profit_usd - (plain.profit_usd - 214.5)).abs() < 1e-9);
-    assert!(verdict.to_string().ends_with("flight cost $14.50 - aircraft cost $200.00"));
+    assert!(report.to_string().ends_with("flight cost $14.50 - aircraft cost $200.00"));
     for (csv, day) in [(csv, scenario()), (schedule().to_csv(&scenario()), day)] {
         let error = Trace::from_csv(csv.as_bytes(), &day, "day.csv").expect_err("another header");
         assert_eq!(error.code().to_string(), "V205");

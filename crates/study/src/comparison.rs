@@ -1,5 +1,12 @@
 //! A comparison: from the request, which names competitors, days and a bound, to the records.
 
+mod days_csv;
+mod headline;
+mod join;
+mod page;
+mod summary;
+mod table;
+
 use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
@@ -8,10 +15,16 @@ use vertifleet_optimize::Step;
 
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
+use crate::figure;
 use crate::origin::NetworkOrigin;
 use crate::own_days::OwnDays;
 use crate::record::ComparisonRecords;
+use crate::report::{File, Records, pictures};
 use crate::study::{Study, Watch};
+
+pub use summary::{
+    BoundSummary, ComparisonReport, FORMAT, PairedDifference, PolicySummary, TrainingSummary,
+};
 
 /// Some days of a network and the competitors that will play them. Everything that can be checked beforehand has been
 /// checked.
@@ -108,6 +121,28 @@ impl Comparison {
             command,
             policies,
         })
+    }
+}
+
+impl Records for ComparisonRecords {
+    fn text(&self) -> Result<String, Error> {
+        Ok(table::text(&ComparisonReport::of(self)?))
+    }
+
+    fn json(&self) -> Result<String, Error> {
+        Ok(ComparisonReport::of(self)?.to_json())
+    }
+
+    fn files(&self) -> Result<Vec<File>, Error> {
+        let summary = ComparisonReport::of(self)?;
+        let figures = figure::all(&summary);
+        let mut files = pictures(&figures);
+        files.extend([
+            ("days.csv".to_owned(), days_csv::text(self).into_bytes()),
+            ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
+            ("report.html".to_owned(), page::text(&summary, &figures).into_bytes()),
+        ]);
+        Ok(files)
     }
 }
 

@@ -15,7 +15,7 @@ mod palette;
 mod png;
 mod share_by_size;
 
-use crate::summary::ComparisonReport;
+use crate::comparison::ComparisonReport;
 
 pub(crate) use palette::style_sheet;
 pub(crate) use png::png;

@@ -1,4 +1,4 @@
-//! The cache of bounds between runs: the folder `vertifleet` in the user's cache folder, as the XDG base directory
+//! Bounds that are kept between runs, in the folder `vertifleet` in the user's cache folder, as the XDG base directory
 //! specification (freedesktop.org, version 0.8) defines it.
 
 use std::env;
@@ -7,19 +7,19 @@ use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use vertifleet_core::{Scenario, Stop};
-use vertifleet_optimize::{Step, cached_upper_bound, upper_bound_unless};
+use vertifleet_optimize::{Step, kept_upper_bound, upper_bound_unless};
 
 use crate::error::Error;
 use crate::run::BoundedDay;
 
-/// The folder of cached bounds, if there is one.
+/// The folder of kept bounds, if there is one.
 pub struct KeptBounds {
     folder: Option<PathBuf>,
 }
 
 impl KeptBounds {
-    /// The cache in `$XDG_CACHE_HOME/vertifleet`, or `.cache/vertifleet` in the home folder. Without either, nothing
-    /// is cached.
+    /// The bounds in `$XDG_CACHE_HOME/vertifleet`, or `.cache/vertifleet` in the home folder. Without either, none are
+    /// kept.
     pub fn of_this_user() -> Self {
         // The specification requires that relative paths be ignored.
         let absolute =
@@ -42,7 +42,7 @@ impl KeptBounds {
         bounded: &(impl Fn() + Sync),
     ) -> Result<Vec<BoundedDay>, Error> {
         let bound = |scenario: Arc<Scenario>| {
-            // Reading a cached bound does not check for a stop, and there may be many of them.
+            // Reading a kept bound does not check for a stop, and there may be many of them.
             if stopped.is_requested() {
                 return Err(Error::Stopped);
             }
@@ -54,7 +54,7 @@ impl KeptBounds {
         scenarios.into_par_iter().map(bound).collect()
     }
 
-    /// The upper bound of a day in dollars; `None` if `stopped` is requested. If the cache folder cannot be written
+    /// The upper bound of a day in dollars; `None` if `stopped` is requested. If the folder cannot be written
     /// to, the bound is computed without it.
     fn upper_bound_usd(
         &self,
@@ -62,7 +62,7 @@ impl KeptBounds {
         step: Step,
         stopped: &Stop,
     ) -> Result<Option<f64>, Error> {
-        let kept = |folder| cached_upper_bound(stopped, scenario, step, folder);
+        let kept = |folder| kept_upper_bound(stopped, scenario, step, folder);
         let bound = match self.folder.as_deref().map(kept) {
             Some(Err(vertifleet_optimize::Error::Core(_))) | None => {
                 upper_bound_unless(stopped, scenario, step)

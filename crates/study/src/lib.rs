@@ -29,12 +29,9 @@
 
 pub mod comparison;
 pub mod competitor;
-mod days_csv;
 mod error;
 pub mod figure;
 pub mod generalisation;
-mod headline;
-mod join;
 mod kept_bounds;
 mod numbers;
 mod origin;
@@ -49,9 +46,9 @@ pub mod run;
 mod starting_policies;
 pub mod statistics;
 mod study;
-pub mod summary;
 mod table;
 
+pub use comparison::ComparisonReport;
 pub use error::Error;
 pub use kept_bounds::KeptBounds;
 pub use origin::NetworkOrigin;
@@ -62,5 +59,4 @@ pub use record::{
 };
 pub use resolved_policy::{PolicyFactory, ResolvedPolicy};
 pub use starting_policies::starting_policies;
-pub use study::{Unwatched, Watch};
-pub use summary::ComparisonReport;
+pub use study::{MOST_DAYS, Unwatched, Watch};

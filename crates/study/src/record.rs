@@ -4,8 +4,9 @@
 //! simulation. Days are in the same order for every policy, which makes the tests paired.
 
 use serde::{Deserialize, Serialize};
-use vertifleet_sim::DayTotals;
+use vertifleet_sim::{DayNumber, DayTotals};
 
+use crate::error::Error;
 use crate::origin::NetworkOrigin;
 
 /// One policy's result on one day.
@@ -57,7 +58,7 @@ pub struct PolicyRecord {
     pub description: String,
     /// One record for each day, in the study's order of days.
     pub days: Vec<DayRecord>,
-    /// The time that one decision of this policy takes; `None` for an reference, which planned each day as a
+    /// The time that one decision of this policy takes; `None` for a reference, which planned each day as a
     /// whole with the day known.
     pub decision_ns: Option<LatencySummary>,
 }
@@ -106,4 +107,54 @@ pub struct ComparisonRecords {
     pub curves: Vec<LearningCurve>,
     /// The learning curves on the validation days of the policies that were trained; may be empty.
     pub trainings: Vec<ValidationCurves>,
+}
+
+/// Checks that the records are those of policies on the same days, with finite results.
+pub(crate) fn check_records(policies: &[PolicyRecord], days: usize) -> Result<(), Error> {
+    let Some(first) = policies.first().filter(|_| days > 0) else {
+        return Err(Error::Empty { policies: policies.len(), days });
+    };
+    for policy in policies {
+        check_paired(days, first, policy)?;
+        for day in &policy.days {
+            check_finite(&policy.name, day)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_paired(days: usize, first: &PolicyRecord, policy: &PolicyRecord) -> Result<(), Error> {
+    let label = |day: &DayRecord| format!("{} (seed {})", day.day, day.seed);
+    for position in 0..days.max(policy.days.len()) {
+        let found = policy.days.get(position).map_or("no day".to_owned(), label);
+        let expected = match first.days.get(position) {
+            Some(day) if position < days => label(day),
+            None if position < days => "a day".to_owned(),
+            _ => "no day".to_owned(),
+        };
+        if found != expected {
+            return Err(Error::Unpaired {
+                policy: policy.name.clone(),
+                first_policy: first.name.clone(),
+                position,
+                found,
+                expected,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_finite(policy: &str, day: &DayRecord) -> Result<(), Error> {
+    let amounts = day.totals.numbers().into_iter().filter_map(|(member, number)| match number {
+        DayNumber::Amount(value) => Some((member, value)),
+        DayNumber::Count(_) => None,
+    });
+    let bound = day.upper_bound_usd.map(|bound_usd| ("upper_bound_usd", bound_usd));
+    match amounts.chain(bound).find(|(_, value)| !value.is_finite()) {
+        None => Ok(()),
+        Some((member, value)) => {
+            Err(Error::NotFinite { policy: policy.to_owned(), day: day.day.clone(), member, value })
+        }
+    }
 }

@@ -7,10 +7,7 @@ use std::path::{Path, PathBuf};
 use vertifleet_core::{FolderKind, OutputKind, replace_folder};
 
 use crate::error::Error;
-use crate::figure::Figure;
-use crate::record::ComparisonRecords;
-use crate::summary::ComparisonReport;
-use crate::{days_csv, figure, page, table};
+use crate::figure::{self, Figure};
 
 /// A file of a report: its name and its content.
 pub type File = (String, Vec<u8>);
@@ -100,28 +97,6 @@ pub fn write(study: &impl Records, folder: &Path, force: bool) -> Result<Written
     check_folder(folder, force)?;
     let kept = replace_folder(folder, &FOLDER, force, &files)?;
     Ok(Written { page: folder.join("report.html"), kept })
-}
-
-impl Records for ComparisonRecords {
-    fn text(&self) -> Result<String, Error> {
-        Ok(table::text(&ComparisonReport::of(self)?))
-    }
-
-    fn json(&self) -> Result<String, Error> {
-        Ok(ComparisonReport::of(self)?.to_json())
-    }
-
-    fn files(&self) -> Result<Vec<File>, Error> {
-        let summary = ComparisonReport::of(self)?;
-        let figures = figure::all(&summary);
-        let mut files = pictures(&figures);
-        files.extend([
-            ("days.csv".to_owned(), days_csv::text(self).into_bytes()),
-            ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
-            ("report.html".to_owned(), page::text(&summary, &figures).into_bytes()),
-        ]);
-        Ok(files)
-    }
 }
 
 /// The figures, each as SVG and as PNG, with the names of their files.

@@ -147,9 +147,9 @@ mod tests {
     use vertifleet_core::{Coded, DaySeed, Network, Stop};
 
     use super::{BoundedDay, LatencySummary, PolicyRecord, latency, run};
+    use crate::comparison::ComparisonReport;
     use crate::competitor::{Competitor, Kind, Planner};
     use crate::resolved_policy::ResolvedPolicy;
-    use crate::summary::ComparisonReport;
     use crate::{ComparisonRecords, DayRecord, NetworkOrigin};
 
     fn competitors() -> Vec<Competitor> {

@@ -11,6 +11,9 @@ use crate::kept_bounds::KeptBounds;
 use crate::record::PolicyRecord;
 use crate::run::{BoundedDay, run};
 
+/// The most days, or networks, of a study.
+pub const MOST_DAYS: u32 = 1_000_000;
+
 /// Follows the progress of a study. Each method returns a function that is called after every day, from any thread.
 pub trait Watch {
     /// The function that is called after a day.

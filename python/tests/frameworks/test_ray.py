@@ -26,7 +26,7 @@ ray = pytest.importorskip("ray")
 from ray.cluster_utils import Cluster  # noqa: E402
 
 import vertifleet.ray  # noqa: E402
-from vertifleet._compare import ComparisonRequest  # noqa: E402
+from vertifleet._compare import ComparisonRequest, DrawnDays  # noqa: E402
 from vertifleet.ray import progress, tasks  # noqa: E402
 
 POLICIES = ["greedy", "random", "prices"]
@@ -202,7 +202,7 @@ def test_what_cannot_be_split_is_refused(paper):
 
 
 def test_a_node_with_another_version_is_refused(paper):
-    request = ComparisonRequest.of("compare", ["greedy"], 1, 1, None, False, 5, None)
+    request = ComparisonRequest.of("compare", ["greedy"], DrawnDays(1, 1), None, False, 5, None)
     with pytest.raises(vertifleet.Error) as refused:
         tasks.play._function(request, "0.0.0", paper, 1, 1)
     assert refused.value.code == "V409"

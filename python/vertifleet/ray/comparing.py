@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
-from vertifleet._compare import ComparisonRequest, network_of
+from vertifleet._compare import ComparisonRequest, DrawnDays, network_of
 from vertifleet._sweep import Sweep, together, variations
 from vertifleet.ray.tasks import comparisons
 
@@ -53,11 +53,11 @@ def compare(
     Raises:
         Error: as :func:`vertifleet.compare`; V409 if a node has another version of the package.
     """
-    network = network_of(network)
+    network, drawn = network_of(network), DrawnDays.of(days, seed)
     request = ComparisonRequest.of(
-        "vertifleet.ray.compare", policies, days, seed, models, bound, step, policy_seed
+        "vertifleet.ray.compare", policies, drawn, models, bound, step, policy_seed
     )
-    return comparisons([network], request, days_per_task)[0]
+    return comparisons([network], request, drawn, days_per_task)[0]
 
 
 def sweep(
@@ -92,10 +92,10 @@ def sweep(
     Raises:
         Error: as :func:`vertifleet.sweep`; V409 if a node has another version of the package.
     """
-    network = network_of(network)
+    network, drawn = network_of(network), DrawnDays.of(days, seed)
     points = variations(network, changes)
     request = ComparisonRequest.of(
-        "vertifleet.ray.compare", policies, days, seed, models, bound, step, policy_seed
+        "vertifleet.ray.compare", policies, drawn, models, bound, step, policy_seed
     )
-    found = comparisons([variation for _, variation in points], request, days_per_task)
+    found = comparisons([variation for _, variation in points], request, drawn, days_per_task)
     return Sweep(network.name, request.policies, together(points, found))

@@ -15,6 +15,7 @@ import ray
 from ray.exceptions import RayTaskError
 
 from vertifleet import Comparison, Error, Model
+from vertifleet._compare import DrawnDays
 from vertifleet.ray.progress import Progress
 
 if TYPE_CHECKING:
@@ -55,24 +56,24 @@ def play(request: ComparisonRequest, here: str, network: Network, days: int, see
     if found != here:
         rule = f"the parts do not go together: vertifleet {found} on a node, {here} here"
         raise Error("V409", rule, "install the same version on all nodes")
-    return request.compare(network, days, seed, threads=1)
+    return request.compare(network, 1, DrawnDays(days, seed))
 
 
 def comparisons(
-    networks: Sequence[Network], request: ComparisonRequest, days_per_task: int | None
+    networks: Sequence[Network], request: ComparisonRequest, drawn: DrawnDays, days_per_task: int | None
 ) -> list[Comparison]:
-    """Runs a comparison on each of the networks, all on days of the same seeds."""
+    """Runs a comparison on `drawn` days of each of the networks."""
     if days_per_task is not None and days_per_task < 1:
         raise Error("V451", f"days_per_task must be at least 1, found {days_per_task}")
     request = without_files(request)
     request.check(networks, stacklevel=4)
     if not ray.is_initialized():
         ray.init()
-    most = days_per_task or _days_per_task(request.days * len(networks))
+    most = days_per_task or _days_per_task(drawn.days * len(networks))
     parts = [
-        (here, number, request.seed + first)
+        (here, number, drawn.seed + first)
         for here in map(ray.put, networks)
-        for first, number in _parts(request.days, most)
+        for first, number in _parts(drawn.days, most)
     ]
     found = _play(ray.put(request), parts)
     each = len(found) // len(networks)

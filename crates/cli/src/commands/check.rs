@@ -16,7 +16,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<ExitCode, Failure> {
     let trace = Trace::read(&arguments.trace, &scenario)?;
     let report = check(&scenario, &trace);
     if arguments.json {
-        print(&serde_json::to_string_pretty(&report).expect("a verdict is plain data"))?;
+        print(&serde_json::to_string_pretty(&report).expect("a report is plain data"))?;
     } else {
         print(&report.to_string())?;
     }

@@ -5,7 +5,7 @@
 //! All roll-outs advance side by side, one decision each at a time, so that the network scores them together.
 
 use vertifleet_core::{Time, VertiportIx};
-use vertifleet_policy::{DayPrices, PricedChoice, Shortlist, fleet_worth_usd, noise};
+use vertifleet_policy::{DayPrices, PricedChoice, Shortlist, fleet_worth_usd};
 use vertifleet_sim::{Decision, Imagined, View};
 
 use crate::gcaps_x::ROLLOUTS;
@@ -25,6 +25,8 @@ pub(crate) struct RolloutPlayer {
     shortlist: Shortlist,
     /// The roll-out of each row of the scorer.
     asked: Vec<usize>,
+    /// The result of each roll-out, choice by choice, dollars.
+    usd: Vec<f64>,
 }
 
 /// A roll-out of one choice.
@@ -72,16 +74,14 @@ impl RolloutPlayer {
                 self.rollouts[at].follow(scorer, prices, row);
             }
         }
+        let per_candidate = ROLLOUTS.rollouts as usize;
+        self.usd.clear();
+        self.usd.extend(self.rollouts[..self.used].iter().filter_map(|rollout| rollout.usd));
         let mut best = (f64::NEG_INFINITY, decision.at);
-        for (candidate, rollouts) in candidates
-            .iter()
-            .zip(self.rollouts[..self.used].chunks_exact(ROLLOUTS.rollouts as usize))
-        {
-            let sum_usd: f64 = rollouts.iter().filter_map(|rollout| rollout.usd).sum();
-            let usd = ROLLOUTS.price_weight * candidate.worth_usd
-                + sum_usd / f64::from(ROLLOUTS.rollouts);
-            if usd > best.0 {
-                best = (usd, candidate.to);
+        for (candidate, usd) in candidates.iter().zip(self.usd.chunks_exact(per_candidate)) {
+            let value_usd = ROLLOUTS.value_usd(candidate.worth_usd, usd);
+            if value_usd > best.0 {
+                best = (value_usd, candidate.to);
             }
         }
         best.1
@@ -143,16 +143,11 @@ impl Rollout {
     fn follow(&mut self, scorer: &Scorer, prices: &DayPrices, row: usize) {
         let decision = self.next.as_ref().expect(ASKED);
         let addition_usd = Scene::of(self.simulation.view(), decision, prices).addition_usd();
-        let noise_usd = if self.number == 0 { 0.0 } else { ROLLOUTS.noise * prices.stake_usd() };
-        let mut best = (f64::NEG_INFINITY, decision.at);
-        for &choice in &self.listed {
-            let noise = noise(self.number, decision, choice.to);
-            let usd = scorer.worth_usd(row, addition_usd, choice) + noise_usd * noise;
-            if usd > best.0 {
-                best = (usd, choice.to);
-            }
-        }
-        let choice = best.1;
+        let choices = self.listed.iter().map(|&choice| PricedChoice {
+            worth_usd: scorer.worth_usd(row, addition_usd, choice),
+            ..choice
+        });
+        let choice = ROLLOUTS.perturbed_best(prices, decision, self.number, choices);
         self.simulation.apply(choice).expect("lists are of feasible choices");
     }
 }

@@ -120,7 +120,7 @@ impl ImitationRun {
         }
         let fit = self.fit(stop, worked)?;
         check_finite(self.learner.weights.params(), u64::from(self.rounds_done()) + 1)?;
-        let [own, random] = [0, 1].map(|which| self.look(&self.validation[which]));
+        let [own, random] = [0, 1].map(|which| self.validate(&self.validation[which]));
         Ok(ImitationRow {
             round: self.rounds_done() + 1,
             decisions: self.dataset.len() as u64,
@@ -215,17 +215,19 @@ impl ImitationRun {
     }
 
     /// Measures the policy on validation days.
-    fn look(&self, days: &[(Arc<Scenario>, f64)]) -> Look {
+    fn validate(&self, days: &[(Arc<Scenario>, f64)]) -> Validation {
         let model = self.model();
-        let looks: Vec<Look> = days
+        let outcomes: Vec<Validation> = days
             .par_iter()
             .map(|(day, priced_usd)| {
                 let played = played(&mut GcapsX::new(&model, 1), day);
-                Look { reward: played.reward, gain: played.profit_usd / priced_usd - 1.0 }
+                Validation { reward: played.reward, gain: played.profit_usd / priced_usd - 1.0 }
             })
             .collect();
-        let mean = |of: fn(&Look) -> f64| looks.iter().map(of).sum::<f64>() / looks.len() as f64;
-        Look { reward: mean(|look| look.reward), gain: mean(|look| look.gain) }
+        let mean = |of: fn(&Validation) -> f64| {
+            outcomes.iter().map(of).sum::<f64>() / outcomes.len() as f64
+        };
+        Validation { reward: mean(|outcome| outcome.reward), gain: mean(|outcome| outcome.gain) }
     }
 }
 
@@ -297,7 +299,7 @@ fn read_checkpoint(
 }
 
 /// Means over validation days.
-struct Look {
+struct Validation {
     reward: f64,
     /// Profit above that of `prices`, as a share of the profit of `prices`.
     gain: f64,

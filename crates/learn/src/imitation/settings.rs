@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use vertifleet_policy::RolloutSettings;
 
 use crate::error::Error;
+use crate::gcaps_x::ROLLOUTS;
 use crate::settings::within;
 
 /// What a run learns from, and how.
@@ -41,12 +42,7 @@ impl Default for ImitationSettings {
             learning_rate: 1e-3,
             entropy_weight: 1.0,
             exploration: 0.05,
-            expert: RolloutSettings {
-                horizon_s: 7_200,
-                rollouts: 8,
-                noise: 0.06,
-                price_weight: 0.5,
-            },
+            expert: ROLLOUTS,
             validation_days: 12,
         }
     }

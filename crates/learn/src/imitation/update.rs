@@ -46,7 +46,7 @@ pub(crate) struct Learner {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Fit {
     /// Sum of p A, in units: by how much a choice drawn from p is better than the mean of the list.
-    pub(crate) gain: f64,
+    pub(crate) expected: f64,
     /// By how much the choice with the highest p is better than the best at the prices, in units.
     pub(crate) lift: f64,
     /// By how much the best choice of the list is better than the best at the prices, in units.
@@ -207,10 +207,10 @@ fn decision_loss(
     let log_total = highest + total.ln();
     let listed = || (0..logits.len()).filter(|&at| logits[at] > f32::NEG_INFINITY);
     let probability = |at: usize| (whole(at) - log_total).exp();
-    let gain: f32 = listed().map(|at| probability(at) * values[at]).sum();
+    let expected: f32 = listed().map(|at| probability(at) * values[at]).sum();
     let entropy: f32 = -listed().map(|at| probability(at) * (whole(at) - log_total)).sum::<f32>();
     for at in listed() {
-        let advantage = unit * (values[at] - gain);
+        let advantage = unit * (values[at] - expected);
         let information = log_total - whole(at) - entropy;
         slopes[at] = -weight * probability(at) * (advantage + entropy_weight * information);
     }
@@ -223,7 +223,7 @@ fn decision_loss(
     let first = pick(&|at| priced[at]).1;
     let best = pick(&|at| values[at]).1;
     Fit {
-        gain: f64::from(gain),
+        expected: f64::from(expected),
         lift: f64::from(values[chosen] - values[first]),
         most: f64::from(values[best] - values[first]),
         agreement: f64::from(u8::from(chosen == best)),
@@ -252,7 +252,7 @@ fn cut(chunks: &[Chunk]) -> Vec<Chunk> {
 
 impl Fit {
     fn add(&mut self, other: &Self) {
-        self.gain += other.gain;
+        self.expected += other.expected;
         self.lift += other.lift;
         self.most += other.most;
         self.agreement += other.agreement;
@@ -260,7 +260,7 @@ impl Fit {
 
     fn over(self, count: f64) -> Self {
         Self {
-            gain: self.gain / count,
+            expected: self.expected / count,
             lift: self.lift / count,
             most: self.most / count,
             agreement: self.agreement / count,

@@ -1,20 +1,22 @@
-//! The search for good prices, step by step: a proximal bundle method, with a bundle of ways for each group of like
-//! aircraft.
+//! The search for good prices, step by step: a proximal bundle method, with a bundle of itineraries for each group of
+//! like aircraft.
 //!
-//! Around the best prices so far, the model (`master.rs`) finds prices that would be better if there were no ways but
-//! those known so far, and predicts the fall of the bound. The prices are evaluated. The ways that are worth most at
-//! them are new to the model and are added to it. Where the bound falls by a good part of the prediction, the model
-//! moves to the new prices and reaches farther; where it rises, the model reaches less far. This is a stabilised column
-//! generation (G. Dantzig and P. Wolfe, *Decomposition principle for linear programs*, Operations Research 8, 1960; K.
-//! Kiwiel, *Proximity control in bundle methods for convex nondifferentiable minimization*, Mathematical Programming
-//! 46, 1990).
+//! Around the best prices so far, the model (`master.rs`) finds prices that would be better if there were no
+//! itineraries but those known so far, and predicts the fall of the bound. The prices are evaluated. The itineraries
+//! that are worth most at them are new to the model and are added to it. Where the bound falls by a good part of the
+//! prediction, the model moves to the new prices and reaches farther; where it rises, the model reaches less far. This
+//! is a stabilised column generation (G. Dantzig and P. Wolfe, *Decomposition principle for linear programs*,
+//! Operations Research 8, 1960; K. Kiwiel, *Proximity control in bundle methods for convex nondifferentiable
+//! minimization*, Mathematical Programming 46, 1990).
 
+use vertifleet_core::Stop;
+
+use super::best_itineraries::BestItineraries;
 use super::certificate::Certificate;
-use super::master::{Master, Way};
+use super::itinerary::Itinerary;
+use super::master::Master;
 use super::prices::{Pace, Prices};
 use super::time_expanded_day::TimeExpandedDay;
-use super::ways::Ways;
-use vertifleet_core::Stop;
 
 /// How often each group may shift its aircraft before prices are evaluated. Continuing until no shift is left costs
 /// more time than it gains.
@@ -78,22 +80,24 @@ impl Descent {
         let micro_usd = certificate.evaluate(day, &start, stopped)?;
         let mut trial = start.clone();
         let mut best = Found { prices: start, micro_usd };
-        let ways = Ways { day, prices: &trial, certificate: &certificate }.of_groups();
-        let master = Master::new(day, pace, trial.clone(), ways);
-        let mut model = Model::new(master, self, micro_usd as f64);
+        let itineraries =
+            BestItineraries { day, prices: &trial, certificate: &certificate }.of_groups();
+        let master = Master::new(day, pace, trial.clone(), itineraries);
+        let mut bundle = Bundle::new(master, self, micro_usd as f64);
         let mut before = best.micro_usd;
         for step in 1..=self.steps {
-            if !watch(&best) || !model.promises_enough(best.micro_usd as f64) {
+            if !watch(&best) || !bundle.promises_enough(best.micro_usd as f64) {
                 break;
             }
-            model.master.prices(&mut trial);
+            bundle.master.prices(&mut trial);
             let Some(micro_usd) = certificate.evaluate(day, &trial, stopped) else { break };
-            let ways = Ways { day, prices: &trial, certificate: &certificate }.of_groups();
-            model.learn(ways, (best.micro_usd - micro_usd) as f64);
+            let itineraries =
+                BestItineraries { day, prices: &trial, certificate: &certificate }.of_groups();
+            bundle.learn(itineraries, (best.micro_usd - micro_usd) as f64);
             if micro_usd < best.micro_usd {
                 best.micro_usd = micro_usd;
                 best.prices.clone_from(&trial);
-                model.master.move_to(&trial);
+                bundle.master.move_to(&trial);
             }
             if step % WINDOW == 0 {
                 if (before - best.micro_usd) as f64 <= self.enough * before as f64 {
@@ -107,15 +111,15 @@ impl Descent {
     }
 }
 
-/// The model with its last prediction.
-struct Model<'a> {
+/// The model, which is a bundle of itineraries for each group, with its last prediction.
+struct Bundle<'a> {
     master: Master<'a>,
     promised: f64,
     /// A prediction that is too small to continue for, micro-dollars.
     enough: f64,
 }
 
-impl<'a> Model<'a> {
+impl<'a> Bundle<'a> {
     /// A model whose first step aims at the fall that the descent's settings ask for.
     fn new(mut master: Master<'a>, descent: Descent, bound: f64) -> Self {
         let promised = descent.first * bound;
@@ -139,9 +143,9 @@ impl<'a> Model<'a> {
         false
     }
 
-    /// Learns from an evaluation: the ways that are worth most, and the fall of the bound.
-    fn learn(&mut self, ways: Vec<(u32, Way)>, fell: f64) {
-        self.master.learn(ways);
+    /// Learns from an evaluation: the itineraries that are worth most, and the fall of the bound.
+    fn learn(&mut self, itineraries: Vec<(u32, Itinerary)>, fell: f64) {
+        self.master.learn(itineraries);
         let change = match fell / self.promised {
             kept if kept > KEPT => FARTHER,
             kept if kept < -1.0 => MUCH_NEARER,

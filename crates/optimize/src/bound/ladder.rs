@@ -7,11 +7,12 @@
 
 use vertifleet_core::{Scenario, Stop};
 
+use super::Bound;
 use super::descent::Descent;
 use super::prices::{Pace, Prices};
 use super::slices::Slices;
+use super::step::{STEPS, Step};
 use super::time_expanded_day::TimeExpandedDay;
-use super::{Bound, Step};
 use crate::Error;
 
 /// Seconds from one tick of the coarse clock to the next.
@@ -19,7 +20,7 @@ const TICK_S: u32 = 60;
 
 /// Slices of one length, and the effort of searching in them.
 struct Cut {
-    minutes: u32,
+    step: Step,
     on_coarse_clock: Descent,
     to_the_second: Descent,
 }
@@ -28,37 +29,31 @@ struct Cut {
 /// begin at zero.
 const CUTS: [Cut; 5] = [
     Cut {
-        minutes: 60,
+        step: STEPS[0],
         on_coarse_clock: Descent { steps: 200, first: 0.05, enough: 5e-5 },
         to_the_second: Descent { steps: 30, first: 0.003, enough: 1e-5 },
     },
     Cut {
-        minutes: 15,
+        step: STEPS[1],
         on_coarse_clock: Descent { steps: 500, first: 0.02, enough: 5e-5 },
         to_the_second: Descent { steps: 60, first: 0.003, enough: 1e-5 },
     },
     Cut {
-        minutes: 5,
+        step: STEPS[2],
         on_coarse_clock: Descent { steps: 300, first: 0.01, enough: 5e-5 },
         to_the_second: Descent { steps: 120, first: 0.003, enough: 1e-5 },
     },
     Cut {
-        minutes: 3,
+        step: STEPS[3],
         on_coarse_clock: Descent { steps: 300, first: 0.01, enough: 5e-5 },
         to_the_second: Descent { steps: 250, first: 0.003, enough: 1e-5 },
     },
     Cut {
-        minutes: 1,
+        step: STEPS[4],
         on_coarse_clock: Descent { steps: 200, first: 0.01, enough: 5e-5 },
         to_the_second: Descent { steps: 200, first: 0.003, enough: 1e-5 },
     },
 ];
-
-/// Minutes of the longest slices in `CUTS` that are no longer than `minutes`, which must be at least 1.
-pub(super) fn cut_within(minutes: u32) -> u32 {
-    let cut = CUTS.iter().find(|cut| cut.minutes <= minutes);
-    cut.expect("the shortest slices are of a minute").minutes
-}
 
 /// An observer of a search.
 pub(crate) trait Watch: Sync {
@@ -77,18 +72,18 @@ pub(crate) trait Watch: Sync {
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step.
-pub(super) fn climb(
+pub(crate) fn search(
     scenario: &Scenario,
     step: Step,
     watch: &dyn Watch,
 ) -> Result<Option<Bound>, Error> {
     TimeExpandedDay::fits(scenario, step.seconds())?;
-    let cuts = || CUTS.iter().filter(|cut| step.minutes <= cut.minutes);
+    let cuts = || CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes);
     let in_all = cuts().map(|cut| cut.work(scenario)).sum();
-    let mut climb = Climb { scenario, watch, best: None, done: 0.0, in_all };
+    let mut search = Search { scenario, watch, best: None, done: 0.0, in_all };
     let mut before = None;
     for cut in cuts() {
-        before = climb.rise(cut, before)?;
+        before = search.rise(cut, before)?;
         if before.is_none() {
             break;
         }
@@ -96,20 +91,16 @@ pub(super) fn climb(
     if before.is_some() {
         watch.has_come(1.0);
     }
-    Ok(climb.best.map(|best| {
+    Ok(search.best.map(|best| {
         let is_final = before.is_some() || watch.is_lowest(best.upper_bound_usd());
         Bound { is_final, ..best }
     }))
 }
 
 impl Cut {
-    fn step(&self) -> Step {
-        Step { minutes: self.minutes }
-    }
-
     /// The approximate number of comparisons in all evaluations for each pair of vertiports.
     fn work(&self, scenario: &Scenario) -> f64 {
-        let slices = Slices::of(scenario, self.step().seconds());
+        let slices = Slices::of(scenario, self.step.seconds());
         f64::from(self.on_coarse_clock.steps) * comparisons(&slices, TICK_S)
             + f64::from(self.to_the_second.steps) * comparisons(&slices, 1)
     }
@@ -122,7 +113,7 @@ fn comparisons(slices: &Slices, tick_s: u32) -> f64 {
 }
 
 /// A search in progress.
-struct Climb<'a> {
+struct Search<'a> {
     scenario: &'a Scenario,
     watch: &'a dyn Watch,
     best: Option<Bound>,
@@ -131,7 +122,7 @@ struct Climb<'a> {
     in_all: f64,
 }
 
-impl Climb<'_> {
+impl Search<'_> {
     /// Searches in slices of one length, starting with the prices that were found in coarser ones. Returns the prices
     /// to continue with, or `None` if the search is to end.
     fn rise(
@@ -139,8 +130,8 @@ impl Climb<'_> {
         cut: &Cut,
         before: Option<(Slices, Prices)>,
     ) -> Result<Option<(Slices, Prices)>, Error> {
-        let slices = Slices::of(self.scenario, cut.step().seconds());
-        let day = || TimeExpandedDay::of(self.scenario, cut.step().seconds());
+        let slices = Slices::of(self.scenario, cut.step.seconds());
+        let day = || TimeExpandedDay::of(self.scenario, cut.step.seconds());
         let size = self.scenario.vertiports.len();
         let start = if let Some((coarser, prices)) = before {
             Some(prices.in_slices(&coarser, &slices, size))
@@ -151,7 +142,7 @@ impl Climb<'_> {
             self.prove(cut, &day, Descent { steps: 0, ..cut.to_the_second }, zero)
         };
         let coarse = day()?.on_coarse_clock(TICK_S);
-        let found = start.and_then(|start| self.look(cut, &coarse, &slices, start));
+        let found = start.and_then(|start| self.search_coarsely(cut, &coarse, &slices, start));
         drop(coarse);
         let Some(found) = found else { return Ok(None) };
         let prices = self.prove(cut, &day()?, cut.to_the_second, found);
@@ -159,7 +150,7 @@ impl Climb<'_> {
     }
 
     /// Searches for prices on the coarse clock.
-    fn look(
+    fn search_coarsely(
         &mut self,
         cut: &Cut,
         coarse: &TimeExpandedDay,
@@ -195,7 +186,7 @@ impl Climb<'_> {
             watch.has_come((done + steps * step) / in_all);
             steps += 1.0;
             if best.as_ref().is_none_or(|best| found.bound(day) < best.micro_usd) {
-                let bound = Bound::of(cut.step(), day, found);
+                let bound = Bound::of(cut.step, day, found);
                 watch.has_found(&bound);
                 *best = Some(bound);
             }

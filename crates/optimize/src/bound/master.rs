@@ -1,87 +1,34 @@
-//! The search's model of the day: a fleet that divides itself among the ways that are known so far, at prices that rise
-//! where more is asked for than is available.
+//! The search's model of the day: a fleet that divides itself among the itineraries that are known so far, at prices
+//! that rise where more is asked for than is available.
 //!
 //! The model is the dual of the proximal step of a bundle method with one bundle for each group of like aircraft (K.
 //! Kiwiel, *Proximity control in bundle methods for convex nondifferentiable minimization*, Mathematical Programming
 //! 46, 1990): a price is the centre's price plus a pace times the excess, kept within its limits. Shifting aircraft
-//! from a way to a better one of the same group raises the model's value, and prices follow. This continues until no
-//! shift is worth much.
+//! from an itinerary to a better one of the same group raises the model's value, and prices follow. This continues
+//! until no shift is worth much.
 
-use std::ops::Range;
-
+use super::itinerary::Itinerary;
 use super::prices::{MOST_FOR_A_STAND, PACE_OF_PASSENGERS, Pace, Prices, whole};
 use super::time_expanded_day::TimeExpandedDay;
-
-/// A way through the day for one aircraft.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Way {
-    /// The profit of its flights before payments, micro-dollars.
-    pub(super) earnings: f64,
-    /// The stays of the aircraft, one after the other, each as the slice before which it ends and its vertiport: the
-    /// one where the aircraft is, or flies to, when slices end.
-    pub(super) stays: Vec<(u32, u32)>,
-    /// For each flight, the position of its passengers in [`TimeExpandedDay::demand`] and their number.
-    pub(super) flights: Vec<(u32, u32)>,
-}
-
-impl Way {
-    /// Adds a stay: the aircraft is at a vertiport, or flies there, at the ends of these slices.
-    pub(super) fn stay(&mut self, place: usize, slices: Range<usize>) {
-        let position = |at: usize| u32::try_from(at).expect("a day has few slices and vertiports");
-        if !slices.is_empty() {
-            self.stays.push((position(slices.end), position(place)));
-        }
-    }
-
-    /// The slices and the vertiport of each stay.
-    fn stays(&self) -> impl Iterator<Item = (Range<usize>, usize)> {
-        let mut begin = 0;
-        self.stays.iter().map(move |&(until, place)| {
-            let slices = begin..until as usize;
-            begin = slices.end;
-            (slices, place as usize)
-        })
-    }
-
-    /// The slices in which this way and another are at different vertiports, with the vertiport of this one and of the
-    /// other, in order.
-    fn apart(&self, other: &Self) -> impl Iterator<Item = (Range<usize>, usize, usize)> {
-        let (mut one, mut two, mut begin) = (0, 0, 0);
-        std::iter::from_fn(move || {
-            loop {
-                let (&(one_until, here), &(two_until, there)) =
-                    (self.stays.get(one)?, other.stays.get(two)?);
-                let until = one_until.min(two_until);
-                one += usize::from(one_until == until);
-                two += usize::from(two_until == until);
-                let slices = begin as usize..until as usize;
-                begin = until;
-                if here != there {
-                    return Some((slices, here as usize, there as usize));
-                }
-            }
-        })
-    }
-}
 
 /// The aircraft of one layer that start at the same vertiport.
 #[derive(Debug)]
 struct Group {
     count: f64,
-    ways: Vec<Known>,
+    itineraries: Vec<Known>,
 }
 
-/// A way that is known, and the share of the group that takes it.
+/// An itinerary that is known, and the share of the group that takes it.
 #[derive(Debug)]
 struct Known {
-    way: Way,
+    itinerary: Itinerary,
     share: f64,
-    /// Number of rounds for which no aircraft has taken the way.
+    /// Number of rounds for which no aircraft has taken the itinerary.
     idle: u32,
     worth: f64,
 }
 
-/// Number of rounds after which a way that no aircraft takes is forgotten.
+/// Number of rounds after which an itinerary that no aircraft takes is forgotten.
 const FORGOTTEN: u32 = 12;
 /// The most shifts of a group in one round.
 const SHIFTS: u32 = 6;
@@ -104,21 +51,21 @@ pub(super) struct Master<'a> {
 }
 
 impl<'a> Master<'a> {
-    /// A model in which each group takes its only known way; groups are in the order of layers and vertiports.
+    /// A model in which each group takes its only known itinerary; groups are in the order of layers and vertiports.
     pub(super) fn new(
         day: &'a TimeExpandedDay,
         pace: &'a Pace,
         centre: Prices,
-        ways: Vec<(u32, Way)>,
+        itineraries: Vec<(u32, Itinerary)>,
     ) -> Self {
-        let group = |(count, way)| Group {
+        let group = |(count, itinerary)| Group {
             count: f64::from(count),
-            ways: vec![Known { way, share: 1.0, idle: 0, worth: 0.0 }],
+            itineraries: vec![Known { itinerary, share: 1.0, idle: 0, worth: 0.0 }],
         };
         let mut master = Self {
             day,
             pace,
-            groups: ways.into_iter().map(group).collect(),
+            groups: itineraries.into_iter().map(group).collect(),
             reach: 0.0,
             stand_excess: vec![0.0; centre.stand.len()],
             demand_excess: vec![0.0; centre.demand.len()],
@@ -141,14 +88,14 @@ impl<'a> Master<'a> {
             *excess = -f64::from(waiting);
         }
         for group in &self.groups {
-            for known in group.ways.iter().filter(|known| known.share > 0.0) {
+            for known in group.itineraries.iter().filter(|known| known.share > 0.0) {
                 let aircraft = group.count * known.share;
-                for (slices, place) in known.way.stays() {
+                for (slices, place) in known.itinerary.stays() {
                     for slice in slices {
                         self.stand_excess[slice * size + place] += aircraft;
                     }
                 }
-                for &(cell, passengers) in &known.way.flights {
+                for &(cell, passengers) in &known.itinerary.flights {
                     self.demand_excess[cell as usize] += aircraft * f64::from(passengers);
                 }
             }
@@ -177,11 +124,11 @@ impl<'a> Master<'a> {
         self.centre.clone_from(centre);
     }
 
-    /// Adds one more way to each group, in the order of [`Master::new`].
-    pub(super) fn learn(&mut self, ways: Vec<(u32, Way)>) {
-        for (group, (_, way)) in self.groups.iter_mut().zip(ways) {
-            if group.ways.iter().all(|known| known.way != way) {
-                group.ways.push(Known { way, share: 0.0, idle: 0, worth: 0.0 });
+    /// Adds one more itinerary to each group, in the order of [`Master::new`].
+    pub(super) fn learn(&mut self, itineraries: Vec<(u32, Itinerary)>) {
+        for (group, (_, itinerary)) in self.groups.iter_mut().zip(itineraries) {
+            if group.itineraries.iter().all(|known| known.itinerary != itinerary) {
+                group.itineraries.push(Known { itinerary, share: 0.0, idle: 0, worth: 0.0 });
             }
         }
     }
@@ -217,10 +164,10 @@ impl<'a> Master<'a> {
             }
         }
         for group in &mut self.groups {
-            for known in &mut group.ways {
+            for known in &mut group.itineraries {
                 known.idle = if known.share > 0.0 { 0 } else { known.idle + 1 };
             }
-            group.ways.retain(|known| known.idle < FORGOTTEN);
+            group.itineraries.retain(|known| known.idle < FORGOTTEN);
         }
         possible
     }
@@ -237,49 +184,50 @@ impl<'a> Master<'a> {
         }
     }
 
-    /// The worth of a way at the model's prices.
-    fn worth(&self, way: &Way) -> f64 {
+    /// The worth of an itinerary at the model's prices.
+    fn worth(&self, itinerary: &Itinerary) -> f64 {
         let row = self.stand.len() / self.day.size() + 1;
-        let rents = way.stays().map(|(slices, place)| {
+        let rents = itinerary.stays().map(|(slices, place)| {
             self.paid[place * row + slices.end] - self.paid[place * row + slices.start]
         });
         let passengers =
-            way.flights.iter().map(|&(cell, n)| self.demand[cell as usize] * f64::from(n));
-        way.earnings - rents.sum::<f64>() - passengers.sum::<f64>()
+            itinerary.flights.iter().map(|&(cell, n)| self.demand[cell as usize] * f64::from(n));
+        itinerary.earnings - rents.sum::<f64>() - passengers.sum::<f64>()
     }
 
-    /// Shifts aircraft of a group from bad ways to the best. Returns what could have been gained before, micro-dollars.
+    /// Shifts aircraft of a group from bad itineraries to the best. Returns what could have been gained before,
+    /// micro-dollars.
     fn shift_group(&mut self, group: usize) -> f64 {
         let count = self.groups[group].count;
-        let mut known = std::mem::take(&mut self.groups[group].ways);
+        let mut known = std::mem::take(&mut self.groups[group].itineraries);
         let mut possible = 0.0;
         for shift in 0..SHIFTS {
             for known in &mut known {
-                known.worth = self.worth(&known.way);
+                known.worth = self.worth(&known.itinerary);
             }
             let best = (0..known.len()).max_by(|&a, &b| known[a].worth.total_cmp(&known[b].worth));
-            let best = best.expect("a group has a way");
+            let best = best.expect("a group has an itinerary");
             let lost = |at: usize| known[at].share * (known[best].worth - known[at].worth);
             if shift == 0 {
                 possible = count * (0..known.len()).map(lost).sum::<f64>();
             }
             let worst = (0..known.len()).max_by(|&a, &b| lost(a).total_cmp(&lost(b)));
-            let worst = worst.expect("a group has a way");
+            let worst = worst.expect("a group has an itinerary");
             if lost(worst) <= 0.0 {
                 break;
             }
-            let share = self.shift_ways(&known[worst], &known[best], count);
+            let share = self.shift_itineraries(&known[worst], &known[best], count);
             known[worst].share -= share;
             known[best].share += share;
         }
-        self.groups[group].ways = known;
+        self.groups[group].itineraries = known;
         possible
     }
 
-    /// Shifts aircraft of a group of `count` from one way to a better one, until both are worth about the same. Returns
-    /// the share of the group that was shifted.
-    fn shift_ways(&mut self, worst: &Known, best: &Known, count: f64) -> f64 {
-        let (from, to) = (&worst.way, &best.way);
+    /// Shifts aircraft of a group of `count` from one itinerary to a better one, until both are worth about the same.
+    /// Returns the share of the group that was shifted.
+    fn shift_itineraries(&mut self, worst: &Known, best: &Known, count: f64) -> f64 {
+        let (from, to) = (&worst.itinerary, &best.itinerary);
         let gain = best.worth - worst.worth;
         let share = (gain / (count * self.resistance(from, to))).min(worst.share);
         self.shift(from, to, count * share);
@@ -293,9 +241,9 @@ impl<'a> Master<'a> {
         share - back
     }
 
-    /// The amount by which one aircraft that changes its way lowers the worth of the shift, through the prices that are
-    /// not at a limit.
-    fn resistance(&self, from: &Way, to: &Way) -> f64 {
+    /// The amount by which one aircraft that changes its itinerary lowers the worth of the shift, through the prices
+    /// that are not at a limit.
+    fn resistance(&self, from: &Itinerary, to: &Itinerary) -> f64 {
         let size = self.day.size();
         let free = |price: f64, most: i64| f64::from(u8::from(price > 0.0 && price < most as f64));
         let mut resistance = 0.0;
@@ -314,8 +262,8 @@ impl<'a> Master<'a> {
         self.reach * resistance.max(1e-3)
     }
 
-    /// Moves `aircraft` aircraft from one way to another, and updates the prices.
-    fn shift(&mut self, from: &Way, to: &Way, aircraft: f64) {
+    /// Moves `aircraft` aircraft from one itinerary to another, and updates the prices.
+    fn shift(&mut self, from: &Itinerary, to: &Itinerary, aircraft: f64) {
         let size = self.day.size();
         for (slices, leave, take) in from.apart(to) {
             for slice in slices.clone() {
@@ -336,8 +284,8 @@ impl<'a> Master<'a> {
         {
             self.pay(place, first);
         }
-        for (way, change) in [(from, -aircraft), (to, aircraft)] {
-            for &(cell, passengers) in &way.flights {
+        for (itinerary, change) in [(from, -aircraft), (to, aircraft)] {
+            for &(cell, passengers) in &itinerary.flights {
                 self.demand_excess[cell as usize] += change * f64::from(passengers);
                 self.demand[cell as usize] = self.demand_price(cell as usize);
             }
@@ -358,7 +306,7 @@ impl<'a> Master<'a> {
     /// for rounding.
     pub(super) fn value(&self) -> f64 {
         let fleet = self.groups.iter().map(|group| {
-            let worths = group.ways.iter().map(|known| self.worth(&known.way));
+            let worths = group.itineraries.iter().map(|known| self.worth(&known.itinerary));
             group.count * worths.fold(f64::NEG_INFINITY, f64::max)
         });
         let stands = self.day.stands.iter().cycle().zip(&self.stand);

@@ -115,7 +115,10 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
             let start = day.aircraft[aircraft.at()].at.at();
             let layer = layer_of(day, &expanded, aircraft);
             let worth = certificate.worth_less_paid(&expanded, layer, start, 0);
-            assert!(left <= worth, "aircraft {aircraft:?} has {left} left, its best way {worth}");
+            assert!(
+                left <= worth,
+                "aircraft {aircraft:?} has {left} left, its best itinerary {worth}"
+            );
         }
         // The payments are no more than the amount given back.
         for (at, &count) in taken.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! The choices of the aircraft of a day, laid out for the search of their best ways: legs, holds, margins, limits.
+//! The choices of the aircraft of a day, laid out for the search of their best itineraries: legs, holds, margins,
+//! limits.
 //!
 //! Aircraft of one type are alike, so there is one layer for each type. Aircraft that have an outage today form a layer
 //! of their own, in which outages are dropped and waiting is free. The profit of a flight depends on the slice in which

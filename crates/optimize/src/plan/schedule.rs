@@ -17,10 +17,10 @@ pub(super) struct Flight {
     pub(super) to: VertiportIx,
 }
 
-/// The flights of one aircraft. A route is *whole* once it reaches the end of the plan. Before that its aircraft
+/// The flights of one aircraft. An itinerary is *whole* once it reaches the end of the plan. Before that its aircraft
 /// vanishes when it is ready after its last flight, and its stand is free from then on.
 #[derive(Debug, Clone)]
-pub(super) struct Route {
+pub(super) struct Itinerary {
     place: VertiportIx,
     ready_s: u32,
     pub(super) flights: Vec<Flight>,
@@ -30,7 +30,7 @@ pub(super) struct Route {
 /// The flights of the fleet, with the stands that they take, the demand that they leave and their profit.
 #[derive(Debug, Clone)]
 pub(super) struct Schedule {
-    routes: Vec<Route>,
+    itineraries: Vec<Itinerary>,
     pub(super) stands: StandTimes,
     /// Demand less seats flown, by period, then from, then to; negative where seats stay empty.
     left: Vec<i64>,
@@ -38,18 +38,23 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    /// A schedule without flights, in which every route has to be completed.
+    /// A schedule without flights, in which every itinerary has to be completed.
     pub(super) fn unplanned(problem: &Problem) -> Self {
         let Problem { day, places, demand, first_s, .. } = problem;
         let mut stands = StandTimes::empty(&day.stands);
-        let mut routes = Vec::with_capacity(places.len());
+        let mut itineraries = Vec::with_capacity(places.len());
         for (aircraft, &place) in day.fleet().zip(places) {
             stands.take_at_first(place);
             stands.free(place, Moment::of(*first_s, aircraft));
-            routes.push(Route { place, ready_s: *first_s, flights: Vec::new(), whole: false });
+            itineraries.push(Itinerary {
+                place,
+                ready_s: *first_s,
+                flights: Vec::new(),
+                whole: false,
+            });
         }
         let left = demand.iter().map(|&passengers| i64::from(passengers)).collect();
-        Self { routes, stands, left, value_usd: 0.0 - day.fleet_cost_usd }
+        Self { itineraries, stands, left, value_usd: 0.0 - day.fleet_cost_usd }
     }
 
     /// Profit of the schedule, dollars.
@@ -60,13 +65,13 @@ impl Schedule {
 
     #[inline]
     pub(super) fn flights(&self, aircraft: AircraftIx) -> &[Flight] {
-        &self.routes[aircraft.at()].flights
+        &self.itineraries[aircraft.at()].flights
     }
 
-    /// Whether the aircraft's route reaches the end of the plan.
+    /// Whether the aircraft's itinerary reaches the end of the plan.
     #[inline]
     pub(super) fn is_whole(&self, aircraft: AircraftIx) -> bool {
-        self.routes[aircraft.at()].whole
+        self.itineraries[aircraft.at()].whole
     }
 
     /// Number of passengers that one more flight with `seats` finds in a cell of the demand.
@@ -77,9 +82,9 @@ impl Schedule {
 
     /// The vertiport of the aircraft after its last flight, and the second at which it is ready there.
     pub(super) fn open_end(&self, day: &Day, aircraft: AircraftIx) -> (VertiportIx, u32) {
-        let route = &self.routes[aircraft.at()];
-        match route.flights.last() {
-            None => (route.place, route.ready_s),
+        let itinerary = &self.itineraries[aircraft.at()];
+        match itinerary.flights.last() {
+            None => (itinerary.place, itinerary.ready_s),
             Some(last) => {
                 let hop = day.hop(day.kind(aircraft), last.from, last.to);
                 (last.to, day.landing(aircraft, last.from, hop, last.take_off_s).ready_s)
@@ -87,7 +92,7 @@ impl Schedule {
         }
     }
 
-    /// Removes the flights from the one at `first` on from a whole route, and appends them to `taken_out`.
+    /// Removes the flights from the one at `first` on from a whole itinerary, and appends them to `taken_out`.
     pub(super) fn cut(
         &mut self,
         problem: &Problem,
@@ -95,7 +100,7 @@ impl Schedule {
         first: usize,
         taken_out: &mut Vec<Flight>,
     ) {
-        debug_assert!(self.is_whole(aircraft), "a route is cut once");
+        debug_assert!(self.is_whole(aircraft), "an itinerary is cut once");
         let day = &problem.day;
         let begin = taken_out.len();
         taken_out.extend_from_slice(&self.flights(aircraft)[first..]);
@@ -105,19 +110,19 @@ impl Schedule {
             self.stands.take_back(flight.to, moment);
             self.value_usd -= self.enter_account(day, aircraft, flight, -1);
         }
-        self.routes[aircraft.at()].flights.truncate(first);
+        self.itineraries[aircraft.at()].flights.truncate(first);
         let (place, ready_s) = self.open_end(day, aircraft);
         if ready_s <= day.end_s {
             self.stands.free(place, Moment::of(ready_s, aircraft));
-            self.routes[aircraft.at()].whole = false;
+            self.itineraries[aircraft.at()].whole = false;
         }
     }
 
-    /// Appends flights to a route that is not whole, which makes it whole.
+    /// Appends flights to an itinerary that is not whole, which makes it whole.
     pub(super) fn complete(&mut self, problem: &Problem, aircraft: AircraftIx, flights: &[Flight]) {
         let day = &problem.day;
         if self.is_whole(aircraft) {
-            debug_assert!(flights.is_empty(), "a whole route takes no more flights");
+            debug_assert!(flights.is_empty(), "a whole itinerary takes no more flights");
             return;
         }
         let (place, ready_s) = self.open_end(day, aircraft);
@@ -128,9 +133,9 @@ impl Schedule {
             self.stands.take(flight.to, moment);
             self.value_usd += self.enter_account(day, aircraft, flight, 1);
         }
-        let route = &mut self.routes[aircraft.at()];
-        route.flights.extend_from_slice(flights);
-        route.whole = true;
+        let itinerary = &mut self.itineraries[aircraft.at()];
+        itinerary.flights.extend_from_slice(flights);
+        itinerary.whole = true;
     }
 
     /// Adds a flight to the account (`sign` 1) or removes it (-1). Returns the profit of the flight, dollars.

@@ -1,5 +1,5 @@
-//! Large-neighbourhood search with annealing: remove the rest of the day from the routes of a few aircraft, complete
-//! the routes one by one in the best way, and keep the result if it is better, or only a little worse.
+//! Large-neighbourhood search with annealing: remove the rest of the day from the itineraries of a few aircraft,
+//! complete the itineraries one by one in the best way, and keep the result if it is better, or only a little worse.
 //!
 //! P. Shaw, *Using constraint programming and local search methods to solve vehicle routing problems* (1998), for the
 //! neighbourhood; S. Ropke and D. Pisinger, *An adaptive large neighborhood search heuristic for the pickup and
@@ -10,18 +10,18 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use vertifleet_core::AircraftIx;
 
+use super::itinerary_search::{Bias, ItinerarySearch, SLOT_S};
 use super::problem::Problem;
-use super::route_search::{Bias, RouteSearch, SLOT_S};
 use super::schedule::{Flight, Schedule};
 
-/// Most aircraft whose routes are changed at once.
+/// Most aircraft whose itineraries are changed at once.
 const MOST_TAKEN_OUT: usize = 4;
 /// How often aircraft are chosen that leave one vertiport at about the same time; otherwise any are. Without such
 /// choices, days of `paper` earned 0.1 % less after 50,000 steps.
 const TOGETHER: f64 = 0.5;
 /// Two take-offs are at about the same time if they are this many seconds apart, or less.
 const SAME_TIME_S: u32 = 1_800;
-/// How often routes are changed from the start of the day on; otherwise from a random moment of the day.
+/// How often itineraries are changed from the start of the day on; otherwise from a random moment of the day.
 const WHOLE_DAYS: f64 = 0.1;
 /// Most by which the assumed profit of a flight is off in a noisy step, in full flights. The noise is Ropke and
 /// Pisinger's: without it no aircraft leaves a flight to another that earns more with it, or flies empty to make room.
@@ -35,7 +35,7 @@ pub(super) struct Search {
     pub(super) current: Schedule,
     pub(super) best: Schedule,
     random: Xoshiro256PlusPlus,
-    routes: RouteSearch,
+    itineraries: ItinerarySearch,
     taken_out: TakenOut,
     way_on: Vec<Flight>,
     /// The aircraft that may be changed together with the one chosen first.
@@ -54,13 +54,13 @@ struct TakenOut {
 }
 
 impl Search {
-    /// A search that starts from a schedule whose routes are all whole.
+    /// A search that starts from a schedule whose itineraries are all whole.
     pub(super) fn new(schedule: Schedule, seed: u64) -> Self {
         Self {
             best: schedule.clone(),
             current: schedule,
             random: Xoshiro256PlusPlus::seed_from_u64(seed),
-            routes: RouteSearch::default(),
+            itineraries: ItinerarySearch::default(),
             taken_out: TakenOut::default(),
             way_on: Vec::new(),
             others: Vec::new(),
@@ -130,7 +130,8 @@ impl Search {
         }
     }
 
-    /// Completes the routes in the order in which they were chosen. Returns whether all of them could be completed.
+    /// Completes the itineraries in the order in which they were chosen. Returns whether all of them could be
+    /// completed.
     fn put_back(&mut self, problem: &Problem) -> bool {
         let rent_share = self.random.random::<f64>();
         let noise_usd = self.draw_noise_usd(problem);
@@ -146,7 +147,7 @@ impl Search {
                 noise_seed: self.random.random(),
             };
             let found =
-                self.routes.complete(problem, &self.current, aircraft, bias, &mut self.way_on);
+                self.itineraries.complete(problem, &self.current, aircraft, bias, &mut self.way_on);
             if !found {
                 return false;
             }

@@ -1,4 +1,4 @@
-//! The verdict: findings, how often each rule is broken, and the day's totals, computed from the rules.
+//! The report: findings, how often each rule is broken, and the day's totals, computed from the rules.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -134,7 +134,7 @@ impl Findings {
     }
 }
 
-/// The checker's verdict on a schedule. It prints as text and serialises for programs.
+/// The checker's report on a schedule. It prints as text and serialises for programs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// The places where rules are broken, in the order of the day; at most the first 1,000 of each rule.

@@ -7,9 +7,9 @@ use super::Figure;
 use super::axis::Scale;
 use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened, text_width};
 use super::palette::Paint;
+use crate::comparison::{ComparisonReport, PolicySummary};
 use crate::numbers::{counted, dollars, grouped, minutes, typeset};
 use crate::statistics::BoxSummary;
-use crate::summary::{ComparisonReport, PolicySummary};
 
 const WIDTH: f64 = 760.0;
 const TOP: f64 = 96.0;
@@ -22,7 +22,7 @@ const LONGEST_NAME: usize = 22;
 /// With more days the dots would run into each other and say less than the box.
 const MOST_DOTS: usize = 400;
 
-/// The remark below the name of an reference.
+/// The remark below the name of a reference.
 const OFFLINE_REMARK: &str = "knows the day";
 
 /// The quantity that a box plot shows for each policy.

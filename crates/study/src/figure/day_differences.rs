@@ -7,8 +7,8 @@ use super::Figure;
 use super::axis::Scale;
 use super::canvas::{Anchor, Canvas, Lettering, Look, Stroke, pixels, shortened};
 use super::palette::Paint;
+use crate::comparison::{ComparisonReport, PairedDifference};
 use crate::numbers::{counted, dollars, signed_dollars};
-use crate::summary::{ComparisonReport, PairedDifference};
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;

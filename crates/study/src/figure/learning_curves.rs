@@ -6,9 +6,9 @@ use super::axis::Scale;
 use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};
 use super::key;
 use super::palette::{Paint, dash};
+use crate::comparison::ComparisonReport;
 use crate::numbers::{grouped, typeset};
 use crate::origin::NetworkOrigin;
-use crate::summary::ComparisonReport;
 
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 70.0;

@@ -34,7 +34,7 @@ fn opening(summary: &GeneralisationReport) -> Markup {
             div { dt { "Networks" } dd { (summary.networks.len()) } }
             div { dt { "Vertiports" } dd { (range(|network| network.vertiports)) } }
             div { dt { "Aircraft" } dd { (range(|network| network.aircraft)) } }
-            div { dt { "Steps of the bounds" } dd { (minutes(summary.bound_step_s)) } }
+            div { dt { "Slices of the bounds" } dd { (minutes(summary.bound_step_s)) } }
         }
         pre { (summary.command) }
     }

@@ -4,9 +4,8 @@ use serde::Serialize;
 
 use super::{GeneralisationRecords, NetworkRecord};
 use crate::error::Error;
-use crate::record::{DayRecord, PolicyRecord};
+use crate::record::{DayRecord, PolicyRecord, check_records};
 use crate::statistics::{Estimate, PairedTest};
-use crate::summary;
 
 /// Name and version of the format of `summary.json`.
 pub const FORMAT: &str = "vertifleet-generalisation/1";
@@ -83,7 +82,7 @@ impl GeneralisationReport {
     /// # Panics
     /// Panics if a day has no upper bound.
     pub fn of(study: &GeneralisationRecords) -> Result<Self, Error> {
-        summary::check(&study.policies, study.networks.len())?;
+        check_records(&study.policies, study.networks.len())?;
         let shares: Vec<Vec<f64>> =
             study.policies.iter().map(|policy| policy.days.iter().map(share).collect()).collect();
         let policies = study.policies.iter().zip(&shares).enumerate();

@@ -1,34 +1,34 @@
-//! What the fleet would do at given prices: every aircraft takes the way through the day that is worth most to it.
-//! Where more or less is then asked for than is available, prices should rise or fall.
+//! What the fleet would do at given prices: every aircraft takes the itinerary through the day that is worth most to
+//! it. Where more or less is then asked for than is available, prices should rise or fall.
 
 use super::certificate::{Certificate, earnings};
-use super::master::Way;
+use super::itinerary::Itinerary;
 use super::prices::Prices;
 use super::time_expanded_day::{Flight, TimeExpandedDay};
 
 /// A day at the prices that its certificate was evaluated with last.
-pub(super) struct Ways<'a> {
+pub(super) struct BestItineraries<'a> {
     pub(super) day: &'a TimeExpandedDay,
     pub(super) prices: &'a Prices,
     pub(super) certificate: &'a Certificate,
 }
 
-impl Ways<'_> {
-    /// The best way of each group, which is the aircraft of one layer that start at the same vertiport, and their
+impl BestItineraries<'_> {
+    /// The best itinerary of each group, which is the aircraft of one layer that start at the same vertiport, and their
     /// number.
-    pub(super) fn of_groups(&self) -> Vec<(u32, Way)> {
+    pub(super) fn of_groups(&self) -> Vec<(u32, Itinerary)> {
         let layers = self.day.layers.iter().enumerate();
         let groups = layers.flat_map(|(layer, kind)| {
             kind.starts.iter().enumerate().map(move |(at, &count)| (layer, at, count))
         });
         let taken = groups.filter(|&(.., count)| count > 0);
-        taken.map(|(layer, at, count)| (count, self.way(layer, at))).collect()
+        taken.map(|(layer, at, count)| (count, self.itinerary(layer, at))).collect()
     }
 
-    fn way(&self, layer: usize, mut at: usize) -> Way {
+    fn itinerary(&self, layer: usize, mut at: usize) -> Itinerary {
         let slices = &self.day.slices;
         let day_s = slices.day_s();
-        let mut way = Way { earnings: 0.0, stays: Vec::new(), flights: Vec::new() };
+        let mut itinerary = Itinerary { earnings: 0.0, stays: Vec::new(), flights: Vec::new() };
         let (mut second, mut slice) = (0, 0);
         while slice < slices.len() {
             let leaves = self.waits_until(layer, at, second);
@@ -36,18 +36,18 @@ impl Ways<'_> {
                 second = leaves;
             } else if let Some(flight) = self.best_flight(layer, at, second, slice) {
                 let margin = self.day.margin[flight.cell as usize] as f64;
-                way.earnings += f64::from(flight.passengers) * margin - flight.cost as f64;
-                way.flights.push((flight.cell, flight.passengers));
+                itinerary.earnings += f64::from(flight.passengers) * margin - flight.cost as f64;
+                itinerary.flights.push((flight.cell, flight.passengers));
                 at = flight.to.at();
                 second += flight.block_s;
             } else {
                 second += self.day.hold_s;
             }
             let until = slices.containing(slices.start_s(0) + second.min(day_s));
-            way.stay(at, slice..until);
+            itinerary.stay(at, slice..until);
             slice = until;
         }
-        way
+        itinerary
     }
 
     fn worth_less_paid(&self, layer: usize, at: usize, second: u32) -> i64 {

@@ -3,13 +3,13 @@
 //! Records become statistics only here. All presentation reads a [`ComparisonReport`] and computes nothing.
 
 use serde::Serialize;
-use vertifleet_sim::DayNumber;
 
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
 use crate::published::{self, PublishedResult};
 use crate::record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
+    check_records,
 };
 use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
 
@@ -146,7 +146,7 @@ pub struct PolicySummary {
     pub spilled_passengers: f64,
     /// Mean of the days' load factors, 0 to 1.
     pub load_factor: f64,
-    /// Time of one decision; `None` for an reference, which knows the whole day.
+    /// Time of one decision; `None` for a reference, which knows the whole day.
     pub decision_ns: Option<Latency>,
     /// Profit of each day, in the study's order of days.
     #[serde(skip)]
@@ -191,13 +191,14 @@ impl ComparisonReport {
     /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies
     /// on the same days.
     pub fn of(study: &ComparisonRecords) -> Result<Self, Error> {
-        check(&study.policies, study.days)?;
+        check_records(&study.policies, study.days)?;
+        let empty = || Error::Empty { policies: study.policies.len(), days: study.days };
         let mut policies: Vec<PolicySummary> = study
             .policies
             .iter()
             .map(PolicySummary::of)
             .collect::<Option<_>>()
-            .ok_or_else(|| empty(&study.policies, study.days))?;
+            .ok_or_else(empty)?;
         // The sort is stable, so equal policies keep the order in which they were named.
         policies.sort_by(|a, b| b.profit_usd.mean.total_cmp(&a.profit_usd.mean));
         let seeds = || study.policies.iter().flat_map(|policy| &policy.days).map(|day| day.seed);
@@ -207,8 +208,7 @@ impl ComparisonReport {
             step_s,
             upper_bound_usd: Estimate::of(&bounds_usd),
         };
-        let day_seeds =
-            seeds().min().zip(seeds().max()).ok_or_else(|| empty(&study.policies, study.days))?;
+        let day_seeds = seeds().min().zip(seeds().max()).ok_or_else(empty)?;
         Ok(Self {
             format: FORMAT,
             program_version: env!("CARGO_PKG_VERSION"),
@@ -335,58 +335,4 @@ fn compare_all(policies: &[PolicySummary]) -> Vec<PairedDifference> {
             }
         })
         .collect()
-}
-
-fn empty(policies: &[PolicyRecord], days: usize) -> Error {
-    Error::Empty { policies: policies.len(), days }
-}
-
-/// Checks that the records are those of policies on the same days, with finite results.
-pub(crate) fn check(policies: &[PolicyRecord], days: usize) -> Result<(), Error> {
-    let Some(first) = policies.first().filter(|_| days > 0) else {
-        return Err(empty(policies, days));
-    };
-    for policy in policies {
-        check_paired(days, first, policy)?;
-        for day in &policy.days {
-            check_finite(&policy.name, day)?;
-        }
-    }
-    Ok(())
-}
-
-fn check_paired(days: usize, first: &PolicyRecord, policy: &PolicyRecord) -> Result<(), Error> {
-    let label = |day: &DayRecord| format!("{} (seed {})", day.day, day.seed);
-    for position in 0..days.max(policy.days.len()) {
-        let found = policy.days.get(position).map_or("no day".to_owned(), label);
-        let expected = match first.days.get(position) {
-            Some(day) if position < days => label(day),
-            None if position < days => "a day".to_owned(),
-            _ => "no day".to_owned(),
-        };
-        if found != expected {
-            return Err(Error::Unpaired {
-                policy: policy.name.clone(),
-                first_policy: first.name.clone(),
-                position,
-                found,
-                expected,
-            });
-        }
-    }
-    Ok(())
-}
-
-fn check_finite(policy: &str, day: &DayRecord) -> Result<(), Error> {
-    let amounts = day.totals.numbers().into_iter().filter_map(|(member, number)| match number {
-        DayNumber::Amount(value) => Some((member, value)),
-        DayNumber::Count(_) => None,
-    });
-    let bound = day.upper_bound_usd.map(|bound_usd| ("upper_bound_usd", bound_usd));
-    match amounts.chain(bound).find(|(_, value)| !value.is_finite()) {
-        None => Ok(()),
-        Some((member, value)) => {
-            Err(Error::NotFinite { policy: policy.to_owned(), day: day.day.clone(), member, value })
-        }
-    }
 }

@@ -16,7 +16,7 @@ use super::stand_times::{Moment, Window};
 /// every label leads to a later slot.
 pub(super) const SLOT_S: u32 = 60;
 
-/// Variation of a search, so that a route is not always completed in the same way.
+/// Variation of a search, so that an itinerary is not always completed in the same way.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Bias {
     /// Seconds, below [`SLOT_S`], by which slots begin earlier, so that another one of several close labels is kept.
@@ -52,9 +52,9 @@ struct Finish {
     last_to: Option<VertiportIx>,
 }
 
-/// The memory of the search, kept from one route to the next.
+/// The memory of the search, kept from one itinerary to the next.
 #[derive(Debug, Default)]
-pub(super) struct RouteSearch {
+pub(super) struct ItinerarySearch {
     /// The best label by slot, then vertiport.
     labels: Vec<Label>,
     /// The windows in which each vertiport has a stand for one more aircraft, vertiport by vertiport. Each list ends
@@ -65,7 +65,7 @@ pub(super) struct RouteSearch {
     best: Option<Finish>,
 }
 
-/// The route to be completed.
+/// The itinerary to be completed.
 struct Task<'a> {
     problem: &'a Problem,
     schedule: &'a Schedule,
@@ -103,9 +103,9 @@ struct Choice {
     minute: usize,
 }
 
-impl RouteSearch {
-    /// Writes the flights that complete the route of `aircraft` best to `flights`. Returns `false` if the route cannot
-    /// be completed, because others have taken every stand that the aircraft could stay at.
+impl ItinerarySearch {
+    /// Writes the flights that complete the itinerary of `aircraft` best to `flights`. Returns `false` if the itinerary
+    /// cannot be completed, because others have taken every stand that the aircraft could stay at.
     pub(super) fn complete(
         &mut self,
         problem: &Problem,
@@ -114,7 +114,7 @@ impl RouteSearch {
         bias: Bias,
         flights: &mut Vec<Flight>,
     ) -> bool {
-        debug_assert!(!schedule.is_whole(aircraft), "a whole route is complete");
+        debug_assert!(!schedule.is_whole(aircraft), "a whole itinerary is complete");
         flights.clear();
         let day = &problem.day;
         let (place, ready_s) = schedule.open_end(day, aircraft);

@@ -38,7 +38,7 @@ struct Kept {
 ///
 /// # Errors
 /// The errors of [`upper_bound_unless`], and [`Error::Core`] if the folder or the file cannot be written.
-pub fn cached_upper_bound(
+pub fn kept_upper_bound(
     stopped: &Stop,
     scenario: &Scenario,
     step: Step,
