@@ -3,22 +3,22 @@
 //! The observations of steps alternate between two sets of arrays, so that the observations of one step stay unchanged
 //! during the next step. A third set is for resets of some slots, which happen between two steps.
 
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use vertifleet_core::DaySeed;
 use vertifleet_sim::DayTotals;
 
 use crate::buffers::{ObservationRows, Observations, OutcomeRows, Outcomes};
-use crate::environment::{Day, Outcome, World};
+use crate::day::{Day, Outcome, OutcomeFields, World};
+use crate::days::Days;
 use crate::failure::Failure;
 use crate::frames::plain;
-use crate::network::Network;
-use crate::observation::ObservationRow;
+use crate::layout::Layout;
 use crate::scenario::Scenario;
 use crate::threads::Threads;
+use crate::view::View;
 use crate::whole_number::WholeNumber;
 
 /// Number of days that one thread advances at a time. This is about ten microseconds of work, far more than the cost of
@@ -42,6 +42,8 @@ struct Slot {
     day: Option<Day>,
     /// The totals of the day, if the latest step ended it.
     summary: Option<DayTotals>,
+    /// What came of the latest step's choice; `None` if the step began a day instead.
+    outcome: Option<Outcome>,
 }
 
 /// Many days side by side.
@@ -63,17 +65,18 @@ pub(crate) struct Batch {
 #[pymethods]
 impl Batch {
     #[new]
-    #[pyo3(signature = (network, reward, slots, autoreset, threads = None))]
+    #[pyo3(signature = (days, layout, reward, slots, autoreset, threads = None))]
     fn new(
         py: Python<'_>,
-        network: &Network,
+        days: &Days,
+        layout: &Layout,
         reward: &str,
         slots: WholeNumber,
         autoreset: &str,
         threads: Option<WholeNumber>,
     ) -> Result<Self, Failure> {
         let slots = slots.of("num_envs")?;
-        let world = World::new(network, reward)?;
+        let world = World::new(days, layout, reward)?;
         let autoreset = match autoreset {
             "NextStep" => Autoreset::NextStep,
             "SameStep" => Autoreset::SameStep,
@@ -87,8 +90,8 @@ impl Batch {
                 "num_envs must be from 1 to 1048576, found {slots}"
             )));
         }
-        let vertiports = world.vertiports();
-        let set = || Observations::new(py, slots, vertiports);
+        let (width, vertiports) = (layout.layout.width(), world.vertiports());
+        let set = || Observations::new(py, slots, width, vertiports);
         Ok(Self {
             sets: [set(), set(), set()],
             finals: set(),
@@ -113,8 +116,8 @@ impl Batch {
         ])
     }
 
-    /// Begins a day at each slot for which `which` is true: the training day with the slot's number in `numbers`, or
-    /// `scenario` if it is given. Writes the observations of all slots, and returns the index of the set that they are
+    /// Begins a day at each slot for which `which` is true: the day with the slot's number in `numbers`, or `scenario`
+    /// if it is given. Writes the observations of all slots, and returns the index of the set that they are
     /// in.
     fn reset(
         &mut self,
@@ -124,11 +127,11 @@ impl Batch {
         scenario: Option<&Scenario>,
     ) -> PyResult<usize> {
         if let Some(scenario) = scenario {
-            self.world.network.check_fits(&scenario.scenario)?;
+            self.world.check_fits(&scenario.scenario)?;
         }
         let which = self.one_each("which", which.as_slice()?)?;
         let numbers = self.one_each("numbers", numbers.as_slice()?)?;
-        check_numbers(numbers)?;
+        self.check_numbers(numbers)?;
         if let Some(slot) =
             (0..self.slots.len()).find(|&at| !which[at] && self.slots[at].day.is_none())
         {
@@ -141,7 +144,9 @@ impl Batch {
             row.pay(0.0, false, false, which[at]);
             match scenario {
                 _ if !which[at] => {}
-                Some(scenario) => slot.day = Some(Day::new(Arc::clone(&scenario.scenario))),
+                Some(scenario) => {
+                    slot.day = Some(world.given(scenario).expect("the scenario has been checked"));
+                }
                 None => slot.begin(world, numbers[at]),
             }
             row.show(world, slot);
@@ -149,8 +154,7 @@ impl Batch {
         Ok(set)
     }
 
-    /// Takes one decision at every slot. Where a new day is due, the training day with the slot's number in `numbers`
-    /// begins. Returns the index of the set that the observations are in, and whether any day is over or has begun.
+    /// Takes one decision at every slot. Where a new day is due, the day with the slot's number in `numbers` begins. Returns the index of the set that the observations are in, and whether any day is over or has begun.
     fn step(
         &mut self,
         py: Python<'_>,
@@ -159,12 +163,12 @@ impl Batch {
     ) -> PyResult<(usize, bool)> {
         let actions = self.one_each("actions", actions.as_slice()?)?;
         let numbers = self.one_each("numbers", numbers.as_slice()?)?;
-        check_numbers(numbers)?;
+        self.check_numbers(numbers)?;
         self.check_can_step()?;
         let (autoreset, set) = (self.autoreset, self.next());
         let eventful = self.on_all(py, set, |world, slot, mut row, at| {
             if slot.is_over() && autoreset == Autoreset::NextStep {
-                slot.summary = None;
+                (slot.summary, slot.outcome) = (None, None);
                 slot.begin(world, numbers[at]);
                 row.pay(0.0, false, false, true);
                 return row.show(world, slot);
@@ -186,6 +190,16 @@ impl Batch {
         self.slots.get(slot)?.day.as_ref().map(Day::scenario)
     }
 
+    /// What may be seen of the current decision of a slot.
+    fn view(&self, slot: usize) -> Option<View> {
+        self.slots.get(slot)?.day.as_ref().map(Day::view)
+    }
+
+    /// What came of the latest step's choice at a slot; `None` if the step began a day there instead.
+    fn outcome(&self, slot: usize) -> Option<OutcomeFields> {
+        self.slots.get(slot)?.outcome.as_ref().map(OutcomeFields::from)
+    }
+
     /// The results of the day that the latest step ended at a slot, as `vertifleet simulate --json` prints them, or
     /// `None` if it ended no day there.
     fn summary<'py>(&self, py: Python<'py>, slot: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
@@ -202,6 +216,11 @@ impl Batch {
         }
         let (expected, found) = (self.slots.len(), entries.len());
         Err(Failure::argument(format!("{name} must have {expected} entries, found {found}")))
+    }
+
+    /// Checks that there is a day for every number.
+    fn check_numbers(&self, numbers: &[u64]) -> Result<(), Failure> {
+        numbers.iter().try_for_each(|&number| self.world.days.check(number))
     }
 
     fn check_can_step(&self) -> Result<(), Failure> {
@@ -249,18 +268,13 @@ impl Batch {
     }
 }
 
-/// Checks that every number is the number of a training day.
-fn check_numbers(numbers: &[u64]) -> Result<(), Failure> {
-    Ok(numbers.iter().try_for_each(|&number| DaySeed::training_number(number).map(|_| ()))?)
-}
-
 impl Slot {
     fn is_over(&self) -> bool {
         self.day.as_ref().is_some_and(Day::is_over)
     }
 
-    fn show(&self, world: &World, to: ObservationRow<'_>) {
-        self.day.as_ref().expect("every slot has a day").show(&world.scales, to);
+    fn show(&mut self, world: &World, (row, mask): (&mut [f32], &mut [i8])) {
+        self.day.as_mut().expect("every slot has a day").show(&world.layout.layout, row, mask);
     }
 
     fn begin(&mut self, world: &World, number: u64) {
@@ -269,7 +283,7 @@ impl Slot {
 
     fn step(&mut self, world: &World, action: i64) -> Outcome {
         let day = self.day.as_mut().expect("every slot has a day in progress");
-        let outcome = day.step(action, world.reward);
+        let outcome = *self.outcome.insert(day.step(action, world.reward));
         self.summary = outcome.over.then(|| day.totals());
         outcome
     }
@@ -368,12 +382,12 @@ impl Row<'_, '_> {
         self.outcomes.begun[self.at] = begun;
     }
 
-    fn show(&mut self, world: &World, slot: &Slot) {
+    fn show(&mut self, world: &World, slot: &mut Slot) {
         slot.show(world, self.observations.row(self.at));
     }
 
     /// Writes the last observation of a day that is followed by another day in the same step.
-    fn show_end(&mut self, world: &World, slot: &Slot) {
+    fn show_end(&mut self, world: &World, slot: &mut Slot) {
         slot.show(world, self.finals.row(self.at));
     }
 }

@@ -1,20 +1,15 @@
 //! The arrays of a batch. Numpy allocates them once, and many threads fill them in place, row by row.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1, PyReadwriteArray2};
+use numpy::{
+    PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1, PyReadwriteArray2, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use vertifleet_learn::nn::Shape;
 
-use crate::observation::ObservationRow;
-
-/// Number of float arrays in an observation, which are, in this order: nodes, aircraft, clock, adjacency, mask.
-const FLOATS: usize = 5;
-
-/// Arrays with one observation for each day of a batch: the [`FLOATS`] float arrays, and the mask again as whole
-/// numbers.
+/// Arrays with one observation for each day of a batch, laid out as its layout says, and their masks.
 pub(crate) struct Observations {
-    floats: [Py<PyArray2<f32>>; FLOATS],
-    mask_i8: Py<PyArray2<i8>>,
+    rows: Py<PyArray2<f32>>,
+    masks: Py<PyArray2<i8>>,
 }
 
 /// Arrays with the outcome of one step for each day of a batch.
@@ -27,8 +22,10 @@ pub(crate) struct Outcomes {
 
 /// Write access to [`Observations`]. Python keeps the arrays during this time, and numpy refuses to lend them twice.
 pub(crate) struct ObservationsLent<'py> {
-    floats: [PyReadwriteArray2<'py, f32>; FLOATS],
-    mask_i8: PyReadwriteArray2<'py, i8>,
+    rows: PyReadwriteArray2<'py, f32>,
+    masks: PyReadwriteArray2<'py, i8>,
+    width: usize,
+    vertiports: usize,
 }
 
 /// Write access to [`Outcomes`].
@@ -41,9 +38,10 @@ pub(crate) struct OutcomesLent<'py> {
 
 /// Rows of observations.
 pub(crate) struct ObservationRows<'a> {
-    floats: [&'a mut [f32]; FLOATS],
-    mask_i8: &'a mut [i8],
-    rows: usize,
+    rows: &'a mut [f32],
+    masks: &'a mut [i8],
+    width: usize,
+    vertiports: usize,
 }
 
 /// Rows of outcomes.
@@ -56,30 +54,24 @@ pub(crate) struct OutcomeRows<'a> {
 }
 
 impl Observations {
-    pub(crate) fn new(py: Python<'_>, rows: usize, vertiports: usize) -> Self {
-        let Shape { node_features, aircraft_features, .. } = vertifleet_learn::shape(vertiports);
-        let pairs = vertiports * vertiports;
-        let widths = [vertiports * node_features, aircraft_features, 1, pairs, vertiports];
+    pub(crate) fn new(py: Python<'_>, days: usize, width: usize, vertiports: usize) -> Self {
         Self {
-            floats: widths.map(|width| PyArray2::zeros(py, [rows, width], false).unbind()),
-            mask_i8: PyArray2::zeros(py, [rows, vertiports], false).unbind(),
+            rows: PyArray2::zeros(py, [days, width], false).unbind(),
+            masks: PyArray2::zeros(py, [days, vertiports], false).unbind(),
         }
     }
 
-    /// The arrays of nodes, aircraft, clock, adjacency and mask, and the mask as int8.
+    /// The arrays of rows and masks.
     pub(crate) fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let [nodes, aircraft, clock, adjacency, mask] = &self.floats;
-        (nodes, aircraft, clock, adjacency, mask, &self.mask_i8).into_pyobject(py)
+        (&self.rows, &self.masks).into_pyobject(py)
     }
 
     /// Lends the arrays for writing, and fails if one of them was made read-only.
     pub(crate) fn lend<'py>(&self, py: Python<'py>) -> PyResult<ObservationsLent<'py>> {
-        let [nodes, aircraft, clock, adjacency, mask] =
-            self.floats.each_ref().map(|array| array.bind(py).try_readwrite());
-        Ok(ObservationsLent {
-            floats: [nodes?, aircraft?, clock?, adjacency?, mask?],
-            mask_i8: self.mask_i8.bind(py).try_readwrite()?,
-        })
+        let (rows, masks) = (self.rows.bind(py), self.masks.bind(py));
+        let (width, vertiports) = (rows.shape()[1], masks.shape()[1]);
+        let (rows, masks) = (rows.try_readwrite()?, masks.try_readwrite()?);
+        Ok(ObservationsLent { rows, masks, width, vertiports })
     }
 }
 
@@ -113,14 +105,11 @@ impl Outcomes {
 
 impl ObservationsLent<'_> {
     pub(crate) fn rows(&mut self) -> PyResult<ObservationRows<'_>> {
-        let [nodes, aircraft, clock, adjacency, mask] =
-            self.floats.each_mut().map(|array| array.as_slice_mut());
-        let clock = clock?;
-        let rows = clock.len();
         Ok(ObservationRows {
-            floats: [nodes?, aircraft?, clock, adjacency?, mask?],
-            mask_i8: self.mask_i8.as_slice_mut()?,
-            rows,
+            rows: self.rows.as_slice_mut()?,
+            masks: self.masks.as_slice_mut()?,
+            width: self.width,
+            vertiports: self.vertiports,
         })
     }
 }
@@ -137,27 +126,20 @@ impl OutcomesLent<'_> {
 }
 
 impl ObservationRows<'_> {
-    /// The arrays of the observation in row `row`.
-    pub(crate) fn row(&mut self, row: usize) -> ObservationRow<'_> {
-        let [nodes, aircraft, clock, adjacency, mask] =
-            self.floats.each_mut().map(|table| one_of(table, row, self.rows));
-        let mask_i8 = one_of(self.mask_i8, row, self.rows);
-        ObservationRow { nodes, aircraft, clock: &mut clock[0], adjacency, mask, mask_i8 }
+    /// The numbers and the mask of a day.
+    pub(crate) fn row(&mut self, day: usize) -> (&mut [f32], &mut [i8]) {
+        let Self { width, vertiports, .. } = *self;
+        let numbers = &mut self.rows[day * width..][..width];
+        (numbers, &mut self.masks[day * vertiports..][..vertiports])
     }
 
     /// Splits into the rows before row `first` and the rest.
     pub(crate) fn split(self, first: usize) -> (Self, Self) {
-        let rows = self.rows;
-        let [nodes, aircraft, clock, adjacency, mask] =
-            self.floats.map(|table| parted(table, first, rows));
-        let (mask_i8, others_i8) = parted(self.mask_i8, first, rows);
-        let others = Self {
-            floats: [nodes.1, aircraft.1, clock.1, adjacency.1, mask.1],
-            mask_i8: others_i8,
-            rows: rows - first,
-        };
-        let floats = [nodes.0, aircraft.0, clock.0, adjacency.0, mask.0];
-        (Self { floats, mask_i8, rows: first }, others)
+        let Self { width, vertiports, .. } = self;
+        let (rows, other_rows) = self.rows.split_at_mut(first * width);
+        let (masks, other_masks) = self.masks.split_at_mut(first * vertiports);
+        let others = Self { rows: other_rows, masks: other_masks, width, vertiports };
+        (Self { rows, masks, width, vertiports }, others)
     }
 }
 
@@ -176,16 +158,4 @@ impl OutcomeRows<'_> {
         };
         (Self { rewards, over, invalid, begun }, others)
     }
-}
-
-/// Row number `row` of a table with `rows` rows.
-fn one_of<T>(table: &mut [T], row: usize, rows: usize) -> &mut [T] {
-    let width = table.len() / rows;
-    &mut table[row * width..][..width]
-}
-
-/// A table with `rows` rows, split before row `first`.
-fn parted<T>(table: &mut [T], first: usize, rows: usize) -> (&mut [T], &mut [T]) {
-    let width = table.len() / rows;
-    table.split_at_mut(first * width)
 }

@@ -7,7 +7,6 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vertifleet_core::{self as core, DaySeed, Stop};
-use vertifleet_learn::Scales;
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::competitor::Selection;
@@ -22,7 +21,7 @@ use crate::frames::{Columns, frame, loads};
 use crate::interruptible::{self, interruptible};
 use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
-use crate::policy_source::{Raised, policy_source};
+use crate::policy_source::{OwnCalls, policy_source};
 use crate::scenario::Scenario;
 use crate::whole_number::WholeNumber;
 
@@ -176,15 +175,14 @@ enum RequestedDays {
 
 impl Request {
     /// A policy that is a function sees the days as days of `network`.
-    fn of(network: Option<&Network>, arguments: Arguments<'_>, raised: &Raised) -> PyResult<Self> {
-        let network = network.map(|network| Arc::clone(&network.network));
+    fn of(network: Option<&Network>, arguments: Arguments<'_>, calls: &OwnCalls) -> PyResult<Self> {
         let step = Step::from_minutes(arguments.step.of("step")?);
-        let scales = network.as_ref().map(|network| Scales::from(network.feature_scales()));
         let source = |(name, value): (String, Bound<'_, PyAny>)| {
-            Ok((name, policy_source(&value, scales, raised)?))
+            let source = policy_source(&value, &name, network, calls)?;
+            Ok((name, source))
         };
         Ok(Self {
-            network,
+            network: network.map(|network| Arc::clone(&network.network)),
             days: arguments.days.checked()?,
             policies: arguments.policies,
             models: arguments.models.into_iter().map(source).collect::<PyResult<_>>()?,
@@ -236,7 +234,7 @@ pub(crate) fn check_comparison(
     network: Option<&Network>,
     arguments: Arguments<'_>,
 ) -> PyResult<Vec<String>> {
-    let request = Request::of(network, arguments, &Raised::default())?;
+    let request = Request::of(network, arguments, &OwnCalls::default())?;
     let warnings = interruptible(py, 1, move |stop| {
         if let RequestedDays::Drawn { days, seed } = request.days {
             DaySeed::comparison(seed.saturating_add(days.saturating_sub(1).into()))?;
@@ -267,16 +265,21 @@ pub(crate) fn compare(
     threads: Option<WholeNumber>,
     command: String,
 ) -> PyResult<Comparison> {
-    let raised = Raised::default();
-    let request = Request::of(network, arguments, &raised)?;
+    let calls = OwnCalls::default();
+    let request = Request::of(network, arguments, &calls)?;
     let outcome = interruptible(py, interruptible::threads(threads)?, move |stop| {
         let comparison = request.comparison(u32::MAX, stop)?;
         let warnings = comparison.warnings().collect();
         let study = comparison.run(command, stop, &Bars)?;
         Ok::<_, Error>(Comparison { study, warnings })
     })?;
-    match raised.take() {
-        Some(error) => Err(error),
-        None => Ok(outcome.map_err(Failure::from)?),
+    if let Some(error) = calls.raised() {
+        return Err(error);
     }
+    let mut comparison = outcome.map_err(Failure::from)?;
+    for warning in calls.warnings() {
+        warn(py, &warning)?;
+        comparison.warnings.push(warning);
+    }
+    Ok(comparison)
 }

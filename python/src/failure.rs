@@ -19,6 +19,11 @@ impl Failure {
     pub(crate) fn argument(message: String) -> Self {
         Self { code: Code(451), message, hint: None }
     }
+
+    /// V451 with a hint.
+    pub(crate) fn hinted(message: String, hint: String) -> Self {
+        Self { hint: Some(hint), ..Self::argument(message) }
+    }
 }
 
 impl From<Failure> for PyErr {

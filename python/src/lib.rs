@@ -12,10 +12,13 @@
 mod batch;
 mod buffers;
 mod comparison;
+mod day;
+mod days;
 mod environment;
 mod failure;
 mod frames;
 mod interruptible;
+mod layout;
 mod model;
 mod network;
 mod observation;
@@ -27,6 +30,7 @@ mod scenario;
 mod threads;
 mod trace;
 mod training;
+mod view;
 mod whole_number;
 
 use pyo3::prelude::pymodule;
@@ -38,7 +42,11 @@ mod _native {
     #[pymodule_export]
     use crate::comparison::{Comparison, check_comparison, compare, read_days};
     #[pymodule_export]
+    use crate::days::Days;
+    #[pymodule_export]
     use crate::environment::Environment;
+    #[pymodule_export]
+    use crate::layout::Layout;
     #[pymodule_export]
     use crate::model::{Model, settings};
     #[pymodule_export]
@@ -53,7 +61,6 @@ mod _native {
     use crate::trace::{Trace, check};
     #[pymodule_export]
     use crate::training::{Training, train};
-    /// Number of training days.
     #[pymodule_export]
-    const TRAINING_DAYS: u64 = vertifleet_core::DaySeed::TRAINING_DAYS;
+    use crate::view::View;
 }

@@ -19,7 +19,7 @@ use crate::whole_number::WholeNumber;
 /// `Network("paper")` is the shipped network with that name (`Network.shipped` lists the names), `Network("random:7")`
 /// is the random network with that number, and `Network("mine.toml")` is read from the network file at that path. A
 /// `Network` never changes. A pickle of it contains the whole network.
-#[pyclass(frozen, module = "vertifleet")]
+#[pyclass(frozen, from_py_object, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Network {
     pub(crate) network: Arc<core::Network>,

@@ -2,20 +2,18 @@
 
 use std::sync::Arc;
 
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use vertifleet_core as core;
-use vertifleet_learn::Scales;
 use vertifleet_sim::DayTotals;
 use vertifleet_study::{Error, PolicySource, PolicySpec, ResolveFor, ResolvedPolicy};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, warn};
 use crate::frames::plain;
 use crate::interruptible::interruptible;
 use crate::model::Model;
 use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
-use crate::policy_source::{Raised, Weights, of_function};
+use crate::policy_source::{OwnCalls, Weights, of_own};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
 use crate::whole_number::WholeNumber;
@@ -66,6 +64,9 @@ impl Played {
     }
 }
 
+/// The name of a policy of the caller, for messages.
+const OWN: &str = "function";
+
 /// The policy that plays the day.
 #[derive(FromPyObject)]
 pub(crate) enum Player<'py> {
@@ -105,16 +106,17 @@ pub(crate) fn simulate(
         (Player::Named(name), model, None) => {
             by_name(py, day, &name, model.map(PolicySource::from).as_ref(), seed)
         }
-        (Player::Function(function), ..) if !function.is_callable() => Err(PyTypeError::new_err(
-            "a policy is a name, a vertifleet.Model, a vertifleet.Trace, or a function from an observation to an action",
-        )),
-        (Player::Function(function), None, Some(network)) => {
-            network.check_fits(day)?;
-            let raised = Raised::default();
-            let scales = Scales::from(network.network.feature_scales());
-            let policy = ResolvedPolicy::Own(of_function(&function, scales, &raised));
-            let played = played(py, day, "function", policy);
-            raised.take().map_or(played, Err)
+        (Player::Function(function), None, network) => {
+            if let Some(network) = &network {
+                network.check_fits(day)?;
+            }
+            let calls = OwnCalls::default();
+            let policy = of_own(&function, OWN, network.as_deref(), &calls)?;
+            let played = played(py, day, OWN, ResolvedPolicy::Own(policy));
+            for warning in calls.warnings() {
+                warn(py, &warning)?;
+            }
+            calls.raised().map_or(played, Err)
         }
         _ => {
             let message = "a function takes network=, as which it sees the day, and nothing else does; a name alone takes model=";
@@ -137,7 +139,7 @@ fn by_name(
     };
     let policy = resolve().map_err(Failure::from)?;
     if let Some(warning) = policy.warning_for(name, day) {
-        crate::failure::warn(py, &warning)?;
+        warn(py, &warning)?;
     }
     played(py, day, name, policy)
 }

@@ -1,7 +1,7 @@
 //! `train`: training with the trainer of the `vertifleet` program, at the same speed.
 
 use std::path::PathBuf;
-use std::sync::{Arc, PoisonError};
+use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
@@ -18,7 +18,7 @@ use crate::frames::{Columns, frame, plain};
 use crate::interruptible::{self, interruptible};
 use crate::model::{Model, change};
 use crate::network::Network;
-use crate::policy_source::Raised;
+use crate::policy_source::OwnCalls;
 use crate::whole_number::WholeNumber;
 
 /// The result of a training run: the model, the learning curve, and whether the run is complete.
@@ -124,8 +124,8 @@ pub(crate) fn train(
         commit: format!("python {}", env!("CARGO_PKG_VERSION")),
     };
     let threads = interruptible::threads(threads)?;
-    let raised = Raised::default();
-    let told = raised.clone();
+    let calls = OwnCalls::default();
+    let of_watch = calls.clone();
     let outcome = interruptible(py, threads, move |stop| {
         let mut outputs = Outputs::new(force);
         let folder = RunFolder::of(&plan.policy, &out);
@@ -136,11 +136,11 @@ pub(crate) fn train(
         folder.train(
             run.as_mut(),
             stop,
-            &Shown { bar, watch, raised: told, stop: stop.clone() },
+            &Shown { bar, watch, calls: of_watch, stop: stop.clone() },
         )?;
         Ok::<_, Error>(training_of(run.as_ref()))
     })?;
-    match raised.take() {
+    match calls.raised() {
         Some(error) => Err(error),
         None => Ok(outcome.map_err(Failure::from)?),
     }
@@ -155,7 +155,7 @@ fn training_of(run: &dyn TrainingRun) -> Training {
 struct Shown {
     bar: Bar,
     watch: Option<Py<PyAny>>,
-    raised: Raised,
+    calls: OwnCalls,
     stop: Stop,
 }
 
@@ -169,7 +169,7 @@ impl TrainingWatch for Shown {
         let (Some(watch), Some(row)) = (&self.watch, rows(curve).pop()) else { return };
         let called = Python::attach(|py| watch.call1(py, (plain(py, &row)?,)).map(|_| ()));
         if let Err(error) = called {
-            self.raised.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+            self.calls.raise(error);
             self.stop.request();
         }
     }

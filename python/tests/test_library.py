@@ -272,12 +272,9 @@ def test_what_a_function_raises_is_raised(paper: Network) -> None:
 
     with pytest.raises(ZeroDivisionError, match="whoever"):
         vertifleet.compare(paper, ["mine"], days=20, models={"mine": broken})
-    with pytest.raises(vertifleet.Error, match="refused") as error:
-        vertifleet.compare(paper, ["mine"], days=1, models={"mine": lambda observation: 700})
-    assert error.value.code == "V406"
     with pytest.raises(TypeError):
         vertifleet.compare(paper, ["mine"], days=1, models={"mine": lambda observation: "V1"})
-    with pytest.raises(TypeError, match="a model is"):
+    with pytest.raises(TypeError, match="a policy is"):
         vertifleet.compare(paper, ["mine"], days=1, models={"mine": 3})
     with pytest.raises(ZeroDivisionError, match="whoever"):
         vertifleet.simulate(paper.draw(1), broken, network=paper)
@@ -319,8 +316,7 @@ def test_the_shipped_models_say_what_they_are() -> None:
         (lambda day, paper: vertifleet.sweep(paper, {"demand.peak": {"mean": 1}}, ["greedy"]), "V451"),
         (lambda day, paper: vertifleet.settings("paper", gama=1), "V302"),
         (lambda day, paper: vertifleet.settings("paper", n_envs=2.5), "V303"),
-        (lambda day, paper: vertifleet.simulate(day, lambda shown: -1, network=paper), "V451"),
-        (lambda day, paper: vertifleet.simulate(day, lambda shown: 99, network=paper), "V406"),
+        (lambda day, paper: vertifleet.simulate(day, lambda shown: 1), "V451"),
         (lambda day, paper: vertifleet.compare(paper, "greedy", days=1), "V451"),
         (lambda day, paper: vertifleet.compare(paper, ["greedy"], days=1, threads=0), "V451"),
         (lambda day, paper: vertifleet.compare(paper, ["greedy", "greedy"], days=1), "V404"),

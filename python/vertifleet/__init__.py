@@ -30,22 +30,31 @@ from vertifleet._native import (
     settings,
     simulate,
 )
+from vertifleet._own_policy import FunctionPolicy, OwnPolicy
 from vertifleet._sweep import Sweep, sweep
 from vertifleet._train import train
+from vertifleet._view import Decision, Outcome, View
+from vertifleet.envs import OwnObservation
 from vertifleet.envs import register as _register
 
 __all__ = [
     "Bound",
     "Comparison",
+    "Decision",
     "Error",
+    "FunctionPolicy",
     "Model",
     "Network",
+    "Outcome",
+    "OwnObservation",
+    "OwnPolicy",
     "Plan",
     "Played",
     "Scenario",
     "Sweep",
     "Trace",
     "Training",
+    "View",
     "__version__",
     "bound",
     "check",

@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from operator import index
-from typing import Any, SupportsIndex, TypeAlias
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any, SupportsIndex, TypeAlias
 
 from vertifleet import _native
 from vertifleet._errors import Error
 from vertifleet._native import Comparison, Model, Network, Scenario
 
-PolicyFunction: TypeAlias = Callable[[dict[str, NDArray[np.float32]]], SupportsIndex]
-"""A policy of the caller's own: maps an observation of ``vertifleet/Fleet-v0`` to a vertiport's position."""
+if TYPE_CHECKING:
+    from vertifleet._own_policy import FunctionPolicy, OwnPolicy, PolicyFunction
 
-PolicySource: TypeAlias = str | os.PathLike[str] | Model | PolicyFunction
-"""What a policy's name may refer to: a weight file, a model, or a function."""
+PolicySource: TypeAlias = (
+    "str | os.PathLike[str] | Model | PolicyFunction | FunctionPolicy | OwnPolicy | type[OwnPolicy]"
+)
+"""What a policy's name may refer to: a weight file, a model, or a policy of the caller's own."""
 
 
 def compare(

@@ -13,14 +13,15 @@ from numpy.typing import ArrayLike, NDArray
 _Path: TypeAlias = str | PathLike[str]
 _Float: TypeAlias = NDArray[np.float64]
 _Float32: TypeAlias = NDArray[np.float32]
-_Shown: TypeAlias = tuple[dict[str, _Float32], NDArray[np.int8]]
+_Shown: TypeAlias = tuple[_Float32, NDArray[np.int8]]
 
 __all__ = [
-    "TRAINING_DAYS",
     "Batch",
     "Bound",
     "Comparison",
+    "Days",
     "Environment",
+    "Layout",
     "Model",
     "Network",
     "Plan",
@@ -28,6 +29,7 @@ __all__ = [
     "Scenario",
     "Trace",
     "Training",
+    "View",
     "bound",
     "check",
     "check_comparison",
@@ -38,8 +40,6 @@ __all__ = [
     "simulate",
     "train",
 ]
-
-TRAINING_DAYS: int
 
 @final
 class Network:
@@ -244,11 +244,73 @@ class Comparison:
     def from_json(text: str, warnings: Sequence[str] = ...) -> Comparison: ...
 
 @final
+class Days:
+    def __new__(cls, source: str | Sequence[Network], split: str) -> Days: ...
+    @staticmethod
+    def are_drawn(name: str) -> bool: ...
+    @property
+    def sizes(self) -> tuple[int, int, int, int]: ...
+    @property
+    def are_of_one_size(self) -> bool: ...
+    @property
+    def count(self) -> int: ...
+
+@final
+class Layout:
+    def __new__(cls, parts: Sequence[str], sizes: tuple[int, int, int, int]) -> Layout: ...
+    @staticmethod
+    def of(parts: Sequence[str], sizes: tuple[int, int, int, int]) -> Layout: ...
+    @staticmethod
+    def preset(name: str) -> list[str] | None: ...
+    @property
+    def parts(self) -> list[tuple[str, int, list[int], float, float]]: ...
+    @property
+    def width(self) -> int: ...
+    @property
+    def shows_present_only(self) -> bool: ...
+
+@final
+class View:
+    def array(self, name: str) -> _Float32: ...
+    def observe(self, layout: Layout) -> _Shown: ...
+    @property
+    def aircraft(self) -> int: ...
+    @property
+    def aircraft_type(self) -> int: ...
+    @property
+    def place(self) -> int: ...
+    @property
+    def seats(self) -> int: ...
+    @property
+    def index(self) -> int: ...
+    @property
+    def time_s(self) -> int: ...
+    @property
+    def day_start_s(self) -> int: ...
+    @property
+    def day_end_s(self) -> int: ...
+    @property
+    def period(self) -> int: ...
+    @property
+    def is_over(self) -> bool: ...
+    @property
+    def vertiports(self) -> int: ...
+    @property
+    def fleet_places(self) -> list[int]: ...
+    @property
+    def fleet_types(self) -> list[int]: ...
+
+@final
 class Environment:
-    def __new__(cls, network: Network, reward: str) -> Environment: ...
+    def __new__(cls, days: Days, layout: Layout, reward: str) -> Environment: ...
     @staticmethod
     def resumed(
-        network: Network, reward: str, scenario: Scenario | None, choices: Sequence[int]
+        days: Days,
+        layout: Layout,
+        reward: str,
+        number: int | None,
+        scenario: Scenario | None,
+        choices: Sequence[int],
     ) -> Environment: ...
     def reset(self, number: int) -> _Shown: ...
     def begin(self, day: Scenario) -> _Shown: ...
@@ -257,6 +319,10 @@ class Environment:
     def observe(self, aircraft: int) -> _Shown: ...
     def step(self, action: int) -> tuple[_Shown, float, bool, bool]: ...
     def mask(self) -> NDArray[np.bool_]: ...
+    @property
+    def view(self) -> View | None: ...
+    @property
+    def outcome(self) -> Any: ...
     @property
     def aircraft(self) -> int | None: ...
     @property
@@ -270,7 +336,8 @@ class Environment:
 class Batch:
     def __new__(
         cls,
-        network: Network,
+        days: Days,
+        layout: Layout,
         reward: str,
         slots: SupportsIndex,
         autoreset: str,
@@ -282,11 +349,13 @@ class Batch:
     ) -> int: ...
     def step(self, actions: NDArray[np.int64], numbers: NDArray[np.uint64]) -> tuple[int, bool]: ...
     def scenario(self, slot: int) -> Scenario | None: ...
+    def view(self, slot: int) -> View | None: ...
+    def outcome(self, slot: int) -> Any: ...
     def summary(self, slot: int) -> dict[str, Any] | None: ...
 
 def simulate(
     scenario: Scenario,
-    policy: str | Model | Trace | Callable[[dict[str, _Float32]], SupportsIndex] = "greedy",
+    policy: object = "greedy",
     *,
     seed: SupportsIndex = 0,
     model: _Path | Model | None = None,

@@ -16,10 +16,11 @@ from pettingzoo.utils import wrappers
 
 from vertifleet._compare import network_of
 from vertifleet._errors import Error
-from vertifleet._native import TRAINING_DAYS, Environment, Network, Scenario
-from vertifleet.envs.arguments import action_of, check_reward, options_of
+from vertifleet._native import Environment, Network, Scenario
+from vertifleet.envs.arguments import action_of, options_of, reward_of
 from vertifleet.envs.copies import Copied
-from vertifleet.envs.spaces import observation_space
+from vertifleet.envs.days import days_of
+from vertifleet.envs.observing import Observing
 
 __all__ = ["FleetAEC", "env"]
 
@@ -46,7 +47,14 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": [], "name": "fleet_v0", "is_parallelizable": False}
-    _never_changes = ("network", "possible_agents", "_positions", "observation_spaces", "action_spaces")
+    _never_changes = (
+        "network",
+        "_observing",
+        "possible_agents",
+        "_positions",
+        "observation_spaces",
+        "action_spaces",
+    )
 
     def __init__(
         self,
@@ -55,16 +63,21 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         render_mode: None = None,
     ) -> None:
         super().__init__()
-        check_reward(reward)
+        name, own = reward_of(reward)
+        if own is not None:
+            raise Error("V451", 'reward must be "terminal" or "dense" where every aircraft is an agent')
         self.network = network_of(network)
-        self.reward = reward
+        self._days, _ = days_of(self.network, "training")
+        self._observing = Observing("paper", self._days)
+        self.reward = name
         self.render_mode = render_mode
         # The native environment pays flight by flight, which shows which agent earned each dollar.
-        self._environment = Environment(self.network, "dense")
+        self._environment = Environment(self._days, self._observing.layout, "dense")
         self.possible_agents = [f"aircraft_{position}" for position in range(self.network.fleet_size)]
         self._positions = {agent: position for position, agent in enumerate(self.possible_agents)}
         vertiports = len(self.network.vertiports)
-        shown = observation_space(vertiports)
+        shown = self._observing.space
+        assert isinstance(shown, spaces.Dict), "it has parts"
         box = spaces.Dict({key: space for key, space in shown.items() if key != "action_mask"})
         mask = spaces.Box(0, 1, (vertiports,), np.int8)
         space = spaces.Dict({"observation": box, "action_mask": mask})
@@ -93,7 +106,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         if seed is not None or self._np_random is None:
             self._np_random = seeding.np_random(seed)[0]
         if scenario is None:
-            self._environment.reset(int(self._np_random.integers(TRAINING_DAYS)))
+            self._environment.reset(int(self._np_random.integers(self._days.count)))
         elif len(scenario.aircraft) == len(self.possible_agents):
             self._environment.begin(scenario)
         else:
@@ -117,7 +130,8 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
 
     def observe(self, agent: str) -> dict[str, Any]:
         """The observation of an agent now; for an agent that does not decide, only hold is feasible."""
-        observation, mask = self._environment.observe(self._positions[agent])
+        row, mask = self._environment.observe(self._positions[agent])
+        observation = self._observing.of_row(row)
         del observation["action_mask"]
         return {"observation": observation, "action_mask": mask}
 

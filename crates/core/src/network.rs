@@ -137,6 +137,11 @@ impl Network {
         self.idle_day.aircraft.len()
     }
 
+    /// Number of demand periods.
+    pub fn periods(&self) -> usize {
+        self.idle_day.periods.len()
+    }
+
     /// Times of operations, the same every day.
     pub fn operations(&self) -> &Operations {
         &self.idle_day.operations

@@ -123,7 +123,7 @@ fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
 }
 
 /// The random stream of a number; each purpose has streams of its own.
-fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
+pub(crate) fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(number);
     random.set_stream(match purpose {
         Purpose::Comparison => 0,
@@ -133,7 +133,7 @@ fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
     random
 }
 
-fn word(purpose: Purpose) -> &'static str {
+pub(crate) fn word(purpose: Purpose) -> &'static str {
     match purpose {
         Purpose::Comparison => "comparison",
         Purpose::Validation => "validation",

@@ -87,6 +87,18 @@ impl DaySeed {
         Ok(Self(TRAINING + number))
     }
 
+    /// Day number `number` of a purpose, counted from 0.
+    ///
+    /// # Errors
+    /// [`Error::SeedOutOfRange`] if the purpose has no such day.
+    pub fn of_purpose(purpose: Purpose, number: u64) -> Result<Self, Error> {
+        match purpose {
+            Purpose::Comparison => Self::comparison(number),
+            Purpose::Validation => Self::validation(number),
+            Purpose::Training => Self::training_number(number),
+        }
+    }
+
     /// Number of training days of all runs together.
     pub const TRAINING_DAYS: u64 = RUNS * RUN_DAYS;
 

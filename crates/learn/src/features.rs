@@ -129,50 +129,57 @@ impl Scales {
         decision: &Decision,
         view: View<'_>,
     ) -> f32 {
-        let Shape { vertiports, node_features, aircraft_features } = shape(view.vertiports());
-        assert_eq!(nodes.len(), vertiports * node_features, "features are of one shape");
-        assert_eq!(aircraft.len(), aircraft_features, "features are of one shape");
-        write_nodes(nodes, view, self);
-        write_aircraft(aircraft, decision, view, self);
+        self.write_nodes(nodes, view);
+        self.write_aircraft(aircraft, decision, view);
         let day_s = view.day_end().since(view.day_start()).max(1);
         view.day_end().since(decision.time) as f32 / day_s as f32
     }
-}
 
-/// Writes δ_i of every node.
-fn write_nodes(nodes: &mut [f32], view: View<'_>, scales: &Scales) {
-    let vertiports = view.vertiports();
-    let left = view.demand_left_in(view.period());
-    let width = 2 * vertiports + 4;
-    for (i, node) in nodes.chunks_exact_mut(width).enumerate() {
-        let from = VertiportIx::new(i);
-        let departing: u32 = left[i * vertiports..][..vertiports].iter().sum();
-        node[0] = f32::from(view.stands_taken()[i]) * scales.stands;
-        node[1] = f32::from(view.stands(from)) * scales.stands;
-        node[2] = departing as f32 * scales.passengers;
-        let (fares, costs) = node[4..].split_at_mut(vertiports);
-        scale_into(fares, view.fares_usd(view.period(), from), scales.fare_usd);
-        scale_into(costs, view.passenger_costs_usd(from), scales.cost_usd);
+    /// Writes δ_i of every node into `[N x F]`.
+    ///
+    /// # Panics
+    /// Panics if the slice has the size of a network with another number of vertiports.
+    pub fn write_nodes(&self, nodes: &mut [f32], view: View<'_>) {
+        let vertiports = view.vertiports();
+        let left = view.demand_left_in(view.period());
+        let width = shape(vertiports).node_features;
+        assert_eq!(nodes.len(), vertiports * width, "features are of one shape");
+        for (i, node) in nodes.chunks_exact_mut(width).enumerate() {
+            let from = VertiportIx::new(i);
+            let departing: u32 = left[i * vertiports..][..vertiports].iter().sum();
+            node[0] = f32::from(view.stands_taken()[i]) * self.stands;
+            node[1] = f32::from(view.stands(from)) * self.stands;
+            node[2] = departing as f32 * self.passengers;
+            let (fares, costs) = node[4..].split_at_mut(vertiports);
+            scale_into(fares, view.fares_usd(view.period(), from), self.fare_usd);
+            scale_into(costs, view.passenger_costs_usd(from), self.cost_usd);
+        }
+        for j in 0..vertiports {
+            let arriving: u32 = left.iter().skip(j).step_by(vertiports).sum();
+            nodes[j * width + 3] = arriving as f32 * self.passengers;
+        }
     }
-    for j in 0..vertiports {
-        let arriving: u32 = left.iter().skip(j).step_by(vertiports).sum();
-        nodes[j * width + 3] = arriving as f32 * scales.passengers;
-    }
-}
 
-/// Writes ψ_k. Every take-off is with a full battery (Eq. 14), so the charge that is written is the capacity.
-fn write_aircraft(aircraft: &mut [f32], decision: &Decision, view: View<'_>, scales: &Scales) {
-    let vertiports = view.vertiports();
-    let kind = view.kind(decision.aircraft);
-    let (price, rest) = aircraft.split_at_mut(1);
-    let (place, rest) = rest.split_at_mut(vertiports);
-    let (battery, powers) = rest.split_at_mut(1);
-    price[0] = (view.energy_price_usd() * scales.energy_price_usd) as f32;
-    place.fill(0.0);
-    place[decision.at.at()] = 1.0;
-    battery[0] = (view.aircraft_type(kind).battery_kwh * scales.battery_kwh) as f32;
-    for (power, leg) in powers.iter_mut().zip(view.legs_from(kind, decision.at)) {
-        *power = (leg.mean_power_kw * scales.power_kw) as f32;
+    /// Writes ψ_k into `[G]`. Every take-off is with a full battery (Eq. 14), so the charge that is written is the
+    /// capacity.
+    ///
+    /// # Panics
+    /// Panics if the slice has the size of a network with another number of vertiports.
+    pub fn write_aircraft(&self, aircraft: &mut [f32], decision: &Decision, view: View<'_>) {
+        let vertiports = view.vertiports();
+        let features = shape(vertiports).aircraft_features;
+        assert_eq!(aircraft.len(), features, "features are of one shape");
+        let kind = view.kind(decision.aircraft);
+        let (price, rest) = aircraft.split_at_mut(1);
+        let (place, rest) = rest.split_at_mut(vertiports);
+        let (battery, powers) = rest.split_at_mut(1);
+        price[0] = (view.energy_price_usd() * self.energy_price_usd) as f32;
+        place.fill(0.0);
+        place[decision.at.at()] = 1.0;
+        battery[0] = (view.aircraft_type(kind).battery_kwh * self.battery_kwh) as f32;
+        for (power, leg) in powers.iter_mut().zip(view.legs_from(kind, decision.at)) {
+            *power = (leg.mean_power_kw * self.power_kw) as f32;
+        }
     }
 }
 

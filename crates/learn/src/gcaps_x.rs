@@ -7,6 +7,7 @@
 //! network says what to add to that (`scorer`). It learns by [imitation](crate::imitation) of roll-outs.
 
 pub(crate) mod features;
+mod observer;
 mod policy;
 mod rollouts;
 pub(crate) mod scorer;
@@ -15,6 +16,7 @@ mod tests;
 
 use vertifleet_policy::RolloutSettings;
 
+pub use observer::{PricedObservation, PricedObserver};
 pub use policy::GcapsX;
 
 /// The settings of the roll-outs that `gcaps-x` learns from, and of its own, if its choices are rolled out at all.

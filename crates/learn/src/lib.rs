@@ -70,7 +70,7 @@ mod tensor_file;
 
 pub use error::Error;
 pub use features::{Observations, Scales, shape};
-pub use gcaps_x::GcapsX;
+pub use gcaps_x::{GcapsX, PricedObservation, PricedObserver};
 pub use header::{FeatureShape, Header};
 pub use imitation::{ImitationRow, ImitationSettings};
 pub use learned::Learned;

@@ -48,4 +48,4 @@ pub use legs::{Leg, Legs};
 pub use simulation::{Decision, Simulation};
 pub use trace::{Trace, TraceError, TraceRow};
 pub use vertiport_set::VertiportSet;
-pub use view::{DayKey, View};
+pub use view::{DayKey, Snapshot, View};

@@ -36,6 +36,8 @@ pub struct Simulation {
     queue: ReadyQueue,
     /// The vertiport where each aircraft stands or will land.
     place: Vec<VertiportIx>,
+    /// The time at which each aircraft landed there or will land, or the start of operations.
+    arrival: Vec<Time>,
     ledger: Ledger,
     closures: Closures,
     outages: Outages,
@@ -61,6 +63,7 @@ clone_into_room!(Simulation {
     demand,
     queue,
     place,
+    arrival,
     ledger,
     closures,
     outages,
@@ -81,6 +84,7 @@ impl Simulation {
             demand: Demand::of(&scenario),
             queue: ReadyQueue::new(scenario.aircraft.len(), scenario.operations.start),
             place: scenario.aircraft.iter().map(|aircraft| aircraft.at).collect(),
+            arrival: vec![scenario.operations.start; scenario.aircraft.len()],
             ledger: Ledger::at_start(&scenario),
             closures: Closures::of(&scenario),
             outages: Outages::of(&scenario),
@@ -227,6 +231,7 @@ impl Simulation {
         };
         self.stands.transfer(aircraft, from, to);
         self.place[aircraft.at()] = to;
+        self.arrival[aircraft.at()] = arrival;
         self.queue.set(aircraft, ready);
         self.ledger.enter_flight(&row, self.scenario.distance_mi[pair], seats);
         row
@@ -334,6 +339,10 @@ impl Simulation {
 
     pub(crate) fn places(&self) -> &[VertiportIx] {
         &self.place
+    }
+
+    pub(crate) fn arrival(&self, aircraft: AircraftIx) -> Time {
+        self.arrival[aircraft.at()]
     }
 
     pub(crate) fn period(&self) -> usize {

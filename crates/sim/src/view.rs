@@ -12,6 +12,18 @@ pub struct View<'a> {
     simulation: &'a Simulation,
 }
 
+/// A day at one moment. It can only be looked at, and shows what its [`View`] showed at that moment.
+#[derive(Debug, Clone)]
+pub struct Snapshot(Simulation);
+
+impl Snapshot {
+    /// The view of a policy at that moment.
+    #[inline]
+    pub fn view(&self) -> View<'_> {
+        View::of(&self.0)
+    }
+}
+
 /// Distinguishes a day from every other without revealing anything of it. Two keys are equal if they belong to the same
 /// scenario in memory. While a key lives, no other day can take the scenario's address.
 #[derive(Debug, Clone)]
@@ -123,6 +135,13 @@ impl<'a> View<'a> {
         self.simulation.expected_ready(aircraft)
     }
 
+    /// The time at which an aircraft landed, or will land, where it stands or is flying to; the start of operations
+    /// before its first flight. It is in the air until then.
+    #[inline]
+    pub fn arrives_at(&self, aircraft: AircraftIx) -> Time {
+        self.simulation.arrival(aircraft)
+    }
+
     /// U_i of every vertiport: the number of aircraft standing there or in the air towards it. Where chargers are
     /// counted apart, the number of those that have a charger or are on their way to one.
     #[inline]
@@ -159,6 +178,12 @@ impl<'a> View<'a> {
     #[inline]
     pub fn demand_left_in(&self, period: usize) -> &'a [u32] {
         self.simulation.demand().period(period)
+    }
+
+    /// d_ij, miles, from one vertiport to each.
+    #[inline]
+    pub fn distances_mi(&self, from: VertiportIx) -> &'a [f64] {
+        self.scenario().distance_mi.row(from)
     }
 
     /// P_ij of flights decided in a period, dollars a passenger, from one vertiport to each.
@@ -259,6 +284,11 @@ impl<'a> View<'a> {
             imagined.restart(self.simulation);
         }
         room.get_or_insert_with(|| self.imagined())
+    }
+
+    /// The day as it is now, to be looked at later.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot(self.simulation.clone())
     }
 
     /// A key that distinguishes this day from every other.

@@ -25,7 +25,7 @@ from ray.rllib.algorithms.ppo import PPOConfig  # noqa: E402
 from ray.rllib.core.columns import Columns  # noqa: E402
 
 from vertifleet.envs import FleetEnv, FleetVectorEnv  # noqa: E402
-from vertifleet.envs.spaces import observation_space  # noqa: E402
+from vertifleet.envs.observing import paper_space  # noqa: E402
 from vertifleet.ray.rllib import FleetDays, FleetModule, export, ppo_config  # noqa: E402
 from vertifleet.ray.rllib import weights as rllib_weights  # noqa: E402
 from vertifleet.torch import act, load  # noqa: E402
@@ -76,7 +76,7 @@ def trained(cluster, tmp_path_factory):  # noqa: ARG001
 def module(policy="gcaps", **sizes):
     torch.manual_seed(1)
     return FleetModule(
-        observation_space=observation_space(VERTIPORTS),
+        observation_space=paper_space(VERTIPORTS),
         action_space=FleetEnv().action_space,
         model_config={"policy": policy, "sizes": sizes},
     )

@@ -6,17 +6,26 @@ import gymnasium
 
 from vertifleet.envs.fleet import FleetEnv
 from vertifleet.envs.fleet_vector import FleetVectorEnv
+from vertifleet.envs.observing import OwnObservation
 
-__all__ = ["FleetEnv", "FleetVectorEnv", "register"]
+__all__ = ["FleetEnv", "FleetVectorEnv", "OwnObservation", "register"]
 
-ID = "vertifleet/Fleet-v0"
+VARIANTS = {
+    "vertifleet/Fleet-v0": "paper",
+    "vertifleet/Fleet-paper-v0": "paper",
+    "vertifleet/Fleet-full-v0": "full",
+    "vertifleet/Fleet-gcaps-x-v0": "gcaps-x",
+}
+"""The registered environments, with what each shows."""
 
 
 def register() -> None:
-    """Makes the environment known to `gymnasium.make` and `gymnasium.make_vec`."""
-    if ID not in gymnasium.registry:
-        gymnasium.register(
-            id=ID,
-            entry_point="vertifleet.envs.fleet:FleetEnv",
-            vector_entry_point="vertifleet.envs.fleet_vector:FleetVectorEnv",
-        )
+    """Makes the environments known to `gymnasium.make` and `gymnasium.make_vec`."""
+    for variant, observation in VARIANTS.items():
+        if variant not in gymnasium.registry:
+            gymnasium.register(
+                id=variant,
+                entry_point="vertifleet.envs.fleet:FleetEnv",
+                vector_entry_point="vertifleet.envs.fleet_vector:FleetVectorEnv",
+                kwargs={"observation": observation},
+            )

@@ -3,20 +3,38 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vertifleet._errors import Error
 from vertifleet._native import Scenario
+from vertifleet._view import Outcome, View
+
+Reward: TypeAlias = Literal["terminal", "dense"] | Callable[[View, Outcome], float]
+"""What a decision pays: a name, or a function of the decision and of what came of it."""
 
 
-def check_reward(reward: object) -> None:
-    """Refuses a `reward` that is not known."""
+def reward_of(reward: object) -> tuple[str, Callable[[View, Outcome], float] | None]:
+    """The name of a reward for the native side, and the function that pays instead, if there is one."""
+    if callable(reward):
+        return "dense", reward
     if not isinstance(reward, str) or reward not in ("terminal", "dense"):
-        raise Error("V451", f'reward must be "terminal" or "dense", found {reward!r}')
+        hint = "or give a function of a View and an Outcome"
+        raise Error("V451", f'reward must be "terminal" or "dense", found {reward!r}', hint)
+    return reward, None
+
+
+def number_of(options: Mapping[str, Any]) -> int | None:
+    """The number of a day that a reset is asked for."""
+    if "number" not in options:
+        return None
+    number = whole("option number", options["number"])
+    if not 0 <= number < 2**64:
+        raise Error("V451", f"option number must be a whole number from 0, found {number}")
+    return number
 
 
 def whole(name: str, number: Any) -> int:

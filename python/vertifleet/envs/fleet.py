@@ -2,89 +2,124 @@
 
 from __future__ import annotations
 
-import os
-from typing import Any, Literal
+from typing import Any
 
 import gymnasium
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from vertifleet._compare import network_of
-from vertifleet._native import TRAINING_DAYS, Environment, Network, Scenario
-from vertifleet.envs.arguments import action_of, check_reward, options_of
+from vertifleet._errors import Error
+from vertifleet._native import Environment, Scenario
+from vertifleet._view import View
+from vertifleet.envs.arguments import Reward, action_of, number_of, options_of, reward_of
 from vertifleet.envs.copies import Copied
-from vertifleet.envs.spaces import Info, Observation, observation_space
+from vertifleet.envs.days import NetworksChoice, Split, days_of
+from vertifleet.envs.observing import Info, ObservationChoice, Observing
 
 
-class FleetEnv(Copied, gymnasium.Env[Observation, np.int64]):
+class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
     """An environment in which one aircraft after the other needs a choice of where it flies next.
 
     The action is the position of a vertiport; the aircraft's own vertiport means hold. An action that is not
     feasible holds, and sets ``info["invalid_action"]``. The mask of feasible actions is given as
     ``action_masks()`` (bool), ``info["action_mask"]`` (int8) and ``observation["action_mask"]`` (float32).
-    The reward of an episode is the day's profit over its potential: paid at the end (``reward="terminal"``),
-    or each flight's share when it is decided (``"dense"``).
+    What is seen is `observation`: "paper" (§IV.A of the paper), "full", "gcaps-x", a list of parts, or an
+    `OwnObservation`. The reward of an episode is the day's profit over its potential: paid at the end
+    (``reward="terminal"``), or each flight's share when it is decided (``"dense"``). A function as `reward`
+    is called with the `View` of the decision and its `Outcome`, and pays what it returns.
 
-    `reset` draws a training day from ``np_random``, or plays ``options={"scenario": scenario}``; the name of
-    the day is ``info["day"]``. The last step's info has the day's numbers as ``summary``. An environment can
-    be copied and pickled in the middle of a day; copies share its network and spaces.
+    `network` may be several networks, whose days come in turn, or "random" or "random-places:N", which draw a
+    network for each day. Days of smaller networks leave the last entries of the arrays 0, which
+    ``vertiport_mask`` and ``fleet_mask`` tell.
+
+    `reset` draws a day of the `split` from ``np_random``, or plays ``options={"scenario": scenario}`` or the
+    day with the number ``options={"number": 7}``; the name of the day is ``info["day"]``. The last step's
+    info has the day's numbers as ``summary``. An environment can be copied and pickled in the middle of a
+    day; copies share its network and spaces.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - declared so by Gymnasium
-    _never_changes = ("network", "observation_space", "action_space", "spec")
+    _never_changes = ("network", "_observing", "observation_space", "action_space", "spec")
 
     def __init__(
         self,
-        network: str | os.PathLike[str] | Network = "paper",
-        reward: Literal["terminal", "dense"] = "terminal",
+        network: NetworksChoice = "paper",
+        reward: Reward = "terminal",
         render_mode: None = None,
+        observation: ObservationChoice = "paper",
+        split: Split = "training",
     ) -> None:
-        check_reward(reward)
-        self.network = network_of(network)
-        vertiports = len(self.network.vertiports)
-        self.observation_space = observation_space(vertiports)
-        self.action_space = spaces.Discrete(vertiports)
+        self._days, self.network = days_of(network, split)
+        self._observing = Observing(observation, self._days)
+        self.observation_space = self._observing.space
+        self.action_space = spaces.Discrete(self._days.sizes[0])
         self.render_mode = render_mode
-        self._environment = Environment(self.network, reward)
+        name, self._reward = reward_of(reward)
+        self._environment = Environment(self._days, self._observing.layout, name)
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observation, Info]:
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, Info]:
         """Begins a day.
 
         Args:
             seed: seed of ``np_random``, from which training days are drawn.
-            options: "scenario" is a day to play instead of a training day.
+            options: "scenario" is a day to play instead of a drawn one, "number" the number of a day.
 
         Raises:
-            Error: V451 for other options, or for a day with another number of vertiports than the network.
+            Error: V451 for other options, or for a day that the observation has no room for; V118 for
+                a number that no day has.
         """
-        scenario: Scenario | None = options_of(options).get("scenario")
+        asked = options_of(options, "number")
+        scenario: Scenario | None = asked.get("scenario")
         super().reset(seed=seed)
         if scenario is None:
-            observation, mask = self._environment.reset(int(self.np_random.integers(TRAINING_DAYS)))
+            number = number_of(asked)
+            drawn = int(self.np_random.integers(self._days.count)) if number is None else number
+            row, mask = self._environment.reset(drawn)
         else:
-            observation, mask = self._environment.begin(scenario)
+            row, mask = self._environment.begin(scenario)
         day = self._environment.scenario
         assert day is not None, "a day has begun"
-        return observation, {"action_mask": mask, "invalid_action": False, "day": day.name}
+        return self._shown(row), {"action_mask": mask, "invalid_action": False, "day": day.name}
 
-    def step(self, action: np.int64 | int) -> tuple[Observation, float, bool, bool, Info]:
+    def step(self, action: np.int64 | int) -> tuple[Any, float, bool, bool, Info]:
         """Carries the decision out and goes on to the next.
 
         Raises:
             Error: V451 for an action that is not a whole number, and if no day is in progress.
         """
-        (observation, mask), reward, over, invalid = self._environment.step(action_of(action))
+        before = self.view if self._reward is not None else None
+        (row, mask), reward, over, invalid = self._environment.step(action_of(action))
+        if self._reward is not None:
+            assert before is not None, "a day was in progress"
+            reward = float(self._reward(before, self._environment.outcome))
         info: Info = {"action_mask": mask, "invalid_action": invalid}
         if over:
             info["summary"] = self._environment.summary
-        return observation, reward, over, False, info
+        return self._shown(row), reward, over, False, info
 
     def action_masks(self) -> NDArray[np.bool_]:
         """Which actions are feasible [N]."""
         return self._environment.mask()
+
+    def _shown(self, row: NDArray[np.float32]) -> Any:
+        """The observation of the current decision."""
+        own = self._observing.own
+        if own is None:
+            return self._observing.of_row(row)
+        return own.function(self.view)
+
+    @property
+    def view(self) -> View:
+        """What may be seen of the current decision.
+
+        Raises:
+            Error: V451 before the first day.
+        """
+        native = self._environment.view
+        if native is None:
+            raise Error("V451", "no day is being played: call reset first")
+        return View(native)
 
     @property
     def scenario(self) -> Scenario | None:

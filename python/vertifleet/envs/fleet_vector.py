@@ -2,59 +2,65 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from gymnasium import spaces
 from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
-from gymnasium.vector.utils import batch_space
+from gymnasium.vector.utils import batch_space, concatenate, create_empty_array
 from numpy.typing import ArrayLike, NDArray
 
-from vertifleet._compare import network_of
-from vertifleet._native import TRAINING_DAYS, Batch, Network, Scenario
-from vertifleet.envs.arguments import actions_of, check_reward, mask_of, options_of, seeds_of
-from vertifleet.envs.spaces import KEYS, Info, Observation, observation_space
+from vertifleet._errors import Error
+from vertifleet._native import Batch, Scenario
+from vertifleet._view import View
+from vertifleet.envs.arguments import Reward, actions_of, mask_of, options_of, reward_of, seeds_of
+from vertifleet.envs.days import NetworksChoice, Split, days_of
+from vertifleet.envs.observing import Info, ObservationChoice, Observing
 
 
-class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
+class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
     """Like `FleetEnv`, with `num_envs` days side by side on `threads` threads (all cores by default).
 
-    Observations and masks are not copied. Those of a step, or of a reset of all environments, stay valid
-    until the step after next, so that those before and after a step can be used together. Those of a reset of
-    some environments stay valid until the next reset of some. Copy them to keep them for longer. Environment
-    i behaves like a `FleetEnv` whose first reset had seed s + i.
+    With ``copy=False`` observations and masks share the memory that is filled in place, which is faster.
+    Those of a step, or of a reset of all environments, then stay valid until the step after next, so that
+    those before and after a step can be used together; those of a reset of some environments until the next
+    reset of some. Environment i behaves like a `FleetEnv` whose first reset had seed s + i.
     """
 
     def __init__(
         self,
         num_envs: int = 1,
-        network: str | os.PathLike[str] | Network = "paper",
-        reward: Literal["terminal", "dense"] = "terminal",
+        network: NetworksChoice = "paper",
+        reward: Reward = "terminal",
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         threads: int | None = None,
         render_mode: None = None,
+        observation: ObservationChoice = "paper",
+        split: Split = "training",
+        copy: bool = True,
     ) -> None:
         super().__init__()
-        check_reward(reward)
-        self.network = network_of(network)
+        self._days, self.network = days_of(network, split)
+        self._observing = Observing(observation, self._days)
         self.num_envs = num_envs
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
         self.render_mode = render_mode
-        vertiports = len(self.network.vertiports)
-        self.single_observation_space = observation_space(vertiports)
-        self.single_action_space = spaces.Discrete(vertiports)
+        self.copy = copy
+        self.single_observation_space = self._observing.space
+        self.single_action_space = spaces.Discrete(self._days.sizes[0])
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
-        self._batch = Batch(self.network, reward, num_envs, self.autoreset_mode.value, threads)
+        name, self._reward = reward_of(reward)
+        layout, mode = self._observing.layout, self.autoreset_mode.value
+        self._batch = Batch(self._days, layout, name, num_envs, mode, threads)
         *sets, final, self._outcomes = self._batch.arrays()
-        self._observations = [dict(zip(KEYS, arrays, strict=False)) for arrays in sets]
-        self._masks = [arrays[-1] for arrays in sets]
-        self._final = dict(zip(KEYS, final, strict=False))
-        self._final_mask = final[-1]
+        self._rows = [rows for rows, _ in sets]
+        self._masks = [masks for _, masks in sets]
+        self._parts = [self._observing.of_rows(rows) for rows in self._rows]
+        self._final, self._final_mask = final
         self._latest = 0
         self._generators: list[np.random.Generator] = []
         # Numbers of the next days, drawn early so that a day can begin in the step in which one ends.
@@ -65,7 +71,7 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         *,
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
-    ) -> tuple[Observation, Info]:
+    ) -> tuple[Any, Info]:
         """Begins a day in every environment.
 
         Args:
@@ -90,15 +96,18 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
 
     def step(
         self, actions: ArrayLike
-    ) -> tuple[Observation, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], Info]:
+    ) -> tuple[Any, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], Info]:
         """Carries a decision out in every environment; `actions` are whole numbers [num_envs].
 
         Raises:
             Error: V451 for actions of another type or shape, and if a day is not in progress.
         """
         actions = actions_of(actions, self.num_envs)
+        before = [self.view(at) for at in range(self.num_envs)] if self._reward else []
         self._latest, eventful = self._batch.step(actions, self._numbers)
         rewards, over, invalid, begun = (array.copy() for array in self._outcomes)
+        if self._reward:
+            rewards = self._own_rewards(before)
         info = self._info(invalid, np.ones(self.num_envs, np.bool_))
         if eventful:
             self._add_ends(info, over, begun)
@@ -114,13 +123,42 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         """For every environment the day in progress, or the one that ended last; None before the first."""
         return [self._batch.scenario(at) for at in range(self.num_envs)]
 
-    def _observation(self) -> Observation:
-        return dict(self._observations[self._latest])
+    def view(self, at: int) -> View:
+        """What may be seen of the current decision of environment `at`.
+
+        Raises:
+            Error: V451 if there is no such environment, or before its first day.
+        """
+        native = self._batch.view(at)
+        if native is None:
+            raise Error("V451", f"environment {at} has no day: call reset first")
+        return View(native)
+
+    def _own_rewards(self, before: list[View]) -> NDArray[np.float64]:
+        """What the caller's function pays for each decision; a step that begins a day pays nothing."""
+        assert self._reward is not None, "there is a function"
+        rewards = np.zeros(self.num_envs)
+        for at, view in enumerate(before):
+            outcome = self._batch.outcome(at)
+            if outcome is not None:
+                rewards[at] = self._reward(view, outcome)
+        return rewards
+
+    def _observation(self) -> Any:
+        own = self._observing.own
+        if own is not None:
+            seen = [own.function(self.view(at)) for at in range(self.num_envs)]
+            room = create_empty_array(own.space, self.num_envs)
+            return concatenate(own.space, seen, room)
+        if self.copy:
+            return self._observing.of_rows(self._rows[self._latest].copy())
+        return dict(self._parts[self._latest])
 
     def _info(self, invalid: NDArray[np.bool_], which: NDArray[np.bool_]) -> Info:
         """The info of the environments in `which`; the array of masks has those of all others too."""
+        mask = self._masks[self._latest]
         return {
-            "action_mask": self._masks[self._latest],
+            "action_mask": mask.copy() if self.copy else mask,
             "_action_mask": which,
             "invalid_action": invalid,
             "_invalid_action": which.copy(),
@@ -148,7 +186,7 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
                 # The current info belongs to the new day, in which there was no action yet.
                 info["invalid_action"][at] = False
                 final_info = {"action_mask": self._final_mask[at].copy(), "invalid_action": invalid, **ended}
-                observation = {key: array[at].copy() for key, array in self._final.items()}
+                observation = self._observing.of_row(self._final[at].copy())
                 ended = {"final_obs": observation, "final_info": final_info}
             self._add_info(info, ended, at)
 
@@ -160,12 +198,12 @@ class FleetVectorEnv(VectorEnv[Observation, NDArray[np.int64], NDArray[Any]]):
         for at in _where(which):
             if seeds[at] is not None:
                 self._generators[at] = seeding.np_random(seeds[at])[0]
-                self._numbers[at] = self._generators[at].integers(TRAINING_DAYS)
+                self._numbers[at] = self._generators[at].integers(self._days.count)
 
     def _draw(self, which: NDArray[np.bool_]) -> None:
         """Draws the numbers of the next days."""
         for at in _where(which):
-            self._numbers[at] = self._generators[at].integers(TRAINING_DAYS)
+            self._numbers[at] = self._generators[at].integers(self._days.count)
 
 
 def _where(which: NDArray[np.bool_]) -> list[int]:

@@ -7,6 +7,7 @@ arguments, so its result is the same. An error of the task itself ends the whole
 from __future__ import annotations
 
 import math
+import os
 from dataclasses import replace
 from importlib.metadata import version
 from typing import TYPE_CHECKING
@@ -46,7 +47,7 @@ def without_files(request: ComparisonRequest) -> ComparisonRequest:
 
 
 def _read(given: PolicySource) -> PolicySource:
-    return given if isinstance(given, Model) or callable(given) else Model.read(given)
+    return Model.read(given) if isinstance(given, (str, os.PathLike)) else given
 
 
 @ray.remote(num_cpus=1, max_retries=-1)

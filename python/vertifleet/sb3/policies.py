@@ -16,7 +16,7 @@ from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from torch import Tensor, nn
 
 from vertifleet import Error
-from vertifleet.envs.spaces import observation_space as fleet_space
+from vertifleet.envs.observing import paper_space
 from vertifleet.torch import Gcaps, Mlp, Twin
 from vertifleet.torch.acting import READ
 from vertifleet.torch.twin import of_sizes
@@ -138,7 +138,7 @@ def _check_shown(space: spaces.Space[Any]) -> None:
     if any(name not in shown for name in READ):
         raise Error("V451", f"observations must be a dict with {', '.join(READ)}, found {space}", hint)
     vertiports = math.prod(shown["action_mask"].shape or ())
-    expected = fleet_space(vertiports)
+    expected = paper_space(vertiports)
     for name in READ:
         if shown[name].shape != expected[name].shape:
             rule = f"{name} must be {expected[name].shape} with {vertiports} vertiports"

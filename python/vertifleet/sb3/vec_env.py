@@ -41,7 +41,7 @@ class FleetVecEnv(VecEnv):
         reward_scale: float = 1.0,
         threads: int | None = None,
     ) -> None:
-        self.days = FleetVectorEnv(num_envs, network, reward, AutoresetMode.SAME_STEP, threads)
+        self.days = FleetVectorEnv(num_envs, network, reward, AutoresetMode.SAME_STEP, threads, copy=False)
         self.reward = reward
         self.reward_scale = reward_scale
         self.render_mode = None

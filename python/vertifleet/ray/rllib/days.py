@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from vertifleet.envs.spaces import Info, Observation
+    from vertifleet.envs.observing import Info, Observation
 
 
 class FleetDays(FleetVectorEnv):

@@ -1,0 +1,49 @@
+//! What may be seen of a decision, as arrays.
+//!
+//! An observation is made of [parts](Part), each with a name, a shape, a unit and a scale. A [`Layout`] lays the parts
+//! that were asked for side by side in one row of numbers, which is filled without allocating memory. Everything in a
+//! row comes from a [`View`](vertifleet_sim::View), so it shows what is known at the decision and nothing else.
+//!
+//! This crate builds on `vertifleet-learn`, whose policies see some of these parts.
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use vertifleet_core::{DaySeed, Network};
+//! use vertifleet_observe::{Layout, Observer, Part, Scene, Sizes};
+//! use vertifleet_sim::Simulation;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let network = Network::find("paper")?;
+//! let layout = Layout::new(vec![Part::DemandLeft, Part::ActionMask], Sizes::of(&network));
+//! let mut day = Simulation::new(Arc::new(network.draw(DaySeed::comparison(1)?)));
+//! let decision = day.next_decision().ok_or("a day begins with a decision")?;
+//! let mut row = vec![0.0; layout.width()];
+//! layout.write(&mut row, &Scene::of(day.view(), &decision), &mut Observer::of(&network));
+//! let [demand, mask] = [&row[..64], &row[64..]];
+//! assert!(demand.iter().sum::<f32>() > 0.0);
+//! assert_eq!(mask[decision.at.at()], 1.0);
+//! # Ok(())
+//! # }
+//! ```
+
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "observations are in single precision; what is truncated on the way there is meant to be"
+)]
+
+mod layout;
+mod observer;
+mod pairs;
+mod part;
+mod preset;
+mod scene;
+mod sizes;
+mod write;
+
+pub use layout::{Layout, Placed, write_in_units};
+pub use observer::Observer;
+pub use part::{Axis, Info, Part};
+pub use preset::preset;
+pub use scene::Scene;
+pub use sizes::Sizes;

@@ -1,0 +1,35 @@
+//! What the observations of a day need beside the day itself.
+
+use vertifleet_core::{FeatureScales, Network};
+use vertifleet_learn::{PricedObserver, Scales};
+
+/// The scales of a day's network, which divide the paper's parts, and the memory of its bid prices, which parts that
+/// show prices need. Days that are played side by side should have an observer each.
+#[derive(Debug, Clone)]
+pub struct Observer {
+    pub(crate) scales: Scales,
+    pub(crate) priced: PricedObserver,
+}
+
+impl Observer {
+    /// An observer of the days of a network.
+    pub fn of(network: &Network) -> Self {
+        Self { scales: Scales::from(network.feature_scales()), priced: PricedObserver::default() }
+    }
+}
+
+impl Default for Observer {
+    /// An observer without a network: the paper's parts stay in their units.
+    fn default() -> Self {
+        let scales = FeatureScales {
+            stands: 1.0,
+            passengers: 1.0,
+            fare_usd: 1.0,
+            passenger_cost_usd: 1.0,
+            energy_price_usd: 1.0,
+            battery_kwh: 1.0,
+            power_kw: 1.0,
+        };
+        Self { scales: Scales::from(scales), priced: PricedObserver::default() }
+    }
+}

@@ -1,0 +1,55 @@
+//! The page on observations says what the code says.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use vertifleet_observe::{Axis, Part, preset};
+
+fn shape(axes: &[Axis]) -> String {
+    let names = axes.iter().map(|axis| match axis {
+        Axis::Vertiports => "N".to_owned(),
+        Axis::Aircraft => "A".to_owned(),
+        Axis::Types => "T".to_owned(),
+        Axis::Periods => "P".to_owned(),
+        Axis::Of(entries) => entries.to_string(),
+        Axis::PaperNode => "2N + 4".to_owned(),
+        Axis::PaperAircraft => "2N + 2".to_owned(),
+    });
+    format!("[{}]", names.collect::<Vec<_>>().join(", "))
+}
+
+/// The table of all parts.
+fn table() -> String {
+    let mut table = String::from(
+        "| part | in a view | shape | unit | scale | meaning | observations |\n|---|---|---|---|---|---|---|\n",
+    );
+    for part in Part::all() {
+        let info = part.info();
+        let shown = ["paper", "full", "gcaps-x"];
+        let shown = shown
+            .into_iter()
+            .filter(|name| preset(name).expect("an observation of ours").contains(&part));
+        writeln!(
+            table,
+            "| `{}` | {} | {} | {} | {} | {} | {} |",
+            info.name,
+            info.in_views.map_or(String::new(), |name| format!("`{name}`")),
+            shape(info.axes),
+            info.unit,
+            if info.unit.is_empty() { String::new() } else { info.scale.to_string() },
+            info.meaning,
+            shown.collect::<Vec<_>>().join(", "),
+        )
+        .expect("memory takes everything");
+    }
+    table
+}
+
+#[test]
+fn the_page_has_the_table_of_all_parts() {
+    let page =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/reference/observations.md");
+    let page = fs::read_to_string(page).expect("the book has the page");
+    assert!(page.contains(&table()), "the page should have this table:\n\n{}", table());
+}

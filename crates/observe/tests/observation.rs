@@ -1,0 +1,230 @@
+//! Rows of observations against what the view says, on any day, at every decision.
+
+use std::sync::Arc;
+
+use proptest::prelude::*;
+use vertifleet_core::{
+    AircraftIx, DaySeed, Network, Purpose, Scenario, VertiportIx, random_network,
+};
+use vertifleet_learn::{Observations, Scales, shape};
+use vertifleet_observe::{Layout, Observer, Part, Scene, Sizes};
+use vertifleet_sim::{Decision, Simulation, View};
+
+/// All parts, as padded as `extra` says.
+fn layout(day: &Scenario, extra: usize) -> Layout {
+    let sizes = Sizes::of_day(day);
+    let padded = Sizes {
+        vertiports: sizes.vertiports + extra,
+        aircraft: sizes.aircraft + extra,
+        types: sizes.types + extra,
+        periods: sizes.periods + extra,
+    };
+    let parts = Part::all().filter(|part| extra == 0 || !part.is_of_one_size());
+    Layout::new(parts.collect(), padded)
+}
+
+fn part<'a>(layout: &Layout, row: &'a [f32], part: Part) -> &'a [f32] {
+    let placed = layout.parts().iter().find(|placed| placed.part == part).expect("it is there");
+    &row[placed.first..placed.first + placed.len]
+}
+
+/// Plays a day, flying in turn to each feasible vertiport, and calls `each` at every decision.
+fn play(day: &Arc<Scenario>, mut each: impl FnMut(View<'_>, &Decision)) -> Simulation {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    while let Some(decision) = simulation.next_decision() {
+        each(simulation.view(), &decision);
+        let feasible = simulation.view().feasible(&decision);
+        let choice = feasible.nth(decision.index % feasible.len()).expect("it is never empty");
+        simulation.apply(choice).expect("it is feasible");
+    }
+    simulation
+}
+
+fn check_against_the_view(layout: &Layout, row: &[f32], view: View<'_>, decision: &Decision) {
+    let get = |name| part(layout, row, name);
+    let (size, stride) = (view.vertiports(), layout.sizes().vertiports);
+    let close = |found: f32, expected: f64, what: &str| {
+        let allowed = 1e-5 * expected.abs().max(1.0);
+        assert!((f64::from(found) - expected).abs() <= allowed, "{what}: {found}, {expected}");
+    };
+    let (kind, period) = (view.kind(decision.aircraft), view.period());
+    let reach = |from| view.within_range(kind, from);
+    for from in VertiportIx::all(size) {
+        let feasible = view.feasible(decision).contains(from);
+        assert_eq!(get(Part::ActionMask)[from.at()], f32::from(feasible));
+        assert_eq!(get(Part::VertiportMask)[from.at()], 1.0);
+        close(get(Part::Stands)[from.at()], f64::from(view.stands(from)) / 10.0, "stands");
+        close(
+            get(Part::StandsTaken)[from.at()],
+            f64::from(view.stands_taken()[from.at()]) / 10.0,
+            "taken",
+        );
+        let (leg, here) = (view.leg(kind, decision.at, from), decision.at);
+        let profit_usd = if reach(here).contains(from) {
+            let waiting = view.demand_left(period, here, from);
+            view.flight_profit_usd(decision.time, kind, (here, from), waiting)
+        } else {
+            0.0
+        };
+        close(get(Part::ChoiceProfit)[from.at()], profit_usd / 100.0, "profit");
+        let block_s = match (from == here, reach(here).contains(from)) {
+            (true, _) => view.hold_s(),
+            (false, true) => leg.block_s(),
+            (false, false) => 0,
+        };
+        close(get(Part::ChoiceBlockTime)[from.at()], f64::from(block_s) / 3600.0, "block");
+        for to in VertiportIx::all(size) {
+            let at = from.at() * stride + to.at();
+            let left = view.demand_left(period, from, to);
+            close(get(Part::DemandLeft)[at], f64::from(left) / 10.0, "left");
+            let next = if period + 1 < view.period_starts().len() {
+                view.demand_left(period + 1, from, to)
+            } else {
+                0
+            };
+            close(get(Part::DemandNext)[at], f64::from(next) / 10.0, "next");
+            close(get(Part::Fare)[at], view.fares_usd(period, from)[to.at()] / 100.0, "fare");
+            close(get(Part::Distance)[at], view.distances_mi(from)[to.at()] / 10.0, "distance");
+            assert_eq!(get(Part::Reachable)[at], f32::from(reach(from).contains(to)));
+            assert_eq!(get(Part::Closed)[at], f32::from(view.closed(from).contains(to)));
+            let energy =
+                if reach(from).contains(to) { view.leg(kind, from, to).energy_kwh } else { 0.0 };
+            close(get(Part::Energy)[at], energy / 100.0, "energy");
+            let soon = view.known_closures().is_closed(from, to, decision.time + 1_800);
+            assert_eq!(get(Part::ClosedAhead)[4 * at + 1], f32::from(soon));
+        }
+    }
+    for aircraft in AircraftIx::all(view.places().len()) {
+        let at = aircraft.at();
+        assert_eq!(get(Part::FleetPlace)[at * stride + view.places()[at].at()], 1.0);
+        let ready_s = view.ready_at(aircraft).since(decision.time);
+        close(get(Part::FleetReady)[at], f64::from(ready_s) / 3600.0, "ready");
+        let flies = view.arrives_at(aircraft) > decision.time;
+        assert_eq!(get(Part::FleetFlying)[at], f32::from(flies));
+        assert_eq!(get(Part::FleetDeciding)[at], f32::from(aircraft == decision.aircraft));
+    }
+    assert_eq!(get(Part::FleetPlace).iter().sum::<f32>(), view.places().len() as f32);
+    assert_eq!(get(Part::FleetMask).iter().sum::<f32>(), view.places().len() as f32);
+}
+
+fn days() -> Vec<Arc<Scenario>> {
+    let seed = |number| DaySeed::training_number(number).expect("a number");
+    let shipped = ["paper", "disrupted", "new-york"]
+        .map(|name| Arc::new(Network::shipped(name).expect("a shipped network").draw(seed(3))));
+    let random =
+        (0..3).map(|number| Arc::new(random_network(Purpose::Training, number).draw(seed(number))));
+    shipped.into_iter().chain(random).collect()
+}
+
+#[test]
+fn rows_say_what_the_view_says_padded_or_not() {
+    let network = Network::shipped("paper").expect("a shipped network");
+    for day in days() {
+        for extra in [0, 3] {
+            let layout = layout(&day, extra);
+            let mut observer = Observer::of(&network);
+            let mut row = vec![f32::NAN; layout.width()];
+            let mut decisions = 0;
+            play(&day, |view, decision| {
+                decisions += 1;
+                if decisions % 7 == 0 {
+                    layout.write(&mut row, &Scene::of(view, decision), &mut observer);
+                    check_against_the_view(&layout, &row, view, decision);
+                    for placed in layout.parts() {
+                        let (low, high) = placed.part.info().bounds;
+                        let numbers = &row[placed.first..placed.first + placed.len];
+                        assert!(numbers.iter().all(|&x| (low..=high).contains(&x)), "{placed:?}");
+                    }
+                }
+            });
+            assert!(decisions > 50);
+        }
+    }
+}
+
+#[test]
+fn the_papers_parts_are_what_its_policies_see() {
+    let network = Network::shipped("paper").expect("a shipped network");
+    let day = Arc::new(network.draw(DaySeed::training_number(1).expect("a number")));
+    let parts = vec![Part::Nodes, Part::Aircraft, Part::Clock];
+    let layout = Layout::new(parts, Sizes::of(&network));
+    let scales = Scales::from(network.feature_scales());
+    let mut seen = Observations::new(shape(8), 1);
+    let mut row = vec![0.0; layout.width()];
+    play(&day, |view, decision| {
+        layout.write(&mut row, &Scene::of(view, decision), &mut Observer::of(&network));
+        seen.write(0, decision, &view, &scales);
+        let inputs = seen.inputs(1);
+        let all: Vec<f32> =
+            [inputs.nodes, inputs.aircraft, inputs.clock].into_iter().flatten().copied().collect();
+        assert_eq!(row, all);
+    });
+}
+
+#[test]
+fn a_row_takes_no_memory() {
+    let network = Network::shipped("disrupted").expect("a shipped network");
+    let day = Arc::new(network.draw(DaySeed::training_number(1).expect("a number")));
+    let parts = Part::all().filter(|part| !part.is_priced()).collect();
+    let layout = Layout::new(parts, Sizes::of(&network));
+    let mut row = vec![0.0; layout.width()];
+    let mut observer = Observer::of(&network);
+    play(&day, |view, decision| {
+        let write = || layout.write(&mut row, &Scene::of(view, decision), &mut observer);
+        assert_eq!(allocation_counter::measure(write).count_total, 0);
+    });
+}
+
+#[test]
+fn a_day_that_is_over_has_no_time_left_and_only_hold() {
+    let network = Network::shipped("paper").expect("a shipped network");
+    let day = Arc::new(network.draw(DaySeed::training_number(1).expect("a number")));
+    let mut last = None;
+    let simulation = play(&day, |_, decision| last = Some(*decision));
+    let last = last.expect("a day has decisions");
+    let layout = layout(&day, 0);
+    let mut row = vec![0.0; layout.width()];
+    let scene = Scene::over(simulation.view(), &last);
+    layout.write(&mut row, &scene, &mut Observer::of(&network));
+    assert_eq!(part(&layout, &row, Part::ActionMask).iter().sum::<f32>(), 1.0);
+    assert_eq!(part(&layout, &row, Part::Time)[..2], [0.0, 0.0]);
+    assert_eq!(part(&layout, &row, Part::Clock), [0.0]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// The demand of later periods may be anything: what is seen before they begin is the forecast.
+    #[test]
+    fn the_future_is_not_seen(number in 0_u64..1_000, shift in 1_u32..50) {
+        let network = Network::shipped("disrupted").expect("a shipped network");
+        let own = network.draw(DaySeed::training_number(number).expect("a number"));
+        let last = own.periods.len() - 1;
+        let mut other = own.clone().into_day();
+        for from in VertiportIx::all(own.vertiports.len()) {
+            for to in VertiportIx::all(own.vertiports.len()) {
+                other.demand[last][(from, to)] += if from == to { 0 } else { shift };
+            }
+        }
+        let other = other.check("another day").expect("it is a day too");
+        let begins = own.periods[last];
+        let layout = layout(&own, 0);
+        let (mut rows, mut observer) = (Vec::new(), Observer::of(&network));
+        let mut row = vec![0.0; layout.width()];
+        play(&Arc::new(own), |view, decision| {
+            if decision.time < begins {
+                layout.write(&mut row, &Scene::of(view, decision), &mut observer);
+                rows.push(row.clone());
+            }
+        });
+        let (mut at, mut observer) = (0, Observer::of(&network));
+        play(&Arc::new(other), |view, decision| {
+            if decision.time < begins {
+                layout.write(&mut row, &Scene::of(view, decision), &mut observer);
+                assert_eq!(row, rows[at], "decision {at}");
+                at += 1;
+            }
+        });
+        prop_assert_eq!(at, rows.len());
+    }
+}

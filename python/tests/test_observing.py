@@ -1,0 +1,253 @@
+"""What environments show, and whose days: observations, views, rewards and networks of one's choice."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium import spaces
+from gymnasium.utils.env_checker import check_env
+from numpy.typing import NDArray
+
+import vertifleet
+from vertifleet import FunctionPolicy, Network, Outcome, OwnObservation, View
+from vertifleet.envs import VARIANTS, FleetEnv, FleetVectorEnv
+
+
+def greedy(view: View) -> int:
+    """The flight with the highest profit an hour, as the built-in rule has it."""
+    hours = np.where(view.choice_block_time_h > 0, view.choice_block_time_h, np.inf)
+    rate = np.where(view.action_mask == 1, view.choice_profit_usd / hours, -np.inf)
+    rate[view.decision.place] = 0.0
+    return int(rate.argmax())
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_every_variant_is_a_gymnasium_environment(variant: str) -> None:
+    env = gymnasium.make(variant)
+    check_env(env.unwrapped, skip_render_check=True)
+    observation, info = env.reset(seed=3)
+    while True:
+        assert env.observation_space.contains(observation)
+        assert np.array_equal(observation["action_mask"], info["action_mask"])
+        observation, _, over, _, info = env.step(int(info["action_mask"].argmax()))
+        if over:
+            break
+    assert env.observation_space.contains(observation)
+
+
+@pytest.mark.parametrize("observation", ["paper", "full", "gcaps-x", ["demand_left", "fleet_ready"]])
+def test_a_batch_shows_what_single_environments_show(observation: Any) -> None:
+    batch = FleetVectorEnv(3, "disrupted", observation=observation, threads=2)
+    alone = [FleetEnv("disrupted", observation=observation) for _ in range(3)]
+    shown, info = batch.reset(seed=7)
+    ones = [env.reset(seed=7 + at)[0] for at, env in enumerate(alone)]
+    for _ in range(40):
+        assert set(shown) == set(ones[0])
+        for at, one in enumerate(ones):
+            for name, array in one.items():
+                assert np.array_equal(shown[name][at], array), name
+        actions = info["action_mask"].argmax(axis=1)
+        shown, *_, info = batch.step(actions)
+        ones = [env.step(int(action))[0] for env, action in zip(alone, actions, strict=True)]
+
+
+def test_a_view_shows_the_same_in_units_and_cannot_be_changed() -> None:
+    env = FleetEnv("disrupted", observation="full")
+    observation, _ = env.reset(seed=2)
+    for _ in range(30):
+        view = env.view
+        assert np.allclose(view.demand_left, 10 * observation["demand_left"])
+        assert np.allclose(view.choice_profit_usd, 100 * observation["choice_profit"], atol=1e-3)
+        assert np.allclose(view.fare_usd, 100 * observation["fare"], rtol=1e-5)
+        assert np.array_equal(view.fleet_flying, observation["fleet_flying"])
+        assert view.decision.place == observation["place"].argmax()
+        assert view.demand_left is view.demand_left, "an array is made once"
+        with pytest.raises(ValueError, match="read-only"):
+            view.demand_left[0, 1] = 5
+        observation, *_ = env.step(int(env.action_masks().argmax()))
+    with pytest.raises(AttributeError, match="scenario"):
+        _ = view.scenario
+
+
+def test_views_have_what_their_class_says() -> None:
+    env = FleetEnv("disrupted")
+    env.reset(seed=1)
+    arrays = [name for name, kind in View.__annotations__.items() if kind == "Numbers"]
+    assert len(arrays) > 20
+    for name in arrays:
+        assert getattr(env.view, name).dtype == np.float32, name
+
+
+def test_an_observation_of_ones_own() -> None:
+    def seen(view: View) -> NDArray[np.float32]:
+        return view.choice_profit_usd / 100
+
+    own = OwnObservation(seen, spaces.Box(-np.inf, np.inf, (8,), np.float32))
+    env = FleetEnv(observation=own)
+    observation, _ = env.reset(seed=1)
+    assert env.observation_space.contains(observation)
+    batch = FleetVectorEnv(2, observation=own)
+    shown, info = batch.reset(seed=1)
+    assert shown.shape == (2, 8)
+    assert np.array_equal(shown[0], observation)
+    shown, *_ = batch.step(info["action_mask"].argmax(axis=1))
+    assert batch.observation_space.contains(shown)
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
+def test_a_reward_of_ones_own_sees_the_decision_and_what_came_of_it(mode: str) -> None:
+    def dollars(view: View, outcome: Outcome) -> float:
+        assert view.decision.aircraft == outcome["aircraft"]
+        assert view.decision.place == outcome["origin"]
+        return outcome["profit_usd"]
+
+    env = FleetEnv(reward=dollars)
+    env.reset(seed=5)
+    total, over = 0.0, False
+    while not over:
+        _, reward, over, _, info = env.step(greedy(env.view))
+        total += reward
+    assert total == pytest.approx(info["summary"]["profit_usd"])
+    batch = FleetVectorEnv(2, reward=dollars, autoreset_mode=mode)
+    batch.reset(seed=5)
+    first = 0.0
+    while True:
+        _, rewards, over, _, _ = batch.step([greedy(batch.view(at)) for at in range(2)])
+        first += rewards[0]
+        if over[0]:
+            break
+    assert first == pytest.approx(total)
+
+
+def test_days_of_a_split_are_days_of_no_other() -> None:
+    seeds = {}
+    for split, purpose in [
+        ("training", "training"),
+        ("validation", "validation"),
+        ("comparison", "comparison"),
+    ]:
+        env = FleetEnv(split=split)  # type: ignore[arg-type]
+        env.reset(options={"number": 4})
+        assert env.scenario is not None
+        assert env.scenario == Network("paper").draw(4, purpose)  # type: ignore[arg-type]
+        seeds[split] = env.scenario.seed
+    assert len(set(seeds.values())) == 3
+    with pytest.raises(vertifleet.Error) as error:
+        FleetEnv(split="validation").reset(options={"number": 2**41})
+    assert error.value.code == "V118"
+
+
+def test_networks_are_drawn_anew_for_each_day() -> None:
+    env = FleetEnv("random-places:6", observation="full")
+    places = set()
+    for seed in range(4):
+        observation, _ = env.reset(seed=seed)
+        assert env.observation_space.contains(observation)
+        assert observation["vertiport_mask"].sum() == 6
+        places.add(observation["distance"].tobytes())
+    assert len(places) == 4
+    batch = FleetVectorEnv(8, "random", observation="full")
+    observation, info = batch.reset(seed=1)
+    sizes = observation["vertiport_mask"].sum(axis=1)
+    assert len(set(sizes.tolist())) > 2
+    for _ in range(20):
+        outside = info["action_mask"] > observation["vertiport_mask"]
+        assert not outside.any()
+        observation, *_, info = batch.step(info["action_mask"].argmax(axis=1))
+    assert batch.observation_space.contains(observation)
+
+
+def test_days_of_a_list_of_networks_come_in_turn() -> None:
+    env = FleetEnv(["paper", "new-york"], observation="full")
+    names = set()
+    for number in range(4):
+        env.reset(options={"number": number})
+        assert env.scenario is not None
+        names.add(env.scenario.name.rsplit("-", 1)[0])
+    assert names == {"paper", "new-york"}
+    with pytest.raises(vertifleet.Error, match="full"):
+        FleetEnv(["paper", "new-york"])
+
+
+@pytest.mark.parametrize("network", ["paper", "random", "random-places:5"])
+def test_copies_and_pickles_go_on_alike(network: str) -> None:
+    env = FleetEnv(network, observation="full")
+    env.reset(seed=3)
+    for _ in range(25):
+        env.step(int(env.action_masks().argmax()))
+    others = [copy.deepcopy(env), pickle.loads(pickle.dumps(env))]
+    for _ in range(25):
+        action = int(env.action_masks().argmax())
+        expected = env.step(action)[0]
+        for other in others:
+            found = other.step(action)[0]
+            assert all(np.array_equal(found[name], expected[name]) for name in expected)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"observation": "everything"}, "there is no observation"),
+        ({"observation": ["demand"]}, "no part 'demand'|no part \"demand\""),
+        ({"observation": ["fare", "fare"]}, "must differ"),
+        ({"split": "test"}, "split must be"),
+        ({"network": "random-places:1"}, "from 2 to 60"),
+        ({"network": []}, "must not be empty"),
+        ({"reward": "sparse"}, "reward must be"),
+    ],
+)
+def test_what_cannot_be_shown_is_refused(arguments: dict[str, Any], says: str) -> None:
+    with pytest.raises(vertifleet.Error, match=says) as error:
+        FleetEnv(**arguments)
+    assert error.value.code == "V451"
+
+
+class Greedy:
+    """A policy as an object, which counts the days that it was told of."""
+
+    def __init__(self) -> None:
+        self.days = 0
+
+    def reset(self, view: View) -> None:
+        assert view.decision.step == 0
+        self.days += 1
+
+    def choose(self, decision: vertifleet.Decision, view: View) -> int:
+        assert decision == view.decision
+        return greedy(view)
+
+
+def test_policies_of_ones_own_in_every_form_play_as_the_built_in_rule() -> None:
+    one = Greedy()
+
+    def of_full(observation: dict[str, NDArray[np.float32]]) -> int:
+        hours = np.where(observation["choice_block_time"] > 0, observation["choice_block_time"], np.inf)
+        rate = observation["choice_profit"].astype(np.float64) / hours
+        rate[observation["action_mask"] == 0] = -np.inf
+        rate[observation["place"].argmax()] = 0.0
+        return int(rate.argmax())
+
+    models: dict[str, Any] = {"class": Greedy, "object": one, "full": FunctionPolicy(of_full, "full")}
+    found = vertifleet.compare("paper", ["greedy", *models], days=4, models=models, threads=1)
+    profits = found.columns["profit_usd"].reshape(4, 4)
+    for row in profits[1:]:
+        # Single precision breaks a few ties in another way.
+        assert np.allclose(row, profits[0], rtol=2e-3)
+    assert one.days == 4
+    assert found.warnings == []
+
+
+def test_a_choice_outside_the_mask_holds_is_counted_and_warned_of() -> None:
+    network = Network("paper")
+    with pytest.warns(UserWarning, match=r"policy \"stray\": \d+ choices outside the mask"):
+        found = vertifleet.compare(network, ["stray"], days=1, models={"stray": lambda shown: 99})
+    assert found.columns["flights"][0] == 0
+    assert "outside the mask" in found.warnings[0]
+    with pytest.warns(UserWarning, match="outside the mask"):
+        played = vertifleet.simulate(network.draw(1), lambda shown: -1, network=network)
+    assert played.summary["flights"] == 0

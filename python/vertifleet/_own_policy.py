@@ -1,0 +1,92 @@
+"""Policies of the caller's own: functions of an observation, and objects that choose."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from operator import index
+from typing import TYPE_CHECKING, Any, Protocol, SupportsIndex, TypeAlias, runtime_checkable
+
+from vertifleet._errors import Error
+from vertifleet._native import Days
+from vertifleet._view import Decision, View
+from vertifleet.envs.observing import ObservationChoice, Observing
+
+if TYPE_CHECKING:
+    from vertifleet import _native
+    from vertifleet._native import Network
+
+PolicyFunction: TypeAlias = Callable[[Any], SupportsIndex]
+"""A function from an observation to an action, the position of a vertiport."""
+
+
+@runtime_checkable
+class OwnPolicy(Protocol):
+    """A policy with a memory: a class, of which each day gets an object of its own, or one object for all
+    days.
+
+    It may also have a method ``reset(view)``, which is called at the first decision of each day. Days are
+    played side by side, so an object that remembers something between calls needs ``threads=1``; a class does
+    not.
+    """
+
+    def choose(self, decision: Decision, view: View) -> SupportsIndex:
+        """The position of the vertiport to fly to, where the aircraft's own means hold.
+
+        A choice outside ``view.action_mask`` holds, as it does in an environment.
+        """
+
+
+@dataclass(frozen=True)
+class FunctionPolicy:
+    """A function of an observation, such as a network trained on an environment with that observation."""
+
+    function: PolicyFunction
+    observation: ObservationChoice = "paper"
+
+
+def adapted(policy: Any, network: Network | None) -> Callable[[], Callable[[_native.View], int]]:
+    """What makes, when a day begins, the function from a view to an action.
+
+    Raises:
+        Error: V451 for what is no policy, and for a function of the paper's observation without a network.
+    """
+    if hasattr(policy, "choose"):
+        return lambda: _chooser(policy() if isinstance(policy, type) else policy)
+    if callable(policy):
+        policy = FunctionPolicy(policy)
+    if not isinstance(policy, FunctionPolicy):
+        rule = f"a policy is a name, weights, a function from an observation to an action, or an object that \
+chooses, found {policy!r}"
+        raise TypeError(rule)
+    return _of_function(policy, network)
+
+
+def _chooser(policy: OwnPolicy) -> Callable[[_native.View], int]:
+    begins = True
+
+    def choose(native: _native.View) -> int:
+        nonlocal begins
+        view = View(native)
+        if begins and hasattr(policy, "reset"):
+            policy.reset(view)
+        begins = False
+        return index(policy.choose(view.decision, view))
+
+    return choose
+
+
+def _of_function(
+    policy: FunctionPolicy, network: Network | None
+) -> Callable[[], Callable[[_native.View], int]]:
+    if network is None:
+        raise Error("V451", "a function takes a network, as which it sees the days")
+    observing = Observing(policy.observation, Days([network], "comparison"))
+
+    def choose(native: _native.View) -> int:
+        if observing.own is not None:
+            return index(policy.function(observing.own.function(View(native))))
+        row, _ = native.observe(observing.layout)
+        return index(policy.function(observing.of_row(row)))
+
+    return lambda: choose
