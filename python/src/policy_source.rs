@@ -9,7 +9,7 @@ use vertifleet_core::VertiportIx;
 use vertifleet_observe::{Observer, Scene};
 use vertifleet_policy::{Policy, PolicyError};
 use vertifleet_sim::{DayKey, Decision, View};
-use vertifleet_study::{PolicyFactory, PolicySource};
+use vertifleet_study::{PolicyFactory, PolicySource, Sees};
 
 use crate::model::Model;
 use crate::network::Network;
@@ -91,14 +91,16 @@ pub(crate) fn of_own(
     calls: &OwnCalls,
 ) -> PyResult<PolicyFactory> {
     let adapt = value.py().import("vertifleet._own_policy")?.getattr("adapted")?;
-    let adapted = adapt.call1((value, network.cloned()))?.unbind();
-    let (make, calls) = (Arc::new(adapted), calls.clone());
+    let (make, shows_present_only): (Py<PyAny>, bool) =
+        adapt.call1((value, network.cloned()))?.extract()?;
+    let sees = if shows_present_only { Sees::Present } else { Sees::Forecast };
+    let (make, calls) = (Arc::new(make), calls.clone());
     let name = name.to_owned();
     let observer = match network {
         Some(network) => Observer::of(&network.network),
         None => Observer::default(),
     };
-    Ok(PolicyFactory(Arc::new(move || {
+    let make_policy = move || -> Box<dyn Policy> {
         Box::new(OwnPolicy {
             make: Arc::clone(&make),
             choose: None,
@@ -106,7 +108,8 @@ pub(crate) fn of_own(
             name: name.clone(),
             calls: calls.clone(),
         })
-    })))
+    };
+    Ok(PolicyFactory { make: Arc::new(make_policy), sees })
 }
 
 /// A policy that calls a Python object.

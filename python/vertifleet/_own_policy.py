@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from vertifleet import _native
     from vertifleet._native import Network
 
+Chooser: TypeAlias = "Callable[[_native.View], int]"
 PolicyFunction: TypeAlias = Callable[[Any], SupportsIndex]
 """A function from an observation to an action, the position of a vertiport."""
 
@@ -45,14 +46,14 @@ class FunctionPolicy:
     observation: ObservationChoice = "paper"
 
 
-def adapted(policy: Any, network: Network | None) -> Callable[[], Callable[[_native.View], int]]:
-    """What makes, when a day begins, the function from a view to an action.
+def adapted(policy: Any, network: Network | None) -> tuple[Callable[[], Chooser], bool]:
+    """What makes the function from a view to an action when a day begins; and whether it sees the present only.
 
     Raises:
         Error: V451 for what is no policy, and for a function of the paper's observation without a network.
     """
     if hasattr(policy, "choose"):
-        return lambda: _chooser(policy() if isinstance(policy, type) else policy)
+        return lambda: _chooser(policy() if isinstance(policy, type) else policy), False
     if callable(policy):
         policy = FunctionPolicy(policy)
     if not isinstance(policy, FunctionPolicy):
@@ -62,7 +63,7 @@ chooses, found {policy!r}"
     return _of_function(policy, network)
 
 
-def _chooser(policy: OwnPolicy) -> Callable[[_native.View], int]:
+def _chooser(policy: OwnPolicy) -> Chooser:
     begins = True
 
     def choose(native: _native.View) -> int:
@@ -76,9 +77,7 @@ def _chooser(policy: OwnPolicy) -> Callable[[_native.View], int]:
     return choose
 
 
-def _of_function(
-    policy: FunctionPolicy, network: Network | None
-) -> Callable[[], Callable[[_native.View], int]]:
+def _of_function(policy: FunctionPolicy, network: Network | None) -> tuple[Callable[[], Chooser], bool]:
     if network is None:
         raise Error("V451", "a function takes a network, as which it sees the days")
     observing = Observing(policy.observation, Days([network], "comparison"))
@@ -89,4 +88,4 @@ def _of_function(
         row, _ = native.observe(observing.layout)
         return index(policy.function(observing.of_row(row)))
 
-    return lambda: choose
+    return lambda: choose, observing.own is None and observing.layout.shows_present_only

@@ -64,7 +64,7 @@ fn every_policy_has_its_share_of_the_bound_and_the_plan_is_marked() {
     let again = results(&stdout(compare(at, &format!("{asked} --json --threads 1"))));
     assert_eq!(first, again, "kept bounds are the same, and threads change nothing");
     let people = stdout(compare(at, asked));
-    assert!(people.contains("of bound, %") && people.contains("plan *"), "{people}");
+    assert!(people.contains("of bound, %") && people.contains("plan     whole day"), "{people}");
 }
 
 #[test]

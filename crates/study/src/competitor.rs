@@ -12,6 +12,7 @@ use crate::numbers::grouped;
 use crate::policy_spec::{PolicySource, PolicySpec, ResolveFor};
 use crate::record::{LearningCurve, ValidationCurves};
 use crate::resolved_policy::ResolvedPolicy;
+use crate::sees::Sees;
 use crate::starting_policies::starting_policies;
 
 /// Number of steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; other
@@ -127,6 +128,11 @@ impl Competitor {
             Kind::Policy(policy) => Some(policy),
             Kind::Planner(_) => None,
         }
+    }
+
+    /// What it looks at.
+    pub(crate) fn sees(&self) -> Sees {
+        self.policy().map_or(Sees::WholeDay, ResolvedPolicy::sees)
     }
 
     /// Describes what it does, in one short sentence.

@@ -35,6 +35,7 @@ fn study(names: &[&str], days: u32) -> ComparisonRecords {
         description: String::new(),
         days: (0..days).map(|day| record(policy, day)).collect(),
         // One of every three is a reference that knows the day.
+        sees: crate::Sees::Present,
         decision_ns: (policy % 3 != 2).then(LatencySummary::default),
     });
     let curves = names.iter().zip(0u32..).map(|(&name, policy)| LearningCurve {

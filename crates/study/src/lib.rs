@@ -43,6 +43,7 @@ pub mod record;
 pub mod report;
 mod resolved_policy;
 pub mod run;
+mod sees;
 mod starting_policies;
 pub mod statistics;
 mod study;
@@ -58,5 +59,6 @@ pub use record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
 };
 pub use resolved_policy::{PolicyFactory, ResolvedPolicy};
+pub use sees::Sees;
 pub use starting_policies::starting_policies;
 pub use study::{MOST_DAYS, Unwatched, Watch};

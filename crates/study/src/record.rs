@@ -8,6 +8,7 @@ use vertifleet_sim::{DayNumber, DayTotals};
 
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
+use crate::sees::Sees;
 
 /// One policy's result on one day.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -56,6 +57,9 @@ pub struct PolicyRecord {
     pub name: String,
     /// Describes what the policy does, in one short sentence.
     pub description: String,
+    /// What it looks at when it decides.
+    #[serde(default)]
+    pub sees: Sees,
     /// One record for each day, in the study's order of days.
     pub days: Vec<DayRecord>,
     /// The time that one decision of this policy takes; `None` for a reference, which planned each day as a

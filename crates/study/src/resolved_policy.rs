@@ -14,6 +14,7 @@ use vertifleet_sim::{DayTotals, Simulation, Trace};
 use crate::error::Error;
 use crate::numbers::grouped;
 use crate::origin::{NetworkOrigin, network_of};
+use crate::sees::Sees;
 
 /// A policy that can be built.
 #[derive(Debug, Clone)]
@@ -47,7 +48,12 @@ pub enum ResolvedPolicy {
 
 /// Makes policies, one for each thread that needs one.
 #[derive(Clone)]
-pub struct PolicyFactory(pub Arc<dyn Fn() -> Box<dyn Policy> + Send + Sync>);
+pub struct PolicyFactory {
+    /// Makes one.
+    pub make: Arc<dyn Fn() -> Box<dyn Policy> + Send + Sync>,
+    /// What the policies look at.
+    pub sees: Sees,
+}
 
 impl fmt::Debug for PolicyFactory {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -64,7 +70,7 @@ impl ResolvedPolicy {
             Self::Lookahead => Box::new(Lookahead),
             Self::BidPrices => Box::new(BidPricePolicy::default()),
             Self::Rolling => Box::new(Rolling::default()),
-            Self::Own(PolicyFactory(build)) => build(),
+            Self::Own(factory) => (factory.make)(),
             Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
             Self::Learned { model, most_rolled_out, .. } => model.policy(*most_rolled_out),
         }
@@ -123,6 +129,22 @@ impl ResolvedPolicy {
                 "policy {name:?} was trained on network {network:?} as it is shipped, but this is a changed copy of it; `vertifleet train` makes weights for the copy"
             )
         })
+    }
+
+    /// What the policy looks at. A trace may come from a planner, who knew the day.
+    pub fn sees(&self) -> Sees {
+        match self {
+            Self::Own(factory) => factory.sees,
+            Self::Replay(_) => Sees::WholeDay,
+            Self::Random(_) | Self::Greedy => Sees::Present,
+            // `gcaps-x` fits networks of any size, and sees bid prices.
+            Self::Learned { model, .. } if model.header().shape.vertiports.is_some() => {
+                Sees::Present
+            }
+            Self::Lookahead | Self::BidPrices | Self::Rolling | Self::Learned { .. } => {
+                Sees::Forecast
+            }
+        }
     }
 
     /// Describes what the policy does, in one short sentence.

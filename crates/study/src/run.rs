@@ -56,7 +56,7 @@ pub fn run<Played: Fn() + Sync>(
             }
         };
         let (name, description) = (competitor.name.clone(), competitor.description());
-        Ok(PolicyRecord { name, description, days, decision_ns })
+        Ok(PolicyRecord { name, description, sees: competitor.sees(), days, decision_ns })
     };
     competitors.iter().map(&mut play).collect()
 }

@@ -17,6 +17,7 @@ fn study(networks: usize) -> GeneralisationRecords {
     let mut plan = policies[4].clone();
     "plan".clone_into(&mut plan.name);
     plan.decision_ns = None;
+    plan.sees = vertifleet_study::Sees::WholeDay;
     policies.push(plan);
     for policy in &mut policies {
         for (number, day) in policy.days.iter_mut().enumerate() {

@@ -96,6 +96,7 @@ fn results(summary: &ComparisonReport) -> Markup {
         div.wide { table {
             thead { tr {
                 th scope="col" { "policy" }
+                th scope="col" { "sees" }
                 th scope="col" { "profit, $" }
                 th scope="col" { "sd, $" }
                 @if summary.bound.is_some() { th scope="col" { "of bound, %" } }
@@ -122,8 +123,8 @@ fn result_cells(policy: &PolicySummary) -> Markup {
     html! {
         th scope="row" title=(policy.name) {
             (policy.name)
-            @if policy.knows_the_day() { br; small { "knows the day" } }
         }
+        td { (policy.sees) }
         td { (estimate(&policy.profit_usd, |value| grouped(value, 0))) }
         td { (policy.profit_usd.standard_deviation.map_or("n/a".to_owned(), |value| grouped(value, 0))) }
         @if let Some(share) = &policy.bound_share {

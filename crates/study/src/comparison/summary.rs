@@ -11,6 +11,7 @@ use crate::record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
     check_records,
 };
+use crate::sees::Sees;
 use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
 
 /// Name and version of the format of `summary.json`.
@@ -106,6 +107,8 @@ pub struct PolicySummary {
     pub name: String,
     /// Describes what the policy does.
     pub description: String,
+    /// What it looks at when it decides.
+    pub sees: Sees,
     /// Daily profit, in dollars.
     pub profit_usd: Estimate,
     /// Box plot of the daily profit (Fig. 5).
@@ -293,6 +296,7 @@ impl PolicySummary {
         Some(Self {
             name: policy.name.clone(),
             description: policy.description.clone(),
+            sees: policy.sees,
             profit_usd: Estimate::of(&daily_profit_usd),
             profit_box_usd: BoxSummary::of(&daily_profit_usd)?,
             bound_share: bound_share_box.is_some().then(|| Estimate::of(&daily_bound_share)),

@@ -5,14 +5,12 @@ use std::fmt::Write as _;
 use super::summary::{ComparisonReport, PairedDifference, PolicySummary};
 use crate::numbers::{counted, duration, grouped, minutes, p_value, signed};
 use crate::origin::NetworkOrigin;
+use crate::sees::SEES;
 use crate::statistics::Estimate;
 use crate::table::{append_aligned, estimate};
 
 /// The column of the share of the bound.
-const SHARE_COLUMN: usize = 3;
-/// The mark after the name of a reference.
-const REFERENCE_MARK: char = '*';
-
+const SHARE_COLUMN: usize = 4;
 /// The text that `compare` prints: policies by mean profit, then the t-test of every pair on the daily profit. There
 /// is no line end after the last line.
 pub(crate) fn text(summary: &ComparisonReport) -> String {
@@ -28,6 +26,7 @@ pub(crate) fn text(summary: &ComparisonReport) -> String {
     text.push_str("\n\n");
     let mut policies = vec![heading([
         "policy",
+        "sees",
         "profit, $ a day",
         "sd, $",
         "of bound, %",
@@ -57,12 +56,7 @@ pub(crate) fn text(summary: &ComparisonReport) -> String {
             minutes(bound.step_s)
         );
     }
-    if summary.policies.iter().any(PolicySummary::knows_the_day) {
-        let _ = write!(
-            text,
-            "\n{REFERENCE_MARK} knows the whole day beforehand: a reference, no policy"
-        );
-    }
+    let _ = write!(text, "\n{SEES}");
     if summary.comparisons.is_empty() {
         return text;
     }
@@ -80,11 +74,11 @@ fn heading<const N: usize>(cells: [&str; N]) -> Vec<String> {
 }
 
 fn policy_row(policy: &PolicySummary) -> Vec<String> {
-    let mark = if policy.knows_the_day() { format!(" {REFERENCE_MARK}") } else { String::new() };
     let time = |time: Option<u64>| time.map_or("n/a".to_owned(), duration);
     let share = |share: &Estimate| estimate(share, |value| grouped(100.0 * value, 2));
     vec![
-        policy.name.clone() + &mark,
+        policy.name.clone(),
+        policy.sees.to_string(),
         estimate(&policy.profit_usd, |value| grouped(value, 0)),
         policy.profit_usd.standard_deviation.map_or("n/a".to_owned(), |value| grouped(value, 0)),
         policy.bound_share.as_ref().map_or("n/a".to_owned(), share),

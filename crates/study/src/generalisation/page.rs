@@ -53,6 +53,7 @@ fn results(summary: &GeneralisationReport) -> Markup {
         div.wide { table {
             thead { tr {
                 th scope="col" { "policy" }
+                th scope="col" { "sees" }
                 th scope="col" { "of bound, %" }
                 th scope="col" { "lowest, %" }
                 th scope="col" { "above " (first) }
@@ -74,8 +75,8 @@ fn result_cells(policy: &PolicyShare, networks: usize) -> Markup {
     html! {
         th scope="row" title=(policy.name) {
             (policy.name)
-            @if policy.knows_the_day { br; small { "knows the day" } }
         }
+        td { (policy.sees) }
         td { (estimate(&policy.bound_share, percent)) }
         td { (typeset(&percent(policy.lowest_bound_share))) }
         @if let Some(test) = &policy.minus_first {

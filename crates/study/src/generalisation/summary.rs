@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::{GeneralisationRecords, NetworkRecord};
 use crate::error::Error;
 use crate::record::{DayRecord, PolicyRecord, check_records};
+use crate::sees::Sees;
 use crate::statistics::{Estimate, PairedTest};
 
 /// Name and version of the format of `summary.json`.
@@ -36,6 +37,8 @@ pub struct PolicyShare {
     pub description: String,
     /// Whether the days were planned with the whole day known, which makes it a reference and not a policy.
     pub knows_the_day: bool,
+    /// What it looks at when it decides.
+    pub sees: Sees,
     /// Profit as a share of the day's upper bound.
     pub bound_share: Estimate,
     /// The share of the upper bound on the network where it is lowest.
@@ -90,6 +93,7 @@ impl GeneralisationReport {
             name: policy.name.clone(),
             description: policy.description.clone(),
             knows_the_day: policy.decision_ns.is_none(),
+            sees: policy.sees,
             bound_share: Estimate::of(own),
             lowest_bound_share: own.iter().copied().fold(f64::INFINITY, f64::min),
             minus_first: (position > 0).then(|| PairedTest::of(own, &shares[0])),

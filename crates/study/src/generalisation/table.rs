@@ -2,10 +2,8 @@
 
 use super::{GeneralisationReport, PolicyShare};
 use crate::numbers::{counted, grouped, minutes, p_value, signed};
+use crate::sees::SEES;
 use crate::table::{append_aligned, estimate};
-
-/// The mark after the name of a reference that knows the day.
-const REFERENCE_MARK: &str = " *";
 
 /// The text that `generalise` prints, without a line end after the last line.
 pub(super) fn text(summary: &GeneralisationReport) -> String {
@@ -14,6 +12,7 @@ pub(super) fn text(summary: &GeneralisationReport) -> String {
     let mut text = format!("{networks}, a day of each\n\n");
     let heading = [
         "policy".to_owned(),
+        "sees".to_owned(),
         "of bound, %".to_owned(),
         "lowest, %".to_owned(),
         format!("above {first}"),
@@ -27,14 +26,12 @@ pub(super) fn text(summary: &GeneralisationReport) -> String {
     text.push_str("of bound: share of the certified bound, which no schedule passes (slices of ");
     text.push_str(&minutes(summary.bound_step_s));
     text.push(')');
-    if summary.policies.iter().any(|policy| policy.knows_the_day) {
-        text.push_str("\n* knows the whole day beforehand: a reference, no policy");
-    }
+    text.push('\n');
+    text.push_str(SEES);
     text
 }
 
 fn row(policy: &PolicyShare, networks: usize) -> Vec<String> {
-    let mark = if policy.knows_the_day { REFERENCE_MARK } else { "" };
     let percent = |share: f64| grouped(100.0 * share, 2);
     let [above, minus, p] = match &policy.minus_first {
         None => [const { String::new() }; 3],
@@ -48,7 +45,8 @@ fn row(policy: &PolicyShare, networks: usize) -> Vec<String> {
         }
     };
     vec![
-        policy.name.clone() + mark,
+        policy.name.clone(),
+        policy.sees.to_string(),
         estimate(&policy.bound_share, percent),
         percent(policy.lowest_bound_share),
         above,

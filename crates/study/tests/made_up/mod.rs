@@ -75,6 +75,7 @@ pub(crate) fn study(days: usize) -> ComparisonRecords {
             .zip(0..)
             .map(|(&season, day)| record(outline, day, season, &mut noise))
             .collect(),
+        sees: vertifleet_study::Sees::Present,
         decision_ns: Some(outline.decision_ns),
     });
     let policies = policies.collect();
