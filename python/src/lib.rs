@@ -25,6 +25,7 @@ mod observation;
 mod optimize;
 mod pickle;
 mod played;
+mod policy;
 mod policy_source;
 mod scenario;
 mod threads;
@@ -55,6 +56,8 @@ mod _native {
     use crate::optimize::{Bound, Plan, bound, plan};
     #[pymodule_export]
     use crate::played::{Played, simulate};
+    #[pymodule_export]
+    use crate::policy::{Policy, find_policy};
     #[pymodule_export]
     use crate::scenario::Scenario;
     #[pymodule_export]

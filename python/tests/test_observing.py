@@ -251,3 +251,46 @@ def test_a_choice_outside_the_mask_holds_is_counted_and_warned_of() -> None:
     with pytest.warns(UserWarning, match="outside the mask"):
         played = vertifleet.simulate(network.draw(1), lambda shown: -1, network=network)
     assert played.summary["flights"] == 0
+
+
+@pytest.mark.parametrize(
+    "name", ["random", "greedy", "lookahead", "prices", "rolling", "gcaps", "mlp", "gcaps-x"]
+)
+def test_a_policy_that_is_asked_plays_as_the_program_does(name: str) -> None:
+    day = Network("paper").draw(5)
+    played = vertifleet.simulate(day, name)
+    policy = vertifleet.policy(name)
+    again = vertifleet.simulate(day, policy)
+    assert again.summary == played.summary
+    assert policy.sees in repr(policy)
+
+
+def test_what_policies_compare_choices_by() -> None:
+    env = FleetEnv()
+    env.reset(seed=4)
+    policies = {
+        name: vertifleet.policy(name) for name in ("greedy", "prices", "rolling", "mlp", "gcaps-x", "random")
+    }
+    agree = dict.fromkeys(policies, 0)
+    for _ in range(60):
+        view = env.view
+        for name, policy in policies.items():
+            values = policy.values(view)
+            assert values.shape == (8,)
+            assert np.isnan(values[view.action_mask == 0]).all(), name
+            choice = policy.choose(view.decision, view)
+            assert view.action_mask[choice] == 1
+            if not np.isnan(values).all():
+                agree[name] += int(np.nanargmax(values)) == choice
+        env.step(policies["prices"].choose(view.decision, view))
+    assert agree["greedy"] == agree["mlp"] == agree["gcaps-x"] == 60
+    assert agree["prices"] > 50
+    assert 20 < agree["rolling"] <= 60
+    assert agree["random"] == 0, "it has no values"
+
+
+def test_a_policy_that_is_none_is_refused() -> None:
+    for name, code in [("plan", "V451"), ("gredy", "V307"), ("replay:none.csv", "V102")]:
+        with pytest.raises(vertifleet.Error) as error:
+            vertifleet.policy(name)
+        assert error.value.code == code or name.startswith("replay")

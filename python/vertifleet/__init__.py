@@ -31,6 +31,7 @@ from vertifleet._native import (
     simulate,
 )
 from vertifleet._own_policy import FunctionPolicy, OwnPolicy
+from vertifleet._policy import Policy, policy
 from vertifleet._sweep import Sweep, sweep
 from vertifleet._train import train
 from vertifleet._view import Decision, Outcome, View
@@ -50,6 +51,7 @@ __all__ = [
     "OwnPolicy",
     "Plan",
     "Played",
+    "Policy",
     "Scenario",
     "Sweep",
     "Trace",
@@ -60,6 +62,7 @@ __all__ = [
     "check",
     "compare",
     "plan",
+    "policy",
     "settings",
     "simulate",
     "sweep",

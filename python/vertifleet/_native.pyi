@@ -26,6 +26,7 @@ __all__ = [
     "Network",
     "Plan",
     "Played",
+    "Policy",
     "Scenario",
     "Trace",
     "Training",
@@ -34,6 +35,7 @@ __all__ = [
     "check",
     "check_comparison",
     "compare",
+    "find_policy",
     "plan",
     "read_days",
     "settings",
@@ -299,6 +301,17 @@ class View:
     def fleet_places(self) -> list[int]: ...
     @property
     def fleet_types(self) -> list[int]: ...
+
+@final
+class Policy:
+    @property
+    def name(self) -> str: ...
+    @property
+    def sees(self) -> str: ...
+    def choose(self, view: View) -> int: ...
+    def values(self, view: View) -> _Float: ...
+
+def find_policy(name: str, network: str, seed: SupportsIndex, model: _Path | Model | None) -> Policy: ...
 
 @final
 class Environment:

@@ -47,7 +47,7 @@ class FunctionPolicy:
 
 
 def adapted(policy: Any, network: Network | None) -> tuple[Callable[[], Chooser], bool]:
-    """What makes the function from a view to an action when a day begins; and whether it sees the present only.
+    """What makes the function from a view to an action for a day, and whether it sees the present only.
 
     Raises:
         Error: V451 for what is no policy, and for a function of the paper's observation without a network.

@@ -54,6 +54,24 @@ impl Policy for Learned {
         Ok(self.infer(1).next().expect("one choice for one decision"))
     }
 
+    /// Logits.
+    fn values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        self.choose(decision, view)?;
+        values.fill(f64::NAN);
+        let feasible = view.feasible(decision);
+        for (at, &logit) in self.workspace.logits()[..values.len()].iter().enumerate() {
+            if feasible.contains(VertiportIx::new(at)) {
+                values[at] = f64::from(logit);
+            }
+        }
+        Ok(())
+    }
+
     fn choose_batch(
         &mut self,
         asked: &mut dyn Iterator<Item = (Decision, View<'_>)>,

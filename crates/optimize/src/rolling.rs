@@ -39,4 +39,22 @@ impl Policy for Rolling {
         let listed = self.shortlist.rank_with_repositioning(prices, *view, decision);
         Ok(self.evaluator.best_choice(prices, *view, decision, listed))
     }
+
+    /// Mean value of the roll-outs of each choice of the shortlist, dollars. The choice is the one that is worth most at
+    /// the prices, unless another is better beyond doubt.
+    fn values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        let prices = self.prices.at(*view, decision);
+        let listed = self.shortlist.rank_with_repositioning(prices, *view, decision);
+        values.fill(f64::NAN);
+        let found = self.evaluator.values_usd(prices, *view, decision, listed);
+        for (choice, &value_usd) in listed.iter().zip(found) {
+            values[choice.to.at()] = value_usd;
+        }
+        Ok(())
+    }
 }

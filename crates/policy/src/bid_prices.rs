@@ -18,4 +18,20 @@ impl Policy for BidPricePolicy {
         let prices = self.prices.at(*view, decision);
         Ok(prices.best_choice(*view, decision))
     }
+
+    /// Worth at the day's bid prices, dollars. The choice is another one where a simpler rule is expected to earn more
+    /// over the rest of the day.
+    fn values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        let prices = self.prices.at(*view, decision);
+        values.fill(f64::NAN);
+        for to in view.feasible(decision).iter() {
+            values[to.at()] = prices.choice_usd(*view, decision, to);
+        }
+        Ok(())
+    }
 }

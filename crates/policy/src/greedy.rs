@@ -14,19 +14,30 @@ impl Greedy {
     /// The feasible flight with the highest profit per hour, or a hold if no flight earns anything.
     #[inline]
     pub(crate) fn flight_or_hold(view: View<'_>, decision: &Decision) -> VertiportIx {
-        let kind = view.kind(decision.aircraft);
-        let period = view.period();
         let mut best = (decision.at, 0.0);
-        for to in view.feasible(decision).iter().filter(|&to| to != decision.at) {
-            let waiting = view.demand_left(period, decision.at, to);
-            let profit_usd =
-                view.flight_profit_usd(decision.time, kind, (decision.at, to), waiting);
-            let rate = profit_usd / f64::from(view.leg(kind, decision.at, to).block_s());
+        for (to, rate) in Self::rates(view, decision) {
             if rate > best.1 {
                 best = (to, rate);
             }
         }
         best.0
+    }
+
+    /// The feasible flights with their profit, dollars per second of block time.
+    #[inline]
+    fn rates<'a>(
+        view: View<'a>,
+        decision: &'a Decision,
+    ) -> impl Iterator<Item = (VertiportIx, f64)> + 'a {
+        let kind = view.kind(decision.aircraft);
+        let period = view.period();
+        let feasible = view.feasible(decision);
+        feasible.iter().filter(|&to| to != decision.at).map(move |to| {
+            let waiting = view.demand_left(period, decision.at, to);
+            let profit_usd =
+                view.flight_profit_usd(decision.time, kind, (decision.at, to), waiting);
+            (to, profit_usd / f64::from(view.leg(kind, decision.at, to).block_s()))
+        })
     }
 }
 
@@ -34,5 +45,20 @@ impl Policy for Greedy {
     #[inline]
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
         Ok(Self::flight_or_hold(*view, decision))
+    }
+
+    /// Profit per hour of block time, dollars; 0 for hold.
+    fn values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        values.fill(f64::NAN);
+        values[decision.at.at()] = 0.0;
+        for (to, rate) in Self::rates(*view, decision) {
+            values[to.at()] = 3_600.0 * rate;
+        }
+        Ok(())
     }
 }

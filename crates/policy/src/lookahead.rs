@@ -75,4 +75,20 @@ impl Policy for Lookahead {
         }
         Ok(best.0)
     }
+
+    /// Profit per hour of the best two flights in a row, dollars; 0 for hold.
+    fn values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        let kind = view.kind(decision.aircraft);
+        values.fill(f64::NAN);
+        values[decision.at.at()] = 0.0;
+        for to in view.feasible(decision).iter().filter(|&to| to != decision.at) {
+            values[to.at()] = 3_600.0 * best_rate(*view, kind, decision, to);
+        }
+        Ok(())
+    }
 }

@@ -17,6 +17,25 @@ pub trait Policy: Send {
     /// [`PolicyError`] if the policy has no answer, as for example when it replays another day's trace.
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError>;
 
+    /// Writes what the policy compares choices by, one number for each vertiport, the higher the better; NaN for a
+    /// choice that it does not consider. They are dollars, dollars an hour or logits, as each policy says. A policy
+    /// without such numbers, as by default, writes NaN for all.
+    ///
+    /// # Errors
+    /// The errors of [`choose`](Self::choose).
+    ///
+    /// # Panics
+    /// May panic unless there is a number for each vertiport.
+    fn values(
+        &mut self,
+        _decision: &Decision,
+        _view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        values.fill(f64::NAN);
+        Ok(())
+    }
+
     /// Chooses for many days at once, and pushes one choice for each decision. Learned policies answer a batch much
     /// faster than its parts; the other policies answer one by one.
     ///

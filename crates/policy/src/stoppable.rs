@@ -21,4 +21,13 @@ impl<P: Policy + ?Sized> Policy for Stoppable<'_, P> {
         }
         self.policy.choose(decision, view)
     }
+
+    fn values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        self.policy.values(decision, view, values)
+    }
 }

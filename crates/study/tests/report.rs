@@ -35,7 +35,12 @@ fn the_table_of_one_policy_on_one_day_leaves_undefined_numbers_out() {
 fn bounded(days: usize) -> ComparisonRecords {
     let mut study = made_up::study(days);
     let best = study.policies[4].clone();
-    let mut plan = PolicyRecord { name: "plan".to_owned(), decision_ns: None, sees: vertifleet_study::Sees::WholeDay, ..best };
+    let mut plan = PolicyRecord {
+        name: "plan".to_owned(),
+        decision_ns: None,
+        sees: vertifleet_study::Sees::WholeDay,
+        ..best
+    };
     for (day, number) in plan.days.iter_mut().zip(0_u32..) {
         day.totals.profit_usd += 1_000.0 + f64::from(number % 5);
     }

@@ -61,13 +61,7 @@ impl Policy for GcapsX {
         if let [only] = listed {
             return Ok(only.to);
         }
-        let vertiports = view.vertiports();
-        let scorer = match &mut self.scorer {
-            Some(scorer) if scorer.vertiports() == vertiports => scorer,
-            other => {
-                other.insert(Scorer::new(&self.architecture, Arc::clone(&self.weights), vertiports))
-            }
-        };
+        let scorer = sized(&mut self.scorer, &self.architecture, &self.weights, view.vertiports());
         let scene = Scene::of(*view, decision, prices);
         let Some((most_rolled_out, rollouts)) = &mut self.rollouts else {
             return Ok(scorer.best(scene, listed));
@@ -84,4 +78,36 @@ impl Policy for GcapsX {
         self.scored.truncate(*most_rolled_out);
         Ok(rollouts.best(scorer, prices, *view, decision, &self.scored))
     }
+
+    /// Worth of each choice of the shortlist by prices and network, dollars, before any roll-outs.
+    fn values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        let prices = self.prices.at(*view, decision);
+        let listed = self.shortlist.rank(prices, *view, decision);
+        let scorer = sized(&mut self.scorer, &self.architecture, &self.weights, view.vertiports());
+        let scene = Scene::of(*view, decision, prices);
+        scorer.score(scene, listed);
+        values.fill(f64::NAN);
+        for &choice in listed {
+            values[choice.to.at()] = scorer.worth_usd(0, scene.addition_usd(), choice);
+        }
+        Ok(())
+    }
+}
+
+/// The scorer for this number of vertiports.
+fn sized<'a>(
+    scorer: &'a mut Option<Scorer>,
+    architecture: &Architecture,
+    weights: &Arc<Weights>,
+    vertiports: usize,
+) -> &'a mut Scorer {
+    if scorer.as_ref().is_none_or(|scorer| scorer.vertiports() != vertiports) {
+        *scorer = Some(Scorer::new(architecture, Arc::clone(weights), vertiports));
+    }
+    scorer.as_mut().expect("there is one by now")
 }
