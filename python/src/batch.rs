@@ -116,18 +116,21 @@ impl Batch {
         ])
     }
 
-    /// Begins a day at each slot for which `which` is true: the day with the slot's number in `numbers`, or `scenario`
-    /// if it is given. Writes the observations of all slots, and returns the index of the set that they are
+    /// Begins a day at each slot for which `which` is true: the day with the slot's number in `numbers`, or its
+    /// scenario if these are given. Writes the observations of all slots, and returns the index of the set that they are
     /// in.
     fn reset(
         &mut self,
         py: Python<'_>,
         which: PyReadonlyArray1<'_, bool>,
         numbers: PyReadonlyArray1<'_, u64>,
-        scenario: Option<&Scenario>,
+        scenarios: Option<Vec<PyRef<'_, Scenario>>>,
     ) -> PyResult<usize> {
-        if let Some(scenario) = scenario {
-            self.world.check_fits(&scenario.scenario)?;
+        let scenarios: Option<Vec<Scenario>> =
+            scenarios.map(|days| days.iter().map(|day| (**day).clone()).collect());
+        if let Some(scenarios) = &scenarios {
+            self.one_each("option scenario", scenarios)?;
+            scenarios.iter().try_for_each(|day| self.world.check_fits(&day.scenario))?;
         }
         let which = self.one_each("which", which.as_slice()?)?;
         let numbers = self.one_each("numbers", numbers.as_slice()?)?;
@@ -142,10 +145,11 @@ impl Batch {
         let set = if which.contains(&false) { 2 } else { self.next() };
         self.on_all(py, set, |world, slot, mut row, at| {
             row.pay(0.0, false, false, which[at]);
-            match scenario {
+            match &scenarios {
                 _ if !which[at] => {}
-                Some(scenario) => {
-                    slot.day = Some(world.given(scenario).expect("the scenario has been checked"));
+                Some(scenarios) => {
+                    let day = world.given(&scenarios[at]);
+                    slot.day = Some(day.expect("the scenarios have been checked"));
                 }
                 None => slot.begin(world, numbers[at]),
             }

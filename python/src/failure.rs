@@ -51,7 +51,10 @@ fn class(py: Python<'_>) -> Result<&pyo3::Bound<'_, PyType>, PyErr> {
 
 impl<E: Coded> From<E> for Failure {
     fn from(error: E) -> Self {
-        let hint = error.hint().map(str::to_owned);
+        // The program's flags are arguments here.
+        let hint = error.hint().map(|hint| {
+            hint.replace("--model", "models= (or model=)").replace("by --resume", "by resume=True")
+        });
         Self { code: error.code(), message: error.to_string(), hint }
     }
 }

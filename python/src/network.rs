@@ -61,7 +61,7 @@ impl Network {
         let asked = members("changes", changes)?;
         let network = self.network.changed(asked.iter().map(|(path, value)| (path, value)));
         let source = format!("{}.changed({})", self.source, changes.repr()?);
-        Ok(Self::of(network.map_err(Failure::from)?, source))
+        Self::told(changes.py(), network.map_err(Failure::from)?, source)
     }
 
     /// The Python expression that made the network, for people to read. A report contains it in its command.

@@ -294,3 +294,43 @@ def test_a_policy_that_is_none_is_refused() -> None:
         with pytest.raises(vertifleet.Error) as error:
             vertifleet.policy(name)
         assert error.value.code == code or name.startswith("replay")
+
+
+def test_a_closed_environment_says_so() -> None:
+    env, batch = FleetEnv(), FleetVectorEnv(2)
+    env.reset(seed=1)
+    batch.reset(seed=1)
+    env.close()
+    batch.close()
+    for call in (lambda: env.step(0), env.reset, lambda: batch.step([0, 0]), batch.reset):
+        with pytest.raises(vertifleet.Error, match="closed"):
+            call()
+
+
+def test_a_spec_is_plain_data_and_makes_the_same_environment() -> None:
+    network = Network("paper").changed({"fleet.0.count": 30})
+    env = gymnasium.make("vertifleet/Fleet-full-v0", network=network)
+    assert env.spec is not None
+    spec = gymnasium.envs.registration.EnvSpec.from_json(env.spec.to_json())
+    again = gymnasium.make(spec)
+    one, other = env.reset(seed=3)[0], again.reset(seed=3)[0]
+    assert all(np.array_equal(one[name], other[name]) for name in one)
+
+
+def test_every_environment_of_a_batch_may_play_a_day_of_its_own() -> None:
+    days = [Network("paper").draw(seed) for seed in (4, 5, 6)]
+    batch = FleetVectorEnv(3)
+    _, info = batch.reset(options={"scenario": days})
+    assert info["day"].tolist() == [day.name for day in days]
+    with pytest.raises(vertifleet.Error, match="must have 3 entries"):
+        batch.reset(options={"scenario": days[:2]})
+
+
+def test_arguments_that_are_none_are_named_as_python_has_them() -> None:
+    with pytest.raises(vertifleet.Error, match="named by texts"):
+        vertifleet.compare("paper", ["greedy", greedy], days=1)  # type: ignore[list-item]
+    with pytest.raises(vertifleet.Error) as error:
+        vertifleet.simulate(Network("paper").draw(1), "gredy")
+    assert "--" not in str(error.value)
+    with pytest.warns(UserWarning, match="V136"):
+        Network("paper").changed({"fleet.0.count": 48})

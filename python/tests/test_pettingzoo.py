@@ -155,3 +155,12 @@ def test_masks_are_told_and_a_day_of_another_fleet_is_refused() -> None:
     with pytest.raises(vertifleet.Error, match="aircraft") as error:
         env.reset(options={"scenario": SMALL.draw(1)})
     assert error.value.code == "V451"
+
+
+def test_the_state_is_all_that_may_be_seen() -> None:
+    agents, single = pettingzoo.env("paper"), FleetEnv("paper", observation="full")
+    agents.reset(seed=3)
+    full, _ = single.reset(seed=3)
+    state = agents.state()
+    assert agents.unwrapped.state_space.contains(state)
+    assert np.array_equal(state, np.concatenate([array.ravel() for array in full.values()]))

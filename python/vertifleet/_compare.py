@@ -148,6 +148,10 @@ class ComparisonRequest:
                 f"policies must be a list of names, found {policies!r}",
                 f"{[name.strip() for name in policies.split(',')]}",
             )
+        policies = list(policies)
+        if unnamed := [policy for policy in policies if not isinstance(policy, str)]:
+            rule = f"policies are named by texts, found {unnamed[0]!r}"
+            raise Error("V451", rule, 'name it in both: policies=["mine"], models={"mine": ...}')
         seed_of_policies = None if policy_seed is None else index(policy_seed)
         names, given = tuple(name.strip() for name in policies), dict(models or {})
         return cls(function, names, days, given, bound, index(step), seed_of_policies)

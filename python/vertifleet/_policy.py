@@ -17,8 +17,8 @@ from vertifleet._view import Decision, View
 class Policy:
     """One of the program's policies.
 
-    Asked about the decisions of a day in their order, it plays as the program does. It has the form of a policy
-    of one's own, so it can be wrapped by one, or be the teacher of a learned policy.
+    Asked about the decisions of a day in their order, it plays as the program does. It has the form of a
+    policy of one's own, so it can be wrapped by one, or be the teacher of a learned policy.
     """
 
     def __init__(self, native: _native.Policy) -> None:

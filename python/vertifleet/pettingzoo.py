@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 from gymnasium import spaces
 from gymnasium.utils import seeding
+from numpy.typing import NDArray
 from pettingzoo import AECEnv
 from pettingzoo.utils import wrappers
 
@@ -50,6 +51,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
     _never_changes = (
         "network",
         "_observing",
+        "_state",
         "possible_agents",
         "_positions",
         "observation_spaces",
@@ -69,6 +71,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         self.network = network_of(network)
         self._days, _ = days_of(self.network, "training")
         self._observing = Observing("paper", self._days)
+        self._state = Observing("full", self._days)
         self.reward = name
         self.render_mode = render_mode
         # The native environment pays flight by flight, which shows which agent earned each dollar.
@@ -94,6 +97,23 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
     def action_space(self, agent: str) -> spaces.Space[Any]:
         """The positions of the vertiports; that of the agent's own vertiport means hold."""
         return self.action_spaces[agent]
+
+    @property
+    def state_space(self) -> spaces.Box:
+        """The space of `state`."""
+        return spaces.Box(-np.inf, np.inf, (self._state.layout.width,), np.float32)
+
+    def state(self) -> NDArray[np.float32]:
+        """All that may be seen of the day now: the parts of the observation "full", one after the other.
+
+        Raises:
+            Error: V451 before the first day.
+        """
+        view = self._environment.view
+        if view is None:
+            raise Error("V451", "no day is being played: call reset first")
+        row, _ = view.observe(self._state.layout)
+        return row
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
         """Begins the day that ``vertifleet/Fleet-v0`` has for this seed, or ``options["scenario"]``.

@@ -66,6 +66,11 @@ impl DemandModel {
         Matrix::from_fn(vertiports, |from, to| self.mean(period, from, to))
     }
 
+    /// Mean passengers of every pair in each period.
+    pub(crate) fn all_means(&self, vertiports: usize) -> Vec<Matrix<f64>> {
+        (0..self.periods.len()).map(|period| self.means(period, vertiports)).collect()
+    }
+
     /// Mean passengers of every pair in a period, averaged over the day's periods.
     pub(crate) fn day_means(&self, vertiports: usize) -> Matrix<f64> {
         let periods = self.periods.len();

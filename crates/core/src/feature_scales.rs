@@ -3,7 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Error, limits};
+use crate::scenario::Day;
+use crate::{AircraftType, Error, Matrix, limits};
 
 /// The size that each quantity typically has in a network; a feature is the quantity divided by it. All are above 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -26,6 +27,30 @@ pub struct FeatureScales {
 }
 
 impl FeatureScales {
+    /// Scales for a network whose file has none: the mean of each quantity. `mean_demand` is the mean demand of each
+    /// period.
+    pub(crate) fn typical(day: &Day, mean_demand: &[Matrix<f64>]) -> Self {
+        let pairs =
+            |matrix: &Matrix<f64>| mean(matrix.cells().iter().copied().filter(|&x| x > 0.0));
+        let types = &day.aircraft_types;
+        let distance_mi = pairs(&day.distance_mi);
+        let windows_h = f64::from(day.operations.takeoff_s + day.operations.landing_s) / 3_600.0;
+        let power_kw = |kind: &AircraftType| {
+            kind.energy_kwh_per_mi * distance_mi / (windows_h + distance_mi / kind.speed_mph)
+        };
+        let leaving =
+            |matrix: &Matrix<f64>| matrix.cells().iter().sum::<f64>() / day.vertiports.len() as f64;
+        Self {
+            stands: mean(day.vertiports.iter().map(|vertiport| f64::from(vertiport.stands))),
+            passengers: mean(mean_demand.iter().map(leaving)).max(1.0),
+            fare_usd: pairs(day.fare_usd.in_period(0)),
+            passenger_cost_usd: pairs(&day.passenger_cost_usd),
+            energy_price_usd: mean(day.energy_price_usd.iter().copied()),
+            battery_kwh: mean(types.iter().map(|kind| kind.battery_kwh)),
+            power_kw: mean(types.iter().map(power_kw)),
+        }
+    }
+
     /// Checks that every scale is above 0 and finite; `origin` names the file in messages.
     ///
     /// # Errors
@@ -45,6 +70,12 @@ impl FeatureScales {
         }
         Ok(self)
     }
+}
+
+/// The mean of some numbers, or 1 if it is not above 0.
+fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = numbers.fold((0.0, 0.0), |(sum, count), number| (sum + number, count + 1.0));
+    if sum > 0.0 { sum / count } else { 1.0 }
 }
 
 /// The scales as they are written, before the check.
@@ -95,6 +126,26 @@ impl TryFrom<RawFeatureScales> for FeatureScales {
 #[cfg(test)]
 mod tests {
     use crate::{FeatureScales, Network};
+
+    #[test]
+    fn a_file_without_scales_has_typical_ones() {
+        let paper = Network::shipped("paper").expect("shipped");
+        let (text, _) = paper.toml().split_once("[feature_scales]").expect("it has scales");
+        let found =
+            Network::from_toml(text, "paper").expect("scales are optional").feature_scales();
+        let given = paper.feature_scales();
+        for (found, given) in [
+            (found.stands, given.stands),
+            (found.passengers, given.passengers),
+            (found.fare_usd, given.fare_usd),
+            (found.passenger_cost_usd, given.passenger_cost_usd),
+            (found.energy_price_usd, given.energy_price_usd),
+            (found.battery_kwh, given.battery_kwh),
+            (found.power_kw, given.power_kw),
+        ] {
+            assert!((0.5..2.0).contains(&(found / given)), "{found} instead of about {given}");
+        }
+    }
 
     #[test]
     fn scales_read_back_as_written_and_only_if_above_zero() {

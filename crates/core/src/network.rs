@@ -154,8 +154,6 @@ impl Network {
 
     /// Mean passengers by period (of Eq. 1 on `paper`), around which the demand of days is drawn.
     pub fn mean_demand(&self) -> Vec<Matrix<f64>> {
-        let vertiports = self.vertiports().len();
-        let means = |period| self.demand.means(period, vertiports);
-        (0..self.demand.periods.len()).map(means).collect()
+        self.demand.all_means(self.vertiports().len())
     }
 }

@@ -8,7 +8,7 @@ use crate::demand_model::{
     DemandModel, RawDailyDemand, RawEquation1, RawHourlyDemand, RawUniformDemand,
 };
 use crate::disturbance_model::RawDisturbanceModel;
-use crate::feature_scales::RawFeatureScales;
+use crate::feature_scales::{FeatureScales, RawFeatureScales};
 use crate::limits::{self, entries};
 use crate::parse::shortened;
 use crate::raw::{Positions, RawAircraftType, RawOperations, each};
@@ -45,7 +45,7 @@ struct RawNetwork {
     closures: Vec<RawScheduledClosure>,
     #[serde(default)]
     disturbances: RawDisturbanceModel,
-    feature_scales: RawFeatureScales,
+    feature_scales: Option<RawFeatureScales>,
 }
 
 /// The positions of aircraft when a day starts.
@@ -139,6 +139,10 @@ impl RawNetwork {
             disturbances: Disturbances { closures, ..Disturbances::default() },
             vertiports,
         };
+        let feature_scales = match raw.feature_scales {
+            Some(scales) => scales.check(origin)?,
+            None => FeatureScales::typical(&idle_day, &demand.all_means(idle_day.vertiports.len())),
+        };
         Ok(Network {
             name: raw.name,
             toml: text.to_owned(),
@@ -146,7 +150,7 @@ impl RawNetwork {
             idle_day: idle_day.check(origin)?,
             demand,
             disturbances,
-            feature_scales: raw.feature_scales.check(origin)?,
+            feature_scales,
         })
     }
 }

@@ -28,6 +28,13 @@ pub enum Warning {
         /// The cause, or the likely one.
         cause: Cause,
     },
+
+    /// V136. The fleet fills every stand, and a flight needs a free one at its destination, so no aircraft ever flies.
+    /// Fix: more stands than aircraft, or fewer aircraft.
+    NoStandFree {
+        /// Number of aircraft, which is also that of the stands.
+        aircraft: usize,
+    },
 }
 
 /// The reason why a vertiport is out of reach.
@@ -55,6 +62,7 @@ impl Warning {
         match self {
             Self::NoDestination { .. } => Code(120),
             Self::OutOfReach { .. } => Code(135),
+            Self::NoStandFree { .. } => Code(136),
         }
     }
 }
@@ -69,6 +77,10 @@ impl fmt::Display for Warning {
             Self::OutOfReach { vertiport, cause } => {
                 write!(f, "no aircraft can fly to or from vertiport {vertiport:?}: {cause}")
             }
+            Self::NoStandFree { aircraft } => write!(
+                f,
+                "{aircraft} aircraft fill all {aircraft} stands: a flight needs a free one, so none ever flies"
+            ),
         }
     }
 }
@@ -91,7 +103,7 @@ impl fmt::Display for Cause {
 impl Network {
     /// The warnings of this network, in file order: those that hold on every day of it.
     pub fn warnings(&self) -> Vec<Warning> {
-        self.idle_day.out_of_reach()
+        self.idle_day.out_of_reach().into_iter().chain(self.idle_day.full()).collect()
     }
 }
 
@@ -107,7 +119,17 @@ impl Scenario {
             kind: self.aircraft_types[aircraft.kind.at()].id.clone(),
             at: self.vertiports[aircraft.at.at()].id.clone(),
         });
-        self.out_of_reach().into_iter().chain(stranded).collect()
+        self.out_of_reach().into_iter().chain(stranded).chain(self.full()).collect()
+    }
+
+    /// The warning that all stands are taken for good. Where chargers are counted apart, they are free when the day
+    /// begins.
+    fn full(&self) -> Option<Warning> {
+        let pools = self.vertiports.iter().all(|vertiport| vertiport.chargers.is_none());
+        let stands: usize = self.vertiports.iter().map(|one| usize::from(one.stands)).sum();
+        let aircraft = self.aircraft.len();
+        (pools && self.vertiports.len() > 1 && aircraft >= stands)
+            .then_some(Warning::NoStandFree { aircraft })
     }
 
     /// The vertiports that no aircraft can reach or leave. A network of a single vertiport has none.

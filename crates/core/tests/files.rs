@@ -107,6 +107,20 @@ fn an_aircraft_that_reaches_no_other_vertiport_is_warned_about() {
 }
 
 #[test]
+fn a_fleet_that_fills_every_stand_is_warned_about() {
+    let paper = Network::shipped("paper").expect("a shipped network");
+    let with_fleet = |count: usize| {
+        let text = paper.toml().replace("count = 40", &format!("count = {count}"));
+        let network = Network::from_toml(&text, "paper").expect("as many aircraft as stands");
+        let day = network.draw(DaySeed::comparison(1).expect("a seed"));
+        assert_eq!(network.warnings(), day.warnings());
+        network.warnings()
+    };
+    assert_eq!(with_fleet(47), []);
+    assert_eq!(with_fleet(48), [Warning::NoStandFree { aircraft: 48 }]);
+}
+
+#[test]
 fn costs_and_places_survive_and_are_not_written_where_there_are_none() {
     let mut day = small().into_day();
     day.flight_cost_usd.cells_mut()[1] = 12.5;

@@ -4,24 +4,12 @@ use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, AircraftType, ClosedTimes, Scenario, Time, TypeIx, VertiportIx};
 
-use crate::{Decision, Imagined, Leg, Simulation, VertiportSet};
+use crate::{Decision, Imagined, Leg, Simulation, Snapshot, VertiportSet};
 
 /// The state of the day at the moment of a decision. It is borrowed and costs nothing to make.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
     simulation: &'a Simulation,
-}
-
-/// A day at one moment. It can only be looked at, and shows what its [`View`] showed at that moment.
-#[derive(Debug, Clone)]
-pub struct Snapshot(Simulation);
-
-impl Snapshot {
-    /// The view of a policy at that moment.
-    #[inline]
-    pub fn view(&self) -> View<'_> {
-        View::of(&self.0)
-    }
 }
 
 /// Distinguishes a day from every other without revealing anything of it. Two keys are equal if they belong to the same
@@ -288,7 +276,7 @@ impl<'a> View<'a> {
 
     /// The day as it is now, to be looked at later.
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot(self.simulation.clone())
+        Snapshot::of(self.simulation)
     }
 
     /// A key that distinguishes this day from every other.

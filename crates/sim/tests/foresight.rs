@@ -28,14 +28,15 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     shown.push(format!("{:?}", view.known_closures()));
     for aircraft in AircraftIx::all(view.places().len()) {
         let kind = view.kind(aircraft);
-        let of_it = (view.aircraft_id(aircraft), view.ready_at(aircraft), view.aircraft_type(kind));
+        let times = (view.ready_at(aircraft), view.arrives_at(aircraft));
+        let of_it = (view.aircraft_id(aircraft), times, view.aircraft_type(kind));
         shown.push(format!("{of_it:?}"));
     }
     for from in VertiportIx::all(view.vertiports()) {
         shown.push(format!("{:?} {:?}", view.stands(from), (view.parked(from), view.closed(from))));
         shown.push(format!("{:?}", view.closed_unexpectedly(from)));
         shown.push(format!("{:?}", view.passenger_costs_usd(from)));
-        shown.push(format!("{:?}", view.flight_costs_usd(from)));
+        shown.push(format!("{:?} {:?}", view.flight_costs_usd(from), view.distances_mi(from)));
         for kind in TypeIx::all(view.aircraft_types().len()) {
             shown.push(format!(
                 "{:?} {:?}",
@@ -58,6 +59,8 @@ fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         shown.push(format!("{:?}", view.demand_left_in(period)));
     }
     shown.push(played_out(view));
+    // What is looked at later is what it was.
+    assert_eq!(played_out(view.snapshot().view()), shown[shown.len() - 1]);
     shown
 }
 

@@ -80,8 +80,8 @@ def seeds_of(seed: Any, days: int) -> list[int | None]:
     return [None if each is None else whole("seed", each) for each in seed]
 
 
-def options_of(options: Any, *taken: str) -> Mapping[str, Any]:
-    """The options of a reset, which may have "scenario" and the names in `taken`."""
+def options_of(options: Any, *taken: str, many: bool = False) -> Mapping[str, Any]:
+    """The options of a reset: "scenario", a list of them if `many`, and the names in `taken`."""
     taken = ("scenario", *taken)
     if options is None:
         return {}
@@ -91,7 +91,10 @@ def options_of(options: Any, *taken: str) -> Mapping[str, Any]:
         if name not in taken:
             raise Error("V451", f"a reset has no option {name!r}", f"it takes {', '.join(taken)}")
     scenario = options.get("scenario")
-    if not isinstance(scenario, Scenario | None):
+    listed = (
+        many and isinstance(scenario, (list, tuple)) and all(isinstance(day, Scenario) for day in scenario)
+    )
+    if not listed and not isinstance(scenario, Scenario | None):
         hint = "Scenario.read reads one, Network.draw draws one"
         raise Error("V451", f"option scenario must be a vertifleet.Scenario, found {scenario!r}", hint)
     return options
@@ -108,3 +111,11 @@ def mask_of(options: Mapping[str, Any], days: int) -> NDArray[np.bool_]:
     if not mask.any():
         raise Error("V451", "option reset_mask names no environment: one at least must be True")
     return np.array(mask, np.bool_, order="C")
+
+
+def scenarios_of(options: Mapping[str, Any], days: int) -> list[Scenario] | None:
+    """The scenario of each of many days, if the options have any."""
+    given = options.get("scenario")
+    if given is None:
+        return None
+    return [given] * days if isinstance(given, Scenario) else list(given)

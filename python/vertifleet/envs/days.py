@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
-from typing import Literal, TypeAlias
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal, TypeAlias
 
 from vertifleet._compare import network_of
 from vertifleet._native import Days, Network
 
-NetworkChoice: TypeAlias = str | os.PathLike[str] | Network
-"""A network, its name, or the path of its file."""
+NetworkChoice: TypeAlias = str | os.PathLike[str] | Network | Mapping[str, str]
+"""A network, its name, the path of its file, or ``{"toml": text}`` with the text of its file."""
 
 NetworksChoice: TypeAlias = NetworkChoice | Iterable[NetworkChoice]
 """A network, several of them, or the name of networks that are drawn anew for each day: "random", or
@@ -24,8 +24,19 @@ def days_of(networks: NetworksChoice, split: Split) -> tuple[Days, Network | Non
     """The days of the networks, and the network if there is only one."""
     if isinstance(networks, str) and Days.are_drawn(networks):
         return Days(networks, split), None
-    if isinstance(networks, (str, os.PathLike, Network)):
-        network = network_of(networks)
+    if isinstance(networks, (str, os.PathLike, Network, Mapping)):
+        network = _network(networks)
         return Days([network], split), network
-    listed = [network_of(network) for network in networks]
+    listed = [_network(network) for network in networks]
     return Days(listed, split), listed[0] if len(listed) == 1 else None
+
+
+def _network(given: NetworkChoice) -> Network:
+    return Network.from_toml(given["toml"]) if isinstance(given, Mapping) else network_of(given)
+
+
+def plain(networks: Any) -> Any:
+    """The same networks with plain data in place of each `Network`."""
+    if isinstance(networks, Network):
+        return {"toml": networks.toml}
+    return [plain(network) for network in networks] if isinstance(networks, (list, tuple)) else networks

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any
 
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
 from vertifleet._errors import Error
@@ -14,7 +16,7 @@ from vertifleet._native import Environment, Scenario
 from vertifleet._view import View
 from vertifleet.envs.arguments import Reward, action_of, number_of, options_of, reward_of
 from vertifleet.envs.copies import Copied
-from vertifleet.envs.days import NetworksChoice, Split, days_of
+from vertifleet.envs.days import NetworksChoice, Split, days_of, plain
 from vertifleet.envs.observing import Info, ObservationChoice, Observing
 
 
@@ -40,7 +42,8 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
     """
 
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - declared so by Gymnasium
-    _never_changes = ("network", "_observing", "observation_space", "action_space", "spec")
+    _spec: EnvSpec | None = None
+    _never_changes = ("network", "_observing", "observation_space", "action_space", "_spec")
 
     def __init__(
         self,
@@ -55,6 +58,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
         self.observation_space = self._observing.space
         self.action_space = spaces.Discrete(self._days.sizes[0])
         self.render_mode = render_mode
+        self._is_closed = False
         name, self._reward = reward_of(reward)
         self._environment = Environment(self._days, self._observing.layout, name)
 
@@ -69,6 +73,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
             Error: V451 for other options, or for a day that the observation has no room for; V118 for
                 a number that no day has.
         """
+        self._check_open()
         asked = options_of(options, "number")
         scenario: Scenario | None = asked.get("scenario")
         super().reset(seed=seed)
@@ -88,6 +93,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
         Raises:
             Error: V451 for an action that is not a whole number, and if no day is in progress.
         """
+        self._check_open()
         before = self.view if self._reward is not None else None
         (row, mask), reward, over, invalid = self._environment.step(action_of(action))
         if self._reward is not None:
@@ -101,6 +107,25 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
     def action_masks(self) -> NDArray[np.bool_]:
         """Which actions are feasible [N]."""
         return self._environment.mask()
+
+    def close(self) -> None:
+        """Ends the use of the environment: no day can be begun or played any more."""
+        self._is_closed = True
+
+    def _check_open(self) -> None:
+        if self._is_closed:
+            raise Error("V451", "the environment is closed", "make a new one")
+
+    @property
+    def spec(self) -> EnvSpec | None:
+        """How the environment was made, as plain data: a `Network` stands there as the text of its file."""
+        return self._spec
+
+    @spec.setter
+    def spec(self, spec: EnvSpec | None) -> None:
+        if spec is not None and "network" in spec.kwargs:
+            spec = dataclasses.replace(spec, kwargs={**spec.kwargs, "network": plain(spec.kwargs["network"])})
+        self._spec = spec
 
     def _shown(self, row: NDArray[np.float32]) -> Any:
         """The observation of the current decision."""

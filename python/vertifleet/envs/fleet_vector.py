@@ -15,7 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 from vertifleet._errors import Error
 from vertifleet._native import Batch, Scenario
 from vertifleet._view import View
-from vertifleet.envs.arguments import Reward, actions_of, mask_of, options_of, reward_of, seeds_of
+from vertifleet.envs.arguments import (
+    Reward,
+    actions_of,
+    mask_of,
+    options_of,
+    reward_of,
+    scenarios_of,
+    seeds_of,
+)
 from vertifleet.envs.days import NetworksChoice, Split, days_of
 from vertifleet.envs.observing import Info, ObservationChoice, Observing
 
@@ -77,18 +85,19 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         Args:
             seed: environment i gets seed + i, or the i-th of a list or array.
             options: "reset_mask" (array of bool [num_envs]) selects the environments to reset; "scenario" is
-                a day that they all play instead of a training day.
+                a day that they all play instead of drawn ones, or a list with a day for each environment.
 
         Raises:
             Error: V451 for a seed that is not a whole number, other options, a mask that is not valid or
                 selects no environment, or a day with another number of vertiports than the network.
         """
-        asked = options_of(options, "reset_mask")
-        scenario: Scenario | None = asked.get("scenario")
+        self._check_open()
+        asked = options_of(options, "reset_mask", many=True)
+        scenarios = scenarios_of(asked, self.num_envs)
         which = mask_of(asked, self.num_envs)
         self._seed(seeds_of(seed, self.num_envs), which)
-        self._latest = self._batch.reset(which, self._numbers, scenario)
-        if scenario is None:
+        self._latest = self._batch.reset(which, self._numbers, scenarios)
+        if scenarios is None:
             self._draw(which)
         info = self._info(np.zeros(self.num_envs, np.bool_), which)
         self._add_days(info, which)
@@ -102,6 +111,7 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         Raises:
             Error: V451 for actions of another type or shape, and if a day is not in progress.
         """
+        self._check_open()
         actions = actions_of(actions, self.num_envs)
         before = [self.view(at) for at in range(self.num_envs)] if self._reward else []
         self._latest, eventful = self._batch.step(actions, self._numbers)
@@ -133,6 +143,10 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         if native is None:
             raise Error("V451", f"environment {at} has no day: call reset first")
         return View(native)
+
+    def _check_open(self) -> None:
+        if self.closed:
+            raise Error("V451", "the environments are closed", "make new ones")
 
     def _own_rewards(self, before: list[View]) -> NDArray[np.float64]:
         """What the caller's function pays for each decision; a step that begins a day pays nothing."""
