@@ -193,7 +193,10 @@ def main() -> None:
     torch.manual_seed(args.seed)
     torch.set_num_threads(1)
     agent = Agent()
-    train(agent, args)
+    try:
+        train(agent, args)
+    except KeyboardInterrupt:
+        print("stopped: what was learned so far is saved and compared")
     torch.save(agent.state_dict(), args.out)
 
     def choose(observation: dict[str, np.ndarray]) -> int:

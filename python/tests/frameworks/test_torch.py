@@ -11,7 +11,7 @@ torch = pytest.importorskip("torch")
 
 from torch.nn.functional import layer_norm, relu  # noqa: E402
 
-from vertifleet.torch import Gcaps, GcapsX, Mlp, act, masked  # noqa: E402
+from vertifleet.torch import Gcaps, GcapsX, Mlp, act, load, masked, scores  # noqa: E402
 
 VERTIPORTS = 5
 SMALL = {
@@ -288,6 +288,12 @@ def test_what_is_no_whole_number_is_no_size(size):
 
 def shown(twin, *batch, vertiports=VERTIPORTS):
     """A made-up observation or a batch of them, with all actions feasible."""
+    if twin.kind == "gcaps-x":
+        return {
+            "priced_nodes": np.ones((*batch, vertiports, 24), np.float32),
+            "priced_aircraft": np.ones((*batch, 10), np.float32),
+            "priced_worth": np.zeros((*batch, vertiports), np.float32),
+        }
     sizes = {"nodes": vertiports * twin.node_features, "aircraft": twin.aircraft_features, "clock": 1}
     return {name: np.ones((*batch, size), np.float32) for name, size in sizes.items()} | {
         "action_mask": np.ones((*batch, vertiports), np.float32)
@@ -316,16 +322,44 @@ def test_nodes_of_another_number_of_vertiports_are_refused(kind):
 @pytest.mark.parametrize("batch", [(), (3,)])
 def test_an_observation_that_does_not_fit_is_refused(kind, batch):
     twin = SMALL[kind]()
-    other = Gcaps(VERTIPORTS + 1) if kind == "gcaps-x" else GcapsX()
     fits = shown(twin, *batch)
     wrong = {
-        "of another policy": (shown(other, *batch), "must be"),
-        "without nodes": ({name: fits[name] for name in fits if name != "nodes"}, "lacks nodes"),
-        "with a mask of others": (fits | {"action_mask": np.ones((*batch, 2))}, "action_mask must be"),
-        "with other aircraft": (fits | {"aircraft": np.ones((*batch, 3))}, "aircraft must be"),
-        "with more clocks": (fits | {"clock": np.ones((*batch, 2))}, "clock must be"),
+        "of another policy": (shown(Gcaps(VERTIPORTS) if kind == "gcaps-x" else GcapsX(), *batch), "lacks"),
     }
+    if kind == "gcaps-x":
+        wrong |= {
+            "with worths of others": (fits | {"priced_worth": np.ones((*batch, 2))}, "priced_worth must be"),
+            "with other aircraft": (fits | {"priced_aircraft": np.ones((*batch, 3))}, "aircraft must be"),
+        }
+    else:
+        wrong |= {
+            "of another network": (shown(Gcaps(VERTIPORTS + 1), *batch), "must be"),
+            "without nodes": ({name: fits[name] for name in fits if name != "nodes"}, "lacks nodes"),
+            "with a mask of others": (fits | {"action_mask": np.ones((*batch, 2))}, "action_mask must be"),
+            "with other aircraft": (fits | {"aircraft": np.ones((*batch, 3))}, "aircraft must be"),
+            "with more clocks": (fits | {"clock": np.ones((*batch, 2))}, "clock must be"),
+        }
     for what, (observation, rule) in wrong.items():
         with pytest.raises(vertifleet.Error, match=rule) as refused:
             act(twin, observation)
         assert refused.value.code == "V451", what
+
+
+@pytest.mark.parametrize("network", ["paper", "new-york", "random:11"])
+def test_the_twin_of_gcaps_x_chooses_as_the_program_does(network, tmp_path):
+    vertifleet.Model.shipped("gcaps-x").write(tmp_path / "x.safetensors")
+    twin = load(tmp_path / "x.safetensors")
+    env = vertifleet.envs.FleetEnv(network, observation="gcaps-x")
+    observation, _ = env.reset(seed=2)
+    policy = vertifleet.policy("gcaps-x")
+    choices = 0
+    for _ in range(150):
+        expected = policy.choose(env.view.decision, env.view)
+        assert act(twin, observation) == expected
+        choices += int((observation["priced_nodes"][:, 0] == 1).sum()) > 1
+        observation, *_ = env.step(expected)
+    assert choices > 20, "there was something to choose"
+    batch = {name: torch.as_tensor(array)[None] for name, array in observation.items()}
+    found = scores(twin, batch)
+    (-found[found > -torch.inf].log_softmax(0)[0]).backward()
+    assert any(parameter.grad is not None and parameter.grad.any() for parameter in twin.parameters())

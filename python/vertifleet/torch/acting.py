@@ -17,8 +17,11 @@ if TYPE_CHECKING:
 
     from vertifleet.torch.twin import Twin
 
+PRICED = "gcaps-x"
 READ = ("nodes", "aircraft", "clock", "action_mask")
-"""The entries of an observation that the networks read."""
+"""The entries of an observation that the networks of one size read."""
+READ_PRICED = ("priced_nodes", "priced_aircraft", "priced_worth")
+"""The entries that `GcapsX` reads."""
 
 
 def masked(logits: Tensor, mask: Tensor) -> Tensor:
@@ -26,37 +29,57 @@ def masked(logits: Tensor, mask: Tensor) -> Tensor:
     return logits.masked_fill(mask == 0, -torch.inf)
 
 
-def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np.int64]:
-    """The feasible vertiport with the highest logit, the first among equals.
+def scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
+    """What a network chooses by, [B, N]: minus infinity for what it does not choose. Its softmax is a policy.
+
+    For `GcapsX` this is the logit and the worth at the day's bid prices, of the choices of the shortlist; for
+    the others it is the masked logit. It has gradients, so it is also what to train by.
 
     Args:
         twin: the network.
-        observation: an observation; "nodes", "aircraft", "clock" and "action_mask" are read.
+        observation: a batch of observations: "gcaps-x" for `GcapsX`, "paper" for the others.
+    """
+    if twin.kind != PRICED:
+        logits, _ = twin(observation["nodes"], observation["aircraft"], observation["clock"])
+        _check("action_mask", observation["action_mask"], logits.shape)
+        return masked(logits, observation["action_mask"])
+    nodes = observation["priced_nodes"]
+    logits, _ = twin(nodes, observation["priced_aircraft"], nodes.new_zeros(len(nodes)))
+    _check("priced_worth", observation["priced_worth"], logits.shape)
+    return masked(logits + observation["priced_worth"], nodes[..., 0])
+
+
+def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np.int64]:
+    """The choice with the highest score, the first among equals.
+
+    Args:
+        twin: the network.
+        observation: an observation: "gcaps-x" for `GcapsX`, "paper" for the others.
 
     Returns:
         A vertiport for one observation, vertiports [B] for a batch of them.
 
     Raises:
-        Error: V451 if the observation lacks one of these, or has other shapes than the network reads.
+        Error: V451 if the observation lacks what the network reads, or has other shapes.
     """
-    missing = [name for name in READ if name not in observation]
+    read = READ_PRICED if twin.kind == PRICED else READ
+    missing = [name for name in read if name not in observation]
     if missing:
-        raise Error("V451", f"the observation lacks {', '.join(missing)}: {', '.join(READ)} are read")
+        raise Error("V451", f"the observation lacks {', '.join(missing)}: {', '.join(read)} are read")
     weight = next(twin.parameters())
-    one = np.ndim(observation["aircraft"]) == 1
+    one = np.ndim(observation[read[1]]) == 1
 
     def tensor(name: str) -> Tensor:
         entries = torch.as_tensor(observation[name], dtype=weight.dtype, device=weight.device)
         return entries.unsqueeze(0) if one else entries
 
-    nodes, aircraft, clock, mask = (tensor(name) for name in READ)
-    batch = len(nodes)
-    _check("aircraft", aircraft, [batch, twin.aircraft_features])
-    _check("clock", clock.reshape(-1), [batch])
+    tensors = {name: tensor(name) for name in read}
+    aircraft = tensors[read[1]]
+    _check(read[1], aircraft, [len(aircraft), twin.aircraft_features])
+    if "clock" in tensors:
+        _check("clock", tensors["clock"].reshape(-1), [len(aircraft)])
     with torch.inference_mode():
-        logits, _ = twin(nodes, aircraft, clock)
-        _check("action_mask", mask, logits.shape)
-        choices: NDArray[np.int64] = masked(logits, mask).argmax(dim=-1).cpu().numpy()
+        choices: NDArray[np.int64] = scores(twin, tensors).argmax(dim=-1).cpu().numpy()
     return int(choices[0]) if one else choices
 
 
