@@ -98,11 +98,22 @@ def players(days: int, authors: Path | None) -> dict[str, Player]:
     """By name; the native ones on the paper's network."""
     network = vertifleet.Network(NETWORK)
     drawn = [json.loads(network.draw(seed).to_json()) for seed in range(1, 65)]
-    batch = gymnasium.make_vec(
-        "vertifleet/Fleet-v0", num_envs=days, vectorization_mode="vector_entry_point", network=NETWORK
-    )
+
+    def batch(observation: str, *, copy: bool) -> Batch:
+        made = gymnasium.make_vec(
+            f"vertifleet/Fleet-{observation}-v0",
+            num_envs=days,
+            vectorization_mode="vector_entry_point",
+            network=NETWORK,
+            copy=copy,
+        )
+        return Batch(made)
+
     found: dict[str, Player] = {
-        f"native, {days} days at once": Batch(batch),
+        f"native, {days} days, paper": batch("paper", copy=False),
+        f"native, {days} days, paper, copied": batch("paper", copy=True),
+        f"native, {days} days, full": batch("full", copy=False),
+        f"native, {days} days, full, copied": batch("full", copy=True),
         "native, one day": Single(gymnasium.make("vertifleet/Fleet-v0", network=NETWORK)),
         PLAIN: Single(PlainPythonEnv(drawn)),
     }
@@ -145,10 +156,10 @@ def main() -> None:
             rates[name].append(rate(player, wanted.seconds))
 
     print(f"{wanted.rounds} rounds of {wanted.seconds:g} s each, {wanted.threads} threads for the batch")
-    print(f"{'':28}{'steps/s':>12}{'lowest':>12}{'highest':>12}{'x plain':>12}{'lowest':>12}{'highest':>12}")
+    print(f"{'':34}{'steps/s':>12}{'lowest':>12}{'highest':>12}{'x plain':>12}{'lowest':>12}{'highest':>12}")
     for name, found in rates.items():
         ratios = [ours / plain for ours, plain in zip(found, rates[PLAIN], strict=True)]
-        print(f"{name:28}{spread(found, '12,.0f')}{spread(ratios, '#12.3g')}")
+        print(f"{name:34}{spread(found, '12,.0f')}{spread(ratios, '#12.3g')}")
 
 
 if __name__ == "__main__":

@@ -487,3 +487,14 @@ runpy.run_path(sys.argv[0], run_name="__main__")
     assert done.returncode == 0, done.stderr
     assert vertifleet.Model.read(tmp_path / "mine.safetensors").header["steps"] == 160
     assert len(list((tmp_path / "mine.checkpoints").iterdir())) == 2
+
+
+def test_policies_take_one_thread_unless_told_otherwise(monkeypatch):
+    days = FleetVecEnv("paper", 2)
+    torch.set_num_threads(2)
+    monkeypatch.setenv("OMP_NUM_THREADS", "2")
+    MaskablePPO(MlpPolicy, days, n_steps=4, batch_size=4)
+    assert torch.get_num_threads() == 2
+    monkeypatch.delenv("OMP_NUM_THREADS")
+    MaskablePPO(MlpPolicy, days, n_steps=4, batch_size=4)
+    assert torch.get_num_threads() == 1
