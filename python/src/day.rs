@@ -11,6 +11,7 @@ use vertifleet_sim::{DayTotals, Decision, Simulation, TraceRow};
 use crate::days::Days;
 use crate::failure::Failure;
 use crate::layout::Layout;
+use crate::observation::{scene, show};
 use crate::scenario::Scenario;
 use crate::view::View;
 
@@ -213,13 +214,13 @@ impl Day {
 
     /// The current decision as it is seen: when the day is over, by the aircraft that decided last.
     pub(crate) fn scene(&self) -> Scene<'_> {
-        scene(&self.simulation, self.over, &self.decision)
+        scene(self.simulation.view(), self.over, &self.decision)
     }
 
     /// Writes the observation of the current decision into a row, and its mask.
     pub(crate) fn show(&mut self, layout: &observe::Layout, row: &mut [f32], mask: &mut [i8]) {
         let Self { simulation, observer, decision, over, .. } = self;
-        show(layout, &scene(simulation, *over, decision), observer, row, mask);
+        show(layout, &scene(simulation.view(), *over, decision), observer, row, mask);
     }
 
     /// Does the same for an aircraft as if it decided now, from where it stands or will land.
@@ -254,24 +255,5 @@ impl Clone for Day {
             decision: self.decision,
             over: self.over,
         }
-    }
-}
-
-fn scene<'a>(simulation: &'a Simulation, over: bool, decision: &'a Decision) -> Scene<'a> {
-    let view = simulation.view();
-    if over { Scene::over(view, decision) } else { Scene::of(view, decision) }
-}
-
-fn show(
-    layout: &observe::Layout,
-    scene: &Scene<'_>,
-    observer: &mut Observer,
-    row: &mut [f32],
-    mask: &mut [i8],
-) {
-    layout.write(row, scene, observer);
-    mask.fill(0);
-    for vertiport in scene.feasible().iter() {
-        mask[vertiport.at()] = 1;
     }
 }

@@ -38,16 +38,11 @@ impl Days {
     /// "comparison"; the days of one are never days of another.
     #[new]
     fn new(source: SourceArgument, split: &str) -> Result<Self, Failure> {
-        let purpose = match split {
-            "training" => Purpose::Training,
-            "validation" => Purpose::Validation,
-            "comparison" => Purpose::Comparison,
-            _ => {
-                return Err(Failure::argument(format!(
-                    "split must be \"training\", \"validation\" or \"comparison\", found {split:?}"
-                )));
-            }
-        };
+        let purpose = Purpose::named(split).ok_or_else(|| {
+            Failure::argument(format!(
+                "split must be \"training\", \"validation\" or \"comparison\", found {split:?}"
+            ))
+        })?;
         let source = match source {
             SourceArgument::Networks(networks) if networks.is_empty() => {
                 return Err(Failure::argument("a list of networks must not be empty".to_owned()));
@@ -98,12 +93,7 @@ impl Days {
                 format!("{RANDOM_PLACES}{vertiports}").into_pyobject(py)?.into_any().unbind()
             }
         };
-        let split = match self.purpose {
-            Purpose::Training => "training",
-            Purpose::Validation => "validation",
-            Purpose::Comparison => "comparison",
-        };
-        Ok((py.get_type::<Self>().into_any(), (source, split)))
+        Ok((py.get_type::<Self>().into_any(), (source, self.purpose.name())))
     }
 }
 

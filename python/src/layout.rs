@@ -1,10 +1,10 @@
 //! `Layout`: the parts of an observation and their places in its row of numbers.
 
 use pyo3::prelude::*;
+use pyo3::types::PyType;
 use vertifleet_observe::{self as observe, Part, Sizes};
 
 use crate::failure::Failure;
-use crate::pickle::{Reduced, reduced};
 
 /// Numbers of vertiports, aircraft, types of aircraft and demand periods.
 pub(crate) type SizesTuple = (usize, usize, usize, usize);
@@ -62,16 +62,14 @@ impl Layout {
         !self.layout.parts().iter().any(|placed| placed.part.is_ahead())
     }
 
-    /// Restores a pickled layout.
-    #[staticmethod]
-    fn of(parts: Vec<String>, sizes: SizesTuple) -> Result<Self, Failure> {
-        Self::new(parts, sizes)
-    }
-
-    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py, (Vec<&'static str>, SizesTuple)> {
+    /// Pickles the layout as a call of its class.
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> (Bound<'py, PyType>, (Vec<&'static str>, SizesTuple)) {
         let parts = self.layout.parts().iter().map(|placed| placed.part.info().name).collect();
         let Sizes { vertiports, aircraft, types, periods } = self.layout.sizes();
-        reduced::<Self, _>(py, "of", (parts, (vertiports, aircraft, types, periods)))
+        (py.get_type::<Self>(), (parts, (vertiports, aircraft, types, periods)))
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
-use vertifleet_core::{self as core, DaySeed};
+use vertifleet_core::{self as core, DaySeed, Purpose};
 
 use crate::failure::{Failure, warn};
 use crate::frames::{members, plain, table};
@@ -119,16 +119,12 @@ impl Network {
     #[pyo3(signature = (seed, purpose = "comparison"))]
     fn draw(&self, seed: WholeNumber, purpose: &str) -> Result<Scenario, Failure> {
         let seed = seed.of("seed")?;
-        let seed = match purpose {
-            "comparison" => DaySeed::comparison(seed)?,
-            "validation" => DaySeed::validation(seed)?,
-            "training" => DaySeed::training_number(seed)?,
-            _ => {
-                return Err(Failure::argument(format!(
-                    "purpose must be \"comparison\", \"validation\" or \"training\", found {purpose:?}"
-                )));
-            }
-        };
+        let purpose = Purpose::named(purpose).ok_or_else(|| {
+            Failure::argument(format!(
+                "purpose must be \"comparison\", \"validation\" or \"training\", found {purpose:?}"
+            ))
+        })?;
+        let seed = DaySeed::of_purpose(purpose, seed)?;
         Ok(Scenario::of(self.network.draw(seed)))
     }
 

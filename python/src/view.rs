@@ -11,7 +11,7 @@ use vertifleet_sim::{Decision, Snapshot};
 
 use crate::frames::read_only;
 use crate::layout::Layout;
-use crate::observation::{Shown, shown};
+use crate::observation::{Shown, scene, show, shown};
 
 /// A decision, and the day at that moment as a policy may look at it.
 #[pyclass(frozen, module = "vertifleet._native")]
@@ -44,10 +44,7 @@ impl View {
         let (layout, scene) = (&layout.layout, self.scene());
         shown(py, layout.width(), layout.sizes().vertiports, |row, mask| {
             let mut observer = self.observer.lock().unwrap_or_else(PoisonError::into_inner);
-            layout.write(row, &scene, &mut observer);
-            for vertiport in scene.feasible().iter() {
-                mask[vertiport.at()] = 1;
-            }
+            show(layout, &scene, &mut observer, row, mask);
         })
     }
 
@@ -144,7 +141,6 @@ impl View {
 
     /// The decision with what is seen of the day.
     pub(crate) fn scene(&self) -> Scene<'_> {
-        let view = self.snapshot.view();
-        if self.over { Scene::over(view, &self.decision) } else { Scene::of(view, &self.decision) }
+        scene(self.snapshot.view(), self.over, &self.decision)
     }
 }

@@ -50,7 +50,8 @@ def adapted(policy: Any, network: Network | None) -> tuple[Callable[[], Chooser]
     """What makes the function from a view to an action for a day, and whether it sees the present only.
 
     Raises:
-        Error: V451 for what is no policy, and for a function of the paper's observation without a network.
+        Error: V451 for a function without a network.
+        TypeError: for what is no policy.
     """
     if hasattr(policy, "choose"):
         return lambda: _chooser(policy() if isinstance(policy, type) else policy), False

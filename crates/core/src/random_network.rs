@@ -31,7 +31,7 @@ fn text(purpose: Purpose, number: u64) -> String {
         "format = \"vertifleet-network/1\"\nname = \"random-{kind}-{number}\"\nstart_positions = \"random\"\n\n\
          [operations]\nstart = \"06:00:00\"\nend = \"{end:02}:00:00\"\n\
          takeoff_s = {takeoff_s}\nlanding_s = {landing_s}\nhold_s = {hold_s}\n",
-        kind = word(purpose),
+        kind = purpose.name(),
         end = 6 + hours,
         takeoff_s = random.random_range(180..=900_u32),
         landing_s = random.random_range(180..=900_u32),
@@ -131,14 +131,6 @@ pub(crate) fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
         Purpose::Training => 2,
     });
     random
-}
-
-pub(crate) fn word(purpose: Purpose) -> &'static str {
-    match purpose {
-        Purpose::Comparison => "comparison",
-        Purpose::Validation => "validation",
-        Purpose::Training => "training",
-    }
 }
 
 #[cfg(test)]

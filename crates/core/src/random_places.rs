@@ -4,7 +4,7 @@
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
-use crate::random_network::{generator, word};
+use crate::random_network::generator;
 use crate::{Error, Network, Purpose};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -38,7 +38,7 @@ pub fn random_places(purpose: Purpose, vertiports: usize, number: u64) -> Result
     let paper = Network::shipped("paper").expect("the paper's network is shipped");
     let (before, rest) = paper.toml().split_once("[[vertiports]]").expect("it has vertiports");
     let (_, after) = rest.split_once("[[aircraft_types]]").expect("it has aircraft");
-    let name = format!("places-{vertiports}-{}-{number}", word(purpose));
+    let name = format!("places-{vertiports}-{}-{number}", purpose.name());
     let mut text = before.replace("name = \"paper\"", &format!("name = \"{name}\""));
     let busy = (3 * vertiports).div_ceil(8);
     for (at, (x_mi, y_mi)) in places(&mut generator(purpose, number), vertiports).iter().enumerate()

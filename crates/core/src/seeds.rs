@@ -35,6 +35,20 @@ impl Purpose {
     /// All purposes.
     pub const ALL: [Self; 3] = [Self::Comparison, Self::Validation, Self::Training];
 
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Comparison => "comparison",
+            Self::Validation => "validation",
+            Self::Training => "training",
+        }
+    }
+
+    /// The purpose with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|purpose| purpose.name() == name)
+    }
+
     /// The seeds of this purpose, which no other purpose has.
     pub const fn seeds(self) -> Range<u64> {
         match self {
