@@ -15,6 +15,7 @@ mod comparison;
 mod day;
 mod days;
 mod environment;
+mod evaluation;
 mod failure;
 mod frames;
 mod interruptible;
@@ -46,6 +47,8 @@ mod _native {
     use crate::days::Days;
     #[pymodule_export]
     use crate::environment::Environment;
+    #[pymodule_export]
+    use crate::evaluation::{Evaluation, evaluate, find_suite, suite_names, verify};
     #[pymodule_export]
     use crate::layout::Layout;
     #[pymodule_export]

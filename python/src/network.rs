@@ -171,7 +171,7 @@ impl Network {
         Ok(Self::of(network, source))
     }
 
-    fn of(network: core::Network, source: String) -> Self {
+    pub(crate) fn of(network: core::Network, source: String) -> Self {
         Self { network: Arc::new(network), source }
     }
 

@@ -11,6 +11,7 @@ use vertifleet_policy::{Policy, PolicyError};
 use vertifleet_sim::{DayKey, Decision, View};
 use vertifleet_study::{PolicyFactory, PolicySource, Sees};
 
+use crate::days::Days;
 use crate::model::Model;
 use crate::network::Network;
 use crate::whole_number::WholeNumber;
@@ -91,14 +92,15 @@ pub(crate) fn of_own(
     calls: &OwnCalls,
 ) -> PyResult<PolicyFactory> {
     let adapt = value.py().import("vertifleet._own_policy")?.getattr("adapted")?;
-    let (make, shows_present_only): (Py<PyAny>, bool) =
+    let (make, shows_present_only, days): (Py<PyAny>, bool, Option<PyRef<'_, Days>>) =
         adapt.call1((value, network.cloned()))?.extract()?;
     let sees = if shows_present_only { Sees::Present } else { Sees::Forecast };
     let (make, calls) = (Arc::new(make), calls.clone());
     let name = name.to_owned();
-    let observer = match network {
-        Some(network) => Observer::of(&network.network),
-        None => Observer::default(),
+    let observer = match (days, network) {
+        (Some(days), _) => days.observer(),
+        (None, Some(network)) => Observer::of(&network.network),
+        (None, None) => Observer::default(),
     };
     let make_policy = move || -> Box<dyn Policy> {
         Box::new(OwnPolicy {

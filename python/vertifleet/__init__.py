@@ -1,7 +1,7 @@
 """Fleets of electric air taxis: where every aircraft flies next, so that the day earns the most.
 
 The Rust program does all the work here, by the same rules. `Network` draws days, `simulate` plays one day,
-`compare` plays many days with many policies, `sweep` compares on variations of a network, `bound` proves how
+`compare` plays many days with many policies, `evaluate` plays a frozen suite, `sweep` compares on variations of a network, `bound` proves how
 much a day can earn at most, `plan` searches for the best schedule, `check` checks a schedule against the
 rules, and `train` trains the learned policies. Importing the package registers the Gymnasium environment
 ``vertifleet/Fleet-v0``. `vertifleet.torch` has the learned policies as PyTorch modules; `vertifleet.sb3` and
@@ -14,9 +14,11 @@ from importlib.metadata import version
 
 from vertifleet._compare import compare
 from vertifleet._errors import Error
+from vertifleet._evaluate import SUITES, Suite, Verification, evaluate, suite, verify
 from vertifleet._native import (
     Bound,
     Comparison,
+    Evaluation,
     Model,
     Network,
     Plan,
@@ -39,10 +41,12 @@ from vertifleet.envs import OwnObservation
 from vertifleet.envs import register as _register
 
 __all__ = [
+    "SUITES",
     "Bound",
     "Comparison",
     "Decision",
     "Error",
+    "Evaluation",
     "FunctionPolicy",
     "Model",
     "Network",
@@ -53,20 +57,25 @@ __all__ = [
     "Played",
     "Policy",
     "Scenario",
+    "Suite",
     "Sweep",
     "Trace",
     "Training",
+    "Verification",
     "View",
     "__version__",
     "bound",
     "check",
     "compare",
+    "evaluate",
     "plan",
     "policy",
     "settings",
     "simulate",
+    "suite",
     "sweep",
     "train",
+    "verify",
 ]
 
 __version__ = version("vertifleet")

@@ -21,6 +21,7 @@ __all__ = [
     "Comparison",
     "Days",
     "Environment",
+    "Evaluation",
     "Layout",
     "Model",
     "Network",
@@ -35,12 +36,16 @@ __all__ = [
     "check",
     "check_comparison",
     "compare",
+    "evaluate",
     "find_policy",
+    "find_suite",
     "plan",
     "read_days",
     "settings",
     "simulate",
+    "suite_names",
     "train",
+    "verify",
 ]
 
 @final
@@ -245,6 +250,33 @@ class Comparison:
     @staticmethod
     def from_json(text: str, warnings: Sequence[str] = ...) -> Comparison: ...
 
+@final
+class Evaluation:
+    @property
+    def bound_share(self) -> dict[str, dict[str, float]]: ...
+    @property
+    def summary(self) -> dict[str, Any]: ...
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]: ...
+    def to_pandas(self) -> pd.DataFrame: ...
+    def to_polars(self) -> pl.DataFrame: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    def save(
+        self, folder: _Path, *, about: Mapping[str, str] = ..., force: bool = False
+    ) -> list[Path]: ...
+
+def evaluate(
+    suite: Sequence[str],
+    policies: Sequence[str],
+    models: Mapping[str, PolicySource],
+    *,
+    threads: SupportsIndex | None,
+    command: str,
+) -> Evaluation: ...
+def verify(path: _Path) -> dict[str, Any]: ...
+def suite_names() -> list[str]: ...
+def find_suite(name: str) -> tuple[str, str | None, list[Scenario], list[float], int]: ...
 @final
 class Days:
     def __new__(cls, source: str | Sequence[Network], split: str) -> Days: ...

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol, SupportsIndex, TypeAlias, runti
 from vertifleet._errors import Error
 from vertifleet._native import Days
 from vertifleet._view import Decision, View
+from vertifleet.envs.days import NetworksChoice, days_of
 from vertifleet.envs.observing import ObservationChoice, Observing
 
 if TYPE_CHECKING:
@@ -44,17 +45,21 @@ class FunctionPolicy:
 
     function: PolicyFunction
     observation: ObservationChoice = "paper"
+    network: NetworksChoice | None = None
+    """What the environment drew its days from, where it was not the network of the days to be played. On
+    networks of different sizes a function needs it, for the shapes of its arrays: ``network="random"``."""
 
 
-def adapted(policy: Any, network: Network | None) -> tuple[Callable[[], Chooser], bool]:
-    """What makes the function from a view to an action for a day, and whether it sees the present only.
+def adapted(policy: Any, network: Network | None) -> tuple[Callable[[], Chooser], bool, Days | None]:
+    """What makes the function from a view to an action for a day, whether it sees the present only, and the days
+    as days of which it sees them.
 
     Raises:
         Error: V451 for a function without a network.
         TypeError: for what is no policy.
     """
     if hasattr(policy, "choose"):
-        return lambda: _chooser(policy() if isinstance(policy, type) else policy), False
+        return lambda: _chooser(policy() if isinstance(policy, type) else policy), False, None
     if callable(policy):
         policy = FunctionPolicy(policy)
     if not isinstance(policy, FunctionPolicy):
@@ -78,10 +83,15 @@ def _chooser(policy: OwnPolicy) -> Chooser:
     return choose
 
 
-def _of_function(policy: FunctionPolicy, network: Network | None) -> tuple[Callable[[], Chooser], bool]:
-    if network is None:
-        raise Error("V451", "a function takes a network, as which it sees the days")
-    observing = Observing(policy.observation, Days([network], "comparison"))
+def _of_function(
+    policy: FunctionPolicy, network: Network | None
+) -> tuple[Callable[[], Chooser], bool, Days]:
+    networks = policy.network if network is None or policy.network is not None else network
+    if networks is None:
+        rule = "a function takes a network, as which it sees the days"
+        raise Error("V451", rule, 'say what its environment had: FunctionPolicy(f, "full", network="random")')
+    days, _ = days_of(networks, "comparison")
+    observing = Observing(policy.observation, days)
 
     def choose(native: _native.View) -> int:
         if observing.own is not None:
@@ -89,4 +99,4 @@ def _of_function(policy: FunctionPolicy, network: Network | None) -> tuple[Calla
         row, _ = native.observe(observing.layout)
         return index(policy.function(observing.of_row(row)))
 
-    return lambda: choose, observing.own is None and observing.layout.shows_present_only
+    return lambda: choose, observing.own is None and observing.layout.shows_present_only, days

@@ -41,11 +41,13 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Play a day of each of many random networks and report shares of the bound
     Generalise(GeneraliseArguments),
+    /// Play a frozen suite of days, measure shares of its certified bounds, and verify results
+    Evaluate(EvaluateArguments),
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct ScenarioArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, as-coded), or random:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
     pub(crate) network: String,
     /// Seed of the first day; the following days take the following seeds
     #[arg(long, allow_hyphen_values = true, value_parser = parse_seed)]
@@ -158,7 +160,7 @@ impl Trainable {
 
 #[derive(Debug, Args)]
 pub(crate) struct TrainArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, as-coded), or random:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
     #[arg(long)]
     pub(crate) network: String,
     /// Kind of policy
@@ -189,7 +191,7 @@ pub(crate) struct TrainArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, as-coded), or random:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
     #[arg(long, required_unless_present = "days_from")]
     pub(crate) network: Option<String>,
     /// Days of your own in place of drawn ones: scenario files, or a folder with them (all *.json, in the order of their names)
@@ -234,6 +236,34 @@ pub(crate) struct GeneraliseArguments {
     pub(crate) step: u32,
     #[command(flatten)]
     pub(crate) presented: PresentedArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct EvaluateArguments {
+    /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, random-50, random-places-100, large; or all
+    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "paper-100", value_parser = parse_name)]
+    pub(crate) suite: Vec<String>,
+    /// Policies, separated by commas, as compare takes them; the others are measured against the first
+    #[arg(long, value_delimiter = ',', required_unless_present = "verify", value_parser = parse_name)]
+    pub(crate) policies: Vec<String>,
+    /// Weights for a policy name; may be given several times
+    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
+    pub(crate) models: Vec<(String, PolicySource)>,
+    /// Write a result file for each suite and policy into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) results: Option<PathBuf>,
+    /// What to say about the policies in the result files, as training=NONE; may be given several times
+    #[arg(long, value_name = "NAME=TEXT", requires = "results", value_parser = parse_pair)]
+    pub(crate) about: Vec<(String, String)>,
+    /// Verify result files: play their choices, and compute everything that they claim again
+    #[arg(long, value_name = "RESULT", num_args = 1.., conflicts_with_all = ["suite", "policies", "models", "results", "about", "force"])]
+    pub(crate) verify: Vec<PathBuf>,
+    /// Print the results as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// How a study is shown.

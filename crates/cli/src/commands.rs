@@ -3,6 +3,7 @@
 pub(crate) mod bound;
 pub(crate) mod check;
 pub(crate) mod compare;
+pub(crate) mod evaluate;
 pub(crate) mod generalise;
 pub(crate) mod plan;
 pub(crate) mod scenario;

@@ -363,7 +363,7 @@ pub enum Error {
     /// V119. A name is neither a shipped network, nor a random one, nor a file. Fix: give one of the names that the
     /// message lists, `random:` and a number, or the path of a network file.
     #[error(
-        "there is no network {name:?}: shipped are {shipped}, random:NUMBER draws one, and no file has that path"
+        "there is no network {name:?}: shipped are {shipped}, random:NUMBER and random-places:SIZE:NUMBER draw one, and no file has that path"
     )]
     UnknownNetwork {
         /// The name that was asked for.

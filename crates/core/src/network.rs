@@ -6,16 +6,19 @@ use crate::demand_model::DemandModel;
 use crate::disturbance_model::DisturbanceModel;
 use crate::{
     AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Vertiport, files,
-    nearest, network_file, parse, random_network,
+    nearest, network_file, parse, random_network, random_places,
 };
 
 /// The prefix of the number of a random network.
 const RANDOM: &str = "random:";
+/// The prefix of the size and the number of a network at random places.
+const RANDOM_PLACES: &str = "random-places:";
 /// The networks that are compiled into the program, by name.
 const SHIPPED: &[(&str, &str)] = &[
     ("paper", include_str!("../../../networks/paper.toml")),
     ("disrupted", include_str!("../../../networks/disrupted.toml")),
     ("new-york", include_str!("../../../networks/new-york.toml")),
+    ("large", include_str!("../../../networks/large.toml")),
     ("as-coded", include_str!("../../../networks/as-coded.toml")),
 ];
 
@@ -74,8 +77,9 @@ impl Network {
         SHIPPED.iter().map(|(name, _)| *name)
     }
 
-    /// Finds the shipped network of this name, the random comparison network of this number (`random:7`), or else reads
-    /// the network file at this path.
+    /// Finds the shipped network of this name, the random comparison network of this number (`random:7`), the one of
+    /// this number with so many vertiports at random places (`random-places:8:7`), or else reads the network file at
+    /// this path.
     ///
     /// # Errors
     /// [`Error::UnknownNetwork`] if it is none of these, and the errors of [`Network::read`].
@@ -86,6 +90,12 @@ impl Network {
         let number = name_or_path.strip_prefix(RANDOM).and_then(|number| number.parse().ok());
         if let Some(number) = number {
             return Ok(random_network(Purpose::Comparison, number));
+        }
+        let places = name_or_path.strip_prefix(RANDOM_PLACES).and_then(|rest| rest.split_once(':'));
+        if let Some((Ok(vertiports), Ok(number))) =
+            places.map(|(vertiports, number)| (vertiports.parse(), number.parse()))
+        {
+            return random_places(Purpose::Comparison, vertiports, number);
         }
         let path = Path::new(name_or_path);
         let looks_like_a_path = path.components().count() > 1 || path.extension().is_some();
@@ -103,6 +113,12 @@ impl Network {
     /// The name by which [`find`](Self::find) finds the random comparison network of this number.
     pub fn random_name(number: u64) -> String {
         format!("{RANDOM}{number}")
+    }
+
+    /// The name by which [`find`](Self::find) finds the comparison network of this number with so many vertiports at
+    /// random places.
+    pub fn random_places_name(vertiports: usize, number: u64) -> String {
+        format!("{RANDOM_PLACES}{vertiports}:{number}")
     }
 
     /// The network's name. The days drawn from it are called `{name}-{seed}`.

@@ -96,7 +96,7 @@ fn write_demand(
     random: &mut ChaCha8Rng,
 ) {
     let capacity = 0.8 * fleet as f64 * f64::from(seats);
-    let abundance = 0.5 * 20.0_f64.powf(random.random_range(0.0..1.0));
+    let abundance = 0.5 * libm::pow(20.0, random.random_range(0.0..1.0));
     // The mean is at least enough for a flight to pay. Otherwise few aircraft among many vertiports would find single
     // passengers scattered over many pairs.
     let mean =

@@ -20,7 +20,7 @@ use crate::origin::NetworkOrigin;
 use crate::own_days::OwnDays;
 use crate::record::ComparisonRecords;
 use crate::report::{File, Records, pictures};
-use crate::study::{Study, Watch};
+use crate::study::{Bounds, Study, Watch};
 
 pub use summary::{
     BoundSummary, ComparisonReport, FORMAT, PairedDifference, PolicySummary, TrainingSummary,
@@ -117,7 +117,10 @@ impl Comparison {
             seed: first_seed,
             days_from,
             days: study.scenarios.len(),
-            bound_step_s: study.bound_step.map(Step::seconds),
+            bound_step_s: match study.bounds {
+                Bounds::Prove(slices) => Some(slices.seconds()),
+                Bounds::None | Bounds::Known(_) => None,
+            },
             command,
             policies,
         })

@@ -54,6 +54,9 @@ impl Planner {
     }
 }
 
+/// A name, and the competitor that it stands for.
+pub(crate) type Named = (String, Result<Competitor, Error>);
+
 /// The competitors of a study as the user names them.
 pub struct Selection<'a> {
     /// The names, in the order of the results.
@@ -71,13 +74,22 @@ impl Selection<'_> {
     /// Returns an error if there is no such policy, if weights cannot be read, if names and weights do not go
     /// together, or if two competitors have the same name.
     pub fn resolve(&self, network: &str) -> Result<Vec<Competitor>, Error> {
+        self.resolve_each(network)?.into_iter().map(|(_, competitor)| competitor).collect()
+    }
+
+    /// Like [`resolve`](Self::resolve), with a result of its own for each name.
+    ///
+    /// # Errors
+    /// Returns an error if names and weights do not go together, or if two competitors have the same name.
+    pub(crate) fn resolve_each(&self, network: &str) -> Result<Vec<Named>, Error> {
         let parse = |name: &String| PolicySpec::parse(name);
         let specs: Vec<PolicySpec> = self.policies.iter().map(parse).collect::<Result<_, _>>()?;
         self.check_models(&specs)?;
         if let Some(name) = first_repeated(self.policies.iter()) {
             return Err(Error::DuplicatePolicy { name: name.clone() });
         }
-        specs.iter().map(|spec| self.competitor(spec, network)).collect()
+        let named = |spec: &PolicySpec| (spec.name().to_owned(), self.competitor(spec, network));
+        Ok(specs.iter().map(named).collect())
     }
 
     fn check_models(&self, specs: &[PolicySpec]) -> Result<(), Error> {

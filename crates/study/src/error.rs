@@ -123,6 +123,38 @@ pub enum Error {
         rule: String,
     },
 
+    /// V411. No suite has this name. Cause: a typing error. Fix: give one of the names that the message lists.
+    #[error("there is no suite {name:?}: known are {known}")]
+    UnknownSuite {
+        /// The name that was asked for.
+        name: String,
+        /// The known names.
+        known: String,
+        /// The name that was probably intended, if there is a similar one, as a question.
+        meant: Option<String>,
+    },
+
+    /// V412. A day of a suite is drawn otherwise than when the suite was frozen, so results would not compare. Cause:
+    /// a changed build, in which a network or the way in which days are drawn differs. Fix: use a release, or freeze
+    /// the suites of the changed build with `make suites` and name them otherwise.
+    #[error("suite {suite:?} is no longer what was frozen: {day}")]
+    SuiteChanged {
+        /// The name of the suite.
+        suite: &'static str,
+        /// What differs.
+        day: String,
+    },
+
+    /// V413. A file is no result of `vertifleet evaluate`. Cause: another file, one of a newer version, or one that
+    /// was damaged. Fix: name a file that `vertifleet evaluate --results` wrote.
+    #[error("{origin}: not a result of an evaluation: {rule}")]
+    NotAResult {
+        /// The path of the file.
+        origin: String,
+        /// What is wrong with it.
+        rule: String,
+    },
+
     /// V307. No policy has this name. Cause: a typing error. Fix: give one of the names that the message lists.
     #[error("there is no policy {name:?}: known are {known}")]
     UnknownPolicy {
@@ -145,6 +177,18 @@ impl Error {
     }
 }
 
+impl Error {
+    /// Whether a policy cannot play some days although nothing is wrong with it: its weights belong to another network,
+    /// or the planner does not support the days.
+    pub(crate) fn is_misfit(&self) -> bool {
+        use vertifleet_learn::Error as Learn;
+        matches!(
+            self,
+            Self::Learn(Learn::NotShipped { .. } | Learn::WrongNetwork { .. }) | Self::Optimize(_)
+        )
+    }
+}
+
 impl Coded for Error {
     fn code(&self) -> Code {
         Code(match self {
@@ -162,6 +206,9 @@ impl Coded for Error {
             Self::Stopped => 408,
             Self::PartsDiffer { .. } => 409,
             Self::DaysDiffer { .. } => 410,
+            Self::UnknownSuite { .. } => 411,
+            Self::SuiteChanged { .. } => 412,
+            Self::NotAResult { .. } => 413,
             Self::UnknownPolicy { .. } => 307,
         })
     }
@@ -193,6 +240,13 @@ impl Coded for Error {
             Self::UnknownPolicy { meant, .. } => Some(
                 meant.as_deref().unwrap_or("for weights of your own, give a model under this name"),
             ),
+            Self::UnknownSuite { meant, .. } => meant.as_deref(),
+            Self::SuiteChanged { .. } => {
+                Some("use a release, or freeze the suites of this build with `make suites`")
+            }
+            Self::NotAResult { .. } => {
+                Some("results are written by `vertifleet evaluate --results`")
+            }
             Self::NotFinite { .. } | Self::Stopped => None,
         }
     }

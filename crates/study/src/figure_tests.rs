@@ -91,6 +91,7 @@ fn record(policy: u32, day: u32) -> DayRecord {
             load_factor: 0.8,
         },
         upper_bound_usd: None,
+        choices: Vec::new(),
     }
 }
 

@@ -22,7 +22,7 @@ use crate::record::PolicyRecord;
 use crate::report::{File, Records, pictures};
 use crate::study::{Study, Watch};
 
-pub use summary::{FORMAT, GeneralisationReport, NetworkShare, Outcome, PolicyShare};
+pub use summary::{FORMAT, GeneralisationReport, NetworkShare, Outcome};
 
 /// Random networks with a day of each, and the competitors that will play them. Everything that can be checked
 /// beforehand has been checked.

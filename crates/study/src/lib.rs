@@ -1,9 +1,10 @@
 //! Studies of many policies on many days: statistics, figures and reports.
 //!
 //! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`PolicySpec`] gives the names of policies their
-//! meaning, and [`competitor`] finds the policies of a study. There are two studies: [`comparison`], of policies on
-//! the days of one network, and [`generalisation`], over one day of each of many networks. Both go from the request to
-//! records, let [`run`] play the days, and are written by [`report`]. [`ComparisonReport`] turns records into
+//! meaning, and [`competitor`] finds the policies of a study. There are three studies: [`comparison`], of policies on
+//! the days of one network, [`generalisation`], over one day of each of many networks, and [`evaluation`], on the days
+//! of a frozen [`Suite`]. All go from the request to records, and let [`run`] play the days. [`report`] writes the
+//! pages of the first two; an evaluation leaves result files, which can be verified. [`ComparisonReport`] turns records into
 //! statistics. The presentation computes nothing, and the statistics do not depend on the presentation.
 //!
 //! ```
@@ -30,6 +31,7 @@
 pub mod comparison;
 pub mod competitor;
 mod error;
+pub mod evaluation;
 pub mod figure;
 pub mod generalisation;
 mod kept_bounds;
@@ -44,9 +46,11 @@ pub mod report;
 mod resolved_policy;
 pub mod run;
 mod sees;
+mod share;
 mod starting_policies;
 pub mod statistics;
 mod study;
+mod suite;
 mod table;
 
 pub use comparison::ComparisonReport;
@@ -60,5 +64,7 @@ pub use record::{
 };
 pub use resolved_policy::{PolicyFactory, ResolvedPolicy};
 pub use sees::Sees;
+pub use share::PolicyShare;
 pub use starting_policies::starting_policies;
 pub use study::{MOST_DAYS, Unwatched, Watch};
+pub use suite::{SUITES, Suite, SuiteDay};

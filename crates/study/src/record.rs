@@ -4,6 +4,7 @@
 //! simulation. Days are in the same order for every policy, which makes the tests paired.
 
 use serde::{Deserialize, Serialize};
+use vertifleet_core::VertiportIx;
 use vertifleet_sim::{DayNumber, DayTotals};
 
 use crate::error::Error;
@@ -22,6 +23,9 @@ pub struct DayRecord {
     pub totals: DayTotals,
     /// The day's upper bound in dollars, if it was asked for.
     pub upper_bound_usd: Option<f64>,
+    /// The vertiport that was chosen at each decision, in order; empty if choices were not to be kept.
+    #[serde(skip)]
+    pub choices: Vec<VertiportIx>,
 }
 
 impl DayRecord {

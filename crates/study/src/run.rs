@@ -10,7 +10,7 @@ use std::time::Instant;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use vertifleet_core::{Scenario, Stop, VertiportIx};
 use vertifleet_policy::{Policy, PolicyError, Replay, Stoppable, play};
-use vertifleet_sim::{Decision, Simulation, View};
+use vertifleet_sim::{Decision, Simulation, TraceRow, View};
 
 use crate::competitor::{Competitor, Kind, Planner};
 use crate::error::Error;
@@ -30,6 +30,22 @@ impl BoundedDay {
     pub fn unbounded(scenario: Arc<Scenario>) -> Self {
         Self { scenario, upper_bound_usd: None }
     }
+
+    /// Days with these upper bounds, in dollars.
+    pub(crate) fn with_bounds(days: Vec<Arc<Scenario>>, bounds_usd: &[f64]) -> Vec<Self> {
+        let bounded =
+            |(scenario, &bound_usd): (_, &f64)| Self { scenario, upper_bound_usd: Some(bound_usd) };
+        days.into_iter().zip(bounds_usd).map(bounded).collect()
+    }
+}
+
+/// What is kept of a day that was played.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kept {
+    /// Its totals.
+    Totals,
+    /// Every choice too.
+    Choices,
 }
 
 /// Plays all days with every competitor, one competitor after the other. `begin` is called with the name of the
@@ -41,6 +57,7 @@ impl BoundedDay {
 pub fn run<Played: Fn() + Sync>(
     days: &[BoundedDay],
     competitors: &[Competitor],
+    kept: Kept,
     stop: &Stop,
     mut begin: impl FnMut(&str) -> Played,
 ) -> Result<Vec<PolicyRecord>, Error> {
@@ -48,11 +65,12 @@ pub fn run<Played: Fn() + Sync>(
         let played = begin(&competitor.name);
         let (days, decision_ns) = match &competitor.kind {
             Kind::Policy(policy) => {
-                let (days, time) = play_policy(&competitor.name, policy, days, stop, &played)?;
+                let (days, time) =
+                    play_policy(&competitor.name, policy, days, kept, stop, &played)?;
                 (days, Some(time))
             }
             Kind::Planner(planner) => {
-                (play_plans(&competitor.name, planner, days, stop, &played)?, None)
+                (play_plans(&competitor.name, planner, days, kept, stop, &played)?, None)
             }
         };
         let (name, description) = (competitor.name.clone(), competitor.description());
@@ -67,13 +85,14 @@ fn play_policy(
     name: &str,
     policy: &ResolvedPolicy,
     days: &[BoundedDay],
+    kept: Kept,
     stop: &Stop,
     played: &(impl Fn() + Sync),
 ) -> Result<(Vec<DayRecord>, LatencySummary), Error> {
     let play = |policy: &mut Box<dyn Policy>, day: &BoundedDay| {
         let policy = Stoppable { policy: policy.as_mut(), stop };
         let mut timed = Timed { policy, nanoseconds: Vec::new() };
-        let record = play_day(name, &mut timed, day)?;
+        let record = play_day(name, &mut timed, day, kept)?;
         played();
         Ok((record, timed.nanoseconds))
     };
@@ -88,6 +107,7 @@ fn play_plans(
     name: &str,
     planner: &Planner,
     days: &[BoundedDay],
+    kept: Kept,
     stop: &Stop,
     played: &(impl Fn() + Sync),
 ) -> Result<Vec<DayRecord>, Error> {
@@ -96,22 +116,34 @@ fn play_plans(
         if stop.is_requested() {
             return Err(Error::Stopped);
         }
-        let record = play_day(name, &mut replay, day)?;
+        let record = play_day(name, &mut replay, day, kept)?;
         played();
         Ok(record)
     };
     days.par_iter().map(play).collect()
 }
 
-fn play_day(name: &str, policy: &mut dyn Policy, day: &BoundedDay) -> Result<DayRecord, Error> {
+fn play_day(
+    name: &str,
+    policy: &mut dyn Policy,
+    day: &BoundedDay,
+    kept: Kept,
+) -> Result<DayRecord, Error> {
     let mut simulation = Simulation::new(Arc::clone(&day.scenario));
-    play(&mut simulation, policy, |_| ())
+    let mut choices = Vec::new();
+    let keep = |row: &TraceRow| {
+        if kept == Kept::Choices {
+            choices.push(row.to);
+        }
+    };
+    play(&mut simulation, policy, keep)
         .map_err(|cause| Error::of_play(name, &day.scenario.name, cause))?;
     Ok(DayRecord {
         day: day.scenario.name.clone(),
         seed: day.scenario.seed,
         totals: simulation.totals(),
         upper_bound_usd: day.upper_bound_usd,
+        choices,
     })
 }
 
@@ -146,7 +178,7 @@ mod tests {
 
     use vertifleet_core::{Coded, DaySeed, Network, Stop};
 
-    use super::{BoundedDay, LatencySummary, PolicyRecord, latency, run};
+    use super::{BoundedDay, Kept, LatencySummary, PolicyRecord, latency, run};
     use crate::comparison::ComparisonReport;
     use crate::competitor::{Competitor, Kind, Planner};
     use crate::resolved_policy::ResolvedPolicy;
@@ -171,7 +203,7 @@ mod tests {
         };
         let days: Vec<BoundedDay> = seeds.map(day).collect();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| run(&days, &competitors(), &Stop::default(), |_| || ()))
+        pool.install(|| run(&days, &competitors(), Kept::Totals, &Stop::default(), |_| || ()))
             .expect("every day is played")
     }
 
@@ -190,8 +222,8 @@ mod tests {
         let days = [BoundedDay::unbounded(Arc::new(day))];
         let stop = Stop::default();
         stop.request();
-        let error =
-            run(&days, &competitors(), &stop, |_| || ()).expect_err("nothing was to be played");
+        let error = run(&days, &competitors(), Kept::Totals, &stop, |_| || ())
+            .expect_err("nothing was to be played");
         assert_eq!(error.code().to_string(), "V408");
     }
 

@@ -3,7 +3,7 @@
 //! For finite values, no result is NaN or infinite: an undefined result (a standard deviation of one value, the t
 //! statistic of differences that do not vary) is `None`.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// The probability that a confidence interval contains the true mean.
@@ -13,7 +13,8 @@ const CONFIDENCE: f64 = 0.95;
 const SIGNIFICANCE: f64 = 0.05;
 
 /// A mean with its standard deviation and confidence interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Estimate {
     /// Arithmetic mean; 0 if there are no values.
     pub mean: f64,
@@ -111,6 +112,23 @@ fn quantile(sorted: &[f64], probability: f64) -> Option<f64> {
     let below = position.floor() as usize;
     let above = (below + 1).min(last);
     Some(sorted[below] + (position - position.floor()) * (sorted[above] - sorted[below]))
+}
+
+/// Corrects the p-values of several tests so that the chance of any false finding among them stays what it is for one
+/// (S. Holm, *A Simple Sequentially Rejective Multiple Test Procedure*, Scandinavian Journal of Statistics 6, 1979). Tests
+/// without a p-value do not count.
+pub fn holm(p_values: &[Option<f64>]) -> Vec<Option<f64>> {
+    let mut ranked: Vec<(usize, f64)> =
+        p_values.iter().enumerate().filter_map(|(at, p)| Some((at, (*p)?))).collect();
+    ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let (tests, mut highest) = (ranked.len(), 0.0_f64);
+    let mut corrected = vec![None; p_values.len()];
+    for (rank, (at, p)) in ranked.into_iter().enumerate() {
+        // A corrected value is never below that of a smaller p-value.
+        highest = highest.max((p * (tests - rank) as f64).min(1.0));
+        corrected[at] = Some(highest);
+    }
+    corrected
 }
 
 /// Student's t-test on the differences of paired values: is their mean zero?

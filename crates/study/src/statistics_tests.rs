@@ -1,6 +1,6 @@
 //! Checks of the statistics against published values and against SciPy 1.x and matplotlib, computed once.
 
-use super::{BoxSummary, Estimate, PairedTest, mean, standard_deviation, t_quantile};
+use super::{BoxSummary, Estimate, PairedTest, holm, mean, standard_deviation, t_quantile};
 
 /// Extra hours of sleep with two drugs for ten patients: Student, "The probable error of a mean", Biometrika 6 (1908),
 /// the data set `sleep` of R. For `t.test(..., paired = TRUE)`, R's manual gives t = -4.0621, df = 9, p = 0.002833.
@@ -160,4 +160,16 @@ proptest::proptest! {
         proptest::prop_assert!(inside + summary.outliers.len() <= values.len());
         proptest::prop_assert!(summary.outliers.iter().all(|&v| v < marks[1] || v > marks[3]));
     }
+}
+
+/// R: `p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")`; values that are missing do not count.
+#[test]
+fn corrected_p_values_are_those_of_holm() {
+    let corrected = holm(&[Some(0.01), None, Some(0.04), Some(0.03), Some(0.005)]);
+    let expected = [Some(0.03), None, Some(0.06), Some(0.06), Some(0.02)];
+    for (found, expected) in corrected.into_iter().zip(expected) {
+        assert_eq!(found.is_some(), expected.is_some());
+        assert!(found.zip(expected).is_none_or(|(a, b)| (a - b).abs() < 1e-12));
+    }
+    assert_eq!(holm(&[Some(0.9), Some(0.8)]), [Some(1.0), Some(1.0)], "no p-value is above 1");
 }

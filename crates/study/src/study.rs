@@ -9,7 +9,7 @@ use crate::competitor::Competitor;
 use crate::error::Error;
 use crate::kept_bounds::KeptBounds;
 use crate::record::PolicyRecord;
-use crate::run::{BoundedDay, run};
+use crate::run::{BoundedDay, Kept, run};
 
 /// The most days, or networks, of a study.
 pub const MOST_DAYS: u32 = 1_000_000;
@@ -40,12 +40,28 @@ impl Watch for Unwatched {
     }
 }
 
+/// The upper bounds of the days.
+pub(crate) enum Bounds {
+    /// The study needs none.
+    None,
+    /// They are proven with this step.
+    Prove(Step),
+    /// They are known, in dollars, day by day.
+    Known(Vec<f64>),
+}
+
+impl From<Option<Step>> for Bounds {
+    fn from(step: Option<Step>) -> Self {
+        step.map_or(Self::None, Self::Prove)
+    }
+}
+
 /// Days and the competitors that will play them. Every competitor can play every day.
 pub(crate) struct Study {
     pub(crate) competitors: Vec<Competitor>,
     pub(crate) scenarios: Vec<Arc<Scenario>>,
-    /// The step of the days' upper bounds, if bounds are asked for.
-    pub(crate) bound_step: Option<Step>,
+    pub(crate) bounds: Bounds,
+    pub(crate) kept: Kept,
 }
 
 impl Study {
@@ -55,7 +71,7 @@ impl Study {
     pub(crate) fn new(
         competitors: Vec<Competitor>,
         scenarios: Vec<Arc<Scenario>>,
-        bound_step: Option<Step>,
+        bounds: impl Into<Bounds>,
     ) -> Result<Self, Error> {
         if competitors.is_empty() || scenarios.is_empty() {
             return Err(Error::Empty { policies: competitors.len(), days: scenarios.len() });
@@ -63,25 +79,26 @@ impl Study {
         for scenario in &scenarios {
             competitors.iter().try_for_each(|competitor| competitor.check_fits(scenario))?;
         }
-        Ok(Self { competitors, scenarios, bound_step })
+        Ok(Self { competitors, scenarios, bounds: bounds.into(), kept: Kept::Totals })
     }
 
     pub(crate) fn days(&self) -> impl Iterator<Item = &Scenario> {
         self.scenarios.iter().map(Arc::as_ref)
     }
 
-    /// Bounds all days, if that is asked for, and plays them with every competitor, one competitor after the other.
+    /// Bounds all days, if bounds are asked for, and plays them with every competitor, one competitor after the other.
     pub(crate) fn play(&self, stop: &Stop, watch: &impl Watch) -> Result<Vec<PolicyRecord>, Error> {
-        let Self { competitors, scenarios, bound_step } = self;
+        let Self { competitors, scenarios, bounds, kept } = self;
         let (number, scenarios) = (scenarios.len(), scenarios.clone());
-        let days = match *bound_step {
-            Some(slices) => {
-                KeptBounds::of_this_user().days(scenarios, slices, stop, &watch.bounds(number))?
+        let days = match bounds {
+            Bounds::Prove(slices) => {
+                KeptBounds::of_this_user().days(scenarios, *slices, stop, &watch.bounds(number))?
             }
-            None => scenarios.into_iter().map(BoundedDay::unbounded).collect(),
+            Bounds::Known(bounds_usd) => BoundedDay::with_bounds(scenarios, bounds_usd),
+            Bounds::None => scenarios.into_iter().map(BoundedDay::unbounded).collect(),
         };
         let mut begun = 0;
-        run(&days, competitors, stop, |name| {
+        run(&days, competitors, *kept, stop, |name| {
             begun += 1;
             watch.policy(name, begun, competitors.len(), number)
         })

@@ -16,7 +16,7 @@ pub(crate) fn text(study: &ComparisonRecords) -> String {
     let names = ["policy", "day", "seed"].into_iter().chain(names);
     writer.write_record(names.chain(["upper_bound_usd", "bound_share"])).expect(TO_MEMORY);
     for (policy, day) in days() {
-        let DayRecord { day: name, seed, totals, upper_bound_usd } = day;
+        let DayRecord { day: name, seed, totals, upper_bound_usd, .. } = day;
         let row = (&policy.name, name, seed, totals, upper_bound_usd, day.bound_share());
         writer.serialize(row).expect(TO_MEMORY);
     }

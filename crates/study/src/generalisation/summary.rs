@@ -5,8 +5,7 @@ use serde::Serialize;
 use super::{GeneralisationRecords, NetworkRecord};
 use crate::error::Error;
 use crate::record::{DayRecord, PolicyRecord, check_records};
-use crate::sees::Sees;
-use crate::statistics::{Estimate, PairedTest};
+use crate::share::{PolicyShare, share};
 
 /// Name and version of the format of `summary.json`.
 pub const FORMAT: &str = "vertifleet-generalisation/1";
@@ -26,25 +25,6 @@ pub struct GeneralisationReport {
     pub policies: Vec<PolicyShare>,
     /// Every network.
     pub networks: Vec<NetworkShare>,
-}
-
-/// The results of one policy over all networks.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PolicyShare {
-    /// The name that the user gave it.
-    pub name: String,
-    /// Describes what the policy does.
-    pub description: String,
-    /// Whether the days were planned with the whole day known, which makes it a reference and not a policy.
-    pub knows_the_day: bool,
-    /// What it looks at when it decides.
-    pub sees: Sees,
-    /// Profit as a share of the day's upper bound.
-    pub bound_share: Estimate,
-    /// The share of the upper bound on the network where it is lowest.
-    pub lowest_bound_share: f64,
-    /// Paired t-test of the share, this policy minus the first; `None` for the first itself.
-    pub minus_first: Option<PairedTest>,
 }
 
 /// One network with every policy's result on its day.
@@ -86,18 +66,6 @@ impl GeneralisationReport {
     /// Panics if a day has no upper bound.
     pub fn of(study: &GeneralisationRecords) -> Result<Self, Error> {
         check_records(&study.policies, study.networks.len())?;
-        let shares: Vec<Vec<f64>> =
-            study.policies.iter().map(|policy| policy.days.iter().map(share).collect()).collect();
-        let policies = study.policies.iter().zip(&shares).enumerate();
-        let policies = policies.map(|(position, (policy, own))| PolicyShare {
-            name: policy.name.clone(),
-            description: policy.description.clone(),
-            knows_the_day: policy.decision_ns.is_none(),
-            sees: policy.sees,
-            bound_share: Estimate::of(own),
-            lowest_bound_share: own.iter().copied().fold(f64::INFINITY, f64::min),
-            minus_first: (position > 0).then(|| PairedTest::of(own, &shares[0])),
-        });
         let network = |(position, record): (usize, &NetworkRecord)| {
             let day = &study.policies[0].days[position];
             let outcome = |policy: &PolicyRecord| Outcome {
@@ -119,7 +87,7 @@ impl GeneralisationReport {
             program_version: env!("CARGO_PKG_VERSION"),
             command: study.command.clone(),
             bound_step_s: study.bound_step_s,
-            policies: policies.collect(),
+            policies: PolicyShare::of_all(&study.policies),
             networks: study.networks.iter().enumerate().map(network).collect(),
         })
     }
@@ -149,10 +117,6 @@ impl GeneralisationReport {
         let sizes = || self.networks.iter().map(size);
         (sizes().min().unwrap_or(0), sizes().max().unwrap_or(0))
     }
-}
-
-fn share(day: &DayRecord) -> f64 {
-    day.bound_share().expect("every day of many networks has its bound")
 }
 
 fn bound_usd(day: &DayRecord) -> f64 {

@@ -131,6 +131,7 @@ fn record(outline: &Outline, day: u64, season: f64, noise: &mut Noise) -> DayRec
             load_factor: f64::from(flights * 4 - 60) / f64::from(flights * 4),
         },
         upper_bound_usd: None,
+        choices: Vec::new(),
     }
 }
 

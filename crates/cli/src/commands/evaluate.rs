@@ -1,0 +1,106 @@
+//! `vertifleet evaluate`: plays frozen suites, measures shares of their certified bounds, and verifies results.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::ExitCode;
+
+use anstream::eprintln;
+use vertifleet_core::{Outputs, Stop, create_folder};
+use vertifleet_progress::Bars;
+use vertifleet_study::competitor::Selection;
+use vertifleet_study::evaluation::{
+    Evaluation, EvaluationRecords, EvaluationReport, RESULT, ResultFile, verify,
+};
+use vertifleet_study::{SUITES, Suite};
+
+use crate::args::EvaluateArguments;
+use crate::commands::{command, reads_models};
+use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
+use crate::output::print;
+
+/// The name that stands for all suites.
+const ALL: &str = "all";
+/// The seed of the random policy and of the planner's search, the same for everyone.
+const SEED: u64 = 1;
+
+pub(crate) fn run(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
+    if !arguments.verify.is_empty() {
+        return verify_all(arguments);
+    }
+    // Ctrl-C ends the program itself, so the evaluation is never asked to stop.
+    let never = Stop::default();
+    let suites = suites(&arguments.suite)?;
+    let (policies, models) = (&arguments.policies, &arguments.models);
+    let selection = Selection { policies, models, seed: SEED };
+    let mut outputs = Outputs::new(arguments.force);
+    reads_models(models.iter().map(|(_, model)| model), &mut outputs);
+    // Everything is checked before the first day is played.
+    let evaluations = suites
+        .iter()
+        .map(|suite| Evaluation::new(*suite, &selection, &never))
+        .collect::<Result<Vec<_>, _>>()?;
+    if let Some(folder) = &arguments.results {
+        create_folder(folder)?;
+        for (suite, policy) in pairs(&suites, policies) {
+            outputs.writes(&folder.join(ResultFile::file_name(suite.name, policy)), &RESULT)?;
+        }
+    }
+    let mut records = Vec::new();
+    for (suite, evaluation) in suites.iter().zip(evaluations) {
+        eprintln!("{}: {}", suite.name, suite.description);
+        let played = evaluation.run(command(), &never, &Bars)?;
+        if let Some(folder) = &arguments.results {
+            write_results(&played, folder, &arguments.about)?;
+        }
+        records.push(played);
+    }
+    let report = EvaluationReport::of(&records)?;
+    print(&if arguments.json { report.to_json() } else { report.text() })?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn suites(names: &[String]) -> Result<Vec<Suite>, Failure> {
+    if names.iter().any(|name| name == ALL) {
+        return Ok(SUITES.to_vec());
+    }
+    Ok(names.iter().map(|name| Suite::find(name)).collect::<Result<_, _>>()?)
+}
+
+fn pairs<'a>(
+    suites: &'a [Suite],
+    policies: &'a [String],
+) -> impl Iterator<Item = (&'a Suite, &'a String)> {
+    suites.iter().flat_map(move |suite| policies.iter().map(move |policy| (suite, policy)))
+}
+
+fn write_results(
+    records: &EvaluationRecords,
+    folder: &Path,
+    about: &[(String, String)],
+) -> Result<(), Failure> {
+    let about: BTreeMap<String, String> = about.iter().cloned().collect();
+    for result in records.results(&about) {
+        let path = folder.join(ResultFile::file_name(&result.suite, &result.policy.name));
+        result.write(&path)?;
+        eprintln!("result: {}", path.display());
+    }
+    Ok(())
+}
+
+/// Verifies every file; the exit code says whether all claims hold.
+fn verify_all(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
+    let mut verified = Vec::new();
+    for path in &arguments.verify {
+        verified.push(verify(&ResultFile::read(path)?, &Stop::default())?);
+    }
+    if arguments.json {
+        print(&serde_json::to_string_pretty(&verified).expect("a verification is plain data"))?;
+    } else {
+        let lines: Vec<String> = verified.iter().map(ToString::to_string).collect();
+        print(&lines.join("\n"))?;
+    }
+    let valid = verified.iter().all(|verification| verification.valid);
+    Ok(if valid { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}

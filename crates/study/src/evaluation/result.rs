@@ -1,0 +1,190 @@
+//! The result file of one policy on one suite: what is claimed, and every choice, from which it can be verified.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use vertifleet_core::{OutputKind, VertiportIx, read_at_most, write_atomically};
+
+use super::EvaluationRecords;
+use crate::error::Error;
+use crate::record::{DayRecord, LatencySummary, PolicyRecord};
+use crate::sees::Sees;
+use crate::share::{PolicyShare, share};
+use crate::statistics::Estimate;
+
+/// Name and version of the format of result files.
+pub const RESULT_FORMAT: &str = "vertifleet-result/1";
+
+/// Result files as a kind of output, to tell them from files that must not be replaced.
+pub const RESULT: OutputKind =
+    OutputKind { name: "result", skipped: 0, opening: "{\n  \"format\": \"vertifleet-result/" };
+
+/// No file that this program writes is longer.
+const LONGEST: u64 = 256 << 20;
+
+/// The result of one policy on one suite.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultFile {
+    /// Always [`RESULT_FORMAT`].
+    pub format: String,
+    /// Version of the program that wrote the file.
+    pub program_version: String,
+    /// The command line of the evaluation.
+    pub command: String,
+    /// The name of the suite.
+    pub suite: String,
+    /// The policy.
+    pub policy: ResultPolicy,
+    /// What the authors say about it, which cannot be verified: days and seeds of training, training budget, code.
+    pub about: BTreeMap<String, String>,
+    /// Profit as a share of the day's upper bound.
+    pub bound_share: Estimate,
+    /// The share of the upper bound on the day where it is lowest.
+    pub lowest_bound_share: f64,
+    /// Profit of a day, in dollars.
+    pub profit_usd: Estimate,
+    /// Every day of the suite, in its order.
+    pub days: Vec<ResultDay>,
+}
+
+/// The policy of a result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultPolicy {
+    /// Its name.
+    pub name: String,
+    /// Describes what it does.
+    pub description: String,
+    /// What it looks at when it decides. This cannot be verified from choices.
+    pub sees: Sees,
+    /// The time that one decision took on the machine of the evaluation; `None` for a reference that plans whole days.
+    pub decision_ns: Option<LatencySummary>,
+}
+
+/// A day of a result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultDay {
+    /// The name of the day.
+    pub day: String,
+    /// The hash of the day.
+    pub hash: String,
+    /// The upper bound of its profit, in dollars.
+    pub upper_bound_usd: f64,
+    /// The profit, in dollars.
+    pub profit_usd: f64,
+    /// The positions of the vertiports that were chosen, decision by decision, from 0, with blanks between them. A
+    /// choice of the vertiport where the aircraft stands is a hold.
+    pub choices: String,
+}
+
+impl EvaluationRecords {
+    /// The result of every policy; `about` is what the authors say about them.
+    pub fn results(&self, about: &BTreeMap<String, String>) -> Vec<ResultFile> {
+        let shares = PolicyShare::of_all(&self.policies);
+        let result = |(policy, share): (&PolicyRecord, PolicyShare)| ResultFile {
+            format: RESULT_FORMAT.to_owned(),
+            program_version: env!("CARGO_PKG_VERSION").to_owned(),
+            command: self.command.clone(),
+            suite: self.suite.name.to_owned(),
+            policy: ResultPolicy {
+                name: policy.name.clone(),
+                description: policy.description.clone(),
+                sees: policy.sees,
+                decision_ns: policy.decision_ns,
+            },
+            about: about.clone(),
+            bound_share: share.bound_share,
+            lowest_bound_share: share.lowest_bound_share,
+            profit_usd: profits(&policy.days),
+            days: policy.days.iter().zip(&self.hashes).map(result_day).collect(),
+        };
+        self.policies.iter().zip(shares).map(result).collect()
+    }
+}
+
+fn result_day((day, &hash): (&DayRecord, &&str)) -> ResultDay {
+    ResultDay {
+        day: day.day.clone(),
+        hash: hash.to_owned(),
+        upper_bound_usd: day.upper_bound_usd.expect("every day of a suite has its bound"),
+        profit_usd: day.totals.profit_usd,
+        choices: choices_text(&day.choices),
+    }
+}
+
+/// Mean and interval of the profits.
+pub(super) fn profits(days: &[DayRecord]) -> Estimate {
+    Estimate::of(&days.iter().map(|day| day.totals.profit_usd).collect::<Vec<f64>>())
+}
+
+/// Mean and interval of the shares of the bounds, and the lowest one.
+pub(super) fn shares(days: &[DayRecord]) -> (Estimate, f64) {
+    let shares: Vec<f64> = days.iter().map(share).collect();
+    (Estimate::of(&shares), shares.iter().copied().fold(f64::INFINITY, f64::min))
+}
+
+fn choices_text(choices: &[VertiportIx]) -> String {
+    let mut text = String::with_capacity(3 * choices.len());
+    for (at, choice) in choices.iter().enumerate() {
+        let blank = if at > 0 { " " } else { "" };
+        write!(text, "{blank}{}", choice.0).expect("memory takes everything");
+    }
+    text
+}
+
+impl ResultFile {
+    /// The name of its file, for example `paper-100-greedy.json`.
+    pub fn file_name(suite: &str, policy: &str) -> String {
+        let plain = |letter: char| {
+            let is_plain = letter.is_ascii_alphanumeric() || "._-".contains(letter);
+            if is_plain { letter } else { '-' }
+        };
+        format!("{suite}-{}.json", policy.chars().map(plain).collect::<String>())
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// Returns [`Error::Core`] if it cannot be written. An earlier file then stays as it is.
+    ///
+    /// # Panics
+    /// Never panics: numbers and texts can always be written.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        let text = serde_json::to_string_pretty(self).expect("numbers and texts can be written");
+        Ok(write_atomically(path, (text + "\n").as_bytes())?)
+    }
+
+    /// Reads a file. Its claims are not checked, [`verify`](super::verify) does that.
+    ///
+    /// # Errors
+    /// Returns [`Error::Core`] if the file cannot be read or is longer than 256 MiB, and [`Error::NotAResult`] if it is
+    /// not of this format.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        Self::from_json(&read_at_most(path, LONGEST)?, &path.display().to_string())
+    }
+
+    /// Reads the bytes of a file; `origin` stands for the file in messages.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotAResult`] if they are not of this format.
+    pub fn from_json(bytes: &[u8], origin: &str) -> Result<Self, Error> {
+        let not = |rule: String| Error::NotAResult { origin: origin.to_owned(), rule };
+        let Format { format } =
+            serde_json::from_slice(bytes).map_err(|error| not(error.to_string()))?;
+        if format != RESULT_FORMAT {
+            let found: String = format.chars().take(64).collect();
+            return Err(not(format!("`format` must be {RESULT_FORMAT:?}, found {found:?}")));
+        }
+        serde_json::from_slice(bytes).map_err(|error| not(error.to_string()))
+    }
+}
+
+/// The member that is read first, so that a file of another format is named as such.
+#[derive(Deserialize)]
+struct Format {
+    format: String,
+}

@@ -1,0 +1,195 @@
+//! Suites: frozen sets of days with names and certified upper bounds, so that results of different people can be set
+//! side by side.
+//!
+//! A suite's days are drawn, not stored. The table of a suite (`suites/NAME.csv`, made by `make suites`) has a hash of
+//! each day, and a day that is drawn otherwise than it was when the suite was frozen is refused. All days are comparison
+//! days, which no training and no validation ever draws.
+
+mod frozen;
+
+use std::sync::Arc;
+
+use rayon::prelude::{IntoParallelIterator, ParallelIterator};
+use vertifleet_core::{
+    DaySeed, Network, Purpose, Scenario, Stop, nearest, random_network, random_places,
+};
+use vertifleet_optimize::Step;
+
+use crate::error::Error;
+use crate::kept_bounds::KeptBounds;
+use frozen::FrozenDay;
+
+/// A frozen set of days.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Suite {
+    /// Its name, for example `paper-100`.
+    pub name: &'static str,
+    /// Describes its days, in one short phrase.
+    pub description: &'static str,
+    /// Number of its days.
+    pub days: usize,
+    /// Minutes for which the prices of its bounds stay the same.
+    pub step_minutes: u32,
+    drawn_from: DrawnFrom,
+    /// The text of its table.
+    table: &'static str,
+}
+
+/// What the days of a suite are drawn from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum DrawnFrom {
+    /// A shipped network, from seed 1 on.
+    Network(&'static str),
+    /// A random network for each day, from number 0 on; the seed is the network's number.
+    RandomNetworks,
+    /// A network like the paper's with so many vertiports at random places for each day, from number 0 on; the seed is
+    /// the network's number.
+    RandomPlaces(usize),
+}
+
+macro_rules! suite {
+    ($name:literal, $days:literal, $step:literal, $from:expr, $description:literal) => {
+        Suite {
+            name: $name,
+            description: $description,
+            days: $days,
+            step_minutes: $step,
+            drawn_from: $from,
+            table: include_str!(concat!("../../../suites/", $name, ".csv")),
+        }
+    };
+}
+
+/// All suites.
+pub const SUITES: [Suite; 6] = [
+    suite!("paper-100", 100, 1, DrawnFrom::Network("paper"), "100 days of the paper's network"),
+    suite!(
+        "disrupted-100",
+        100,
+        1,
+        DrawnFrom::Network("disrupted"),
+        "100 days of the paper's network that go wrong"
+    ),
+    suite!(
+        "new-york-100",
+        100,
+        1,
+        DrawnFrom::Network("new-york"),
+        "100 days of nine sites around New York"
+    ),
+    suite!(
+        "random-50",
+        50,
+        1,
+        DrawnFrom::RandomNetworks,
+        "a day of each of 50 networks that differ in everything"
+    ),
+    suite!(
+        "random-places-100",
+        100,
+        1,
+        DrawnFrom::RandomPlaces(8),
+        "100 days like the paper's, each with its vertiports at other places"
+    ),
+    suite!(
+        "large",
+        10,
+        3,
+        DrawnFrom::Network("large"),
+        "10 days of 60 vertiports and 300 aircraft"
+    ),
+];
+
+/// A day of a suite.
+#[derive(Debug, Clone)]
+pub struct SuiteDay {
+    /// The day.
+    pub scenario: Arc<Scenario>,
+    /// The hash of the day, as the suite's table has it.
+    pub hash: &'static str,
+    /// The certified upper bound of its profit, dollars.
+    pub upper_bound_usd: f64,
+}
+
+impl Suite {
+    /// The suite with this name.
+    ///
+    /// # Errors
+    /// Returns [`Error::UnknownSuite`] if there is none.
+    pub fn find(name: &str) -> Result<Self, Error> {
+        let names = || SUITES.iter().map(|suite| suite.name);
+        SUITES.into_iter().find(|suite| suite.name == name).ok_or_else(|| Error::UnknownSuite {
+            name: name.to_owned(),
+            known: names().collect::<Vec<_>>().join(", "),
+            meant: nearest(name, names()).map(|name| format!("did you mean {name}?")),
+        })
+    }
+
+    /// The network that all of its days are drawn from; `None` if each day has a network of its own.
+    pub fn network(&self) -> Option<&'static str> {
+        match self.drawn_from {
+            DrawnFrom::Network(name) => Some(name),
+            DrawnFrom::RandomNetworks | DrawnFrom::RandomPlaces(_) => None,
+        }
+    }
+
+    /// Draws the days, and checks that they are the ones that were frozen.
+    ///
+    /// # Errors
+    /// Returns [`Error::SuiteChanged`] if a day is not what it was; [`Error::Stopped`] soon after `stop` is requested.
+    pub fn draw(&self, stop: &Stop) -> Result<Vec<SuiteDay>, Error> {
+        let frozen = frozen::parse(self.table);
+        let changed = |day: String| Error::SuiteChanged { suite: self.name, day };
+        if frozen.len() != self.days {
+            return Err(changed(format!("{} days in its table", frozen.len())));
+        }
+        let check = |(scenario, frozen): (Arc<Scenario>, FrozenDay)| {
+            let day =
+                SuiteDay { hash: frozen.hash, upper_bound_usd: frozen.upper_bound_usd, scenario };
+            if stop.is_requested() {
+                Err(Error::Stopped)
+            } else if frozen.name == day.scenario.name && frozen.hash == frozen::hash(&day.scenario)
+            {
+                Ok(day)
+            } else {
+                Err(changed(day.scenario.name.clone()))
+            }
+        };
+        let drawn = self.scenarios(stop)?;
+        drawn.into_iter().zip(frozen).collect::<Vec<_>>().into_par_iter().map(check).collect()
+    }
+
+    /// Proves the bounds of all days anew, and returns the text of the suite's table. `bounded` is called after each
+    /// day, from any thread.
+    ///
+    /// # Errors
+    /// Returns an error if a day is too large for its bound; [`Error::Stopped`] soon after `stop` is requested.
+    pub fn freeze(&self, stop: &Stop, bounded: &(impl Fn() + Sync)) -> Result<String, Error> {
+        let slices = Step::from_minutes(self.step_minutes)?;
+        let days = KeptBounds::of_this_user().days(self.scenarios(stop)?, slices, stop, bounded)?;
+        Ok(frozen::text(
+            days.iter()
+                .map(|day| (&*day.scenario, day.upper_bound_usd.expect("every day was bounded"))),
+        ))
+    }
+
+    fn scenarios(&self, stop: &Stop) -> Result<Vec<Arc<Scenario>>, Error> {
+        let shipped = self
+            .network()
+            .map(|name| Network::shipped(name).expect("a test draws the days of every suite"));
+        let draw = |number: u64| {
+            if stop.is_requested() {
+                return Err(Error::Stopped);
+            }
+            let seed = DaySeed::comparison;
+            Ok(Arc::new(match (self.drawn_from, &shipped) {
+                (DrawnFrom::RandomPlaces(size), _) => {
+                    random_places(Purpose::Comparison, size, number)?.draw(seed(number)?)
+                }
+                (_, Some(network)) => network.draw(seed(number + 1)?),
+                (_, None) => random_network(Purpose::Comparison, number).draw(seed(number)?),
+            }))
+        };
+        (0..self.days as u64).into_par_iter().map(draw).collect()
+    }
+}

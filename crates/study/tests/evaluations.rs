@@ -1,0 +1,130 @@
+//! Suites are what was frozen, evaluations count as comparisons do, and a result that claims too much is found out.
+
+use std::collections::BTreeMap;
+
+use vertifleet_core::{Coded, Stop};
+use vertifleet_optimize::{Step, upper_bound};
+use vertifleet_study::competitor::Selection;
+use vertifleet_study::evaluation::{
+    Evaluation, EvaluationRecords, EvaluationReport, ResultFile, verify,
+};
+use vertifleet_study::{SUITES, Suite, Unwatched};
+
+fn evaluated(suite: &str, policies: &[&str]) -> EvaluationRecords {
+    let policies: Vec<String> = policies.iter().map(|&name| name.to_owned()).collect();
+    let selection = Selection { policies: &policies, models: &[], seed: 1 };
+    let (suite, stop) = (Suite::find(suite).expect("a suite"), Stop::default());
+    let evaluation = Evaluation::new(suite, &selection, &stop).expect("days and policies");
+    evaluation.run("a test".to_owned(), &stop, &Unwatched).expect("every day is played")
+}
+
+fn greedy_result() -> ResultFile {
+    let records = evaluated("paper-100", &["greedy"]);
+    let about = BTreeMap::from([("training".to_owned(), "none".to_owned())]);
+    records.results(&about).remove(0)
+}
+
+#[test]
+fn every_suite_is_what_was_frozen() {
+    for suite in SUITES {
+        let days = suite.draw(&Stop::default()).expect("the frozen days");
+        assert_eq!(days.len(), suite.days, "{}", suite.name);
+        assert_eq!(Suite::find(suite.name).expect("a suite"), suite);
+    }
+    let unknown = Suite::find("paper-10").expect_err("no suite");
+    assert_eq!(
+        (unknown.code().to_string(), unknown.hint()),
+        ("V411".to_owned(), Some("did you mean paper-100?"))
+    );
+}
+
+/// One day of each kind of network; the rest is as `make suites` left it.
+#[test]
+fn the_bounds_of_a_suite_are_those_that_are_proven_anew() {
+    for (name, at) in [("paper-100", 41), ("random-places-100", 7), ("random-50", 6)] {
+        let suite = Suite::find(name).expect("a suite");
+        let day = suite.draw(&Stop::default()).expect("the frozen days").remove(at);
+        let step = Step::from_minutes(suite.step_minutes).expect("a step");
+        let proven_usd = upper_bound(&day.scenario, step).expect("a bound").upper_bound_usd();
+        let above_usd = day.upper_bound_usd - proven_usd;
+        assert!((0.0..=1e-4 + 1e-9).contains(&above_usd), "{name}: {above_usd}");
+    }
+}
+
+#[test]
+fn an_honest_result_is_verified() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(ResultFile::file_name("paper-100", "greedy"));
+    let result = greedy_result();
+    result.write(&path).expect("a file");
+    let read = ResultFile::read(&path).expect("the same file");
+    assert_eq!(read, result);
+    let verification = verify(&read, &Stop::default()).expect("a known suite");
+    assert!(verification.valid, "{verification}");
+    assert_eq!(verification.bound_share, Some(result.bound_share));
+    assert!(
+        verification.to_string().starts_with("verified: greedy on paper-100, 100 days: 91.25 ")
+    );
+}
+
+#[test]
+fn whatever_is_claimed_too_much_is_found() {
+    let honest = greedy_result();
+    type Change = fn(&mut ResultFile);
+    let changes: [(&str, Change); 10] = [
+        ("a profit", |result| result.days[3].profit_usd += 1.0),
+        ("a bound", |result| result.days[3].upper_bound_usd -= 1.0),
+        ("a mean", |result| result.bound_share.mean += 1e-6),
+        ("an interval", |result| result.profit_usd.half_width_95 = None),
+        ("the lowest share", |result| result.lowest_bound_share += 1e-6),
+        ("a missing day", |result| drop(result.days.remove(50))),
+        ("a day twice", |result| result.days[9] = result.days[8].clone()),
+        ("a choice less", |result| {
+            let choices = &mut result.days[0].choices;
+            choices.truncate(choices.rfind(' ').expect("many choices"));
+        }),
+        ("a choice more", |result| result.days[0].choices.push_str(" 0")),
+        ("no such vertiport", |result| result.days[0].choices = "8".to_owned()),
+    ];
+    for (what, change) in changes {
+        let mut result = honest.clone();
+        change(&mut result);
+        let verification = verify(&result, &Stop::default()).expect("a known suite");
+        assert!(!verification.valid && !verification.findings.is_empty(), "{what}");
+    }
+    let mut other = honest;
+    other.suite = "paper-1000".to_owned();
+    assert_eq!(verify(&other, &Stop::default()).expect_err("no suite").code().to_string(), "V411");
+}
+
+#[test]
+fn other_files_are_no_results() {
+    for text in [
+        "",
+        "[]",
+        "{\"format\": \"vertifleet-scenario/1\"}",
+        "{\"format\": \"vertifleet-result/1\"}",
+    ] {
+        let error = ResultFile::from_json(text.as_bytes(), "here").expect_err("no result");
+        assert_eq!(error.code().to_string(), "V413", "{text}");
+    }
+}
+
+#[test]
+fn policies_that_cannot_play_a_suite_are_left_out() {
+    let records = evaluated("random-50", &["greedy", "gcaps", "random"]);
+    let report = EvaluationReport::of(&[records]).expect("records of one run");
+    let [suite] = &report.suites[..] else { panic!("one suite") };
+    let names: Vec<&str> = suite.policies.iter().map(|policy| &*policy.share.name).collect();
+    assert_eq!(names, ["greedy", "random"]);
+    assert_eq!(suite.left_out[0].policy, "gcaps");
+    assert!(suite.policies[1].p_value_holm.is_some_and(|p| p < 0.001));
+    assert!(report.text().contains("gcaps: cannot play these days"));
+
+    let policies = ["gcaps".to_owned()];
+    let selection = Selection { policies: &policies, models: &[], seed: 1 };
+    let suite = Suite::find("random-50").expect("a suite");
+    let error =
+        Evaluation::new(suite, &selection, &Stop::default()).err().expect("nobody can play");
+    assert_eq!(error.code().to_string(), "V307");
+}

@@ -1,0 +1,141 @@
+"""Evaluations: policies on frozen suites of days, measured as shares of the suites' certified bounds."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vertifleet import _native
+from vertifleet._compare import PolicySource
+from vertifleet._native import Evaluation, Network, Scenario
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+SUITES: tuple[str, ...] = tuple(_native.suite_names())
+"""The names of all suites."""
+
+
+def evaluate(
+    policy: PolicySource | Iterable[str] | Mapping[str, PolicySource],
+    suite: str | Iterable[str] = "paper-100",
+    *,
+    models: Mapping[str, PolicySource] | None = None,
+    threads: int | None = None,
+) -> Evaluation:
+    """Plays frozen suites of days, and measures the share of their certified upper bounds.
+
+    The bounds are shipped, so this takes as long as the policy takes to decide. Everyone who names a suite
+    plays the same days, which no training and no validation ever draws.
+
+    Args:
+        policy: the policy: a name as in ``vertifleet compare``, a model, a function from an observation to an
+            action, a `FunctionPolicy` or an `OwnPolicy`; or several: their names, or a mapping from names to
+            policies. The others are measured against the first.
+        suite: the name of a suite of `SUITES`, or several names.
+        models: weights or policies of your own, for those of the names that need one.
+        threads: most threads to use; all cores by default. A policy that remembers something between calls
+            needs ``threads=1``, unless it is a class.
+
+    Raises:
+        Error: V411 for an unknown suite; otherwise with the program's code for the error.
+    """
+    names, given = _named(policy)
+    given.update(models or {})
+    suites = [suite] if isinstance(suite, str) else list(suite)
+    command = f"vertifleet.evaluate({list(names)!r}, {suites!r})"
+    return _native.evaluate(suites, list(names), given, threads=threads, command=command)
+
+
+def _named(policy: Any) -> tuple[Sequence[str], dict[str, PolicySource]]:
+    """The names of the policies, and what those names stand for that are not the program's."""
+    if isinstance(policy, str):
+        return [policy], {}
+    if isinstance(policy, Mapping):
+        return list(policy), dict(policy)
+    if isinstance(policy, os.PathLike):
+        name = Path(policy).stem
+        return [name], {name: policy}
+    if isinstance(policy, _native.Model):
+        return [policy.kind], {policy.kind: policy}
+    if isinstance(policy, Iterable) and not hasattr(policy, "choose"):
+        return list(policy), {}
+    name = getattr(policy, "__name__", None) or type(policy).__name__
+    # A function without a name of its own is called "<lambda>".
+    name = name.strip("<>")
+    return [name], {name: policy}
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What the verification of a result file found."""
+
+    suite: str
+    policy: str
+    valid: bool
+    """Whether every claim holds that can be verified."""
+    bound_share: float | None
+    """The mean share of the bounds as computed anew; ``None`` if a day cannot be played."""
+    profit_usd: float | None
+    """The mean profit of a day as computed anew, dollars; ``None`` if a day cannot be played."""
+    findings: tuple[str, ...]
+    """What does not hold."""
+
+
+def verify(result: str | os.PathLike[str]) -> Verification:
+    """Verifies a result file that `Evaluation.save` or ``vertifleet evaluate --results`` wrote.
+
+    The days are drawn anew, the choices in the file are played, the schedules are judged by the independent
+    checker, and everything that is claimed is computed again. What cannot be verified is what the policy saw
+    and how it was trained.
+
+    Raises:
+        Error: V413 if the file is not a result, V411 if its suite is unknown.
+    """
+    found = _native.verify(result)
+
+    def mean(member: str) -> float | None:
+        return None if found[member] is None else float(found[member]["mean"])
+
+    return Verification(
+        found["suite"],
+        found["policy"],
+        found["valid"],
+        mean("bound_share"),
+        mean("profit_usd"),
+        tuple(found["findings"]),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Suite:
+    """A frozen set of days with certified upper bounds."""
+
+    name: str
+    description: str
+    network: Network | None
+    """The network that all days are drawn from; ``None`` if each day has a network of its own."""
+    days: tuple[Scenario, ...]
+    upper_bound_usd: NDArray[np.float64]
+    """The certified upper bound of the profit of each day, dollars [days]."""
+    step: int
+    """Length of the slices of the bounds, minutes."""
+
+
+def suite(name: str) -> Suite:
+    """The suite with this name, with its days.
+
+    Raises:
+        Error: V411 if there is none.
+    """
+    description, network, days, bounds, step = _native.find_suite(name)
+    bounds_usd = np.array(bounds)
+    bounds_usd.setflags(write=False)
+    found = None if network is None else Network(network)
+    return Suite(name, description, found, tuple(days), bounds_usd, step)
