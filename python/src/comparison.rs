@@ -121,6 +121,10 @@ impl Comparison {
         Ok(Self { study, warnings })
     }
 
+    fn _repr_html_(&self) -> Result<String, Failure> {
+        Ok(ComparisonReport::of(&self.study)?.html())
+    }
+
     fn __str__(&self) -> Result<String, Failure> {
         Ok(self.study.text()?)
     }

@@ -185,6 +185,10 @@ impl Day {
         &self.simulation
     }
 
+    pub(crate) fn day(&self) -> &core::Scenario {
+        self.simulation.scenario()
+    }
+
     pub(crate) fn scenario(&self) -> Scenario {
         Scenario { scenario: Arc::clone(self.simulation.scenario()) }
     }

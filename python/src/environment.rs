@@ -12,6 +12,7 @@ use crate::frames::plain;
 use crate::layout::Layout;
 use crate::observation::{Shown, shown};
 use crate::pickle::{Reduced, reduced};
+use crate::picture;
 use crate::scenario::Scenario;
 use crate::view::View;
 
@@ -138,6 +139,16 @@ impl Environment {
             }
         }
         PyArray1::from_vec(py, mask)
+    }
+
+    /// A map of the fleet: [height, width, 3], 0 to 255. None before the first day.
+    fn frame<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        self.day.as_ref().map(|day| picture::frame(py, day, &self.choices)).transpose()
+    }
+
+    /// A table of the fleet as text. None before the first day.
+    fn text(&self) -> Option<String> {
+        self.day.as_ref().map(|day| picture::text(day, &self.choices))
     }
 
     /// What may be seen of the current decision.

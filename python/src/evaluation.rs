@@ -127,6 +127,10 @@ impl Evaluation {
             .collect()
     }
 
+    fn _repr_html_(&self) -> Result<String, Failure> {
+        Ok(self.report()?.html())
+    }
+
     fn __str__(&self) -> Result<String, Failure> {
         Ok(self.report()?.text())
     }

@@ -25,6 +25,7 @@ mod network;
 mod observation;
 mod optimize;
 mod pickle;
+mod picture;
 mod played;
 mod policy;
 mod policy_source;
@@ -57,6 +58,8 @@ mod _native {
     use crate::network::Network;
     #[pymodule_export]
     use crate::optimize::{Bound, Plan, bound, plan};
+    #[pymodule_export]
+    use crate::picture::Picture;
     #[pymodule_export]
     use crate::played::{Played, simulate};
     #[pymodule_export]

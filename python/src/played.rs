@@ -13,6 +13,7 @@ use crate::interruptible::interruptible;
 use crate::model::Model;
 use crate::network::Network;
 use crate::pickle::{Reduced, reduced};
+use crate::picture::Picture;
 use crate::policy_source::{OwnCalls, Weights, of_own};
 use crate::scenario::Scenario;
 use crate::trace::Trace;
@@ -43,6 +44,15 @@ impl Played {
     #[getter]
     fn trace(&self) -> Trace {
         self.trace.clone()
+    }
+
+    /// The trace as a picture.
+    fn plot(&self, py: Python<'_>) -> Picture {
+        self.trace.plot(py)
+    }
+
+    fn _repr_svg_(&self, py: Python<'_>) -> String {
+        self.trace.plot(py).text
     }
 
     /// Restores a pickled object by replaying a trace of a whole day.

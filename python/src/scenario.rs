@@ -10,6 +10,7 @@ use vertifleet_core as core;
 use crate::failure::Failure;
 use crate::frames::{count, read_only, table};
 use crate::pickle::{Reduced, reduced};
+use crate::picture::Picture;
 
 /// One operating day with all that happens to the fleet from outside: network, fleet, demand, tariffs and disturbances.
 /// A `Scenario` never changes, and neither do its arrays. To get a different day, draw it from a changed network, or
@@ -46,6 +47,15 @@ impl Scenario {
     /// The text of the scenario file.
     fn to_json(&self) -> String {
         self.scenario.to_json()
+    }
+
+    /// The day as a picture: its vertiports, and who wants to fly where and when.
+    fn plot(&self, py: Python<'_>) -> Picture {
+        Picture { text: py.detach(|| vertifleet_picture::day(&self.scenario)) }
+    }
+
+    fn _repr_svg_(&self, py: Python<'_>) -> String {
+        self.plot(py).text
     }
 
     /// The name of the day, for example `paper-7`.

@@ -6,11 +6,13 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vertifleet_core as core;
+use vertifleet_picture::schedule;
 use vertifleet_sim as sim;
 
 use crate::failure::Failure;
 use crate::frames::{Columns, frame, plain};
 use crate::pickle::{Reduced, reduced};
+use crate::picture::Picture;
 use crate::scenario::Scenario;
 
 /// Every decision of a day with its outcome, one row each, in the order in which they were taken. It is a complete
@@ -89,6 +91,16 @@ impl Trace {
     /// The columns as a polars `DataFrame`.
     fn to_polars<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(&self.columns(py)?, "polars")
+    }
+
+    /// The trace as a picture: where passengers flew, what every aircraft did, how full the vertiports were, and how much
+    /// demand was served and spilled.
+    pub(crate) fn plot(&self, py: Python<'_>) -> Picture {
+        Picture { text: py.detach(|| schedule(&self.scenario, &self.trace.rows)) }
+    }
+
+    fn _repr_svg_(&self, py: Python<'_>) -> String {
+        self.plot(py).text
     }
 
     fn __len__(&self) -> usize {

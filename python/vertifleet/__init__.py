@@ -1,11 +1,12 @@
 """Fleets of electric air taxis: where every aircraft flies next, so that the day earns the most.
 
 The Rust program does all the work here, by the same rules. `Network` draws days, `simulate` plays one day,
-`compare` plays many days with many policies, `evaluate` plays a frozen suite, `sweep` compares on variations of a network, `bound` proves how
-much a day can earn at most, `plan` searches for the best schedule, `check` checks a schedule against the
-rules, and `train` trains the learned policies. Importing the package registers the Gymnasium environment
-``vertifleet/Fleet-v0``. `vertifleet.torch` has the learned policies as PyTorch modules; `vertifleet.sb3` and
-`vertifleet.ray` train them with those libraries.
+`compare` plays many days with many policies, `evaluate` plays frozen suites whose certified bounds are
+shipped, `sweep` compares on variations of a network, `bound` proves how much a day can earn at most, `plan`
+searches for the best schedule, `check` checks a schedule against the rules, and `train` trains the learned
+policies. Importing the package registers Gymnasium environments, ``vertifleet/Fleet-v0`` first.
+`vertifleet.torch` has the learned policies as PyTorch modules; `vertifleet.sb3` and `vertifleet.ray` train them
+with those libraries.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from vertifleet._native import (
     Evaluation,
     Model,
     Network,
+    Picture,
     Plan,
     Played,
     Scenario,
@@ -53,6 +55,7 @@ __all__ = [
     "Outcome",
     "OwnObservation",
     "OwnPolicy",
+    "Picture",
     "Plan",
     "Played",
     "Policy",

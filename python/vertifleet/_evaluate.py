@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vertifleet import _native
 from vertifleet._compare import PolicySource
 from vertifleet._native import Evaluation, Network, Scenario
+from vertifleet._own_policy import FunctionPolicy
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -58,7 +59,7 @@ def _named(policy: Any) -> tuple[Sequence[str], dict[str, PolicySource]]:
     if isinstance(policy, str):
         return [policy], {}
     if isinstance(policy, Mapping):
-        return list(policy), dict(policy)
+        return list(policy), {name: given for name, given in policy.items() if name != given}
     if isinstance(policy, os.PathLike):
         name = Path(policy).stem
         return [name], {name: policy}
@@ -66,9 +67,9 @@ def _named(policy: Any) -> tuple[Sequence[str], dict[str, PolicySource]]:
         return [policy.kind], {policy.kind: policy}
     if isinstance(policy, Iterable) and not hasattr(policy, "choose"):
         return list(policy), {}
-    name = getattr(policy, "__name__", None) or type(policy).__name__
+    named = policy.function if isinstance(policy, FunctionPolicy) else policy
     # A function without a name of its own is called "<lambda>".
-    name = name.strip("<>")
+    name = (getattr(named, "__name__", None) or type(named).__name__).strip("<>")
     return [name], {name: policy}
 
 

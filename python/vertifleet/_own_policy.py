@@ -51,8 +51,8 @@ class FunctionPolicy:
 
 
 def adapted(policy: Any, network: Network | None) -> tuple[Callable[[], Chooser], bool, Days | None]:
-    """What makes the function from a view to an action for a day, whether it sees the present only, and the days
-    as days of which it sees them.
+    """What makes the function from a view to an action for a day, whether it sees the present only, and the
+    days as days of which it sees them.
 
     Raises:
         Error: V451 for a function without a network.
@@ -83,9 +83,7 @@ def _chooser(policy: OwnPolicy) -> Chooser:
     return choose
 
 
-def _of_function(
-    policy: FunctionPolicy, network: Network | None
-) -> tuple[Callable[[], Chooser], bool, Days]:
+def _of_function(policy: FunctionPolicy, network: Network | None) -> tuple[Callable[[], Chooser], bool, Days]:
     networks = policy.network if network is None or policy.network is not None else network
     if networks is None:
         rule = "a function takes a network, as which it sees the days"

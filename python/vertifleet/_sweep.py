@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from html import escape
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from vertifleet._native import Comparison, Network
 
 MEANS = ("profit_usd", "profit_low_usd", "profit_high_usd", "reward", "flights", "load_factor", "bound_share")
-"""The columns that are means over the days; the last exists only if bounds were request for."""
+"""The columns that are means over the days; the last exists only if bounds were asked for."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -35,7 +36,7 @@ class Sweep:
     network: str
     """Name of the network."""
     policies: tuple[str, ...]
-    """The policies, in the order they were request for."""
+    """The policies, in the order they were asked for."""
     points: tuple[tuple[dict[str, Any], Comparison], ...]
     """The variations in their order: what was changed, and the comparison with that change."""
 
@@ -46,7 +47,7 @@ class Sweep:
         The first columns are what was changed, one for each path of the network file. Then come ``policy``
         and the means over the days: ``profit_usd`` with its 95 % confidence interval from ``profit_low_usd``
         to ``profit_high_usd`` (NaN for a single day), ``reward``, ``flights``, ``load_factor``, and
-        ``bound_share`` if bounds were request for.
+        ``bound_share`` if bounds were asked for.
         """
         rows = list(self._rows())
         return {name: _column([row[name] for row in rows]) for name in rows[0]}
@@ -77,6 +78,12 @@ class Sweep:
         head = f"network {self.network}, {points}, each on {days}, seed {summary['seed']}"
         note = "means a day; ± is the 95 % interval of the mean"
         return "\n".join([head, "", *_table([_shown(row) for row in self._rows()]), note])
+
+    def _repr_html_(self) -> str:
+        rows = [_shown(row) for row in self._rows()]
+        heading = "".join(f"<th>{escape(name)}</th>" for name in rows[0])
+        cells = ("".join(f"<td>{escape(cell)}</td>" for cell in row.values()) for row in rows)
+        return f"<table><tr>{heading}</tr>" + "".join(f"<tr>{row}</tr>" for row in cells) + "</table>"
 
     def __repr__(self) -> str:
         return f"<Sweep of {self.network}: {len(self.points)} points, {len(self.policies)} policies>"

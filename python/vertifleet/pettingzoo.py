@@ -22,6 +22,7 @@ from vertifleet.envs.arguments import action_of, options_of, reward_of
 from vertifleet.envs.copies import Copied
 from vertifleet.envs.days import days_of
 from vertifleet.envs.observing import Observing
+from vertifleet.envs.rendering import METADATA, RenderMode, mode_of, rendered
 
 __all__ = ["FleetAEC", "env"]
 
@@ -29,7 +30,7 @@ __all__ = ["FleetAEC", "env"]
 def env(
     network: str | os.PathLike[str] | Network = "paper",
     reward: Literal["terminal", "dense"] = "terminal",
-    render_mode: None = None,
+    render_mode: RenderMode | None = None,
 ) -> AECEnv[str, dict[str, Any], int]:
     """The environment with PettingZoo's usual wrapper, which reports calls in a wrong order."""
     return wrappers.OrderEnforcingWrapper(FleetAEC(network, reward, render_mode))
@@ -47,7 +48,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
     environment can be copied and pickled in the middle of a day; copies share its network and spaces.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": [], "name": "fleet_v0", "is_parallelizable": False}
+    metadata: ClassVar[dict[str, Any]] = METADATA | {"name": "fleet_v0", "is_parallelizable": False}
     _never_changes = (
         "network",
         "_observing",
@@ -62,7 +63,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         self,
         network: str | os.PathLike[str] | Network = "paper",
         reward: Literal["terminal", "dense"] = "terminal",
-        render_mode: None = None,
+        render_mode: RenderMode | None = None,
     ) -> None:
         super().__init__()
         name, own = reward_of(reward)
@@ -73,7 +74,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         self._observing = Observing("paper", self._days)
         self._state = Observing("full", self._days)
         self.reward = name
-        self.render_mode = render_mode
+        self.render_mode = mode_of(render_mode)
         # The native environment pays flight by flight, which shows which agent earned each dollar.
         self._environment = Environment(self._days, self._observing.layout, "dense")
         self.possible_agents = [f"aircraft_{position}" for position in range(self.network.fleet_size)]
@@ -154,6 +155,10 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         observation = self._observing.of_row(row)
         del observation["action_mask"]
         return {"observation": observation, "action_mask": mask}
+
+    def render(self) -> Any:
+        """The fleet at the current decision, as ``vertifleet/Fleet-v0`` renders it."""
+        return rendered(self._environment, self.render_mode)
 
     def step(self, action: int | None) -> None:
         """Carries the decision of the selected agent out and goes on to the next.

@@ -41,7 +41,7 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Play a day of each of many random networks and report shares of the bound
     Generalise(GeneraliseArguments),
-    /// Play a frozen suite of days, measure shares of its certified bounds, and verify results
+    /// Measure policies on a frozen suite of days, and verify results
     Evaluate(EvaluateArguments),
 }
 

@@ -12,8 +12,17 @@ use vertifleet_learn::{ImitationSettings, TrainingSettings};
 
 type Names = BTreeSet<String>;
 
-const COMMANDS: &[&str] =
-    &["scenario", "simulate", "check", "bound", "plan", "train", "compare", "generalise"];
+const COMMANDS: &[&str] = &[
+    "scenario",
+    "simulate",
+    "check",
+    "bound",
+    "plan",
+    "train",
+    "compare",
+    "generalise",
+    "evaluate",
+];
 
 fn root() -> PathBuf {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("crates/cli is in a folder");

@@ -8,12 +8,12 @@ use vertifleet_optimize::{Budget, SearchSettings, can_plan, plan, steps_of_equal
 use vertifleet_sim::Trace;
 
 use crate::error::Error;
-use crate::numbers::grouped;
 use crate::policy_spec::{PolicySource, PolicySpec, ResolveFor};
 use crate::record::{LearningCurve, ValidationCurves};
 use crate::resolved_policy::ResolvedPolicy;
 use crate::sees::Sees;
 use crate::starting_policies::starting_policies;
+use vertifleet_picture::numbers::grouped;
 
 /// Number of steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; other
 /// days get as many steps as are the same amount of work. There is no time limit, so the plan is the same on every

@@ -5,20 +5,14 @@
 //! that it reads the same in grey. Colours are set twice: as attributes, for the SVG file by itself, and as classes,
 //! which the style sheet of a page may override for a dark background.
 
-mod axis;
 mod box_plot;
-mod canvas;
 mod day_differences;
 mod key;
 mod learning_curves;
-mod palette;
-mod png;
 mod share_by_size;
 
 use crate::comparison::ComparisonReport;
 
-pub(crate) use palette::style_sheet;
-pub(crate) use png::png;
 pub(crate) use share_by_size::share_by_size;
 
 /// A picture with the text that a page shows with it.

@@ -5,12 +5,14 @@ use vertifleet_sim::DayTotals;
 
 use resvg::usvg::roxmltree::Document;
 
-use super::{Figure, all, png, style_sheet};
+use super::{Figure, all};
 use crate::comparison::ComparisonReport;
 use crate::origin::NetworkOrigin;
 use crate::record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
 };
+use vertifleet_picture::palette::style_sheet;
+use vertifleet_picture::png;
 
 /// A name that a user could give, with characters that XML treats specially or forbids.
 const HOSTILE: &str = "a<b>&\"c'\u{0}\u{ffff} with a name much longer than any row";

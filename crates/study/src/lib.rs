@@ -35,7 +35,6 @@ pub mod evaluation;
 pub mod figure;
 pub mod generalisation;
 mod kept_bounds;
-mod numbers;
 mod origin;
 mod own_days;
 mod page;

@@ -7,9 +7,9 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::figure::{self, Figure};
-use crate::numbers::typeset;
+use crate::figure::Figure;
 use crate::statistics::Estimate;
+use vertifleet_picture::numbers::typeset;
 
 /// A page with this title and body.
 pub(crate) fn document(title: &str, body: &Markup) -> String {
@@ -30,7 +30,7 @@ pub(crate) fn document(title: &str, body: &Markup) -> String {
 }
 
 fn style() -> String {
-    let figures = figure::style_sheet();
+    let figures = vertifleet_picture::palette::style_sheet();
     format!(
         "{}@media screen and (prefers-color-scheme:dark){{{figures}}}\n",
         include_str!("page/style.css")

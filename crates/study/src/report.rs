@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use vertifleet_core::{FolderKind, OutputKind, replace_folder};
 
 use crate::error::Error;
-use crate::figure::{self, Figure};
+use crate::figure::Figure;
 
 /// A file of a report: its name and its content.
 pub type File = (String, Vec<u8>);
@@ -104,7 +104,7 @@ pub(crate) fn pictures(figures: &[Figure]) -> Vec<File> {
     let both = |figure: &Figure| {
         [
             (format!("{}.svg", figure.slug), figure.svg.clone().into_bytes()),
-            (format!("{}.png", figure.slug), figure::png(&figure.svg)),
+            (format!("{}.png", figure.slug), vertifleet_picture::png(&figure.svg)),
         ]
     };
     figures.iter().flat_map(both).collect()

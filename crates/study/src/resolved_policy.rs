@@ -12,9 +12,9 @@ use vertifleet_policy::{
 use vertifleet_sim::{DayTotals, Simulation, Trace};
 
 use crate::error::Error;
-use crate::numbers::grouped;
 use crate::origin::{NetworkOrigin, network_of};
 use crate::sees::Sees;
+use vertifleet_picture::numbers::grouped;
 
 /// A policy that can be built.
 #[derive(Debug, Clone)]

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use maud::{Markup, html};
+
 use crate::statistics::Estimate;
 
 /// The alignment of a cell's text.
@@ -34,6 +36,22 @@ pub(crate) fn append_aligned(text: &mut String, rows: &[Vec<String>]) {
         if position == 0 {
             let _ =
                 writeln!(text, "{}", "-".repeat(widths.iter().sum::<usize>() + 2 * (columns - 1)));
+        }
+    }
+}
+
+/// The rows as an HTML table for notebooks, with the first row as its heading.
+pub(crate) fn html(rows: &[Vec<String>]) -> Markup {
+    html! {
+        table {
+            @for (position, row) in rows.iter().enumerate() {
+                tr {
+                    @for (column, cell) in row.iter().enumerate() {
+                        @let style = if column == 0 { "text-align:left" } else { "text-align:right" };
+                        @if position == 0 { th style=(style) { (cell) } } @else { td style=(style) { (cell) } }
+                    }
+                }
+            }
         }
     }
 }

@@ -69,8 +69,8 @@ fn an_honest_result_is_verified() {
 
 #[test]
 fn whatever_is_claimed_too_much_is_found() {
-    let honest = greedy_result();
     type Change = fn(&mut ResultFile);
+    let honest = greedy_result();
     let changes: [(&str, Change); 10] = [
         ("a profit", |result| result.days[3].profit_usd += 1.0),
         ("a bound", |result| result.days[3].upper_bound_usd -= 1.0),

@@ -13,7 +13,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
-PAGES = ["README.md", "docs/src/guide/python.md", "docs/src/guide/cluster.md", "python/README.md"]
+PAGES = [
+    "README.md",
+    "docs/src/guide/python.md",
+    "docs/src/guide/cluster.md",
+    "docs/src/reference/protocol.md",
+    "docs/src/reference/observations.md",
+    "python/README.md",
+]
 EXAMPLES = [
     (page, number, code)
     for page in PAGES

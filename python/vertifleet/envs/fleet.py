@@ -18,6 +18,7 @@ from vertifleet.envs.arguments import Reward, action_of, number_of, options_of, 
 from vertifleet.envs.copies import Copied
 from vertifleet.envs.days import NetworksChoice, Split, days_of, plain
 from vertifleet.envs.observing import Info, ObservationChoice, Observing
+from vertifleet.envs.rendering import METADATA, RenderMode, mode_of, rendered
 
 
 class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
@@ -41,7 +42,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
     day; copies share its network and spaces.
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - declared so by Gymnasium
+    metadata: dict[str, Any] = METADATA
     _spec: EnvSpec | None = None
     _never_changes = ("network", "_observing", "observation_space", "action_space", "_spec")
 
@@ -49,7 +50,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
         self,
         network: NetworksChoice = "paper",
         reward: Reward = "terminal",
-        render_mode: None = None,
+        render_mode: RenderMode | None = None,
         observation: ObservationChoice = "paper",
         split: Split = "training",
     ) -> None:
@@ -57,7 +58,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
         self._observing = Observing(observation, self._days)
         self.observation_space = self._observing.space
         self.action_space = spaces.Discrete(self._days.sizes[0])
-        self.render_mode = render_mode
+        self.render_mode = mode_of(render_mode)
         self._is_closed = False
         name, self._reward = reward_of(reward)
         self._environment = Environment(self._days, self._observing.layout, name)
@@ -103,6 +104,15 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
         if over:
             info["summary"] = self._environment.summary
         return self._shown(row), reward, over, False, info
+
+    def render(self) -> Any:
+        """The fleet at the current decision, as `render_mode` has it: "rgb_array" is a map of 640 by 480
+        pixels, an array of bytes [480, 640, 3], and "ansi" a text. None without a `render_mode`.
+
+        Raises:
+            Error: V451 before the first day.
+        """
+        return rendered(self._environment, self.render_mode)
 
     def action_masks(self) -> NDArray[np.bool_]:
         """Which actions are feasible [N]."""

@@ -5,12 +5,12 @@ use maud::{Markup, html};
 use super::headline;
 use super::summary::{ComparisonReport, PolicySummary};
 use crate::figure::Figure;
-use crate::numbers::{
-    counted, dollars, duration, grouped, minutes, p_statement, signed_dollars, typeset,
-};
 use crate::origin::NetworkOrigin;
 use crate::page::{document, estimate, links, picture};
 use crate::published::{NOTE, PublishedResult};
+use vertifleet_picture::numbers::{
+    counted, dollars, duration, grouped, minutes, p_statement, signed_dollars, typeset,
+};
 
 /// The page as HTML.
 pub(crate) fn text(summary: &ComparisonReport, figures: &[Figure]) -> String {

@@ -242,6 +242,11 @@ impl ComparisonReport {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
 
+    /// The tables of policies and tests as HTML for notebooks.
+    pub fn html(&self) -> String {
+        super::table::html(self)
+    }
+
     /// Whether these days are like those of the paper, so that the figures correspond to the paper's.
     pub(crate) fn is_of_the_paper(&self) -> bool {
         !self.published.is_empty()

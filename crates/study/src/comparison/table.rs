@@ -3,11 +3,12 @@
 use std::fmt::Write as _;
 
 use super::summary::{ComparisonReport, PairedDifference, PolicySummary};
-use crate::numbers::{counted, duration, grouped, minutes, p_value, signed};
 use crate::origin::NetworkOrigin;
 use crate::sees::SEES;
 use crate::statistics::Estimate;
-use crate::table::{append_aligned, estimate};
+use crate::table::{self, append_aligned, estimate};
+use maud::html;
+use vertifleet_picture::numbers::{counted, duration, grouped, minutes, p_value, signed};
 
 /// The column of the share of the bound.
 const SHARE_COLUMN: usize = 4;
@@ -24,6 +25,40 @@ pub(crate) fn text(summary: &ComparisonReport) -> String {
         let _ = write!(text, " of one's own from {from}");
     }
     text.push_str("\n\n");
+    append_aligned(&mut text, &policies(summary));
+    text.push_str("means a day; ± is the 95 % interval of the mean");
+    if let Some(bound) = &summary.bound {
+        let amount = estimate(&bound.upper_bound_usd, |value| grouped(value, 0));
+        let _ = write!(
+            text,
+            "\nof bound: share of the certified bound, which no schedule passes: $ {amount} (slices of {})",
+            minutes(bound.step_s)
+        );
+    }
+    let _ = write!(text, "\n{SEES}");
+    if summary.comparisons.is_empty() {
+        return text;
+    }
+    text.push_str("\n\npaired t-tests of the daily profit, two-sided\n\n");
+    append_aligned(&mut text, &tests(summary));
+    text.truncate(text.trim_end().len());
+    text
+}
+
+/// The tables as HTML for notebooks.
+pub(crate) fn html(summary: &ComparisonReport) -> String {
+    let tables = html! {
+        (table::html(&policies(summary)))
+        @if !summary.comparisons.is_empty() {
+            p { "paired t-tests of the daily profit, two-sided" }
+            (table::html(&tests(summary)))
+        }
+    };
+    tables.into_string()
+}
+
+/// A heading, and a row for each policy.
+fn policies(summary: &ComparisonReport) -> Vec<Vec<String>> {
     let mut policies = vec![heading([
         "policy",
         "sees",
@@ -46,27 +81,15 @@ pub(crate) fn text(summary: &ComparisonReport) -> String {
             row.remove(SHARE_COLUMN);
         }
     }
-    append_aligned(&mut text, &policies);
-    text.push_str("means a day; ± is the 95 % interval of the mean");
-    if let Some(bound) = &summary.bound {
-        let amount = estimate(&bound.upper_bound_usd, |value| grouped(value, 0));
-        let _ = write!(
-            text,
-            "\nof bound: share of the certified bound, which no schedule passes: $ {amount} (slices of {})",
-            minutes(bound.step_s)
-        );
-    }
-    let _ = write!(text, "\n{SEES}");
-    if summary.comparisons.is_empty() {
-        return text;
-    }
-    text.push_str("\n\npaired t-tests of the daily profit, two-sided\n\n");
+    policies
+}
+
+/// A heading, and a row for each pair of policies.
+fn tests(summary: &ComparisonReport) -> Vec<Vec<String>> {
     let mut tests =
         vec![heading(["first - second", "difference, $", "t", "df", "p", "first ahead"])];
     tests.extend(summary.comparisons.iter().map(|comparison| test_row(comparison, summary.days)));
-    append_aligned(&mut text, &tests);
-    text.truncate(text.trim_end().len());
-    text
+    tests
 }
 
 fn heading<const N: usize>(cells: [&str; N]) -> Vec<String> {

@@ -81,6 +81,11 @@ impl EvaluationReport {
     pub fn text(&self) -> String {
         super::table::text(self)
     }
+
+    /// The tables as HTML for notebooks.
+    pub fn html(&self) -> String {
+        super::table::html(self)
+    }
 }
 
 impl SuiteReport {

@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use super::{EvaluatedPolicy, EvaluationReport, SuiteReport};
-use crate::numbers::{duration, grouped, minutes, p_value, signed};
 use crate::sees::SEES;
-use crate::table::{append_aligned, estimate};
+use crate::table::{self, append_aligned, estimate};
+use maud::html;
+use vertifleet_picture::numbers::{duration, grouped, minutes, p_value, signed};
 
 const NONE: &str = "n/a";
 
@@ -29,11 +30,35 @@ pub(super) fn text(report: &EvaluationReport) -> String {
     text
 }
 
+/// The tables as HTML for notebooks.
+pub(super) fn html(report: &EvaluationReport) -> String {
+    let tables = html! {
+        @for suite in &report.suites {
+            p { b { (suite.suite) } ": " (suite.description) }
+            (table::html(&suite_rows(suite)))
+        }
+        @if report.suites.len() > 1 {
+            p { "share of the certified bound, %" }
+            (table::html(&all_suites(report)))
+        }
+    };
+    tables.into_string()
+}
+
 fn append_suite(text: &mut String, suite: &SuiteReport) {
-    let SuiteReport { suite: name, description, bound_step_s, policies, left_out, .. } = suite;
-    let first = policies.first().map_or("first", |first| first.share.name.as_str());
+    let SuiteReport { suite: name, description, bound_step_s, left_out, .. } = suite;
     let _ =
         writeln!(text, "{name}: {description}, bounds with slices of {}\n", minutes(*bound_step_s));
+    append_aligned(text, &suite_rows(suite));
+    for one in left_out {
+        let _ = writeln!(text, "{}: cannot play these days: {}", one.policy, one.reason);
+    }
+}
+
+/// A heading, and a row for each policy.
+fn suite_rows(suite: &SuiteReport) -> Vec<Vec<String>> {
+    let policies = &suite.policies;
+    let first = policies.first().map_or("first", |first| first.share.name.as_str());
     let heading = [
         "policy",
         "sees",
@@ -47,10 +72,7 @@ fn append_suite(text: &mut String, suite: &SuiteReport) {
     ];
     let mut rows = vec![heading.map(str::to_owned).to_vec()];
     rows.extend(policies.iter().map(row));
-    append_aligned(text, &rows);
-    for one in left_out {
-        let _ = writeln!(text, "{}: cannot play these days: {}", one.policy, one.reason);
-    }
+    rows
 }
 
 fn row(policy: &EvaluatedPolicy) -> Vec<String> {

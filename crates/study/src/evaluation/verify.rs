@@ -13,11 +13,11 @@ use vertifleet_sim::{DayTotals, Simulation, Trace};
 
 use super::result::{ResultDay, ResultFile, profits, shares};
 use crate::error::Error;
-use crate::numbers::{counted, grouped};
 use crate::record::DayRecord;
 use crate::statistics::Estimate;
 use crate::suite::{Suite, SuiteDay};
 use crate::table::estimate;
+use vertifleet_picture::numbers::{counted, grouped};
 
 /// Two numbers agree if they differ by no more than this share of them. Sums in another order differ by less.
 const TOLERANCE: f64 = 1e-9;

@@ -4,12 +4,14 @@
 //! named, so colour carries no information that the text does not give.
 
 use super::Figure;
-use super::axis::Scale;
-use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened, text_width};
-use super::palette::Paint;
 use crate::comparison::{ComparisonReport, PolicySummary};
-use crate::numbers::{counted, dollars, grouped, minutes, typeset};
 use crate::statistics::BoxSummary;
+use vertifleet_picture::axis::Scale;
+use vertifleet_picture::canvas::{
+    Anchor, Canvas, Lettering, Look, Point, Stroke, shortened, text_width,
+};
+use vertifleet_picture::numbers::{counted, dollars, grouped, minutes, typeset};
+use vertifleet_picture::palette::Paint;
 
 const WIDTH: f64 = 760.0;
 const TOP: f64 = 96.0;

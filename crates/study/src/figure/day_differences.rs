@@ -4,11 +4,13 @@
 use std::fmt::Write as _;
 
 use super::Figure;
-use super::axis::Scale;
-use super::canvas::{Anchor, Canvas, Lettering, Look, Stroke, pixels, shortened};
-use super::palette::Paint;
 use crate::comparison::{ComparisonReport, PairedDifference};
-use crate::numbers::{counted, dollars, signed_dollars};
+use vertifleet_picture::axis::Scale;
+use vertifleet_picture::canvas::{
+    Anchor, Canvas, Lettering, Look, Stroke, pixels, shortened, text_width,
+};
+use vertifleet_picture::numbers::{counted, dollars, signed_dollars};
+use vertifleet_picture::palette::Paint;
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;
@@ -112,7 +114,7 @@ fn draw_key(canvas: &mut Canvas, comparison: &PairedDifference) {
         let label =
             format!("{} earns more ({})", shortened(name, 22), counted(days, "day", "days"));
         canvas.text((x + 19.0, y + 4.0), Lettering::SMALL, &label);
-        x += 19.0 + super::canvas::text_width(&label, 12.0) + 20.0;
+        x += 19.0 + text_width(&label, 12.0) + 20.0;
     }
 }
 

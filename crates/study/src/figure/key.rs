@@ -1,6 +1,6 @@
 //! The places of the names in a key: side by side, in as many rows as they need.
 
-use super::canvas::{Point, text_width};
+use vertifleet_picture::canvas::{Point, text_width};
 
 /// The left end of every row.
 const LEFT: f64 = 16.0;

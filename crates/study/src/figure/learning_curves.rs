@@ -2,13 +2,13 @@
 //! days.
 
 use super::Figure;
-use super::axis::Scale;
-use super::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};
 use super::key;
-use super::palette::{Paint, dash};
 use crate::comparison::ComparisonReport;
-use crate::numbers::{grouped, typeset};
 use crate::origin::NetworkOrigin;
+use vertifleet_picture::axis::Scale;
+use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};
+use vertifleet_picture::numbers::{grouped, typeset};
+use vertifleet_picture::palette::{Paint, dash};
 
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 70.0;

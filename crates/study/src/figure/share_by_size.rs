@@ -5,12 +5,12 @@
 //! marks that overlap.
 
 use super::Figure;
-use super::axis::Scale;
-use super::canvas::{Anchor, Canvas, Lettering, Stroke, shortened};
 use super::key;
-use super::palette::Paint;
 use crate::generalisation::{GeneralisationReport, NetworkShare};
-use crate::numbers::{counted, grouped, minutes, typeset};
+use vertifleet_picture::axis::Scale;
+use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Stroke, shortened};
+use vertifleet_picture::numbers::{counted, grouped, minutes, typeset};
+use vertifleet_picture::palette::Paint;
 
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 56.0;

@@ -4,9 +4,9 @@ use maud::{Markup, html};
 
 use super::{GeneralisationReport, NetworkShare, headline};
 use crate::figure::Figure;
-use crate::numbers::{counted, dollars, grouped, minutes, p_value, signed, typeset};
 use crate::page::{self, estimate};
 use crate::share::PolicyShare;
+use vertifleet_picture::numbers::{counted, dollars, grouped, minutes, p_value, signed, typeset};
 
 /// The page as HTML.
 pub(super) fn text(summary: &GeneralisationReport, figures: &[Figure]) -> String {

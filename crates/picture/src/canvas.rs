@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::palette::Paint;
+use crate::palette::Paint;
 
 /// Font families in order of preference: the embedded font of the PNGs, then common system fonts.
 const FONTS: &str = "Inter, 'Segoe UI', Roboto, 'Helvetica Neue', 'Noto Sans', 'Liberation Sans', Arial, sans-serif";
@@ -11,77 +11,95 @@ const FONTS: &str = "Inter, 'Segoe UI', Roboto, 'Helvetica Neue', 'Noto Sans', '
 const LETTER_WIDTH: f64 = 0.56;
 
 /// Position in pixels, right and down from the upper left corner.
-pub(super) type Point = (f64, f64);
+pub type Point = (f64, f64);
 
 /// The alignment of a text relative to its position.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Anchor {
+pub enum Anchor {
+    /// It begins at the position.
     Start,
+    /// It is centred on the position.
     Middle,
+    /// It ends at the position.
     End,
 }
 
 /// Size, weight, colour and alignment of a text.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lettering {
-    pub(super) size: f64,
-    pub(super) bold: bool,
-    pub(super) paint: Paint,
-    pub(super) anchor: Anchor,
+pub struct Lettering {
+    /// Size of the letters in pixels.
+    pub size: f64,
+    /// Whether they are bold.
+    pub bold: bool,
+    /// Their colour.
+    pub paint: Paint,
+    /// Alignment.
+    pub anchor: Anchor,
 }
 
 impl Lettering {
     /// Labels of scales and keys.
-    pub(super) const SMALL: Self =
+    pub const SMALL: Self =
         Self { size: 12.0, bold: false, paint: Paint::Muted, anchor: Anchor::Start };
     /// Names and values.
-    pub(super) const LABEL: Self =
+    pub const LABEL: Self =
         Self { size: 13.0, bold: false, paint: Paint::Ink, anchor: Anchor::Start };
 
-    pub(super) fn anchored(self, anchor: Anchor) -> Self {
+    /// The same with another alignment.
+    #[must_use]
+    pub fn anchored(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }
 
-    pub(super) fn bold(self) -> Self {
+    /// The same in bold.
+    #[must_use]
+    pub fn bold(self) -> Self {
         Self { bold: true, ..self }
     }
 }
 
 /// How a line is drawn.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stroke {
-    pub(super) paint: Paint,
-    pub(super) width: f64,
-    pub(super) dash: Option<&'static str>,
+pub struct Stroke {
+    /// Colour.
+    pub paint: Paint,
+    /// Width in pixels.
+    pub width: f64,
+    /// Dash pattern in the notation of SVG; `None` for a solid line.
+    pub dash: Option<&'static str>,
 }
 
 impl Stroke {
-    pub(super) fn solid(paint: Paint, width: f64) -> Self {
+    /// A solid line.
+    pub fn solid(paint: Paint, width: f64) -> Self {
         Self { paint, width, dash: None }
     }
 }
 
 /// The fill and the outline of a shape.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Look {
+pub struct Look {
     /// The paint and its opacity.
-    pub(super) fill: Option<(Paint, f64)>,
-    pub(super) stroke: Option<Stroke>,
+    pub fill: Option<(Paint, f64)>,
+    /// The outline.
+    pub stroke: Option<Stroke>,
 }
 
 impl Look {
-    pub(super) fn filled(paint: Paint) -> Self {
+    /// A fill without an outline.
+    pub fn filled(paint: Paint) -> Self {
         Self { fill: Some((paint, 1.0)), stroke: None }
     }
 
-    pub(super) fn outlined(stroke: Stroke) -> Self {
+    /// An outline without a fill.
+    pub fn outlined(stroke: Stroke) -> Self {
         Self { fill: None, stroke: Some(stroke) }
     }
 }
 
 /// An SVG picture under construction.
 #[derive(Debug)]
-pub(super) struct Canvas {
+pub struct Canvas {
     width: f64,
     height: f64,
     title: String,
@@ -90,16 +108,23 @@ pub(super) struct Canvas {
 
 impl Canvas {
     /// An empty picture with a title in its upper left corner and a subtitle in smaller letters below it.
-    pub(super) fn new(width: f64, height: f64, title: &str, subtitle: &str) -> Self {
-        let mut canvas = Self { width, height, title: title.to_owned(), body: String::new() };
-        canvas.rectangle((0.0, 0.0), (width, height), Look::filled(Paint::Ground));
+    pub fn new(width: f64, height: f64, title: &str, subtitle: &str) -> Self {
+        let mut canvas = Self::bare(width, height, title);
         let heading = Lettering { size: 17.0, ..Lettering::LABEL.bold() };
         canvas.text((16.0, 28.0), heading, title);
         canvas.text((16.0, 48.0), Lettering { size: 13.0, ..Lettering::SMALL }, subtitle);
         canvas
     }
 
-    pub(super) fn line(&mut self, from: Point, to: Point, stroke: Stroke) {
+    /// An empty picture without a heading; the title is for those who have it read out.
+    pub fn bare(width: f64, height: f64, title: &str) -> Self {
+        let mut canvas = Self { width, height, title: title.to_owned(), body: String::new() };
+        canvas.rectangle((0.0, 0.0), (width, height), Look::filled(Paint::Ground));
+        canvas
+    }
+
+    /// A straight line.
+    pub fn line(&mut self, from: Point, to: Point, stroke: Stroke) {
         let ends = format!(
             "x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"",
             pixels(from.0),
@@ -111,7 +136,7 @@ impl Canvas {
     }
 
     /// A rectangle with its upper left corner at `corner`.
-    pub(super) fn rectangle(&mut self, corner: Point, size: (f64, f64), look: Look) {
+    pub fn rectangle(&mut self, corner: Point, size: (f64, f64), look: Look) {
         let place = format!(
             "x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"",
             pixels(corner.0),
@@ -122,7 +147,8 @@ impl Canvas {
         self.shape("rect", &place, look);
     }
 
-    pub(super) fn circle(&mut self, centre: Point, radius: f64, look: Look) {
+    /// A circle.
+    pub fn circle(&mut self, centre: Point, radius: f64, look: Look) {
         let place = format!(
             "cx=\"{}\" cy=\"{}\" r=\"{}\"",
             pixels(centre.0),
@@ -133,7 +159,7 @@ impl Canvas {
     }
 
     /// A line through points, closed or open.
-    pub(super) fn polyline(&mut self, points: &[Point], closed: bool, look: Look) {
+    pub fn polyline(&mut self, points: &[Point], closed: bool, look: Look) {
         let mut path = String::new();
         for (position, point) in points.iter().enumerate() {
             let command = if position == 0 { 'M' } else { 'L' };
@@ -146,12 +172,12 @@ impl Canvas {
     }
 
     /// A path in the notation of SVG.
-    pub(super) fn path(&mut self, path: &str, look: Look) {
+    pub fn path(&mut self, path: &str, look: Look) {
         self.shape("path", &format!("d=\"{path}\""), look);
     }
 
     /// The marker of a series: a circle, square, triangle, diamond or inverted triangle.
-    pub(super) fn marker(&mut self, at: Point, series: usize) {
+    pub fn marker(&mut self, at: Point, series: usize) {
         let (x, y) = at;
         let ring = Stroke::solid(Paint::Ground, 1.2);
         let look = Look { fill: Some((Paint::Series(series), 1.0)), stroke: Some(ring) };
@@ -164,13 +190,28 @@ impl Canvas {
         }
     }
 
-    pub(super) fn diamond(&mut self, (x, y): Point, radius: f64, look: Look) {
+    /// A square that stands on one corner.
+    pub fn diamond(&mut self, (x, y): Point, radius: f64, look: Look) {
         let corners = [(x, y - radius), (x + radius, y), (x, y + radius), (x - radius, y)];
         self.polyline(&corners, true, look);
     }
 
     /// A text whose baseline begins at, is centred on or ends at a position.
-    pub(super) fn text(&mut self, at: Point, lettering: Lettering, content: &str) {
+    pub fn text(&mut self, at: Point, lettering: Lettering, content: &str) {
+        self.text_with(at, lettering, content, "");
+    }
+
+    /// Like [`text`](Self::text), with a rim in the colour of the ground, so that it can be read on top of lines.
+    pub fn text_on_lines(&mut self, at: Point, lettering: Lettering, content: &str) {
+        let (class, colour) = (Paint::Ground.class(), Paint::Ground.colour());
+        let rim = format!(
+            " stroke-{class}\" stroke=\"{colour}\" stroke-width=\"3\" paint-order=\"stroke"
+        );
+        self.text_with(at, lettering, content, &rim);
+    }
+
+    /// `rim` continues the list of classes, and may add attributes.
+    fn text_with(&mut self, at: Point, lettering: Lettering, content: &str, rim: &str) {
         let anchor = match lettering.anchor {
             Anchor::Start => "",
             Anchor::Middle => " text-anchor=\"middle\"",
@@ -179,7 +220,7 @@ impl Canvas {
         let weight = if lettering.bold { " font-weight=\"600\"" } else { "" };
         let _ = writeln!(
             self.body,
-            "<text x=\"{}\" y=\"{}\" font-size=\"{}\"{weight}{anchor} class=\"fill-{}\" fill=\"{}\">{}</text>",
+            "<text x=\"{}\" y=\"{}\" font-size=\"{}\"{weight}{anchor} class=\"fill-{}{rim}\" fill=\"{}\">{}</text>",
             pixels(at.0),
             pixels(at.1),
             pixels(lettering.size),
@@ -215,7 +256,7 @@ impl Canvas {
     }
 
     /// The picture as a complete SVG document.
-    pub(super) fn into_svg(self) -> String {
+    pub fn into_svg(self) -> String {
         let Self { width, height, title, body } = self;
         let (width, height, title) = (pixels(width), pixels(height), escaped(&title));
         format!(
@@ -227,12 +268,12 @@ impl Canvas {
 }
 
 /// An estimate of the width of a text, which is rather too large than too small.
-pub(super) fn text_width(content: &str, size: f64) -> f64 {
+pub fn text_width(content: &str, size: f64) -> f64 {
     content.chars().count() as f64 * size * LETTER_WIDTH
 }
 
 /// The text, cut and marked with an ellipsis if it is longer than `letters`.
-pub(super) fn shortened(content: &str, letters: usize) -> String {
+pub fn shortened(content: &str, letters: usize) -> String {
     if content.chars().count() <= letters {
         return content.to_owned();
     }
@@ -240,7 +281,7 @@ pub(super) fn shortened(content: &str, letters: usize) -> String {
 }
 
 /// A length to a tenth of a pixel, without a trailing zero.
-pub(super) fn pixels(length: f64) -> String {
+pub fn pixels(length: f64) -> String {
     let text = format!("{length:.1}");
     match text.strip_suffix(".0") {
         Some("-0") => "0".to_owned(),

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 /// The use of a stroke or a fill.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Paint {
+pub enum Paint {
     /// The background of the picture.
     Ground,
     /// Titles, labels of things, and marks that matter.
@@ -43,12 +43,12 @@ const DASHES: [Option<&str>; 5] = [None, Some("7 4"), Some("2 3"), Some("10 3 2 
 
 impl Paint {
     /// The colour on a light background, as in an SVG file by itself.
-    pub(super) fn colour(self) -> &'static str {
+    pub fn colour(self) -> &'static str {
         self.tone().light
     }
 
     /// The name of the class by which a page changes this paint.
-    pub(super) fn class(self) -> String {
+    pub fn class(self) -> String {
         match self {
             Self::Ground => "ground".to_owned(),
             Self::Ink => "ink".to_owned(),
@@ -70,12 +70,12 @@ impl Paint {
 }
 
 /// The dash pattern of a series' line.
-pub(super) fn dash(position: usize) -> Option<&'static str> {
+pub fn dash(position: usize) -> Option<&'static str> {
     DASHES[position % DASHES.len()]
 }
 
 /// The style rules that give figures inside a page their colours on a dark background.
-pub(crate) fn style_sheet() -> String {
+pub fn style_sheet() -> String {
     let paints = [Paint::Ground, Paint::Ink, Paint::Muted, Paint::Grid];
     let mut rules = String::new();
     for paint in paints.into_iter().chain((0..SERIES.len()).map(Paint::Series)) {

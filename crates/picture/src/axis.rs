@@ -2,7 +2,7 @@
 
 /// A range of values laid over a range of pixels.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scale {
+pub struct Scale {
     low: f64,
     high: f64,
     from: f64,
@@ -14,12 +14,7 @@ impl Scale {
     /// A scale on which all `values` fit with a margin, with about `ticks` round values. `low` lies at pixel `from`.
     ///
     /// If all values are equal, there is room on either side of them; without values the scale goes from 0 to 1.
-    pub(super) fn around(
-        values: impl Iterator<Item = f64>,
-        from: f64,
-        to: f64,
-        ticks: usize,
-    ) -> Self {
+    pub fn around(values: impl Iterator<Item = f64>, from: f64, to: f64, ticks: usize) -> Self {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
             (low.min(value), high.max(value))
         });
@@ -30,13 +25,19 @@ impl Scale {
         Self { low, high, from, to, step: round_step((high - low) / ticks as f64) }
     }
 
+    /// A scale from 0 at pixel `from` to a little above the largest of `values`, with about `ticks` round values.
+    pub fn from_zero(values: impl Iterator<Item = f64>, from: f64, to: f64, ticks: usize) -> Self {
+        let high = 1.04 * values.fold(0.0, f64::max).max(1e-9);
+        Self { low: 0.0, high, from, to, step: round_step(high / ticks as f64) }
+    }
+
     /// The pixel at which a value lies.
-    pub(super) fn pixel(&self, value: f64) -> f64 {
+    pub fn pixel(&self, value: f64) -> f64 {
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
     }
 
     /// The round values on the scale, ascending.
-    pub(super) fn ticks(&self) -> Vec<f64> {
+    pub fn ticks(&self) -> Vec<f64> {
         let first = (self.low / self.step).ceil();
         let count = ((self.high / self.step).floor() - first).clamp(0.0, 50.0);
         #[expect(
@@ -49,7 +50,7 @@ impl Scale {
     }
 
     /// The number of decimals that tells the ticks apart when they are written in a unit of this size.
-    pub(super) fn decimals(&self, unit: f64) -> usize {
+    pub fn decimals(&self, unit: f64) -> usize {
         let step = self.step / unit;
         (0..9_i32)
             .find(|&decimals| {

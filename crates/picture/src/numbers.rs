@@ -1,7 +1,7 @@
 //! Formats numbers for people: grouped thousands, signs, rounded p-values and times. Table, figures and page share it.
 
 /// Rounds to `decimals` and groups the thousands: `-28,747`.
-pub(crate) fn grouped(value: f64, decimals: usize) -> String {
+pub fn grouped(value: f64, decimals: usize) -> String {
     let plain = format!("{:.decimals$}", value.abs());
     let (whole, fraction) = plain.split_at(plain.find('.').unwrap_or(plain.len()));
     let mut text = String::with_capacity(plain.len() + 4);
@@ -19,7 +19,7 @@ pub(crate) fn grouped(value: f64, decimals: usize) -> String {
 }
 
 /// Like [`grouped`], with a plus sign before positive values.
-pub(crate) fn signed(value: f64, decimals: usize) -> String {
+pub fn signed(value: f64, decimals: usize) -> String {
     let text = grouped(value, decimals);
     if value > 0.0 && text.bytes().any(|digit| matches!(digit, b'1'..=b'9')) {
         format!("+{text}")
@@ -29,7 +29,7 @@ pub(crate) fn signed(value: f64, decimals: usize) -> String {
 }
 
 /// Whole dollars for figures and pages, with a true minus sign: `−$1,234`.
-pub(crate) fn dollars(value: f64) -> String {
+pub fn dollars(value: f64) -> String {
     let text = typeset(&grouped(value, 0));
     match text.strip_prefix('−') {
         Some(amount) => format!("−${amount}"),
@@ -38,18 +38,18 @@ pub(crate) fn dollars(value: f64) -> String {
 }
 
 /// Replaces the hyphen of a number that was written for a terminal by a true minus sign.
-pub(crate) fn typeset(number: &str) -> String {
+pub fn typeset(number: &str) -> String {
     number.replace('-', "−")
 }
 
 /// Like [`dollars`], with a plus sign before positive values.
-pub(crate) fn signed_dollars(value: f64) -> String {
+pub fn signed_dollars(value: f64) -> String {
     let text = dollars(value);
     if signed(value, 0).starts_with('+') { format!("+{text}") } else { text }
 }
 
 /// A p-value to three decimals, or a statement that it is below them.
-pub(crate) fn p_value(p: Option<f64>) -> String {
+pub fn p_value(p: Option<f64>) -> String {
     match p {
         None => "n/a".to_owned(),
         Some(p) if p < 0.001 => "< 0.001".to_owned(),
@@ -58,13 +58,13 @@ pub(crate) fn p_value(p: Option<f64>) -> String {
 }
 
 /// A p-value as a statement: `p = 0.012`, `p < 0.001`.
-pub(crate) fn p_statement(p: Option<f64>) -> String {
+pub fn p_statement(p: Option<f64>) -> String {
     let value = p_value(p);
     if value.starts_with('<') { format!("p {value}") } else { format!("p = {value}") }
 }
 
 /// A time of one decision, to three digits in the unit that suits it.
-pub(crate) fn duration(nanoseconds: u64) -> String {
+pub fn duration(nanoseconds: u64) -> String {
     let value = nanoseconds as f64;
     let (scaled, unit) = match nanoseconds {
         0..1_000 => return format!("{nanoseconds} ns"),
@@ -77,12 +77,12 @@ pub(crate) fn duration(nanoseconds: u64) -> String {
 }
 
 /// The length of a bound's slices, which is a number of whole minutes: `3 min`.
-pub(crate) fn minutes(seconds: u32) -> String {
+pub fn minutes(seconds: u32) -> String {
     format!("{} min", seconds / 60)
 }
 
 /// A number with its noun: `1 day`, `100 days`.
-pub(crate) fn counted(count: usize, singular: &str, plural: &str) -> String {
+pub fn counted(count: usize, singular: &str, plural: &str) -> String {
     format!("{} {}", grouped(count as f64, 0), if count == 1 { singular } else { plural })
 }
 

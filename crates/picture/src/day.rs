@@ -1,0 +1,57 @@
+//! A day as a picture: its vertiports, and who wants to fly where and when.
+
+use vertifleet_core::{Scenario, VertiportIx};
+
+use crate::canvas::{Canvas, shortened};
+use crate::demand::{all_passengers, wanted};
+use crate::map::Area;
+use crate::numbers::{counted, grouped};
+use crate::panel::heading;
+use crate::schedule::draw_flows;
+
+const WIDTH: f64 = 1_000.0;
+const HEIGHT: f64 = 470.0;
+
+/// The picture of a day as SVG.
+pub fn day(day: &Scenario) -> String {
+    let map = Area { left: 16.0, top: 92.0, width: 470.0, height: 350.0 };
+    let demand = Area { left: 560.0, top: 92.0, width: WIDTH - 560.0 - 24.0, height: 320.0 };
+    let mut canvas = Canvas::new(WIDTH, HEIGHT, &shortened(&day.name, 60), &subtitle(day));
+    heading(&mut canvas, map, "passengers who want to fly");
+    draw_flows(&mut canvas, map, day, &both_ways(day));
+    wanted(&mut canvas, demand, day);
+    canvas.into_svg()
+}
+
+fn subtitle(day: &Scenario) -> String {
+    let stands: u32 = day
+        .vertiports
+        .iter()
+        .map(|one| u32::from(one.stands) + u32::from(one.chargers.unwrap_or(0)))
+        .sum();
+    let wanted = all_passengers(day);
+    format!(
+        "{} with {}, {}, {} passengers, {} to {}",
+        counted(day.vertiports.len(), "vertiport", "vertiports"),
+        counted(stands as usize, "stand", "stands"),
+        counted(day.aircraft.len(), "aircraft", "aircraft"),
+        grouped(wanted as f64, 0),
+        day.operations.start,
+        day.operations.end
+    )
+}
+
+/// The passengers of all periods between two vertiports, both ways together, in the upper triangle.
+fn both_ways(day: &Scenario) -> Vec<u32> {
+    let size = day.vertiports.len();
+    let mut numbers = vec![0_u32; size * size];
+    for table in &day.demand {
+        for from in VertiportIx::all(size) {
+            for (to, &number) in table.row(from).iter().enumerate() {
+                let (one, other) = (from.at().min(to), from.at().max(to));
+                numbers[one * size + other] += number;
+            }
+        }
+    }
+    numbers
+}
