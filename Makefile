@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo check test lint deny bench train suites python python-light python-test wheel prepare tools
+.PHONY: demo check test lint deny bench train suites notebooks python python-light python-test wheel prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network.
 demo: prepare
@@ -68,6 +68,10 @@ train: prepare
 # The tables of the suites: hashes of their days and certified upper bounds. Changes only when a suite is added.
 suites: prepare
 	cargo run --release --locked -p vertifleet-study --example suites -- suites
+
+# Runs the notebooks and writes them as pages of the book.
+notebooks: python
+	scripts/notebooks
 
 prepare:
 	@scripts/prepare

@@ -1,7 +1,9 @@
 """PPO in one file: learns where aircraft fly next, and is compared with `greedy` on days that it never saw.
 
 Every vertiport is scored by the same small network from what a flight there would mean, so the weights fit
-networks of any size. All that the network sees comes from the observation "full". It needs PyTorch:
+networks of any size. The value looks at the whole fleet, whichever aircraft decides: above all at the hours
+that aircraft can still fly, which a long flight spends. All that both see comes from the observation "full".
+It needs PyTorch:
 
     python ppo.py --network paper --minutes 5 --out ppo.pt
 """
@@ -22,23 +24,34 @@ from vertifleet.envs import FleetVectorEnv
 
 REWARD_SCALE = 30.0
 """A day's reward is about 0.035 on `paper`; multiplied by this, it is about 1."""
+DEMAND = (("demand_left", "fare"), ("demand_next", "fare_next"))
+"""Tables of demand, with the fares that it pays."""
 READY_H = (0.25, 0.5, 1.0, 2.0)
 """Aircraft at a vertiport are counted by whether they are ready within these times."""
 FEATURES = 17 + len(READY_H)
 """Numbers that describe a choice."""
+PLACES = 10 + len(READY_H)
+"""Numbers that describe a vertiport to the value."""
+
+
+def opportunities(seen: dict[str, Tensor]) -> list[Tensor]:
+    """What could be earned from each vertiport now and next: the best fares of all who want to leave."""
+    return [(seen[table] * seen[fare]).amax(2) for table, fare in DEMAND]
+
+
+def soon_ready(seen: dict[str, Tensor]) -> Tensor:
+    """How many aircraft at or towards each vertiport are ready within the limits: [B, N, limits]."""
+    limits = torch.tensor(READY_H).view(1, -1, 1)
+    soon = (seen["fleet_ready"].unsqueeze(1) <= limits) & (seen["fleet_mask"].unsqueeze(1) == 1)
+    return torch.einsum("bka,baj->bjk", soon.float(), seen["fleet_place"]) / 5
 
 
 def features(seen: dict[str, Tensor]) -> Tensor:
     """What each choice means to the deciding aircraft: [B, N, FEATURES]."""
     place = seen["place"]
     block = seen["choice_block_time"]
-    ready = seen["fleet_ready"].unsqueeze(1)
-    limits = torch.tensor(READY_H).view(1, -1, 1)
-    soon = ((ready <= limits) & (seen["fleet_mask"].unsqueeze(1) == 1)).float()
-    waiting = torch.einsum("bka,baj->bjk", soon, seen["fleet_place"]) / 5
-    tables = ("demand_left", "demand_next")
-    from_here = [torch.einsum("bi,bij->bj", place, seen[table]) / 2 for table in tables]
-    leaving = [seen[table].sum(2) / 8 for table in tables]
+    from_here = [torch.einsum("bi,bij->bj", place, seen[table]) / 2 for table, _ in DEMAND]
+    leaving = [seen[table].sum(2) / 8 for table, _ in DEMAND]
     columns = [
         place,
         seen["choice_profit"],
@@ -51,15 +64,30 @@ def features(seen: dict[str, Tensor]) -> Tensor:
         seen["stands"] - seen["stands_taken"],
         seen["stands_taken"],
         *(seen["time"][:, at, None].expand_as(place) for at in range(3)),
-        # What an aircraft could earn from there: the best fares of all who want to leave.
-        (seen["demand_left"] * seen["fare"]).amax(2),
-        (seen["demand_next"] * seen["fare"]).amax(2),
+        *opportunities(seen),
     ]
-    return torch.cat([torch.stack(columns, -1), waiting], -1)
+    return torch.cat([torch.stack(columns, -1), soon_ready(seen)], -1)
+
+
+def places(seen: dict[str, Tensor]) -> Tensor:
+    """What the value sees of every vertiport, which does not depend on who decides: [B, N, PLACES].
+
+    The first four numbers are the same for all vertiports: the time, and the hours that aircraft have left.
+    """
+    exists = seen["fleet_mask"]
+    hours = ((12 * seen["time"][:, :1] - seen["fleet_ready"]).clamp(min=0) * exists).sum(1) / exists.sum(1)
+    columns = [
+        *(one[:, None].expand_as(seen["stands"]) for one in (*seen["time"].T, hours / 6)),
+        seen["stands"] - seen["stands_taken"],
+        seen["stands_taken"],
+        *(seen[table].sum(2) / 8 for table, _ in DEMAND),
+        *opportunities(seen),
+    ]
+    return torch.cat([torch.stack(columns, -1), soon_ready(seen)], -1)
 
 
 class Agent(nn.Module):
-    """Scores every choice, and values the decision."""
+    """Scores every choice, and values the state of the fleet."""
 
     def __init__(self, width: int = 96) -> None:
         super().__init__()
@@ -67,16 +95,23 @@ class Agent(nn.Module):
         self.embed = nn.Sequential(nn.Linear(FEATURES, width), nn.Tanh())
         self.mix = nn.Sequential(nn.Linear(2 * width, width), nn.Tanh())
         self.score = nn.Linear(width, 1)
+        self.place = nn.Sequential(nn.Linear(PLACES, width), nn.Tanh())
         self.value = nn.Sequential(nn.Linear(width, width), nn.Tanh(), nn.Linear(width, 1))
+        self.hours = nn.Linear(4, 1)
         nn.init.zeros_(self.score.weight)
 
-    def forward(self, choices: Tensor, mask: Tensor) -> tuple[Categorical, Tensor]:
-        """The distribution over choices, and the value."""
+    def forward(self, choices: Tensor, mask: Tensor) -> Categorical:
+        """The distribution over choices."""
         each = self.embed(choices)
         all_of_them = each.mean(1, keepdim=True).expand_as(each)
         mixed = self.mix(torch.cat([each, all_of_them], -1))
         logits = self.score(mixed).squeeze(-1).masked_fill(mask == 0, -1e9)
-        return Categorical(logits=logits), self.value(mixed.mean(1)).squeeze(-1)
+        return Categorical(logits=logits)
+
+    def worth(self, places: Tensor) -> Tensor:
+        """The value of what the day still earns."""
+        value: Tensor = self.value(self.place(places).mean(1)) + self.hours(places[:, 0, :4])
+        return value.squeeze(-1)
 
 
 def tensors(observation: dict[str, np.ndarray]) -> dict[str, Tensor]:
@@ -90,16 +125,14 @@ class Rollout:
     def __init__(self, steps: int, days: int, vertiports: int) -> None:
         self.choices = torch.zeros(steps, days, vertiports, FEATURES)
         self.masks = torch.zeros(steps, days, vertiports)
+        self.places = torch.zeros(steps, days, vertiports, PLACES)
         self.actions = torch.zeros(steps, days, dtype=torch.long)
         self.log_probs, self.values, self.rewards, self.ends = (torch.zeros(steps, days) for _ in range(4))
 
     def advantages(self, last_value: Tensor, gamma: float, trace: float) -> Tensor:
         """Generalised advantage estimates."""
-        advantages, following, value = (
-            torch.zeros_like(self.rewards),
-            torch.zeros_like(last_value),
-            last_value,
-        )
+        advantages, following = torch.zeros_like(self.rewards), torch.zeros_like(last_value)
+        value = last_value
         for step in reversed(range(len(self.rewards))):
             goes_on = 1 - self.ends[step]
             delta = self.rewards[step] + gamma * value * goes_on - self.values[step]
@@ -118,14 +151,12 @@ def learn(
     """Improves the agent by the clipped objective of PPO."""
     advantages = rollout.advantages(last_value, args.gamma, args.trace)
     returns = (advantages + rollout.values).flatten()
-    flat = [
-        part.flatten(0, 1)
-        for part in (rollout.choices, rollout.masks, rollout.actions, rollout.log_probs, advantages)
-    ]
+    kept = (rollout.choices, rollout.masks, rollout.places, rollout.actions, rollout.log_probs, advantages)
+    flat = [part.flatten(0, 1) for part in kept]
     for _ in range(args.passes):
         for batch in torch.split(torch.randperm(len(returns)), args.batch):
-            choices, masks, actions, log_probs, advantage = (part[batch] for part in flat)
-            distribution, values = agent(choices, masks)
+            choices, masks, seen, actions, log_probs, advantage = (part[batch] for part in flat)
+            distribution, values = agent(choices, masks), agent.worth(seen)
             advantage = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
             ratio = (distribution.log_prob(actions) - log_probs).exp()
             gain = torch.min(ratio * advantage, ratio.clamp(1 - args.clip, 1 + args.clip) * advantage)
@@ -151,8 +182,10 @@ def train(agent: Agent, args: argparse.Namespace) -> None:
         for step in range(args.steps):
             seen = tensors(observation)
             rollout.choices[step], rollout.masks[step] = features(seen), seen["action_mask"]
+            rollout.places[step] = places(seen)
             with torch.no_grad():
-                distribution, rollout.values[step] = agent(rollout.choices[step], rollout.masks[step])
+                distribution = agent(rollout.choices[step], rollout.masks[step])
+                rollout.values[step] = agent.worth(rollout.places[step])
             rollout.actions[step] = distribution.sample()
             rollout.log_probs[step] = distribution.log_prob(rollout.actions[step])
             observation, rewards, over, _, info = envs.step(rollout.actions[step].numpy())
@@ -161,7 +194,7 @@ def train(agent: Agent, args: argparse.Namespace) -> None:
             if over.any():
                 day_profits += info["final_info"]["summary"]["profit_usd"][over].tolist()
         with torch.no_grad():
-            last = agent(features(tensors(observation)), torch.as_tensor(observation["action_mask"]))[1]
+            last = agent.worth(places(tensors(observation)))
         learn(agent, optimizer, rollout, last, args)
         decisions += args.steps * args.days
         recent = np.mean(day_profits[-200:]) if day_profits else float("nan")
@@ -202,10 +235,13 @@ def main() -> None:
     def choose(observation: dict[str, np.ndarray]) -> int:
         seen = tensors({name: array[None] for name, array in observation.items()})
         with torch.no_grad():
-            return int(agent(features(seen), seen["action_mask"])[0].probs.argmax())
+            return int(agent(features(seen), seen["action_mask"]).probs.argmax())
 
     models = {"ppo": FunctionPolicy(choose, "full")}
-    print(vertifleet.compare(args.network, ["greedy", "ppo"], days=20, models=models))
+    if args.network == "paper":
+        print(vertifleet.evaluate(["greedy", "ppo"], "paper-100", models=models))
+    else:
+        print(vertifleet.compare(args.network, ["greedy", "ppo"], days=20, models=models))
 
 
 if __name__ == "__main__":

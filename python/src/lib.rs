@@ -29,6 +29,7 @@ mod picture;
 mod played;
 mod policy;
 mod policy_source;
+mod recording;
 mod scenario;
 mod threads;
 mod trace;
@@ -64,6 +65,8 @@ mod _native {
     use crate::played::{Played, simulate};
     #[pymodule_export]
     use crate::policy::{Policy, find_policy};
+    #[pymodule_export]
+    use crate::recording::record;
     #[pymodule_export]
     use crate::scenario::Scenario;
     #[pymodule_export]

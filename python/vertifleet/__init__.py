@@ -4,9 +4,9 @@ The Rust program does all the work here, by the same rules. `Network` draws days
 `compare` plays many days with many policies, `evaluate` plays frozen suites whose certified bounds are
 shipped, `sweep` compares on variations of a network, `bound` proves how much a day can earn at most, `plan`
 searches for the best schedule, `check` checks a schedule against the rules, and `train` trains the learned
-policies. Importing the package registers Gymnasium environments, ``vertifleet/Fleet-v0`` first.
-`vertifleet.torch` has the learned policies as PyTorch modules; `vertifleet.sb3` and `vertifleet.ray` train them
-with those libraries.
+policies. `dataset` records decisions to learn from. Importing the package registers Gymnasium environments,
+``vertifleet/Fleet-v0`` first. `vertifleet.torch` has the learned policies as PyTorch modules;
+`vertifleet.sb3` and `vertifleet.ray` train them with those libraries.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from __future__ import annotations
 from importlib.metadata import version
 
 from vertifleet._compare import compare
+from vertifleet._dataset import Dataset, dataset
 from vertifleet._errors import Error
 from vertifleet._evaluate import SUITES, Suite, Verification, evaluate, suite, verify
 from vertifleet._native import (
@@ -46,6 +47,7 @@ __all__ = [
     "SUITES",
     "Bound",
     "Comparison",
+    "Dataset",
     "Decision",
     "Error",
     "Evaluation",
@@ -70,6 +72,7 @@ __all__ = [
     "bound",
     "check",
     "compare",
+    "dataset",
     "evaluate",
     "plan",
     "policy",

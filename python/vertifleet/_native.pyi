@@ -42,6 +42,7 @@ __all__ = [
     "find_suite",
     "plan",
     "read_days",
+    "record",
     "settings",
     "simulate",
     "suite_names",
@@ -444,6 +445,19 @@ def compare(
     threads: SupportsIndex | None,
     command: str,
 ) -> Comparison: ...
+def record(
+    days: Days,
+    layout: Layout,
+    policy: str,
+    source: Any,
+    network: Network | None,
+    *,
+    first: SupportsIndex,
+    number: SupportsIndex,
+    values: bool,
+    seed: SupportsIndex,
+    threads: SupportsIndex | None,
+) -> dict[str, Any]: ...
 def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]: ...
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]: ...
 def train(
