@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo check test lint deny bench train suites notebooks python python-light python-test wheel prepare tools
+.PHONY: demo check test lint deny bench train suites notebooks python python-light python-test wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network.
 demo: prepare
@@ -49,6 +49,10 @@ python-test: python
 wheel: python
 	rm -rf python/dist
 	cd python && PATH="$$PWD/.venv/bin:$$PATH" maturin build --release --locked --zig --compatibility manylinux2014 --out dist
+
+# The source distribution of the Python package, in python/dist.
+sdist: python-light
+	scripts/sdist
 
 # Licences, versions and sources of the dependencies. Needs cargo-deny (`cargo install cargo-deny --locked`).
 deny:

@@ -92,8 +92,12 @@ pub(crate) fn of_own(
     calls: &OwnCalls,
 ) -> PyResult<PolicyFactory> {
     let adapt = value.py().import("vertifleet._own_policy")?.getattr("adapted")?;
-    let (make, shows_present_only, days): (Py<PyAny>, bool, Option<PyRef<'_, Days>>) =
-        adapt.call1((value, network.cloned()))?.extract()?;
+    let (make, shows_present_only, days, in_batches): (
+        Py<PyAny>,
+        bool,
+        Option<PyRef<'_, Days>>,
+        bool,
+    ) = adapt.call1((value, network.cloned()))?.extract()?;
     let sees = if shows_present_only { Sees::Present } else { Sees::Forecast };
     let (make, calls) = (Arc::new(make), calls.clone());
     let name = name.to_owned();
@@ -106,35 +110,90 @@ pub(crate) fn of_own(
         Box::new(OwnPolicy {
             make: Arc::clone(&make),
             choose: None,
-            observer: Arc::new(Mutex::new(observer.clone())),
+            observers: Vec::new(),
+            observer: observer.clone(),
+            in_batches,
             name: name.clone(),
             calls: calls.clone(),
         })
     };
-    Ok(PolicyFactory { make: Arc::new(make_policy), sees })
+    Ok(PolicyFactory { make: Arc::new(make_policy), sees, in_batches })
 }
 
 /// A policy that calls a Python object.
 struct OwnPolicy {
-    /// Makes the function from a view to an action, when a day begins.
+    /// Makes the function from a view to an action when a day begins, or the one from many views to as many actions.
     make: Arc<Py<PyAny>>,
     /// That function, and the day that it plays.
     choose: Option<(DayKey, Py<PyAny>)>,
-    observer: Arc<Mutex<Observer>>,
+    /// What observes each day that is being played. Those of days that are over are dropped when others begin.
+    observers: Vec<(DayKey, Arc<Mutex<Observer>>)>,
+    /// What observes a new day.
+    observer: Observer,
+    in_batches: bool,
     name: String,
     calls: OwnCalls,
 }
 
 impl Policy for OwnPolicy {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
-        Python::attach(|py| self.ask(py, decision, *view)).map_err(|error| {
-            self.calls.raise(error);
-            PolicyError::Stopped
-        })
+        if self.in_batches {
+            let mut choices = Vec::new();
+            self.choose_batch(&mut std::iter::once((*decision, *view)), &mut choices)?;
+            return Ok(choices[0]);
+        }
+        Python::attach(|py| self.ask(py, decision, *view)).map_err(|error| self.stopped_by(error))
+    }
+
+    fn choose_batch(
+        &mut self,
+        asked: &mut dyn Iterator<Item = (Decision, View<'_>)>,
+        choices: &mut Vec<VertiportIx>,
+    ) -> Result<(), PolicyError> {
+        if !self.in_batches {
+            for (decision, view) in asked {
+                choices.push(self.choose(&decision, &view)?);
+            }
+            return Ok(());
+        }
+        let asked: Vec<(Decision, View<'_>)> = asked.collect();
+        if asked.is_empty() {
+            return Ok(());
+        }
+        let chosen = Python::attach(|py| self.ask_many(py, &asked));
+        choices.extend(chosen.map_err(|error| self.stopped_by(error))?);
+        Ok(())
     }
 }
 
 impl OwnPolicy {
+    fn stopped_by(&self, error: PyErr) -> PolicyError {
+        self.calls.raise(error);
+        PolicyError::Stopped
+    }
+
+    /// What observes the day of a view.
+    fn observer(&mut self, view: View<'_>, begins: bool) -> Arc<Mutex<Observer>> {
+        let day = view.day();
+        if begins {
+            self.observers.retain(|(known, _)| *known != day);
+        }
+        if let Some((_, observer)) = self.observers.iter().find(|(known, _)| *known == day) {
+            return Arc::clone(observer);
+        }
+        if !self.in_batches {
+            self.observers.clear();
+        }
+        let observer = Arc::new(Mutex::new(self.observer.clone()));
+        self.observers.push((day, Arc::clone(&observer)));
+        observer
+    }
+
+    fn seen(&mut self, decision: &Decision, view: View<'_>) -> crate::view::View {
+        let observer = self.observer(view, decision.index == 0);
+        crate::view::View::of(&Scene::of(view, decision), &observer)
+    }
+
     /// Calls the function. As in an environment, an action that is not feasible holds.
     fn ask(
         &mut self,
@@ -142,17 +201,39 @@ impl OwnPolicy {
         decision: &Decision,
         view: View<'_>,
     ) -> PyResult<VertiportIx> {
-        let seen = crate::view::View::of(&Scene::of(view, decision), &self.observer);
+        let seen = self.seen(decision, view);
         let choose = match &self.choose {
             Some((day, choose)) if *day == view.day() && decision.index > 0 => choose,
             _ => &self.choose.insert((view.day(), self.make.call0(py)?)).1,
         };
         let action: WholeNumber = choose.call1(py, (seen,))?.extract(py)?;
+        Ok(self.feasible(decision, view, action))
+    }
+
+    /// Calls the function for many decisions at once.
+    fn ask_many(
+        &mut self,
+        py: Python<'_>,
+        asked: &[(Decision, View<'_>)],
+    ) -> PyResult<Vec<VertiportIx>> {
+        let seen: Vec<crate::view::View> =
+            asked.iter().map(|(decision, view)| self.seen(decision, *view)).collect();
+        if self.choose.is_none() {
+            self.choose = Some((asked[0].1.day(), self.make.call0(py)?));
+        }
+        let (_, choose) = self.choose.as_ref().expect("it was made just now");
+        // The Python side has checked that there is an action for each decision.
+        let actions: Vec<WholeNumber> = choose.call1(py, (seen,))?.extract(py)?;
+        let pairs = asked.iter().zip(actions);
+        Ok(pairs.map(|((decision, view), action)| self.feasible(decision, *view, action)).collect())
+    }
+
+    fn feasible(&self, decision: &Decision, view: View<'_>, action: WholeNumber) -> VertiportIx {
         let feasible = view.feasible(decision);
         let asked = action.of::<u16>("what a policy returns").ok().map(VertiportIx);
-        Ok(asked.filter(|&asked| feasible.contains(asked)).unwrap_or_else(|| {
+        asked.filter(|&asked| feasible.contains(asked)).unwrap_or_else(|| {
             *self.calls.lock().infeasible.entry(self.name.clone()).or_default() += 1;
             decision.at
-        }))
+        })
     }
 }

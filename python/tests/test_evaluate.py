@@ -98,3 +98,37 @@ def test_suites_are_named() -> None:
     with pytest.raises(vertifleet.Error, match="paper-100") as error:
         vertifleet.evaluate("greedy", "paper-10")
     assert error.value.code == "V411"
+
+
+def test_policies_asked_about_many_days_at_once_choose_as_they_do_one_by_one() -> None:
+    def rates(observation: dict[str, Any]) -> Any:
+        rate = observation["choice_profit"] / observation["choice_block_time"].clip(0.1)
+        return np.where(observation["action_mask"] == 1, rate, -1.0)
+
+    class Batch:
+        def choose_batch(self, decisions: list[Decision], views: list[View]) -> list[int]:
+            assert [view.decision for view in views] == decisions
+            return [int(np.flatnonzero(view.action_mask)[0]) for view in views]
+
+    one = FunctionPolicy(lambda seen: int(rates(seen).argmax()), "full")
+    many = FunctionPolicy(lambda seen: rates(seen).argmax(1), "full", batch=True)
+    policies = {"one": one, "many": many, "first": FirstFeasible, "batch": Batch}
+    rows = vertifleet.evaluate(policies, "paper-100").to_pandas()
+    profits = rows.pivot_table(index="day", columns="policy", values="profit_usd")
+    assert (profits["one"] == profits["many"]).all()
+    assert (profits["first"] == profits["batch"]).all()
+    day = vertifleet.suite("paper-100").days[0]
+    played = vertifleet.simulate(day, many, network=vertifleet.Network("paper"))
+    assert played.profit_usd == profits["many"][day.name]
+    worth = lambda seen: np.where(seen["priced_nodes"][..., 0] == 1, seen["priced_worth"], -np.inf)  # noqa: E731
+    priced = FunctionPolicy(lambda seen: worth(seen).argmax(-1), "gcaps-x", batch=True)
+    priced_one = FunctionPolicy(lambda seen: int(worth(seen).argmax(-1)), "gcaps-x")
+    models = {"a": priced, "b": priced_one}
+    compared = vertifleet.compare("paper", ["a", "b"], days=3, models=models).columns["profit_usd"]
+    assert np.array_equal(compared[:3], compared[3:])
+
+
+def test_too_few_actions_are_refused() -> None:
+    few = FunctionPolicy(lambda seen: [0], "full", batch=True)
+    with pytest.raises(vertifleet.Error, match="100 actions were asked for, 1"):
+        vertifleet.evaluate(few)

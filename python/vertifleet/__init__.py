@@ -35,7 +35,7 @@ from vertifleet._native import (
     settings,
     simulate,
 )
-from vertifleet._own_policy import FunctionPolicy, OwnPolicy
+from vertifleet._own_policy import BatchPolicy, FunctionPolicy, OwnPolicy
 from vertifleet._policy import Policy, policy
 from vertifleet._sweep import Sweep, sweep
 from vertifleet._train import train
@@ -45,6 +45,7 @@ from vertifleet.envs import register as _register
 
 __all__ = [
     "SUITES",
+    "BatchPolicy",
     "Bound",
     "Comparison",
     "Dataset",

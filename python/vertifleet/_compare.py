@@ -14,10 +14,11 @@ from vertifleet._errors import Error
 from vertifleet._native import Comparison, Model, Network, Scenario
 
 if TYPE_CHECKING:
-    from vertifleet._own_policy import FunctionPolicy, OwnPolicy, PolicyFunction
+    from vertifleet._own_policy import BatchPolicy, FunctionPolicy, OwnPolicy, PolicyFunction
 
 PolicySource: TypeAlias = (
     "str | os.PathLike[str] | Model | PolicyFunction | FunctionPolicy | OwnPolicy | type[OwnPolicy]"
+    " | BatchPolicy | type[BatchPolicy]"
 )
 """What a policy's name may refer to: a weight file, a model, or a policy of the caller's own."""
 

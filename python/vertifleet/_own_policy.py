@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from operator import index
-from typing import TYPE_CHECKING, Any, Protocol, SupportsIndex, TypeAlias, runtime_checkable
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, SupportsIndex, TypeAlias, runtime_checkable
+
+import numpy as np
 
 from vertifleet._errors import Error
 from vertifleet._native import Days
@@ -18,7 +20,8 @@ if TYPE_CHECKING:
     from vertifleet._native import Network
 
 Chooser: TypeAlias = "Callable[[_native.View], int]"
-PolicyFunction: TypeAlias = Callable[[Any], SupportsIndex]
+BatchChooser: TypeAlias = "Callable[[Sequence[_native.View]], list[int]]"
+PolicyFunction: TypeAlias = Callable[[Any], Any]
 """A function from an observation to an action, the position of a vertiport."""
 
 
@@ -39,27 +42,54 @@ class OwnPolicy(Protocol):
         """
 
 
+@runtime_checkable
+class BatchPolicy(Protocol):
+    """A policy that is asked about one decision of each of many days at once, as networks are fast."""
+
+    def choose_batch(self, decisions: Sequence[Decision], views: Sequence[View]) -> Sequence[SupportsIndex]:
+        """The choice for each decision, as `OwnPolicy.choose` makes it."""
+
+
 @dataclass(frozen=True)
 class FunctionPolicy:
     """A function of an observation, such as a network trained on an environment with that observation."""
 
     function: PolicyFunction
     observation: ObservationChoice = "paper"
+    batch: bool = False
+    """Whether the function takes many observations at once, each array with one more axis in front, and
+    returns as many actions. It is then called for all days of a comparison together, which is much faster for a
+    network."""
     network: NetworksChoice | None = None
     """What the environment drew its days from, where it was not the network of the days to be played. On
     networks of different sizes a function needs it, for the shapes of its arrays: ``network="random"``."""
 
 
-def adapted(policy: Any, network: Network | None) -> tuple[Callable[[], Chooser], bool, Days | None]:
-    """What makes the function from a view to an action for a day, whether it sees the present only, and the
-    days as days of which it sees them.
+class Adapted(NamedTuple):
+    """A policy of the caller's, as the native side asks it."""
+
+    make: Callable[[], Chooser | BatchChooser]
+    """Makes the function from a view to an action for a day, or from many views to as many actions."""
+    shows_present_only: bool
+    """Whether it sees the present only."""
+    days: Days | None
+    """The days as days of which it sees them."""
+    in_batches: bool
+
+
+def adapted(policy: Any, network: Network | None) -> Adapted:
+    """What the native side asks in place of the policy.
 
     Raises:
         Error: V451 for a function without a network.
         TypeError: for what is no policy.
     """
+    if hasattr(policy, "choose_batch"):
+        return Adapted(
+            lambda: _batch_chooser(policy() if isinstance(policy, type) else policy), False, None, True
+        )
     if hasattr(policy, "choose"):
-        return lambda: _chooser(policy() if isinstance(policy, type) else policy), False, None
+        return Adapted(lambda: _chooser(policy() if isinstance(policy, type) else policy), False, None, False)
     if callable(policy):
         policy = FunctionPolicy(policy)
     if not isinstance(policy, FunctionPolicy):
@@ -83,7 +113,22 @@ def _chooser(policy: OwnPolicy) -> Chooser:
     return choose
 
 
-def _of_function(policy: FunctionPolicy, network: Network | None) -> tuple[Callable[[], Chooser], bool, Days]:
+def _batch_chooser(policy: BatchPolicy) -> BatchChooser:
+    def choose(natives: Sequence[_native.View]) -> list[int]:
+        views = [View(native) for native in natives]
+        return _actions(policy.choose_batch([view.decision for view in views], views), len(natives))
+
+    return choose
+
+
+def _actions(actions: Any, asked: int) -> list[int]:
+    found = [index(action) for action in actions]
+    if len(found) != asked:
+        raise Error("V451", f"{asked} actions were asked for, {len(found)} were returned")
+    return found
+
+
+def _of_function(policy: FunctionPolicy, network: Network | None) -> Adapted:
     networks = policy.network if network is None or policy.network is not None else network
     if networks is None:
         rule = "a function takes a network, as which it sees the days"
@@ -91,10 +136,22 @@ def _of_function(policy: FunctionPolicy, network: Network | None) -> tuple[Calla
     days, _ = days_of(networks, "comparison")
     observing = Observing(policy.observation, days)
 
-    def choose(native: _native.View) -> int:
+    def shown(native: _native.View) -> Any:
         if observing.own is not None:
-            return index(policy.function(observing.own.function(View(native))))
-        row, _ = native.observe(observing.layout)
-        return index(policy.function(observing.of_row(row)))
+            return observing.own.function(View(native))
+        return observing.of_row(native.observe(observing.layout)[0])
 
-    return lambda: choose, observing.own is None and observing.layout.shows_present_only, days
+    def choose(native: _native.View) -> int:
+        return index(policy.function(shown(native)))
+
+    def choose_batch(natives: Sequence[_native.View]) -> list[int]:
+        if observing.own is None:
+            seen: Any = observing.of_rows(
+                np.stack([native.observe(observing.layout)[0] for native in natives])
+            )
+        else:
+            seen = [shown(native) for native in natives]
+        return _actions(policy.function(seen), len(natives))
+
+    present_only = observing.own is None and observing.layout.shows_present_only
+    return Adapted(lambda: choose_batch if policy.batch else choose, present_only, days, policy.batch)

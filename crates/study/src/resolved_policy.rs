@@ -53,6 +53,8 @@ pub struct PolicyFactory {
     pub make: Arc<dyn Fn() -> Box<dyn Policy> + Send + Sync>,
     /// What the policies look at.
     pub sees: Sees,
+    /// Whether they are asked about many days at once, by [`Policy::choose_batch`].
+    pub in_batches: bool,
 }
 
 impl fmt::Debug for PolicyFactory {
@@ -74,6 +76,11 @@ impl ResolvedPolicy {
             Self::Replay(trace) => Box::new(Replay::new(Arc::clone(trace))),
             Self::Learned { model, most_rolled_out, .. } => model.policy(*most_rolled_out),
         }
+    }
+
+    /// Whether it is asked about many days at once.
+    pub(crate) fn plays_in_batches(&self) -> bool {
+        matches!(self, Self::Own(PolicyFactory { in_batches: true, .. }))
     }
 
     /// Plays a day to its end; `name` is the policy's name in an error.

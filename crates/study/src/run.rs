@@ -4,6 +4,8 @@
 //! number of threads. Only the times per decision are measurements of this machine, taken while its other threads are
 //! busy too.
 
+mod batches;
+
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -89,6 +91,9 @@ fn play_policy(
     stop: &Stop,
     played: &(impl Fn() + Sync),
 ) -> Result<(Vec<DayRecord>, LatencySummary), Error> {
+    if policy.plays_in_batches() {
+        return batches::play(name, policy, days, kept, stop, played);
+    }
     let play = |policy: &mut Box<dyn Policy>, day: &BoundedDay| {
         let policy = Stoppable { policy: policy.as_mut(), stop };
         let mut timed = Timed { policy, nanoseconds: Vec::new() };
@@ -138,13 +143,18 @@ fn play_day(
     };
     play(&mut simulation, policy, keep)
         .map_err(|cause| Error::of_play(name, &day.scenario.name, cause))?;
-    Ok(DayRecord {
+    Ok(record(day, &simulation, choices))
+}
+
+/// The record of a day that has been played.
+fn record(day: &BoundedDay, simulation: &Simulation, choices: Vec<VertiportIx>) -> DayRecord {
+    DayRecord {
         day: day.scenario.name.clone(),
         seed: day.scenario.seed,
         totals: simulation.totals(),
         upper_bound_usd: day.upper_bound_usd,
         choices,
-    })
+    }
 }
 
 /// A policy whose every choice is timed by itself, as a dispatcher would ask for it, until a stop is requested.
