@@ -99,6 +99,7 @@ class Agent(nn.Module):
         self.value = nn.Sequential(nn.Linear(width, width), nn.Tanh(), nn.Linear(width, 1))
         self.hours = nn.Linear(4, 1)
         nn.init.zeros_(self.score.weight)
+        nn.init.zeros_(self.value[-1].weight)  # type: ignore[arg-type]
 
     def forward(self, choices: Tensor, mask: Tensor) -> Categorical:
         """The distribution over choices."""
@@ -217,11 +218,11 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=128, help="decisions of each before an update")
     parser.add_argument("--batch", type=int, default=1024)
     parser.add_argument("--passes", type=int, default=3)
-    parser.add_argument("--learning-rate", type=float, default=2e-3)
+    parser.add_argument("--learning-rate", type=float, default=1e-3)
     parser.add_argument("--gamma", type=float, default=1.0)
-    parser.add_argument("--trace", type=float, default=0.8, help="lambda of the advantage estimates")
+    parser.add_argument("--trace", type=float, default=0.7, help="lambda of the advantage estimates")
     parser.add_argument("--clip", type=float, default=0.2)
-    parser.add_argument("--entropy", type=float, default=0.003)
+    parser.add_argument("--entropy", type=float, default=0.001)
     args = parser.parse_args()
     torch.manual_seed(args.seed)
     torch.set_num_threads(1)
@@ -232,12 +233,12 @@ def main() -> None:
         print("stopped: what was learned so far is saved and compared")
     torch.save(agent.state_dict(), args.out)
 
-    def choose(observation: dict[str, np.ndarray]) -> int:
-        seen = tensors({name: array[None] for name, array in observation.items()})
+    def choose(observation: dict[str, np.ndarray]) -> np.ndarray:
+        seen = tensors(observation)
         with torch.no_grad():
-            return int(agent(features(seen), seen["action_mask"]).probs.argmax())
+            return np.asarray(agent(features(seen), seen["action_mask"]).probs.argmax(1))
 
-    models = {"ppo": FunctionPolicy(choose, "full")}
+    models = {"ppo": FunctionPolicy(choose, "full", batch=True)}
     if args.network == "paper":
         print(vertifleet.evaluate(["greedy", "ppo"], "paper-100", models=models))
     else:

@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use vertifleet_core::{self as core, DaySeed, Stop};
+use vertifleet_core::{self as core, Stop};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
+use vertifleet_study::comparison::DrawnDays;
 use vertifleet_study::competitor::Selection;
 use vertifleet_study::report::{self, Records as _};
 use vertifleet_study::{
@@ -16,6 +17,7 @@ use vertifleet_study::{
     comparison,
 };
 
+use crate::days::purpose_of;
 use crate::failure::{Failure, warn};
 use crate::frames::{Columns, frame, loads};
 use crate::interruptible::{self, interruptible};
@@ -159,7 +161,7 @@ pub(crate) struct Arguments<'py> {
 #[derive(FromPyObject)]
 enum Days {
     Own { scenarios: Vec<Py<Scenario>>, origin: String },
-    Drawn { days: WholeNumber, seed: WholeNumber },
+    Drawn { days: WholeNumber, seed: WholeNumber, split: String },
 }
 
 /// A comparison that was asked for, with its arguments checked and converted to Rust types.
@@ -174,7 +176,7 @@ struct Request {
 
 enum RequestedDays {
     Own(OwnDays),
-    Drawn { days: u32, seed: u64 },
+    Drawn(DrawnDays),
 }
 
 impl Request {
@@ -200,12 +202,12 @@ impl Request {
         let Self { network, days, policies, models, step, policy_seed } = self;
         let selection = Selection { policies: &policies, models: &models, seed: policy_seed };
         match (days, network) {
-            (RequestedDays::Drawn { days, seed }, Some(network)) => {
-                let days = days.min(most);
-                comparison::Comparison::new(&network, &selection, seed, days, step, stop)
+            (RequestedDays::Drawn(drawn), Some(network)) => {
+                let drawn = DrawnDays { days: drawn.days.min(most), ..drawn };
+                comparison::Comparison::new(&network, &selection, drawn, step, stop)
             }
             (RequestedDays::Own(days), _) => comparison::Comparison::of_own(days, &selection, step),
-            (RequestedDays::Drawn { .. }, None) => unreachable!("days are drawn from a network"),
+            (RequestedDays::Drawn(_), None) => unreachable!("days are drawn from a network"),
         }
     }
 }
@@ -218,13 +220,14 @@ impl Days {
                 let days = OwnDays::of(scenarios.collect(), origin).map_err(Failure::from)?;
                 RequestedDays::Own(days)
             }
-            Self::Drawn { days, seed } => {
-                let (days, seed) = (days.of("days")?, seed.of("seed")?);
+            Self::Drawn { days, seed, split } => {
+                let (days, first) = (days.of("days")?, seed.of("seed")?);
+                let purpose = purpose_of(&split)?;
                 if days > MOST_DAYS {
                     let rule = format!("days must be at most {MOST_DAYS}, found {days}");
                     return Err(Failure::argument(rule).into());
                 }
-                RequestedDays::Drawn { days, seed }
+                RequestedDays::Drawn(DrawnDays { purpose, first, days })
             }
         })
     }
@@ -240,8 +243,8 @@ pub(crate) fn check_comparison(
 ) -> PyResult<Vec<String>> {
     let request = Request::of(network, arguments, &OwnCalls::default())?;
     let warnings = interruptible(py, 1, move |stop| {
-        if let RequestedDays::Drawn { days, seed } = request.days {
-            DaySeed::comparison(seed.saturating_add(days.saturating_sub(1).into()))?;
+        if let RequestedDays::Drawn(drawn) = &request.days {
+            drawn.check()?;
         }
         Ok::<_, Error>(request.comparison(1, stop)?.warnings().collect())
     })?;

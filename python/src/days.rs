@@ -38,11 +38,7 @@ impl Days {
     /// "comparison"; the days of one are never days of another.
     #[new]
     fn new(source: SourceArgument, split: &str) -> Result<Self, Failure> {
-        let purpose = Purpose::named(split).ok_or_else(|| {
-            Failure::argument(format!(
-                "split must be \"training\", \"validation\" or \"comparison\", found {split:?}"
-            ))
-        })?;
+        let purpose = purpose_of(split)?;
         let source = match source {
             SourceArgument::Networks(networks) if networks.is_empty() => {
                 return Err(Failure::argument("a list of networks must not be empty".to_owned()));
@@ -95,6 +91,15 @@ impl Days {
         };
         Ok((py.get_type::<Self>().into_any(), (source, self.purpose.name())))
     }
+}
+
+/// The purpose of the days of a split.
+pub(crate) fn purpose_of(split: &str) -> Result<Purpose, Failure> {
+    Purpose::named(split).ok_or_else(|| {
+        Failure::argument(format!(
+            "split must be \"training\", \"validation\" or \"comparison\", found {split:?}"
+        ))
+    })
 }
 
 const RANDOM_PLACES: &str = "random-places:";

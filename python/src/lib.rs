@@ -18,6 +18,7 @@ mod environment;
 mod evaluation;
 mod failure;
 mod frames;
+mod generalisation;
 mod interruptible;
 mod layout;
 mod model;
@@ -51,6 +52,8 @@ mod _native {
     use crate::environment::Environment;
     #[pymodule_export]
     use crate::evaluation::{Evaluation, evaluate, find_suite, suite_names, verify};
+    #[pymodule_export]
+    use crate::generalisation::{Generalisation, generalise};
     #[pymodule_export]
     use crate::layout::Layout;
     #[pymodule_export]

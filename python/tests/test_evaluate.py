@@ -132,3 +132,16 @@ def test_too_few_actions_are_refused() -> None:
     few = FunctionPolicy(lambda seen: [0], "full", batch=True)
     with pytest.raises(vertifleet.Error, match="100 actions were asked for, 1"):
         vertifleet.evaluate(few)
+
+
+def test_policies_are_measured_on_random_networks(tmp_path: Path) -> None:
+    own = FunctionPolicy(first_feasible, "full", network="random")
+    found = vertifleet.generalise(["greedy", "mine"], networks=4, step=15, models={"mine": own})
+    rows = found.to_pandas()
+    assert list(rows["network"][:4]) == [f"random:{number}" for number in range(4)]
+    assert (rows["profit_usd"] < rows["upper_bound_usd"]).all()
+    assert found.summary["policies"][1]["minus_first"]["difference"]["mean"] < 0
+    assert "above greedy" in str(found)
+    assert found.report(tmp_path / "report").exists()
+    with pytest.raises(vertifleet.Error, match="networks must be"):
+        vertifleet.generalise(["greedy"], networks=0)

@@ -439,3 +439,17 @@ def test_arrays_are_read_however_they_lie_in_memory() -> None:
     assert np.array_equal(halves[1], values[::2])
     with pytest.raises(vertifleet.Error, match="must have 6 rows of 18 entries"):
         model.forward(nodes, aircraft[:5], mask, clock)
+
+
+def test_policies_are_compared_on_validation_days_too(paper: Network) -> None:
+    compared = vertifleet.compare(paper, ["greedy"], days=3, seed=5, split="validation")
+    names = [paper.draw(number, "validation").name for number in (5, 6, 7)]
+    assert list(compared.columns["day"]) == names
+    assert compared.summary["split"] == "validation"
+    assert "validation days from number 5 on" in str(compared)
+    swept = vertifleet.sweep(paper, {"fleet.0.count": [30]}, ["greedy"], days=1, seed=5, split="validation")
+    assert swept.points[0][1].columns["day"][0].endswith(names[0].removeprefix("paper"))
+    with pytest.raises(vertifleet.Error, match="split"):
+        vertifleet.compare(paper, ["greedy"], days=1, split="test")  # type: ignore[arg-type]
+    with pytest.raises(vertifleet.Error, match="split"):
+        vertifleet.compare(None, ["greedy"], days_from=[paper.draw(1)], split="validation")

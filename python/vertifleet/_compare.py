@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from operator import index
-from typing import TYPE_CHECKING, Any, SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, TypeAlias
 
 from vertifleet import _native
 from vertifleet._errors import Error
@@ -15,6 +15,9 @@ from vertifleet._native import Comparison, Model, Network, Scenario
 
 if TYPE_CHECKING:
     from vertifleet._own_policy import BatchPolicy, FunctionPolicy, OwnPolicy, PolicyFunction
+
+Split: TypeAlias = Literal["training", "validation", "comparison"]
+"""Days that are never days of another split."""
 
 PolicySource: TypeAlias = (
     "str | os.PathLike[str] | Model | PolicyFunction | FunctionPolicy | OwnPolicy | type[OwnPolicy]"
@@ -29,6 +32,7 @@ def compare(
     *,
     days: SupportsIndex | None = None,
     seed: SupportsIndex | None = None,
+    split: Split | None = None,
     days_from: str | os.PathLike[str] | Iterable[str | os.PathLike[str] | Scenario] | None = None,
     models: Mapping[str, PolicySource] | None = None,
     bound: bool = False,
@@ -44,6 +48,8 @@ def compare(
         policies: names of policies as in ``vertifleet compare``; "plan" is the planner, which knows the days.
         days: number of days; 100 by default.
         seed: seed of the first day; the following days take the following seeds; 1 by default.
+        split: "comparison", the default, for results; "validation", to choose settings and weights by; or
+            "training". With the latter two, `seed` is the number of the first day, 1 by default.
         days_from: days of your own instead of drawn ones: a folder of scenario files (all ``*.json``, in the
             order of their names), files, or scenarios. They must have the same vertiports, and each must have
             a name of its own.
@@ -61,11 +67,13 @@ def compare(
         Error: with the program's code for the error; an exception of a function of `models` passes through.
     """
     if days_from is None:
-        chosen: DrawnDays | OwnDays = DrawnDays.of(days, seed)
-    elif days is None and seed is None:
+        chosen: DrawnDays | OwnDays = DrawnDays.of(days, seed, split)
+    elif days is None and seed is None and split is None:
         chosen = OwnDays.of(days_from)
     else:
-        raise Error("V451", "days_from takes neither days nor seed: its days are all there already", None)
+        raise Error(
+            "V451", "days_from takes neither days, seed nor split: its days are all there already", None
+        )
     request = ComparisonRequest.of("vertifleet.compare", policies, chosen, models, bound, step, policy_seed)
     if network is not None:
         network = network_of(network)
@@ -81,16 +89,21 @@ class DrawnDays:
 
     days: int
     seed: int
+    split: Split = "comparison"
 
     @classmethod
-    def of(cls, days: SupportsIndex | None, seed: SupportsIndex | None) -> DrawnDays:
+    def of(
+        cls, days: SupportsIndex | None, seed: SupportsIndex | None, split: Split | None = None
+    ) -> DrawnDays:
         """The days of a call; by default 100 from seed 1 on."""
-        return cls(100 if days is None else index(days), 1 if seed is None else index(seed))
+        number = 100 if days is None else index(days)
+        return cls(number, 1 if seed is None else index(seed), split or "comparison")
 
     @property
     def text(self) -> str:
         """These arguments as they would be typed."""
-        return f"days={self.days}, seed={self.seed}"
+        split = "" if self.split == "comparison" else f", split={self.split!r}"
+        return f"days={self.days}, seed={self.seed}{split}"
 
 
 @dataclass(frozen=True)

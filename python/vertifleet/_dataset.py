@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vertifleet import _native
+from vertifleet._compare import Split
 from vertifleet._errors import Error
-from vertifleet.envs.days import NetworksChoice, Split, days_of
+from vertifleet.envs.days import NetworksChoice, days_of
 from vertifleet.envs.observing import ObservationChoice, Observing
 
 if TYPE_CHECKING:

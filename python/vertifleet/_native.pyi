@@ -22,6 +22,7 @@ __all__ = [
     "Days",
     "Environment",
     "Evaluation",
+    "Generalisation",
     "Layout",
     "Model",
     "Network",
@@ -40,6 +41,7 @@ __all__ = [
     "evaluate",
     "find_policy",
     "find_suite",
+    "generalise",
     "plan",
     "read_days",
     "record",
@@ -258,6 +260,26 @@ class Comparison:
     def join(parts: Sequence[Comparison]) -> Comparison: ...
     @staticmethod
     def from_json(text: str, warnings: Sequence[str] = ...) -> Comparison: ...
+
+@final
+class Generalisation:
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]: ...
+    @property
+    def summary(self) -> dict[str, Any]: ...
+    def to_pandas(self) -> pd.DataFrame: ...
+    def to_polars(self) -> pl.DataFrame: ...
+    def report(self, folder: _Path, *, force: bool = False) -> Path: ...
+
+def generalise(
+    policies: Sequence[str],
+    models: Mapping[str, Any],
+    *,
+    networks: SupportsIndex,
+    step: SupportsIndex,
+    threads: SupportsIndex | None,
+    command: str,
+) -> Generalisation: ...
 
 @final
 class Picture:

@@ -58,8 +58,8 @@ class FunctionPolicy:
     observation: ObservationChoice = "paper"
     batch: bool = False
     """Whether the function takes many observations at once, each array with one more axis in front, and
-    returns as many actions. It is then called for all days of a comparison together, which is much faster for a
-    network."""
+    returns as many actions. It is then called for all days of a comparison together, which is much faster for
+    a network."""
     network: NetworksChoice | None = None
     """What the environment drew its days from, where it was not the network of the days to be played. On
     networks of different sizes a function needs it, for the shapes of its arrays: ``network="random"``."""

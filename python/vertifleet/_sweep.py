@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
-from vertifleet._compare import ComparisonRequest, DrawnDays, network_of
+from vertifleet._compare import ComparisonRequest, DrawnDays, Split, network_of
 from vertifleet._errors import Error
 
 if TYPE_CHECKING:
@@ -96,6 +96,7 @@ def sweep(
     *,
     days: SupportsIndex = 100,
     seed: SupportsIndex = 1,
+    split: Split | None = None,
     models: Mapping[str, PolicySource] | None = None,
     bound: bool = False,
     step: SupportsIndex = 5,
@@ -116,6 +117,7 @@ def sweep(
         policies: as in :func:`compare`, like all arguments that follow.
         days: number of days.
         seed: seed of the first day.
+        split: whose days, as in :func:`compare`.
         models: weight files, models, or functions from an observation to an action, by policy name.
         bound: whether to prove an upper bound of every day.
         step: length of the bound's slices in minutes.
@@ -129,7 +131,7 @@ def sweep(
     network = network_of(network)
     points = variations(network, changes)
     request = ComparisonRequest.of(
-        "vertifleet.compare", policies, DrawnDays.of(days, seed), models, bound, step, policy_seed
+        "vertifleet.compare", policies, DrawnDays.of(days, seed, split), models, bound, step, policy_seed
     )
     request.check(variation for _, variation in points)
     comparisons = [request.compare(variation, threads) for _, variation in points]

@@ -5,11 +5,12 @@ use std::time::Duration;
 
 use clap::builder::{PathBufValueParser, TypedValueParser as _};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use vertifleet_core::Purpose;
 use vertifleet_study::PolicySource;
 
 use crate::typed::{
     parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_seconds, parse_seed,
-    parse_seed_of_a_run, parse_share, parse_steps, parse_threads,
+    parse_seed_of_a_run, parse_share, parse_split, parse_steps, parse_threads,
 };
 
 /// Decides where every electric air taxi of an urban fleet flies next.
@@ -195,7 +196,7 @@ pub(crate) struct CompareArguments {
     #[arg(long, required_unless_present = "days_from")]
     pub(crate) network: Option<String>,
     /// Days of your own in place of drawn ones: scenario files, or a folder with them (all *.json, in the order of their names)
-    #[arg(long, value_name = "DIR|FILE", num_args = 1.., conflicts_with_all = ["network", "days", "seed"])]
+    #[arg(long, value_name = "DIR|FILE", num_args = 1.., conflicts_with_all = ["network", "days", "seed", "split"])]
     pub(crate) days_from: Vec<PathBuf>,
     /// Policies, separated by commas: random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K (which
     /// rolls its K best choices out), names given by --model, and plan, the planner, which knows the days beforehand
@@ -207,6 +208,10 @@ pub(crate) struct CompareArguments {
     /// Seed of the first day; also the seed of the random policy, which is 0 with --days-from
     #[arg(long, required_unless_present = "days_from", allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: Option<u64>,
+    /// Whose days: comparison, for results; validation, to choose settings and weights; or training. With the latter two, the
+    /// seed is the number of the first day
+    #[arg(long, default_value = "comparison", value_parser = parse_split)]
+    pub(crate) split: Purpose,
     /// Weights for a policy name; may be given several times
     #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
     pub(crate) models: Vec<(String, PolicySource)>,

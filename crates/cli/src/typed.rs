@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use vertifleet_core::Purpose;
 use vertifleet_study::{MOST_DAYS, PolicySource};
 
 pub(crate) fn parse_pair(text: &str) -> Result<(String, String), String> {
@@ -23,6 +24,12 @@ pub(crate) fn parse_name(text: &str) -> Result<String, String> {
         "" => Err("expected a policy's name, found none; is there a comma too many?".to_owned()),
         name => Ok(name.to_owned()),
     }
+}
+
+/// The purpose of days.
+pub(crate) fn parse_split(text: &str) -> Result<Purpose, String> {
+    let known = Purpose::ALL.map(Purpose::name).join(", ");
+    Purpose::named(text).ok_or_else(|| format!("expected one of {known}"))
 }
 
 /// A number of days or networks.

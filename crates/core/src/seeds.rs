@@ -9,6 +9,8 @@
 use std::fmt;
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Error, Scenario, limits};
 
 const VALIDATION: u64 = 1 << 40;
@@ -21,9 +23,11 @@ const RUNS: u64 = 1 << 24;
 const _: () = assert!(TRAINING + RUNS * RUN_DAYS <= limits::SEED_LIMIT, "all runs fit below 2^53");
 
 /// The purpose that a day is drawn for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Purpose {
     /// Days that results are reported on, chosen by the user's `--seed`.
+    #[default]
     Comparison,
     /// Days on which models and settings are chosen.
     Validation,

@@ -7,14 +7,14 @@
 //! ```
 //! use vertifleet_core::{Network, Stop};
 //! use vertifleet_progress::Bars;
-//! use vertifleet_study::comparison::Comparison;
+//! use vertifleet_study::comparison::{Comparison, DrawnDays};
 //! use vertifleet_study::competitor::Selection;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let (network, policies) = (Network::find("paper")?, ["greedy".to_owned()]);
 //! let selection = Selection { policies: &policies, models: &[], seed: 1 };
 //! let stop = Stop::default();
-//! let comparison = Comparison::new(&network, &selection, 1, 2, None, &stop)?;
+//! let comparison = Comparison::new(&network, &selection, DrawnDays::of_comparison(1, 2), None, &stop)?;
 //! let records = comparison.run("an example".to_owned(), &stop, &Bars)?;
 //! assert_eq!(records.policies[0].days.len(), 2);
 //! # Ok(())

@@ -10,7 +10,7 @@ mod table;
 use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
-use vertifleet_core::{DaySeed, Network, Scenario, Stop};
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, Stop};
 use vertifleet_optimize::Step;
 
 use crate::competitor::{Competitor, Selection};
@@ -32,12 +32,55 @@ pub struct Comparison {
     network: String,
     origin: NetworkOrigin,
     study: Study,
-    first_seed: Option<u64>,
+    drawn: Option<DrawnDays>,
     days_from: Option<String>,
 }
 
+/// Some days of a network: those of a purpose with consecutive numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DrawnDays {
+    /// The purpose, whose days are never days of another purpose.
+    pub purpose: Purpose,
+    /// The number of the first day; for comparison days it is the seed.
+    pub first: u64,
+    /// How many days.
+    pub days: u32,
+}
+
+impl DrawnDays {
+    /// Days of comparison from the day with this seed on.
+    pub fn of_comparison(first: u64, days: u32) -> Self {
+        Self { purpose: Purpose::Comparison, first, days }
+    }
+
+    /// Checks that the purpose has all of these days.
+    ///
+    /// # Errors
+    /// Returns the error V118 of `vertifleet-core` if it has not.
+    pub fn check(&self) -> Result<(), Error> {
+        self.seed(self.days.saturating_sub(1))?;
+        Ok(())
+    }
+
+    fn seed(&self, day: u32) -> Result<DaySeed, Error> {
+        Ok(DaySeed::of_purpose(self.purpose, self.first.saturating_add(u64::from(day)))?)
+    }
+
+    fn draw(&self, network: &Network, stop: &Stop) -> Result<Vec<Arc<Scenario>>, Error> {
+        // The last seed is checked first, so that no day is drawn if one of them cannot be.
+        self.check()?;
+        let draw = |day: u32| {
+            if stop.is_requested() {
+                return Err(Error::Stopped);
+            }
+            Ok(Arc::new(network.draw(self.seed(day)?)))
+        };
+        (0..self.days).into_par_iter().map(draw).collect()
+    }
+}
+
 impl Comparison {
-    /// Draws `days` days of a network from `first_seed` on; with a `step`, each of them gets an upper bound.
+    /// Draws days of a network; with a `step`, each of them gets an upper bound.
     ///
     /// # Errors
     /// Returns an error if there is no such policy or day, if two policies have the same name, or if a policy cannot
@@ -45,19 +88,18 @@ impl Comparison {
     pub fn new(
         network: &Network,
         selection: &Selection<'_>,
-        first_seed: u64,
-        days: u32,
+        drawn: DrawnDays,
         bound_step: Option<Step>,
         stop: &Stop,
     ) -> Result<Self, Error> {
         let competitors = selection.resolve(network.name())?;
-        let scenarios = draw(network, first_seed, days, stop)?;
+        let scenarios = drawn.draw(network, stop)?;
         let study = Study::new(competitors, scenarios, bound_step)?;
         Ok(Self {
             network: network.name().to_owned(),
             origin: NetworkOrigin::of_all(network.name(), &study.scenarios),
             study,
-            first_seed: Some(first_seed),
+            drawn: Some(drawn),
             days_from: None,
         })
     }
@@ -75,7 +117,7 @@ impl Comparison {
         let competitors = selection.resolve(days.network())?;
         let (network, origin) = (days.network().to_owned(), days.origin());
         let study = Study::new(competitors, days.scenarios, bound_step)?;
-        Ok(Self { network, origin, study, first_seed: None, days_from: Some(days.from) })
+        Ok(Self { network, origin, study, drawn: None, days_from: Some(days.from) })
     }
 
     /// The days that will be played.
@@ -102,7 +144,7 @@ impl Comparison {
         stop: &Stop,
         watch: &impl Watch,
     ) -> Result<ComparisonRecords, Error> {
-        let Self { network, origin, study, first_seed, days_from } = self;
+        let Self { network, origin, study, drawn, days_from } = self;
         let policies = study.play(stop, watch)?;
         // The learning curve of a policy trained on another network says nothing about these days, and no policy was
         // trained on the user's own days.
@@ -114,7 +156,8 @@ impl Comparison {
             trainings: at_home().filter_map(Competitor::validation_curves).collect(),
             network,
             network_origin: origin,
-            seed: first_seed,
+            seed: drawn.map(|drawn| drawn.first),
+            split: drawn.map_or(Purpose::Comparison, |drawn| drawn.purpose),
             days_from,
             days: study.scenarios.len(),
             bound_step_s: match study.bounds {
@@ -147,22 +190,4 @@ impl Records for ComparisonRecords {
         ]);
         Ok(files)
     }
-}
-
-fn draw(
-    network: &Network,
-    first: u64,
-    days: u32,
-    stop: &Stop,
-) -> Result<Vec<Arc<Scenario>>, Error> {
-    let seed = |day: u32| DaySeed::comparison(first.saturating_add(u64::from(day)));
-    // The last seed is checked first, so that no day is drawn if one of them cannot be.
-    seed(days.saturating_sub(1))?;
-    let draw = |day: u32| {
-        if stop.is_requested() {
-            return Err(Error::Stopped);
-        }
-        Ok(Arc::new(network.draw(seed(day)?)))
-    };
-    (0..days).into_par_iter().map(draw).collect()
 }

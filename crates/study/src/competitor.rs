@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{Scenario, Stop};
 use vertifleet_optimize::{Budget, SearchSettings, can_plan, plan, steps_of_equal_work};
+use vertifleet_picture::numbers::grouped;
 use vertifleet_sim::Trace;
 
 use crate::error::Error;
@@ -13,7 +14,6 @@ use crate::record::{LearningCurve, ValidationCurves};
 use crate::resolved_policy::ResolvedPolicy;
 use crate::sees::Sees;
 use crate::starting_policies::starting_policies;
-use vertifleet_picture::numbers::grouped;
 
 /// Number of steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; other
 /// days get as many steps as are the same amount of work. There is no time limit, so the plan is the same on every

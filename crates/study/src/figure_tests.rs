@@ -1,9 +1,10 @@
 //! Properties of every figure: it is well-formed, its texts stay inside, it can be converted to PNG, and it names what
 //! it shows.
 
-use vertifleet_sim::DayTotals;
-
 use resvg::usvg::roxmltree::Document;
+use vertifleet_picture::palette::style_sheet;
+use vertifleet_picture::png;
+use vertifleet_sim::DayTotals;
 
 use super::{Figure, all};
 use crate::comparison::ComparisonReport;
@@ -11,8 +12,6 @@ use crate::origin::NetworkOrigin;
 use crate::record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
 };
-use vertifleet_picture::palette::style_sheet;
-use vertifleet_picture::png;
 
 /// A name that a user could give, with characters that XML treats specially or forbids.
 const HOSTILE: &str = "a<b>&\"c'\u{0}\u{ffff} with a name much longer than any row";
@@ -51,6 +50,7 @@ fn study(names: &[&str], days: u32) -> ComparisonRecords {
         network: "small & odd".to_owned(),
         network_origin: NetworkOrigin::Own,
         seed: Some(3),
+        split: vertifleet_core::Purpose::Comparison,
         days_from: None,
         days: days as usize,
         bound_step_s: None,

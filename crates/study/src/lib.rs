@@ -9,7 +9,7 @@
 //!
 //! ```
 //! use vertifleet_core::{Network, Stop};
-//! use vertifleet_study::comparison::Comparison;
+//! use vertifleet_study::comparison::{Comparison, DrawnDays};
 //! use vertifleet_study::competitor::Selection;
 //! use vertifleet_study::report::Records;
 //! use vertifleet_study::{ComparisonReport, Unwatched};
@@ -19,7 +19,7 @@
 //! let names = ["greedy".to_owned(), "random".to_owned()];
 //! let selection = Selection { policies: &names, models: &[], seed: 1 };
 //! let stop = Stop::default();
-//! let comparison = Comparison::new(&network, &selection, 1, 5, None, &stop)?;
+//! let comparison = Comparison::new(&network, &selection, DrawnDays::of_comparison(1, 5), None, &stop)?;
 //! let records = comparison.run("an example".to_owned(), &stop, &Unwatched)?;
 //! let report = ComparisonReport::of(&records)?;
 //! assert_eq!(report.best().name, "greedy");

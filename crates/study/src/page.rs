@@ -6,10 +6,10 @@
 //! beside the page.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use vertifleet_picture::numbers::typeset;
 
 use crate::figure::Figure;
 use crate::statistics::Estimate;
-use vertifleet_picture::numbers::typeset;
 
 /// A page with this title and body.
 pub(crate) fn document(title: &str, body: &Markup) -> String {

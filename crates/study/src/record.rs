@@ -4,7 +4,7 @@
 //! simulation. Days are in the same order for every policy, which makes the tests paired.
 
 use serde::{Deserialize, Serialize};
-use vertifleet_core::VertiportIx;
+use vertifleet_core::{Purpose, VertiportIx};
 use vertifleet_sim::{DayNumber, DayTotals};
 
 use crate::error::Error;
@@ -98,8 +98,11 @@ pub struct ComparisonRecords {
     pub network: String,
     /// Whether that network is a shipped one.
     pub network_origin: NetworkOrigin,
-    /// The seed of the first day as the user gave it; `None` for the user's own days.
+    /// The seed or number of the first day as the user gave it; `None` for the user's own days.
     pub seed: Option<u64>,
+    /// The purpose of days that were drawn.
+    #[serde(default)]
+    pub split: Purpose,
     /// Where the user's own days came from; `None` for days that were drawn from a seed.
     pub days_from: Option<String>,
     /// Number of days; each policy has that many records.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use vertifleet_core::{Scenario, Stop};
 use vertifleet_learn::{Curve, Model};
 use vertifleet_optimize::Rolling;
+use vertifleet_picture::numbers::grouped;
 use vertifleet_policy::{
     BidPricePolicy, Greedy, Lookahead, Policy, Random, Replay, Stoppable, play,
 };
@@ -14,7 +15,6 @@ use vertifleet_sim::{DayTotals, Simulation, Trace};
 use crate::error::Error;
 use crate::origin::{NetworkOrigin, network_of};
 use crate::sees::Sees;
-use vertifleet_picture::numbers::grouped;
 
 /// A policy that can be built.
 #[derive(Debug, Clone)]

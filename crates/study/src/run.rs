@@ -243,6 +243,7 @@ mod tests {
             network: "paper".to_owned(),
             network_origin: NetworkOrigin::Shipped,
             seed: Some(11),
+            split: vertifleet_core::Purpose::Comparison,
             days_from: None,
             days: 3,
             bound_step_s: Some(300),

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any, Literal, TypeAlias
+from typing import Any, TypeAlias
 
-from vertifleet._compare import network_of
+from vertifleet._compare import Split, network_of
 from vertifleet._native import Days, Network
 
 NetworkChoice: TypeAlias = str | os.PathLike[str] | Network | Mapping[str, str]
@@ -15,9 +15,6 @@ NetworkChoice: TypeAlias = str | os.PathLike[str] | Network | Mapping[str, str]
 NetworksChoice: TypeAlias = NetworkChoice | Iterable[NetworkChoice]
 """A network, several of them, or the name of networks that are drawn anew for each day: "random", or
 "random-places:N" for the paper's network with N vertiports at random places."""
-
-Split: TypeAlias = Literal["training", "validation", "comparison"]
-"""Days that are never days of another split."""
 
 
 def days_of(networks: NetworksChoice, split: Split) -> tuple[Days, Network | None]:

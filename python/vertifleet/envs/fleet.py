@@ -11,12 +11,13 @@ from gymnasium import spaces
 from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
+from vertifleet._compare import Split
 from vertifleet._errors import Error
 from vertifleet._native import Environment, Scenario
 from vertifleet._view import View
 from vertifleet.envs.arguments import Reward, action_of, number_of, options_of, reward_of
 from vertifleet.envs.copies import Copied
-from vertifleet.envs.days import NetworksChoice, Split, days_of, plain
+from vertifleet.envs.days import NetworksChoice, days_of, plain
 from vertifleet.envs.observing import Info, ObservationChoice, Observing
 from vertifleet.envs.rendering import METADATA, RenderMode, mode_of, rendered
 

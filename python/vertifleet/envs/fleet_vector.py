@@ -12,6 +12,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space, concatenate, create_empty_array
 from numpy.typing import ArrayLike, NDArray
 
+from vertifleet._compare import Split
 from vertifleet._errors import Error
 from vertifleet._native import Batch, Scenario
 from vertifleet._view import View
@@ -24,7 +25,7 @@ from vertifleet.envs.arguments import (
     scenarios_of,
     seeds_of,
 )
-from vertifleet.envs.days import NetworksChoice, Split, days_of
+from vertifleet.envs.days import NetworksChoice, days_of
 from vertifleet.envs.observing import Info, ObservationChoice, Observing
 
 

@@ -6,7 +6,7 @@ use vertifleet_core::{Code, Outputs, Stop};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::OwnDays;
-use vertifleet_study::comparison::Comparison;
+use vertifleet_study::comparison::{Comparison, DrawnDays};
 use vertifleet_study::competitor::Selection;
 
 use crate::args::CompareArguments;
@@ -55,5 +55,6 @@ fn comparison(
         )
     };
     let network = find_network(name, outputs)?;
-    Ok(Comparison::new(&network, &selection, seed, days, bound_step, stop)?)
+    let drawn = DrawnDays { purpose: arguments.split, first: seed, days };
+    Ok(Comparison::new(&network, &selection, drawn, bound_step, stop)?)
 }

@@ -206,6 +206,16 @@ const COMPARE: &[Misuse] = &[
         2,
         "V501",
     ),
+    (
+        "compare --network small.toml --policies greedy --days 1 --seed 1 --split test",
+        2,
+        "validation",
+    ),
+    (
+        "compare --network small.toml --policies greedy --days 1 --seed 1099511627776 --split validation",
+        2,
+        "V118",
+    ),
     ("evaluate --policies greedy --suite paper-10", 2, "mean paper-100?"),
     ("evaluate --policies gcaps --suite random-50", 2, "V307"),
     ("evaluate", 2, "--policies"),

@@ -1,8 +1,9 @@
 //! The result of the comparison in one or two sentences.
 
+use vertifleet_picture::numbers::{counted, dollars, grouped, p_statement, signed_dollars};
+
 use super::summary::{ComparisonReport, PairedDifference, PolicySummary};
 use crate::origin::NetworkOrigin;
-use vertifleet_picture::numbers::{counted, dollars, grouped, p_statement, signed_dollars};
 
 /// Says how much the best policy earns, and whether its lead over the reference is more than chance.
 pub(crate) fn text(summary: &ComparisonReport) -> String {

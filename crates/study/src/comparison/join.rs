@@ -39,6 +39,8 @@ impl ComparisonRecords {
         let next_seed = self.seed.map(|seed| seed.saturating_add(self.days as u64));
         let rule = if part.network != self.network {
             format!("network {:?} after {:?}", part.network, self.network)
+        } else if part.split != self.split {
+            format!("{} days after {} days", part.split.name(), self.split.name())
         } else if part.bound_step_s != self.bound_step_s {
             format!("bound step {:?} s after {:?} s", part.bound_step_s, self.bound_step_s)
         } else if names(part) != names(self) {
@@ -68,7 +70,7 @@ fn slower(one: Option<LatencySummary>, other: Option<LatencySummary>) -> Option<
 mod tests {
     use vertifleet_core::{Coded, Network, Stop};
 
-    use crate::comparison::Comparison;
+    use crate::comparison::{Comparison, DrawnDays};
     use crate::competitor::Selection;
     use crate::record::{ComparisonRecords, DayRecord};
     use crate::study::Unwatched;
@@ -78,8 +80,14 @@ mod tests {
         let policies: Vec<String> = policies.iter().map(|&name| name.to_owned()).collect();
         let selection = Selection { policies: &policies, models: &[], seed: 0 };
         let never = Stop::default();
-        let comparison =
-            Comparison::new(&network, &selection, seed, days, None, &never).expect("days");
+        let comparison = Comparison::new(
+            &network,
+            &selection,
+            DrawnDays::of_comparison(seed, days),
+            None,
+            &never,
+        )
+        .expect("days");
         comparison.run(String::new(), &never, &Unwatched).expect("played days")
     }
 

@@ -1,6 +1,10 @@
 //! `report.html` of a comparison.
 
 use maud::{Markup, html};
+use vertifleet_core::Purpose;
+use vertifleet_picture::numbers::{
+    counted, dollars, duration, grouped, minutes, p_statement, signed_dollars, typeset,
+};
 
 use super::headline;
 use super::summary::{ComparisonReport, PolicySummary};
@@ -8,9 +12,6 @@ use crate::figure::Figure;
 use crate::origin::NetworkOrigin;
 use crate::page::{document, estimate, links, picture};
 use crate::published::{NOTE, PublishedResult};
-use vertifleet_picture::numbers::{
-    counted, dollars, duration, grouped, minutes, p_statement, signed_dollars, typeset,
-};
 
 /// The page as HTML.
 pub(crate) fn text(summary: &ComparisonReport, figures: &[Figure]) -> String {
@@ -44,6 +45,9 @@ fn opening(summary: &ComparisonReport) -> Markup {
                 div { dt { "Days of one’s own" } dd { (from) } }
             }
             @if let Some(seed) = summary.seed { div { dt { "Seed" } dd { (seed) } } }
+            @if summary.split != Purpose::Comparison {
+                div { dt { "Days of" } dd { (summary.split.name()) ", not for results" } }
+            }
             @if let Some((first, last)) = summary.day_seeds {
                 div { dt { "Days drawn from seeds" } dd { (first) " to " (last) } }
             }

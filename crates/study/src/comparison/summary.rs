@@ -3,6 +3,7 @@
 //! Records become statistics only here. All presentation reads a [`ComparisonReport`] and computes nothing.
 
 use serde::Serialize;
+use vertifleet_core::Purpose;
 
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
@@ -32,6 +33,8 @@ pub struct ComparisonReport {
     pub network_origin: NetworkOrigin,
     /// The seed as the user gave it; `None` for the user's own days.
     pub seed: Option<u64>,
+    /// The purpose of the days: only those of comparison are for results.
+    pub split: Purpose,
     /// Where the user's own days came from; `None` for days that were drawn from a seed.
     pub days_from: Option<String>,
     /// Number of days.
@@ -219,6 +222,7 @@ impl ComparisonReport {
             network: study.network.clone(),
             network_origin: study.network_origin,
             seed: study.seed,
+            split: study.split,
             days_from: study.days_from.clone(),
             days: study.days,
             day_seeds: study.days_from.is_none().then_some(day_seeds),

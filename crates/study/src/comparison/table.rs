@@ -2,13 +2,15 @@
 
 use std::fmt::Write as _;
 
+use maud::html;
+use vertifleet_core::Purpose;
+use vertifleet_picture::numbers::{counted, duration, grouped, minutes, p_value, signed};
+
 use super::summary::{ComparisonReport, PairedDifference, PolicySummary};
 use crate::origin::NetworkOrigin;
 use crate::sees::SEES;
 use crate::statistics::Estimate;
 use crate::table::{self, append_aligned, estimate};
-use maud::html;
-use vertifleet_picture::numbers::{counted, duration, grouped, minutes, p_value, signed};
 
 /// The column of the share of the bound.
 const SHARE_COLUMN: usize = 4;
@@ -18,8 +20,11 @@ pub(crate) fn text(summary: &ComparisonReport) -> String {
     let changed = if summary.network_origin == NetworkOrigin::Changed { " (changed)" } else { "" };
     let mut text =
         format!("network {}{changed}, {}", summary.network, counted(summary.days, "day", "days"));
-    if let Some(seed) = summary.seed {
-        let _ = write!(text, ", seed {seed}");
+    if let Some(first) = summary.seed {
+        let _ = match summary.split {
+            Purpose::Comparison => write!(text, ", seed {first}"),
+            split => write!(text, ", {} days from number {first} on", split.name()),
+        };
     }
     if let Some(from) = &summary.days_from {
         let _ = write!(text, " of one's own from {from}");

@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
+use maud::html;
+use vertifleet_picture::numbers::{duration, grouped, minutes, p_value, signed};
+
 use super::{EvaluatedPolicy, EvaluationReport, SuiteReport};
 use crate::sees::SEES;
 use crate::table::{self, append_aligned, estimate};
-use maud::html;
-use vertifleet_picture::numbers::{duration, grouped, minutes, p_value, signed};
 
 const NONE: &str = "n/a";
 

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use rayon::prelude::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
 use vertifleet_core::{Stop, VertiportIx};
+use vertifleet_picture::numbers::{counted, grouped};
 use vertifleet_sim::check::check;
 use vertifleet_sim::{DayTotals, Simulation, Trace};
 
@@ -17,7 +18,6 @@ use crate::record::DayRecord;
 use crate::statistics::Estimate;
 use crate::suite::{Suite, SuiteDay};
 use crate::table::estimate;
-use vertifleet_picture::numbers::{counted, grouped};
 
 /// Two numbers agree if they differ by no more than this share of them. Sums in another order differ by less.
 const TOLERANCE: f64 = 1e-9;

@@ -3,15 +3,16 @@
 //! Boxes are horizontal, one row per policy, so that names are readable and each day has a dot below the box. Rows are
 //! named, so colour carries no information that the text does not give.
 
-use super::Figure;
-use crate::comparison::{ComparisonReport, PolicySummary};
-use crate::statistics::BoxSummary;
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{
     Anchor, Canvas, Lettering, Look, Point, Stroke, shortened, text_width,
 };
 use vertifleet_picture::numbers::{counted, dollars, grouped, minutes, typeset};
 use vertifleet_picture::palette::Paint;
+
+use super::Figure;
+use crate::comparison::{ComparisonReport, PolicySummary};
+use crate::statistics::BoxSummary;
 
 const WIDTH: f64 = 760.0;
 const TOP: f64 = 96.0;

@@ -3,14 +3,15 @@
 
 use std::fmt::Write as _;
 
-use super::Figure;
-use crate::comparison::{ComparisonReport, PairedDifference};
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{
     Anchor, Canvas, Lettering, Look, Stroke, pixels, shortened, text_width,
 };
 use vertifleet_picture::numbers::{counted, dollars, signed_dollars};
 use vertifleet_picture::palette::Paint;
+
+use super::Figure;
+use crate::comparison::{ComparisonReport, PairedDifference};
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;

@@ -1,14 +1,15 @@
 //! Learning curves: mean reward against decisions learned from, on the training days (Fig. 3) and on the validation
 //! days.
 
-use super::Figure;
-use super::key;
-use crate::comparison::ComparisonReport;
-use crate::origin::NetworkOrigin;
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};
 use vertifleet_picture::numbers::{grouped, typeset};
 use vertifleet_picture::palette::{Paint, dash};
+
+use super::Figure;
+use super::key;
+use crate::comparison::ComparisonReport;
+use crate::origin::NetworkOrigin;
 
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 70.0;

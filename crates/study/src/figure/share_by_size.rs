@@ -4,13 +4,14 @@
 //! Policies differ by the shape of their marks as well as by the colour. A ring in the background colour separates
 //! marks that overlap.
 
-use super::Figure;
-use super::key;
-use crate::generalisation::{GeneralisationReport, NetworkShare};
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Stroke, shortened};
 use vertifleet_picture::numbers::{counted, grouped, minutes, typeset};
 use vertifleet_picture::palette::Paint;
+
+use super::Figure;
+use super::key;
+use crate::generalisation::{GeneralisationReport, NetworkShare};
 
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 56.0;

@@ -1,7 +1,8 @@
 //! The result of the study in a sentence or two.
 
-use super::GeneralisationReport;
 use vertifleet_picture::numbers::{counted, grouped, p_statement, signed, typeset};
+
+use super::GeneralisationReport;
 
 /// Says which policy does best, and whether its lead over the first-named policy is more than chance.
 pub(super) fn text(summary: &GeneralisationReport) -> String {

@@ -1,12 +1,12 @@
 //! `report.html` of a study of many networks: like that of a comparison, with one row per network.
 
 use maud::{Markup, html};
+use vertifleet_picture::numbers::{counted, dollars, grouped, minutes, p_value, signed, typeset};
 
 use super::{GeneralisationReport, NetworkShare, headline};
 use crate::figure::Figure;
 use crate::page::{self, estimate};
 use crate::share::PolicyShare;
-use vertifleet_picture::numbers::{counted, dollars, grouped, minutes, p_value, signed, typeset};
 
 /// The page as HTML.
 pub(super) fn text(summary: &GeneralisationReport, figures: &[Figure]) -> String {

@@ -1,10 +1,11 @@
 //! The study as plain text for a terminal, with one row per policy.
 
+use vertifleet_picture::numbers::{counted, grouped, minutes, p_value, signed};
+
 use super::GeneralisationReport;
 use crate::sees::SEES;
 use crate::share::PolicyShare;
 use crate::table::{append_aligned, estimate};
-use vertifleet_picture::numbers::{counted, grouped, minutes, p_value, signed};
 
 /// The text that `generalise` prints, without a line end after the last line.
 pub(super) fn text(summary: &GeneralisationReport) -> String {

@@ -89,6 +89,7 @@ pub(crate) fn study(days: usize) -> ComparisonRecords {
         network: "paper".to_owned(),
         network_origin: NetworkOrigin::Shipped,
         seed: Some(1),
+        split: vertifleet_core::Purpose::Comparison,
         days_from: None,
         days,
         bound_step_s: None,
