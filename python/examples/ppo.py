@@ -17,6 +17,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 from torch.distributions import Categorical
+from torch.optim.swa_utils import AveragedModel
 
 import vertifleet
 from vertifleet import FunctionPolicy
@@ -34,9 +35,13 @@ PLACES = 10 + len(READY_H)
 """Numbers that describe a vertiport to the value."""
 
 
-def opportunities(seen: dict[str, Tensor]) -> list[Tensor]:
-    """What could be earned from each vertiport now and next: the best fares of all who want to leave."""
-    return [(seen[table] * seen[fare]).amax(2) for table, fare in DEMAND]
+def onward(seen: dict[str, Tensor]) -> list[Tensor]:
+    """The most that a flight from each vertiport earns an hour, before energy, now and next: [B, N] each."""
+    seats = torch.einsum("bt,bt->b", seen["type"], seen["types"][:, :, 0]).view(-1, 1, 1)
+    hours = seen["block_time"].clamp(min=0.25) / seen["reachable"].clamp(min=1e-6)
+    margins = [(seen[fare] - seen["passenger_cost"]).clamp(min=0) for _, fare in DEMAND]
+    loads = [torch.minimum(seen[table], seats) for table, _ in DEMAND]
+    return [(10 * load * margin / hours).amax(2) for load, margin in zip(loads, margins, strict=True)]
 
 
 def soon_ready(seen: dict[str, Tensor]) -> Tensor:
@@ -64,7 +69,7 @@ def features(seen: dict[str, Tensor]) -> Tensor:
         seen["stands"] - seen["stands_taken"],
         seen["stands_taken"],
         *(seen["time"][:, at, None].expand_as(place) for at in range(3)),
-        *opportunities(seen),
+        *onward(seen),
     ]
     return torch.cat([torch.stack(columns, -1), soon_ready(seen)], -1)
 
@@ -81,7 +86,7 @@ def places(seen: dict[str, Tensor]) -> Tensor:
         seen["stands"] - seen["stands_taken"],
         seen["stands_taken"],
         *(seen[table].sum(2) / 8 for table, _ in DEMAND),
-        *opportunities(seen),
+        *onward(seen),
     ]
     return torch.cat([torch.stack(columns, -1), soon_ready(seen)], -1)
 
@@ -130,27 +135,28 @@ class Rollout:
         self.actions = torch.zeros(steps, days, dtype=torch.long)
         self.log_probs, self.values, self.rewards, self.ends = (torch.zeros(steps, days) for _ in range(4))
 
-    def advantages(self, last_value: Tensor, gamma: float, trace: float) -> Tensor:
-        """Generalised advantage estimates."""
+    def advantages(self, last_value: Tensor, trace: float) -> Tensor:
+        """Generalised advantage estimates; a day ends, so nothing is discounted."""
         advantages, following = torch.zeros_like(self.rewards), torch.zeros_like(last_value)
         value = last_value
         for step in reversed(range(len(self.rewards))):
             goes_on = 1 - self.ends[step]
-            delta = self.rewards[step] + gamma * value * goes_on - self.values[step]
-            following = delta + gamma * trace * goes_on * following
+            delta = self.rewards[step] + value * goes_on - self.values[step]
+            following = delta + trace * goes_on * following
             advantages[step], value = following, self.values[step]
         return advantages
 
 
 def learn(
     agent: Agent,
+    averaged: AveragedModel,
     optimizer: torch.optim.Optimizer,
     rollout: Rollout,
     last_value: Tensor,
     args: argparse.Namespace,
 ) -> None:
     """Improves the agent by the clipped objective of PPO."""
-    advantages = rollout.advantages(last_value, args.gamma, args.trace)
+    advantages = rollout.advantages(last_value, args.trace)
     returns = (advantages + rollout.values).flatten()
     kept = (rollout.choices, rollout.masks, rollout.places, rollout.actions, rollout.log_probs, advantages)
     flat = [part.flatten(0, 1) for part in kept]
@@ -167,10 +173,11 @@ def learn(
             loss.backward()
             nn.utils.clip_grad_norm_(agent.parameters(), 0.5)
             optimizer.step()
+            averaged.update_parameters(agent)
 
 
-def train(agent: Agent, args: argparse.Namespace) -> None:
-    """Learns until the time is up."""
+def train(agent: Agent, averaged: AveragedModel, args: argparse.Namespace) -> None:
+    """Learns until the time is up. The average of the latest weights chooses better than the last ones."""
     envs = FleetVectorEnv(
         args.days, args.network, "dense", autoreset_mode="SameStep", observation="full", copy=False
     )
@@ -196,20 +203,16 @@ def train(agent: Agent, args: argparse.Namespace) -> None:
                 day_profits += info["final_info"]["summary"]["profit_usd"][over].tolist()
         with torch.no_grad():
             last = agent.worth(places(tensors(observation)))
-        learn(agent, optimizer, rollout, last, args)
+        learn(agent, averaged, optimizer, rollout, last, args)
         decisions += args.steps * args.days
-        recent = np.mean(day_profits[-200:]) if day_profits else float("nan")
-        print(
-            f"{decisions:>10,} decisions, {time.monotonic() - begun:4.0f} s, $ {recent:,.0f} a day",
-            flush=True,
-        )
+        seconds, recent = time.monotonic() - begun, np.mean(day_profits[-200:] or [np.nan])
+        print(f"{decisions:>10,} decisions, {seconds:4.0f} s, $ {recent:,.0f} a day", flush=True)
 
 
 def main() -> None:
     """Learns, saves the weights, and compares."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    raw = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=raw)
     parser.add_argument("--network", default="paper")
     parser.add_argument("--minutes", type=float, default=5.0)
     parser.add_argument("--seed", type=int, default=1)
@@ -219,7 +222,6 @@ def main() -> None:
     parser.add_argument("--batch", type=int, default=1024)
     parser.add_argument("--passes", type=int, default=3)
     parser.add_argument("--learning-rate", type=float, default=1e-3)
-    parser.add_argument("--gamma", type=float, default=1.0)
     parser.add_argument("--trace", type=float, default=0.7, help="lambda of the advantage estimates")
     parser.add_argument("--clip", type=float, default=0.2)
     parser.add_argument("--entropy", type=float, default=0.001)
@@ -227,10 +229,12 @@ def main() -> None:
     torch.manual_seed(args.seed)
     torch.set_num_threads(1)
     agent = Agent()
+    averaged = AveragedModel(agent, avg_fn=lambda old, new, _: old + 0.002 * (new - old))
     try:
-        train(agent, args)
+        train(agent, averaged, args)
     except KeyboardInterrupt:
         print("stopped: what was learned so far is saved and compared")
+    agent.load_state_dict(averaged.module.state_dict())
     torch.save(agent.state_dict(), args.out)
 
     def choose(observation: dict[str, np.ndarray]) -> np.ndarray:
@@ -239,10 +243,7 @@ def main() -> None:
             return np.asarray(agent(features(seen), seen["action_mask"]).probs.argmax(1))
 
     models = {"ppo": FunctionPolicy(choose, "full", batch=True)}
-    if args.network == "paper":
-        print(vertifleet.evaluate(["greedy", "ppo"], "paper-100", models=models))
-    else:
-        print(vertifleet.compare(args.network, ["greedy", "ppo"], days=20, models=models))
+    print(vertifleet.compare(args.network, ["greedy", "ppo"], days=100, models=models))
 
 
 if __name__ == "__main__":
