@@ -19,7 +19,7 @@ static FONT_DATABASE: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
     Arc::new(database)
 });
 
-/// The figure as PNG at [`PIXEL_RATIO`] times its size.
+/// The figure as PNG at twice its size.
 ///
 /// # Panics
 /// Panics if the SVG is not well-formed or has no size, which does not happen for the figures of this crate.
