@@ -1,4 +1,4 @@
-"""PPO in one file: learns where aircraft fly next, and is compared with `greedy` on days that it never saw.
+"""PPO in one file: learns where aircraft fly next, and is compared with `greedy` on validation days.
 
 Every vertiport is scored by the same small network from what a flight there would mean, so the weights fit
 networks of any size. The value looks at the whole fleet, whichever aircraft decides: above all at the hours
@@ -243,7 +243,7 @@ def main() -> None:
             return np.asarray(agent(features(seen), seen["action_mask"]).probs.argmax(1))
 
     models = {"ppo": FunctionPolicy(choose, "full", batch=True)}
-    print(vertifleet.compare(args.network, ["greedy", "ppo"], days=100, models=models))
+    print(vertifleet.compare(args.network, ["greedy", "ppo"], days=100, split="validation", models=models))
 
 
 if __name__ == "__main__":

@@ -118,7 +118,14 @@ impl Evaluation {
         let path = |result: &ResultFile| {
             folder.join(ResultFile::file_name(&result.suite, &result.policy.name))
         };
+        let mut paths: Vec<PathBuf> = Vec::new();
         for result in &results {
+            if paths.contains(&path(result)) {
+                let rule = format!("two results would be written to {}", path(result).display());
+                let hint = "give the policies names that differ in letters and digits".to_owned();
+                return Err(Failure::hinted(rule, hint));
+            }
+            paths.push(path(result));
             check_output(&path(result), &study::RESULT, force)?;
         }
         results

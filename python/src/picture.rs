@@ -32,12 +32,20 @@ impl Picture {
         PyBytes::new(py, &py.detach(|| picture::png(&self.text)))
     }
 
-    /// Writes the picture into a file: as PNG if its name ends in `.png`, else as SVG. An existing file is replaced.
+    /// Writes the picture into a file, whose name ends in `.svg` or `.png`. An existing file is replaced.
     fn save(&self, py: Python<'_>, path: PathBuf) -> Result<(), Failure> {
         py.detach(|| {
-            let is_png = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
-            let bytes =
-                if is_png { picture::png(&self.text) } else { self.text.clone().into_bytes() };
+            let ends_in =
+                |end| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(end));
+            let bytes = if ends_in("png") {
+                picture::png(&self.text)
+            } else if ends_in("svg") {
+                self.text.clone().into_bytes()
+            } else {
+                let rule =
+                    format!("a picture is written as .svg or .png, not as {}", path.display());
+                return Err(Failure::argument(rule));
+            };
             Ok(write_atomically(&path, &bytes)?)
         })
     }

@@ -126,7 +126,7 @@ struct OwnPolicy {
     make: Arc<Py<PyAny>>,
     /// That function, and the day that it plays.
     choose: Option<(DayKey, Py<PyAny>)>,
-    /// What observes each day that is being played. Those of days that are over are dropped when others begin.
+    /// What observes each day that is being played, and some that are over.
     observers: Vec<(DayKey, Arc<Mutex<Observer>>)>,
     /// What observes a new day.
     observer: Observer,
@@ -216,6 +216,10 @@ impl OwnPolicy {
         py: Python<'_>,
         asked: &[(Decision, View<'_>)],
     ) -> PyResult<Vec<VertiportIx>> {
+        if self.observers.len() > 2 * asked.len() {
+            let days: Vec<DayKey> = asked.iter().map(|(_, view)| view.day()).collect();
+            self.observers.retain(|(day, _)| days.contains(day));
+        }
         let seen: Vec<crate::view::View> =
             asked.iter().map(|(decision, view)| self.seen(decision, *view)).collect();
         if self.choose.is_none() {

@@ -59,18 +59,19 @@ pub(crate) fn record<'py>(
     let resolved = resolved.map_err(Failure::from)?;
     let world = World::new(days, layout, "dense")?;
     let (first, number): (u64, u64) = (first.of("first")?, number.of("days")?);
+    if number == 0 {
+        return Err(Failure::argument("days must be at least 1, found 0".to_owned()).into());
+    }
     world.days.check(first.saturating_add(number.saturating_sub(1)))?;
     let (width, vertiports) = (layout.layout.width(), world.vertiports());
     let name = policy.to_owned();
     let outcome = interruptible(py, interruptible::threads(threads)?, move |stop| {
-        let play = |policy: &mut Box<dyn Policy>, number| {
+        // Each day has a policy of its own, so that nothing that one remembers goes from day to day.
+        let play = |number| {
+            let mut policy = resolved.build();
             recorded(&world, (&name, &resolved), policy.as_mut(), number, values, stop)
         };
-        let numbers = first..first + number;
-        numbers
-            .into_par_iter()
-            .map_init(|| resolved.build(), play)
-            .collect::<Result<Vec<_>, Error>>()
+        (first..first + number).into_par_iter().map(play).collect::<Result<Vec<_>, Error>>()
     })?;
     if let Some(error) = calls.raised() {
         return Err(error);

@@ -43,7 +43,10 @@ class Dataset:
     day: NDArray[np.str_]
     """The name of the day."""
     values: NDArray[np.float64] | None = None
-    """What the policy compared choices by, NaN for those that it did not consider [decisions, N]."""
+    """What the policy compared choices by, NaN for those that it did not consider [decisions, N].
+
+    "rolling" may choose another than the highest, which it found by trying; "random" and policies of your own
+    have none."""
 
     def __len__(self) -> int:
         return len(self.action)

@@ -6,18 +6,19 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vertifleet import _native
 from vertifleet._compare import PolicySource
+from vertifleet._errors import Error
 from vertifleet._native import Evaluation, Network, Scenario
 from vertifleet._own_policy import FunctionPolicy
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
+RULES = ("random", "greedy", "lookahead", "prices", "rolling", "plan")
+"""Names that stand for nothing but the program's own policies."""
 
 SUITES: tuple[str, ...] = tuple(_native.suite_names())
 """The names of all suites."""
@@ -39,7 +40,7 @@ def evaluate(
         policy: the policy: a name as in ``vertifleet compare``, a model, a function from an observation to an
             action, a `FunctionPolicy` or an `OwnPolicy`; or several: their names, or a mapping from names to
             policies. The others are measured against the first.
-        suite: the name of a suite of `SUITES`, or several names.
+        suite: the name of a suite of `SUITES`, several names, or "all".
         models: weights or policies of your own, for those of the names that need one.
         threads: most threads to use; all cores by default. A policy that remembers something between calls
             needs ``threads=1``, unless it is a class.
@@ -50,27 +51,46 @@ def evaluate(
     names, given = _named(policy)
     given.update(models or {})
     suites = [suite] if isinstance(suite, str) else list(suite)
+    suites = list(SUITES) if suites == ["all"] else suites
+    if not suites or len(set(suites)) < len(suites):
+        raise Error(
+            "V451", f"suites must be one or more different names, found {suites!r}", "see vertifleet.SUITES"
+        )
     command = f"vertifleet.evaluate({list(names)!r}, {suites!r})"
     return _native.evaluate(suites, list(names), given, threads=threads, command=command)
 
 
-def _named(policy: Any) -> tuple[Sequence[str], dict[str, PolicySource]]:
+def _named(policy: Any) -> tuple[list[str], dict[str, PolicySource]]:
     """The names of the policies, and what those names stand for that are not the program's."""
     if isinstance(policy, str):
         return [policy], {}
     if isinstance(policy, Mapping):
-        return list(policy), {name: given for name, given in policy.items() if name != given}
+        return list(policy), dict(_source(name, given) for name, given in policy.items() if name != given)
+    is_one = callable(policy) or hasattr(policy, "choose") or hasattr(policy, "choose_batch")
     if isinstance(policy, os.PathLike):
         name = Path(policy).stem
-        return [name], {name: policy}
-    if isinstance(policy, _native.Model):
-        return [policy.kind], {policy.kind: policy}
-    if isinstance(policy, Iterable) and not hasattr(policy, "choose"):
+    elif isinstance(policy, _native.Model):
+        name = policy.kind
+    elif not is_one and not isinstance(policy, FunctionPolicy) and isinstance(policy, Iterable):
         return list(policy), {}
-    named = policy.function if isinstance(policy, FunctionPolicy) else policy
-    # A function without a name of its own is called "<lambda>".
-    name = (getattr(named, "__name__", None) or type(named).__name__).strip("<>")
-    return [name], {name: policy}
+    else:
+        named = policy.function if isinstance(policy, FunctionPolicy) else policy
+        # A function without a name of its own is called "<lambda>".
+        name = (getattr(named, "__name__", None) or type(named).__name__).strip("<>")
+    return [name], dict([_source(name, policy)])
+
+
+def _source(name: Any, given: Any) -> tuple[str, PolicySource]:
+    """A policy of the caller's under its name."""
+    if not isinstance(name, str):
+        raise Error("V451", f"policies are named by texts, found {name!r}", 'as {"mine": policy}')
+    if isinstance(given, str):
+        rule = f"{name!r} is a name for {given!r}, but a policy of the program has only its own name"
+        raise Error("V451", rule, f'{{"{given}": "{given}"}}, or pathlib.Path(...) for a file with weights')
+    if name in RULES:
+        rule = f"{name!r} is the name of a policy of the program"
+        raise Error("V451", rule, 'give yours another name: {"mine": policy}')
+    return name, given
 
 
 @dataclass(frozen=True)
@@ -93,8 +113,8 @@ def verify(result: str | os.PathLike[str]) -> Verification:
     """Verifies a result file that `Evaluation.save` or ``vertifleet evaluate --results`` wrote.
 
     The days are drawn anew, the choices in the file are played, the schedules are judged by the independent
-    checker, and everything that is claimed is computed again. What cannot be verified is what the policy saw
-    and how it was trained.
+    checker, and every profit, bound and share is computed again. Not verified is who the policy is, what it
+    saw, how long it took, and what the file says about it.
 
     Raises:
         Error: V413 if the file is not a result, V411 if its suite is unknown.

@@ -44,7 +44,11 @@ class OwnPolicy(Protocol):
 
 @runtime_checkable
 class BatchPolicy(Protocol):
-    """A policy that is asked about one decision of each of many days at once, as networks are fast."""
+    """A policy that is asked about one decision of each of many days at once, as networks are fast.
+
+    Days that are over are no longer asked about, so the rows of two calls may be of other days. A policy that
+    remembers something of a day is better an `OwnPolicy`.
+    """
 
     def choose_batch(self, decisions: Sequence[Decision], views: Sequence[View]) -> Sequence[SupportsIndex]:
         """The choice for each decision, as `OwnPolicy.choose` makes it."""
@@ -132,7 +136,11 @@ def _of_function(policy: FunctionPolicy, network: Network | None) -> Adapted:
     networks = policy.network if network is None or policy.network is not None else network
     if networks is None:
         rule = "a function takes a network, as which it sees the days"
-        raise Error("V451", rule, 'say what its environment had: FunctionPolicy(f, "full", network="random")')
+        raise Error(
+            "V451",
+            rule,
+            'say what its environment had: FunctionPolicy(f, "full", network="random"), or "random-places:8"',
+        )
     days, _ = days_of(networks, "comparison")
     observing = Observing(policy.observation, days)
 

@@ -99,7 +99,7 @@ fn select(
     days: &[SuiteDay],
 ) -> Result<(Vec<Competitor>, Vec<LeftOut>), Error> {
     let (mut competitors, mut left_out, mut first_error) = (Vec::new(), Vec::new(), None);
-    for (policy, competitor) in selection.resolve_each(suite.network().unwrap_or("random"))? {
+    for (policy, competitor) in selection.resolve_each(suite.home())? {
         let fits = |competitor: &Competitor| {
             days.iter().try_for_each(|day| competitor.check_fits(&day.scenario))
         };

@@ -133,6 +133,15 @@ impl Suite {
         }
     }
 
+    /// The name of the network whose shipped weights are meant. Days at random places are like those of `paper`.
+    pub(crate) fn home(&self) -> &'static str {
+        match self.drawn_from {
+            DrawnFrom::Network(name) => name,
+            DrawnFrom::RandomNetworks => "random",
+            DrawnFrom::RandomPlaces(_) => "paper",
+        }
+    }
+
     /// Draws the days, and checks that they are the ones that were frozen.
     ///
     /// # Errors

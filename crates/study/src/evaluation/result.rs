@@ -127,7 +127,7 @@ pub(super) fn shares(days: &[DayRecord]) -> (Estimate, f64) {
     (Estimate::of(&shares), shares.iter().copied().fold(f64::INFINITY, f64::min))
 }
 
-fn choices_text(choices: &[VertiportIx]) -> String {
+pub(super) fn choices_text(choices: &[VertiportIx]) -> String {
     let mut text = String::with_capacity(3 * choices.len());
     for (at, choice) in choices.iter().enumerate() {
         let blank = if at > 0 { " " } else { "" };

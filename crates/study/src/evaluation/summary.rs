@@ -31,6 +31,8 @@ pub struct SuiteReport {
     pub description: String,
     /// Number of its days.
     pub days: usize,
+    /// Whether all days are drawn from one network, so that profits can be averaged.
+    pub one_network: bool,
     /// The length of the slices of its bounds, in seconds.
     pub bound_step_s: u32,
     /// Every policy, in the order in which they were named.
@@ -104,6 +106,7 @@ impl SuiteReport {
             suite: suite.name.to_owned(),
             description: suite.description.to_owned(),
             days: suite.days,
+            one_network: suite.network().is_some(),
             bound_step_s: 60 * suite.step_minutes,
             policies: shares
                 .into_iter()

@@ -72,11 +72,11 @@ fn suite_rows(suite: &SuiteReport) -> Vec<Vec<String>> {
         "p99",
     ];
     let mut rows = vec![heading.map(str::to_owned).to_vec()];
-    rows.extend(policies.iter().map(row));
+    rows.extend(policies.iter().map(|policy| row(policy, suite.one_network)));
     rows
 }
 
-fn row(policy: &EvaluatedPolicy) -> Vec<String> {
+fn row(policy: &EvaluatedPolicy, one_network: bool) -> Vec<String> {
     let percent = |share: f64| grouped(100.0 * share, 2);
     let time = |time: Option<u64>| time.map_or(NONE.to_owned(), duration);
     let EvaluatedPolicy { share, p_value_holm, profit_usd, decision_ns } = policy;
@@ -95,7 +95,8 @@ fn row(policy: &EvaluatedPolicy) -> Vec<String> {
         share.sees.to_string(),
         estimate(&share.bound_share, percent),
         percent(share.lowest_bound_share),
-        estimate(profit_usd, |value| grouped(value, 0)),
+        // Profits of different networks cannot be averaged.
+        if one_network { estimate(profit_usd, |value| grouped(value, 0)) } else { NONE.to_owned() },
         minus,
         p,
         time(decision_ns.map(|time| time.median_ns)),

@@ -12,7 +12,7 @@ use vertifleet_picture::numbers::{counted, grouped};
 use vertifleet_sim::check::check;
 use vertifleet_sim::{DayTotals, Simulation, Trace};
 
-use super::result::{ResultDay, ResultFile, profits, shares};
+use super::result::{ResultDay, ResultFile, choices_text, profits, shares};
 use crate::error::Error;
 use crate::record::DayRecord;
 use crate::statistics::Estimate;
@@ -124,6 +124,10 @@ fn verified_day(day: &SuiteDay, claim: &ResultDay) -> Result<DayRecord, String> 
     }
     let (trace, totals) =
         played(day, &claim.choices).map_err(|finding| format!("{name}: {finding}"))?;
+    let choices: Vec<VertiportIx> = trace.rows.iter().map(|row| row.to).collect();
+    if claim.choices != choices_text(&choices) {
+        return Err(format!("{name}: choices must be whole numbers with a blank between them"));
+    }
     let report = check(&day.scenario, &trace);
     if let Some(finding) = report.findings.first() {
         return Err(format!("{name}: the checker finds {}: {}", finding.rule, finding.detail));
@@ -174,6 +178,8 @@ fn played(day: &SuiteDay, choices: &str) -> Result<(Trace, DayTotals), String> {
 impl fmt::Display for Verification {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { suite, policy, days, findings, .. } = self;
+        // A name may hold anything, and must not pass for a line of this report.
+        let policy = policy.escape_debug();
         let days = counted(*days, "day", "days");
         if let (true, Some(bound_share), Some(profit_usd)) =
             (self.valid, &self.bound_share, &self.profit_usd)
@@ -182,7 +188,7 @@ impl fmt::Display for Verification {
             let profit = estimate(profit_usd, |value| grouped(value, 0));
             return write!(
                 f,
-                "verified: {policy} on {suite}, {days}: {share} % of the certified bound, $ {profit} a day"
+                "verified: {policy} on {suite}, {days}: {share} % of the certified bound, $ {profit} a day (not verified: who it is, what it saw, its times, what it says of itself)"
             );
         }
         let found = counted(findings.len(), "claim does", "claims do");
