@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-STUB_DOCS = Path(__file__).resolve().parents[2] / "scripts/stub-docs"
+STUB_DOCS = Path(__file__).resolve().parents[1] / "tools/stub_docs.py"
 
 
 def test_the_stub_has_the_docstrings_of_the_extension_module(tmp_path: Path) -> None:

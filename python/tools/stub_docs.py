@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Writes the docstrings of the extension module into _native.pyi, where editors look for them.
 
 Run it with python/.venv/bin/python, after `make python`, whenever a comment of python/src has changed.
@@ -16,7 +15,7 @@ from typing import Any
 
 from vertifleet import _native
 
-STUB = Path(__file__).resolve().parent.parent / "python/vertifleet/_native.pyi"
+STUB = Path(__file__).resolve().parent.parent / "vertifleet/_native.pyi"
 WIDTH = 110
 
 
@@ -79,7 +78,7 @@ def main() -> None:
     """Writes the stub, or with --check says whether it is as it would be written."""
     source = STUB.read_text(encoding="utf-8")
     if "--check" in sys.argv:
-        sys.exit(0 if described(source) == source else "run scripts/stub-docs")
+        sys.exit(0 if described(source) == source else "run python/tools/stub_docs.py")
     STUB.write_text(described(source), encoding="utf-8")
 
 
