@@ -1,7 +1,7 @@
 //! `compare`: many policies on many days.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use pyo3::prelude::*;
@@ -11,7 +11,7 @@ use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::comparison::DrawnDays;
 use vertifleet_study::competitor::Selection;
-use vertifleet_study::report::{self, Records as _};
+use vertifleet_study::report::{self, Records};
 use vertifleet_study::{
     ComparisonRecords, ComparisonReport, DayRecord, Error, MOST_DAYS, OwnDays, PolicySource,
     comparison,
@@ -90,12 +90,7 @@ impl Comparison {
     /// with `force`, kept under another name.
     #[pyo3(signature = (folder, *, force = false))]
     fn report(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<PathBuf> {
-        let paths = py.detach(|| report::write(&self.study, &folder, force));
-        let paths = paths.map_err(Failure::from)?;
-        if let Some(kept) = &paths.kept {
-            warn(py, &format!("what was there before is now {}", kept.display()))?;
-        }
-        Ok(paths.page)
+        write_report(py, &self.study, &folder, force)
     }
 
     /// Joins comparisons of the same policies into one. Each part must begin with the day after the last day of the
@@ -233,6 +228,20 @@ impl Days {
     }
 }
 
+/// Writes the report of a study into a folder, and returns the path of its page.
+pub(crate) fn write_report(
+    py: Python<'_>,
+    study: &(impl Records + Sync),
+    folder: &Path,
+    force: bool,
+) -> PyResult<PathBuf> {
+    let paths = py.detach(|| report::write(study, folder, force)).map_err(Failure::from)?;
+    if let Some(kept) = &paths.kept {
+        warn(py, &format!("what was there before is now {}", kept.display()))?;
+    }
+    Ok(paths.page)
+}
+
 /// Checks everything about a comparison that can be checked before its days are played, and returns the warnings.
 #[pyfunction]
 #[pyo3(signature = (network, arguments))]
@@ -280,10 +289,7 @@ pub(crate) fn compare(
         let study = comparison.run(command, stop, &Bars)?;
         Ok::<_, Error>(Comparison { study, warnings })
     })?;
-    if let Some(error) = calls.raised() {
-        return Err(error);
-    }
-    let mut comparison = outcome.map_err(Failure::from)?;
+    let mut comparison = calls.answered(outcome)?;
     for warning in calls.warnings() {
         warn(py, &warning)?;
         comparison.warnings.push(warning);

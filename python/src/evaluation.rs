@@ -183,10 +183,7 @@ pub(crate) fn evaluate(
         let play = |evaluation: study::Evaluation| evaluation.run(command.clone(), stop, &Bars);
         evaluations.into_iter().map(play).collect::<Result<Vec<_>, Error>>()
     })?;
-    if let Some(error) = calls.raised() {
-        return Err(error);
-    }
-    let suites = outcome.map_err(Failure::from)?;
+    let suites = calls.answered(outcome)?;
     let left_out = suites.iter().flat_map(|suite: &EvaluationRecords| {
         let text = |one: &study::LeftOut| {
             format!("{} is left out of {}: {}", one.policy, suite.suite.name, one.reason)

@@ -9,9 +9,10 @@ use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
 use vertifleet_study::competitor::Selection;
 use vertifleet_study::generalisation::{self as study, GeneralisationRecords};
-use vertifleet_study::report::{self, Records as _};
+use vertifleet_study::report::Records as _;
 use vertifleet_study::{DayRecord, Error, MOST_DAYS, PolicySource};
 
+use crate::comparison::write_report;
 use crate::failure::{Failure, warn};
 use crate::frames::{Columns, frame, loads};
 use crate::interruptible::{self, interruptible};
@@ -74,12 +75,7 @@ impl Generalisation {
     /// with `force`, kept under another name.
     #[pyo3(signature = (folder, *, force = false))]
     fn report(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<PathBuf> {
-        let paths = py.detach(|| report::write(&self.study, &folder, force));
-        let paths = paths.map_err(Failure::from)?;
-        if let Some(kept) = &paths.kept {
-            warn(py, &format!("what was there before is now {}", kept.display()))?;
-        }
-        Ok(paths.page)
+        write_report(py, &self.study, &folder, force)
     }
 
     fn __str__(&self) -> Result<String, Failure> {
@@ -124,10 +120,7 @@ pub(crate) fn generalise(
         let study = generalisation.run(command, stop, &Bars)?;
         Ok::<_, Error>(Generalisation { study })
     })?;
-    if let Some(error) = calls.raised() {
-        return Err(error);
-    }
-    let generalisation = outcome.map_err(Failure::from)?;
+    let generalisation = calls.answered(outcome)?;
     for warning in calls.warnings() {
         warn(py, &warning)?;
     }

@@ -9,9 +9,10 @@ use vertifleet_core::VertiportIx;
 use vertifleet_observe::{Observer, Scene};
 use vertifleet_policy::{Policy, PolicyError};
 use vertifleet_sim::{DayKey, Decision, View};
-use vertifleet_study::{PolicyFactory, PolicySource, Sees};
+use vertifleet_study::{Error, PolicyFactory, PolicySource, Sees};
 
 use crate::days::Days;
+use crate::failure::Failure;
 use crate::model::Model;
 use crate::network::Network;
 use crate::whole_number::WholeNumber;
@@ -57,6 +58,14 @@ impl OwnCalls {
     /// The first exception.
     pub(crate) fn raised(&self) -> Option<PyErr> {
         self.lock().raised.take()
+    }
+
+    /// The outcome of work that made these calls: an exception that one of them raised goes before an error.
+    pub(crate) fn answered<T>(&self, outcome: Result<T, Error>) -> PyResult<T> {
+        match self.raised() {
+            Some(error) => Err(error),
+            None => Ok(outcome.map_err(Failure::from)?),
+        }
     }
 
     /// A warning about each policy that made choices that were not feasible.

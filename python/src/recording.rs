@@ -73,13 +73,10 @@ pub(crate) fn record<'py>(
         };
         (first..first + number).into_par_iter().map(play).collect::<Result<Vec<_>, Error>>()
     })?;
-    if let Some(error) = calls.raised() {
-        return Err(error);
-    }
+    let days = calls.answered(outcome)?;
     for warning in calls.warnings() {
         warn(py, &warning)?;
     }
-    let days = outcome.map_err(Failure::from)?;
     arrays(py, &days, [width, vertiports], values)
 }
 

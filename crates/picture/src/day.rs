@@ -4,7 +4,7 @@ use vertifleet_core::{Scenario, VertiportIx};
 
 use crate::canvas::{Canvas, shortened};
 use crate::demand::{all_passengers, wanted};
-use crate::map::Area;
+use crate::map::{Area, pair, room};
 use crate::numbers::{counted, grouped};
 use crate::panel::heading;
 use crate::schedule::draw_flows;
@@ -24,11 +24,7 @@ pub fn day(day: &Scenario) -> String {
 }
 
 fn subtitle(day: &Scenario) -> String {
-    let stands: u32 = day
-        .vertiports
-        .iter()
-        .map(|one| u32::from(one.stands) + u32::from(one.chargers.unwrap_or(0)))
-        .sum();
+    let stands: u32 = day.vertiports.iter().map(room).sum();
     let wanted = all_passengers(day);
     format!(
         "{} with {}, {}, {} passengers, {} to {}",
@@ -48,8 +44,7 @@ fn both_ways(day: &Scenario) -> Vec<u32> {
     for table in &day.demand {
         for from in VertiportIx::all(size) {
             for (to, &number) in table.row(from).iter().enumerate() {
-                let (one, other) = (from.at().min(to), from.at().max(to));
-                numbers[one * size + other] += number;
+                numbers[pair(size, from.at(), to)] += number;
             }
         }
     }

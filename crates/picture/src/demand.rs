@@ -36,12 +36,16 @@ pub(crate) fn served_and_spilled(
 /// Bars of all passengers who want to fly.
 pub(crate) fn wanted(canvas: &mut Canvas, area: Area, day: &Scenario) {
     heading(canvas, area, "passengers who want to fly, by demand period");
-    let all: Vec<u32> = day.demand.iter().map(|table| table.cells().iter().sum()).collect();
-    bars(canvas, area, day, &all);
+    bars(canvas, area, day, &by_period(day));
+}
+
+/// The passengers who want to fly in each demand period.
+fn by_period(day: &Scenario) -> Vec<u32> {
+    day.demand.iter().map(|table| table.cells().iter().sum()).collect()
 }
 
 fn bars(canvas: &mut Canvas, area: Area, day: &Scenario, served: &[u32]) {
-    let wanted: Vec<u32> = day.demand.iter().map(|table| table.cells().iter().sum()).collect();
+    let wanted = by_period(day);
     let scale = counts(canvas, area, wanted.iter().map(|&number| f64::from(number)));
     let width = area.width / wanted.len() as f64;
     let (mut below, mut above) = (Blocks::default(), Blocks::default());

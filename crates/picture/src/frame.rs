@@ -3,7 +3,7 @@
 use vertifleet_core::{Scenario, VertiportIx};
 
 use crate::canvas::{Anchor, Canvas, Lettering, Look, Stroke};
-use crate::map::{Area, Map};
+use crate::map::{Area, Map, room};
 use crate::moment::{Moment, Whereabouts};
 use crate::numbers::{dollars, grouped};
 use crate::palette::Paint;
@@ -84,7 +84,7 @@ fn vertiport(
     radius: f64,
 ) {
     let one = &day.vertiports[at.at()];
-    let stands = u32::from(one.stands) + u32::from(one.chargers.unwrap_or(0));
+    let stands = room(one);
     let (standing, coming) = (moment.standing[at.at()], moment.coming[at.at()]);
     let taken = f64::from(standing + coming) / f64::from(stands.max(1));
     map.disc(canvas, at, radius, taken);

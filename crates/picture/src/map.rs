@@ -1,6 +1,6 @@
 //! The map: vertiports at their places, and lines between them.
 
-use vertifleet_core::{Scenario, VertiportIx};
+use vertifleet_core::{Scenario, Vertiport, VertiportIx};
 
 use crate::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke};
 use crate::palette::Paint;
@@ -29,6 +29,16 @@ impl Area {
     }
 }
 
+/// The aircraft that a vertiport has room for: its stands, and its chargers where they are counted apart.
+pub(crate) fn room(vertiport: &Vertiport) -> u32 {
+    u32::from(vertiport.stands) + u32::from(vertiport.chargers.unwrap_or(0))
+}
+
+/// The position of two vertiports in the upper triangle of a table, whichever of them comes first.
+pub(crate) fn pair(size: usize, one: usize, other: usize) -> usize {
+    one.min(other) * size + one.max(other)
+}
+
 /// The vertiports of a day in an area of a picture, north up and to scale.
 pub(crate) struct Map {
     places: Vec<Point>,
@@ -36,7 +46,7 @@ pub(crate) struct Map {
 
 impl Map {
     pub(crate) fn of(day: &Scenario, area: Area) -> Self {
-        let span = |value: fn(&vertifleet_core::Vertiport) -> f64| {
+        let span = |value: fn(&Vertiport) -> f64| {
             let values = day.vertiports.iter().map(value);
             let low = values.clone().fold(f64::INFINITY, f64::min);
             (low, values.fold(f64::NEG_INFINITY, f64::max) - low)
@@ -47,7 +57,7 @@ impl Map {
         let scale = (room.0 / width_mi.max(1e-9)).min(room.1 / height_mi.max(1e-9));
         let left = area.left + (area.width - scale * width_mi) / 2.0;
         let bottom = area.bottom() - (area.height - scale * height_mi) / 2.0;
-        let place = |one: &vertifleet_core::Vertiport| {
+        let place = |one: &Vertiport| {
             (left + scale * (one.x_mi - west), bottom - scale * (one.y_mi - south))
         };
         Self { places: day.vertiports.iter().map(place).collect() }

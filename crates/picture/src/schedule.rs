@@ -6,7 +6,7 @@ use vertifleet_sim::TraceRow;
 
 use crate::canvas::{Anchor, Canvas, Lettering, Look, Stroke, shortened};
 use crate::demand::{all_passengers, served_and_spilled};
-use crate::map::{Area, Map};
+use crate::map::{Area, Map, pair, room};
 use crate::moment::Moment;
 use crate::numbers::{dollars, grouped};
 use crate::palette::Paint;
@@ -71,8 +71,7 @@ fn flows(canvas: &mut Canvas, area: Area, day: &Scenario, rows: &[TraceRow]) {
     let size = day.vertiports.len();
     let mut carried = vec![0_u32; size * size];
     for row in rows {
-        let (one, other) = (row.from.at().min(row.to.at()), row.from.at().max(row.to.at()));
-        carried[one * size + other] += u32::from(row.passengers);
+        carried[pair(size, row.from.at(), row.to.at())] += u32::from(row.passengers);
     }
     draw_flows(canvas, area, day, &carried);
 }
@@ -83,7 +82,7 @@ pub(crate) fn draw_flows(canvas: &mut Canvas, area: Area, day: &Scenario, number
     let most = f64::from(numbers.iter().copied().max().unwrap_or(0).max(1));
     for from in VertiportIx::all(size) {
         for to in VertiportIx::all(size).skip(from.at() + 1) {
-            let share = f64::from(numbers[from.at() * size + to.at()]) / most;
+            let share = f64::from(numbers[pair(size, from.at(), to.at())]) / most;
             if share > 0.01 {
                 let paint = Paint::Series(0);
                 let stroke = Stroke::solid(paint, 0.4 + 6.6 * share);
@@ -173,9 +172,9 @@ fn stands(
         let width = clock.pixel(Time::from_seconds(from_s + CELL_S)) - x;
         for at in 0..shown {
             let one = &day.vertiports[at];
-            let stands = usize::from(one.stands) + usize::from(one.chargers.unwrap_or(0));
-            let taken = (moment.standing[at] + moment.coming[at]) as usize;
-            let step = (taken * LOADS).div_ceil(stands.max(1)).min(LOADS);
+            let stands = room(one);
+            let taken = moment.standing[at] + moment.coming[at];
+            let step = ((taken as usize * LOADS).div_ceil(stands.max(1) as usize)).min(LOADS);
             if step > 0 {
                 let y = area.top + row_height * at as f64;
                 cells[step - 1].add((x, y + 1.0), (width, row_height - 2.0));

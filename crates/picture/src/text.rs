@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use vertifleet_core::{Scenario, VertiportIx};
 
+use crate::map::room;
 use crate::moment::Moment;
 use crate::numbers::grouped;
 
@@ -23,7 +24,7 @@ pub fn text(day: &Scenario, moment: &Moment, deciding: Option<VertiportIx>) -> S
     let _ = write!(text, "  {:width$}  standing  coming  stands  waiting", "vertiport");
     for at in VertiportIx::all(day.vertiports.len()) {
         let one = &day.vertiports[at.at()];
-        let stands = u32::from(one.stands) + u32::from(one.chargers.unwrap_or(0));
+        let stands = room(one);
         let mark = if deciding == Some(at) { '>' } else { ' ' };
         let _ = write!(
             text,

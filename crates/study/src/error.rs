@@ -175,9 +175,7 @@ impl Error {
             cause => Self::Stuck { policy: policy.to_owned(), day: day.to_owned(), cause },
         }
     }
-}
 
-impl Error {
     /// Whether a policy cannot play some days although nothing is wrong with it: its weights belong to another network,
     /// or the planner does not support the days.
     pub(crate) fn is_misfit(&self) -> bool {

@@ -56,11 +56,6 @@ impl Evaluation {
         Ok(Self { suite, hashes, study: Study { kept: Kept::Choices, ..study }, left_out })
     }
 
-    /// The policies that cannot play these days.
-    pub fn left_out(&self) -> &[LeftOut] {
-        &self.left_out
-    }
-
     /// Plays all days with every policy; `command` is the command line that the results record.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::result::profits;
 use super::{EvaluationRecords, LeftOut};
 use crate::error::Error;
 use crate::record::{LatencySummary, PolicyRecord, check_records};
@@ -98,8 +99,7 @@ impl SuiteReport {
         let p_values: Vec<Option<f64>> =
             shares.iter().map(|share| share.minus_first.as_ref()?.p_value).collect();
         let evaluated = |((share, policy), p_value_holm): ((_, &PolicyRecord), _)| {
-            let profits: Vec<f64> = policy.days.iter().map(|day| day.totals.profit_usd).collect();
-            let (profit_usd, decision_ns) = (Estimate::of(&profits), policy.decision_ns);
+            let (profit_usd, decision_ns) = (profits(&policy.days), policy.decision_ns);
             EvaluatedPolicy { share, p_value_holm, profit_usd, decision_ns }
         };
         Ok(Self {
