@@ -25,6 +25,7 @@ mod model;
 mod network;
 mod observation;
 mod optimize;
+mod own_policy;
 mod pickle;
 mod picture;
 mod played;

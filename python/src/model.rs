@@ -57,6 +57,12 @@ impl Model {
         PyBytes::new(py, &self.model.to_bytes())
     }
 
+    /// SHA-256 of the weight file in hexadecimal digits, which identifies the weights in result files.
+    #[getter]
+    fn sha256(&self) -> String {
+        self.model.sha256()
+    }
+
     /// The name of the policy: gcaps, mlp or gcaps-x.
     #[getter]
     fn kind(&self) -> &'static str {

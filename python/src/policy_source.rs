@@ -5,17 +5,15 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use pyo3::prelude::*;
-use vertifleet_core::VertiportIx;
-use vertifleet_observe::{Observer, Scene};
-use vertifleet_policy::{Policy, PolicyError};
-use vertifleet_sim::{DayKey, Decision, View};
+use vertifleet_observe::Observer;
+use vertifleet_policy::Policy;
 use vertifleet_study::{Error, PolicyFactory, PolicySource, Sees};
 
 use crate::days::Days;
 use crate::failure::Failure;
 use crate::model::Model;
 use crate::network::Network;
-use crate::whole_number::WholeNumber;
+use crate::own_policy::{Caller, OwnBatchPolicy, OwnPolicy};
 
 /// Weights: a model, or the path of a weight file.
 #[derive(FromPyObject)]
@@ -68,6 +66,11 @@ impl OwnCalls {
         }
     }
 
+    /// Counts a choice that was not feasible.
+    pub(crate) fn count_infeasible(&self, policy: &str) {
+        *self.lock().infeasible.entry(policy.to_owned()).or_default() += 1;
+    }
+
     /// A warning about each policy that made choices that were not feasible.
     pub(crate) fn warnings(&self) -> Vec<String> {
         let text = |(name, count): (&String, &u64)| {
@@ -108,145 +111,19 @@ pub(crate) fn of_own(
         bool,
     ) = adapt.call1((value, network.cloned()))?.extract()?;
     let sees = if shows_present_only { Sees::Present } else { Sees::Forecast };
-    let (make, calls) = (Arc::new(make), calls.clone());
-    let name = name.to_owned();
     let observer = match (days, network) {
         (Some(days), _) => days.observer(),
         (None, Some(network)) => Observer::of(&network.network),
         (None, None) => Observer::default(),
     };
+    let caller =
+        Caller { make: Arc::new(make), observer, name: name.to_owned(), calls: calls.clone() };
     let make_policy = move || -> Box<dyn Policy> {
-        Box::new(OwnPolicy {
-            make: Arc::clone(&make),
-            choose: None,
-            observers: Vec::new(),
-            observer: observer.clone(),
-            in_batches,
-            name: name.clone(),
-            calls: calls.clone(),
-        })
+        if in_batches {
+            Box::new(OwnBatchPolicy::new(caller.clone()))
+        } else {
+            Box::new(OwnPolicy::new(caller.clone()))
+        }
     };
     Ok(PolicyFactory { make: Arc::new(make_policy), sees, in_batches })
-}
-
-/// A policy that calls a Python object.
-struct OwnPolicy {
-    /// Makes the function from a view to an action when a day begins, or the one from many views to as many actions.
-    make: Arc<Py<PyAny>>,
-    /// That function, and the day that it plays.
-    choose: Option<(DayKey, Py<PyAny>)>,
-    /// What observes each day that is being played, and some that are over.
-    observers: Vec<(DayKey, Arc<Mutex<Observer>>)>,
-    /// What observes a new day.
-    observer: Observer,
-    in_batches: bool,
-    name: String,
-    calls: OwnCalls,
-}
-
-impl Policy for OwnPolicy {
-    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
-        if self.in_batches {
-            let mut choices = Vec::new();
-            self.choose_batch(&mut std::iter::once((*decision, *view)), &mut choices)?;
-            return Ok(choices[0]);
-        }
-        Python::attach(|py| self.ask(py, decision, *view)).map_err(|error| self.stopped_by(error))
-    }
-
-    fn choose_batch(
-        &mut self,
-        asked: &mut dyn Iterator<Item = (Decision, View<'_>)>,
-        choices: &mut Vec<VertiportIx>,
-    ) -> Result<(), PolicyError> {
-        if !self.in_batches {
-            for (decision, view) in asked {
-                choices.push(self.choose(&decision, &view)?);
-            }
-            return Ok(());
-        }
-        let asked: Vec<(Decision, View<'_>)> = asked.collect();
-        if asked.is_empty() {
-            return Ok(());
-        }
-        let chosen = Python::attach(|py| self.ask_many(py, &asked));
-        choices.extend(chosen.map_err(|error| self.stopped_by(error))?);
-        Ok(())
-    }
-}
-
-impl OwnPolicy {
-    fn stopped_by(&self, error: PyErr) -> PolicyError {
-        self.calls.raise(error);
-        PolicyError::Stopped
-    }
-
-    /// What observes the day of a view.
-    fn observer(&mut self, view: View<'_>, begins: bool) -> Arc<Mutex<Observer>> {
-        let day = view.day();
-        if begins {
-            self.observers.retain(|(known, _)| *known != day);
-        }
-        if let Some((_, observer)) = self.observers.iter().find(|(known, _)| *known == day) {
-            return Arc::clone(observer);
-        }
-        if !self.in_batches {
-            self.observers.clear();
-        }
-        let observer = Arc::new(Mutex::new(self.observer.clone()));
-        self.observers.push((day, Arc::clone(&observer)));
-        observer
-    }
-
-    fn seen(&mut self, decision: &Decision, view: View<'_>) -> crate::view::View {
-        let observer = self.observer(view, decision.index == 0);
-        crate::view::View::of(&Scene::of(view, decision), &observer)
-    }
-
-    /// Calls the function. As in an environment, an action that is not feasible holds.
-    fn ask(
-        &mut self,
-        py: Python<'_>,
-        decision: &Decision,
-        view: View<'_>,
-    ) -> PyResult<VertiportIx> {
-        let seen = self.seen(decision, view);
-        let choose = match &self.choose {
-            Some((day, choose)) if *day == view.day() && decision.index > 0 => choose,
-            _ => &self.choose.insert((view.day(), self.make.call0(py)?)).1,
-        };
-        let action: WholeNumber = choose.call1(py, (seen,))?.extract(py)?;
-        Ok(self.feasible(decision, view, action))
-    }
-
-    /// Calls the function for many decisions at once.
-    fn ask_many(
-        &mut self,
-        py: Python<'_>,
-        asked: &[(Decision, View<'_>)],
-    ) -> PyResult<Vec<VertiportIx>> {
-        if self.observers.len() > 2 * asked.len() {
-            let days: Vec<DayKey> = asked.iter().map(|(_, view)| view.day()).collect();
-            self.observers.retain(|(day, _)| days.contains(day));
-        }
-        let seen: Vec<crate::view::View> =
-            asked.iter().map(|(decision, view)| self.seen(decision, *view)).collect();
-        if self.choose.is_none() {
-            self.choose = Some((asked[0].1.day(), self.make.call0(py)?));
-        }
-        let (_, choose) = self.choose.as_ref().expect("it was made just now");
-        // The Python side has checked that there is an action for each decision.
-        let actions: Vec<WholeNumber> = choose.call1(py, (seen,))?.extract(py)?;
-        let pairs = asked.iter().zip(actions);
-        Ok(pairs.map(|((decision, view), action)| self.feasible(decision, *view, action)).collect())
-    }
-
-    fn feasible(&self, decision: &Decision, view: View<'_>, action: WholeNumber) -> VertiportIx {
-        let feasible = view.feasible(decision);
-        let asked = action.of::<u16>("what a policy returns").ok().map(VertiportIx);
-        asked.filter(|&asked| feasible.contains(asked)).unwrap_or_else(|| {
-            *self.calls.lock().infeasible.entry(self.name.clone()).or_default() += 1;
-            decision.at
-        })
-    }
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from pathlib import Path
 from typing import Any
@@ -87,6 +88,21 @@ def test_results_keep_to_their_schema_and_are_verified(tmp_path: Path) -> None:
     with pytest.raises(vertifleet.Error) as error:
         vertifleet.verify(SCHEMA)
     assert error.value.code == "V413"
+
+
+def test_a_result_names_the_weights_that_played(tmp_path: Path) -> None:
+    weights = tmp_path / "mine.safetensors"
+    vertifleet.Model.shipped().write(weights)
+    (result,) = vertifleet.evaluate({"mine": weights}).save(tmp_path)
+    sha256 = hashlib.sha256(weights.read_bytes()).hexdigest()
+    assert json.loads(result.read_text())["policy"]["weights_sha256"] == sha256
+    assert vertifleet.Model.read(weights).sha256 == sha256
+
+
+def test_a_name_with_a_control_character_is_refused() -> None:
+    with pytest.raises(vertifleet.Error, match="control character") as error:
+        vertifleet.evaluate({"mine\nyours": FirstFeasible})
+    assert error.value.code == "V407"
 
 
 def test_suites_are_named() -> None:

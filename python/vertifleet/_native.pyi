@@ -379,6 +379,9 @@ class Model:
     def to_bytes(self) -> bytes:
         """The weights as the bytes of a weight file."""
     @property
+    def sha256(self) -> str:
+        """SHA-256 of the weight file in hexadecimal digits, which identifies the weights in result files."""
+    @property
     def kind(self) -> Literal["gcaps", "mlp", "gcaps-x"]:
         """The name of the policy: gcaps, mlp or gcaps-x."""
     @property

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+use sha2::{Digest as _, Sha256};
 use vertifleet_core::Scenario;
 use vertifleet_policy::Policy;
 
@@ -120,6 +121,12 @@ impl Model {
             (tensor.name.as_str(), tensor.shape.clone(), entries)
         });
         tensor_file::to_bytes(&self.header, tensors)
+    }
+
+    /// SHA-256 of the bytes of the weight file, in hexadecimal digits. It identifies the weights: it is what `sha256sum`
+    /// prints for a file that [`write`](Self::write) wrote.
+    pub fn sha256(&self) -> String {
+        format!("{:x}", Sha256::digest(self.to_bytes()))
     }
 
     /// Writes the weight file, whole or not at all.

@@ -158,6 +158,11 @@ impl Competitor {
         }
     }
 
+    /// SHA-256 of its weight file, if it has one.
+    pub(crate) fn weights_sha256(&self) -> Option<String> {
+        self.policy().and_then(ResolvedPolicy::weights_sha256)
+    }
+
     /// Whether it was trained on days of the network with this name.
     pub(crate) fn was_trained_on(&self, network: &str) -> bool {
         self.policy().and_then(ResolvedPolicy::trained_on) == Some(network)

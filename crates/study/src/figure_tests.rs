@@ -37,6 +37,7 @@ fn study(names: &[&str], days: u32) -> ComparisonRecords {
         days: (0..days).map(|day| record(policy, day)).collect(),
         // One of every three is a reference that knows the day.
         sees: crate::Sees::Present,
+        weights_sha256: None,
         decision_ns: (policy % 3 != 2).then(LatencySummary::default),
     });
     let curves = names.iter().zip(0u32..).map(|(&name, policy)| LearningCurve {

@@ -74,8 +74,14 @@ impl PolicySpec {
     /// the user's own, for the source that is given to [`resolve`](Self::resolve).
     ///
     /// # Errors
-    /// Returns [`Error::Asked`] if the text after `gcaps-x:` is not valid.
+    /// Returns [`Error::Asked`] if the name has a control character, or if the text after `gcaps-x:` is not valid.
     pub fn parse(name: &str) -> Result<Self, Error> {
+        if name.contains(char::is_control) {
+            return Err(Error::Asked {
+                rule: format!("the name {name:?} of a policy has a control character"),
+                hint: "names stand in tables and files; use letters, digits and marks",
+            });
+        }
         let kind = match name {
             "random" => Kind::Random,
             "greedy" => Kind::Greedy,

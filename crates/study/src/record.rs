@@ -64,6 +64,9 @@ pub struct PolicyRecord {
     /// What it looks at when it decides.
     #[serde(default)]
     pub sees: Sees,
+    /// SHA-256 of its weight file; `None` for a policy without weights of ours.
+    #[serde(default)]
+    pub weights_sha256: Option<String>,
     /// One record for each day, in the study's order of days.
     pub days: Vec<DayRecord>,
     /// The time that one decision of this policy takes; `None` for a reference, which planned each day as a

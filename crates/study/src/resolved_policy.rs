@@ -180,6 +180,14 @@ impl ResolvedPolicy {
         }
     }
 
+    /// SHA-256 of its weight file, if it has one.
+    pub(crate) fn weights_sha256(&self) -> Option<String> {
+        match self {
+            Self::Learned { model, .. } => Some(model.sha256()),
+            _ => None,
+        }
+    }
+
     /// The name of the network whose days it was trained on, if it was trained.
     pub(crate) fn trained_on(&self) -> Option<&str> {
         match self {

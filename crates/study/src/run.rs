@@ -75,8 +75,14 @@ pub fn run<Played: Fn() + Sync>(
                 (play_plans(&competitor.name, planner, days, kept, stop, &played)?, None)
             }
         };
-        let (name, description) = (competitor.name.clone(), competitor.description());
-        Ok(PolicyRecord { name, description, sees: competitor.sees(), days, decision_ns })
+        Ok(PolicyRecord {
+            name: competitor.name.clone(),
+            description: competitor.description(),
+            sees: competitor.sees(),
+            weights_sha256: competitor.weights_sha256(),
+            days,
+            decision_ns,
+        })
     };
     competitors.iter().map(&mut play).collect()
 }

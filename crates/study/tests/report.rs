@@ -39,6 +39,7 @@ fn bounded(days: usize) -> ComparisonRecords {
         name: "plan".to_owned(),
         decision_ns: None,
         sees: vertifleet_study::Sees::WholeDay,
+        weights_sha256: None,
         ..best
     };
     for (day, number) in plan.days.iter_mut().zip(0_u32..) {

@@ -60,6 +60,9 @@ pub struct ResultPolicy {
     pub description: String,
     /// What it looks at when it decides. This cannot be verified from choices.
     pub sees: Sees,
+    /// SHA-256 of its weight file, by which a reader finds the weights that played; `None` for a policy that has no
+    /// weights, or weights of another program. This cannot be verified from choices either.
+    pub weights_sha256: Option<String>,
     /// The time that one decision took on the machine of the evaluation; `None` for a reference that plans whole days.
     pub decision_ns: Option<LatencySummary>,
 }
@@ -94,6 +97,7 @@ impl EvaluationRecords {
                 name: policy.name.clone(),
                 description: policy.description.clone(),
                 sees: policy.sees,
+                weights_sha256: policy.weights_sha256.clone(),
                 decision_ns: policy.decision_ns,
             },
             about: about.clone(),

@@ -76,6 +76,7 @@ pub(crate) fn study(days: usize) -> ComparisonRecords {
             .map(|(&season, day)| record(outline, day, season, &mut noise))
             .collect(),
         sees: vertifleet_study::Sees::Present,
+        weights_sha256: None,
         decision_ns: Some(outline.decision_ns),
     });
     let policies = policies.collect();
