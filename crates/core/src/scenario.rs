@@ -147,6 +147,19 @@ impl Scenario {
         self.0
     }
 
+    /// The day as it is expected before it begins: its demand is the forecast, and closures that are not known, delays
+    /// and outages do not happen.
+    #[must_use]
+    pub fn expected(&self) -> Self {
+        let Disturbances { forecast, closures, .. } = &self.disturbances;
+        let known = closures.iter().filter(|closure| closure.known).copied().collect();
+        Self(Day {
+            demand: forecast.as_ref().unwrap_or(&self.demand).clone(),
+            disturbances: Disturbances { closures: known, ..Disturbances::default() },
+            ..self.0.clone()
+        })
+    }
+
     /// The demand period that contains `time`, which is the last one that has started.
     #[inline]
     pub fn period_at(&self, time: Time) -> usize {

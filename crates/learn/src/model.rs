@@ -126,7 +126,8 @@ impl Model {
     /// SHA-256 of the bytes of the weight file, in hexadecimal digits. It identifies the weights: it is what `sha256sum`
     /// prints for a file that [`write`](Self::write) wrote.
     pub fn sha256(&self) -> String {
-        format!("{:x}", Sha256::digest(self.to_bytes()))
+        let digest = Sha256::digest(self.to_bytes());
+        digest.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
     }
 
     /// Writes the weight file, whole or not at all.

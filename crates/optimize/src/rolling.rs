@@ -9,7 +9,7 @@
 
 use vertifleet_core::VertiportIx;
 use vertifleet_policy::{
-    Policy, PolicyError, PriceMemory, RolloutEvaluator, RolloutSettings, Shortlist,
+    DayPrices, Policy, PolicyError, PriceMemory, RolloutEvaluator, RolloutSettings, Shortlist,
 };
 use vertifleet_sim::{Decision, View};
 
@@ -56,5 +56,9 @@ impl Policy for Rolling {
             values[choice.to.at()] = value_usd;
         }
         Ok(())
+    }
+
+    fn prices(&mut self, decision: &Decision, view: &View<'_>) -> Option<&DayPrices> {
+        Some(self.prices.at(*view, decision))
     }
 }

@@ -4,7 +4,7 @@
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, View};
 
-use crate::{Policy, PolicyError, PriceMemory};
+use crate::{DayPrices, Policy, PolicyError, PriceMemory};
 
 /// Decides by bid prices ([`DayPrices`](crate::DayPrices)): a choice is worth its flight's profit plus the worth of
 /// being ready where and when it ends, less the prices of its passengers and of its stand.
@@ -33,5 +33,9 @@ impl Policy for BidPricePolicy {
             values[to.at()] = prices.choice_usd(*view, decision, to);
         }
         Ok(())
+    }
+
+    fn prices(&mut self, decision: &Decision, view: &View<'_>) -> Option<&DayPrices> {
+        Some(self.prices.at(*view, decision))
     }
 }

@@ -3,6 +3,8 @@
 use vertifleet_core::{Time, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
+use crate::DayPrices;
+
 /// Decides where an aircraft flies next.
 ///
 /// A choice depends on the decision, the view and the policy's own settings, and on nothing that the policy did on
@@ -34,6 +36,11 @@ pub trait Policy: Send {
     ) -> Result<(), PolicyError> {
         values.fill(f64::NAN);
         Ok(())
+    }
+
+    /// The bid prices that it decides by, refreshed for this decision; `None` for a policy that has none, as by default.
+    fn prices(&mut self, _decision: &Decision, _view: &View<'_>) -> Option<&DayPrices> {
+        None
     }
 
     /// Chooses for many days at once, and pushes one choice for each decision. Learned policies answer a batch much

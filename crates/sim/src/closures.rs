@@ -47,9 +47,7 @@ struct Change {
 }
 
 impl DayClosures {
-    fn of(scenario: &Scenario) -> Self {
-        let size = scenario.vertiports.len();
-        let closures = &scenario.disturbances.closures;
+    fn of(closures: &[Closure], size: usize) -> Self {
         let known = ClosedTimes::of(closures.iter().filter(|closure| closure.known), size);
         let mut changes = Vec::new();
         let mut add = |known, (from, to), (start, end)| {
@@ -84,8 +82,13 @@ fn pairs(size: usize) -> impl Iterator<Item = (VertiportIx, VertiportIx)> {
 impl Closures {
     /// The closures of a day before it begins. On a day without closures this takes almost no memory.
     pub(crate) fn of(scenario: &Scenario) -> Self {
-        let day = DayClosures::of(scenario);
+        let day = DayClosures::of(&scenario.disturbances.closures, scenario.vertiports.len());
         let size = if day.changes.is_empty() { 0 } else { scenario.vertiports.len() };
+        Self::before(day, size)
+    }
+
+    /// The closures before any has begun; `size` is the number of vertiports, or 0 if there are no closures.
+    fn before(day: DayClosures, size: usize) -> Self {
         Self {
             day: Arc::new(day),
             next: 0,
@@ -126,6 +129,47 @@ impl Closures {
                 self.unexpected[from.at()].remove(to);
             }
         }
+    }
+
+    /// Takes the report that a route is closed or open from now on, for as long as nothing else is reported.
+    pub(crate) fn report(
+        &mut self,
+        from: VertiportIx,
+        to: VertiportIx,
+        is_closed: bool,
+        size: usize,
+    ) {
+        if self.is_empty() {
+            let surprises = self.surprises;
+            *self = Self { surprises, ..Self::before(DayClosures::of(&[], size), size) };
+        }
+        self.surprises += 1;
+        if is_closed {
+            self.unexpected[from.at()].insert(to);
+        } else {
+            self.unexpected[from.at()].remove(to);
+        }
+    }
+
+    /// Replaces the known closures. On the routes `told` nothing but these closes them any more. The report counts as a
+    /// change of routes; `now` is the time of the day.
+    pub(crate) fn announce(
+        &mut self,
+        known: &[Closure],
+        told: &[(VertiportIx, VertiportIx)],
+        now: Time,
+        size: usize,
+    ) {
+        let mut announced = Self::before(DayClosures::of(known, size), size);
+        announced.advance(now);
+        if !self.is_empty() {
+            announced.unexpected.clone_from(&self.unexpected);
+        }
+        for &(from, to) in told {
+            announced.unexpected[from.at()].remove(to);
+        }
+        announced.surprises = self.surprises + 1;
+        *self = announced;
     }
 
     /// Stops unknown closures from beginning or ending from now on.

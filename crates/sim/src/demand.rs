@@ -37,8 +37,9 @@ impl Demand {
         self.left[period * pairs..][..pairs].copy_from_slice(actual.cells());
     }
 
+    /// The position of a pair of a period.
     #[inline]
-    fn at(&self, period: usize, from: VertiportIx, to: VertiportIx) -> usize {
+    pub(crate) fn at(&self, period: usize, from: VertiportIx, to: VertiportIx) -> usize {
         (period * self.vertiports + from.at()) * self.vertiports + to.at()
     }
 
@@ -69,6 +70,22 @@ impl Demand {
         let boarded = u16::try_from(*left).map_or(seats, |left| left.min(seats));
         *left -= u32::from(boarded);
         boarded
+    }
+
+    /// Passengers who still want to fly, of all periods and pairs: by period, then from, then to.
+    pub(crate) fn all(&self) -> &[u32] {
+        &self.left
+    }
+
+    /// Sets how many passengers still want to fly.
+    pub(crate) fn set(&mut self, period: usize, from: VertiportIx, to: VertiportIx, left: u32) {
+        let at = self.at(period, from, to);
+        self.left[at] = left;
+    }
+
+    /// Counts the passengers of the whole day anew: those who still want to fly, and those who have.
+    pub(crate) fn set_total(&mut self, boarded: &[u32]) {
+        self.total = self.left.iter().chain(boarded).map(|&passengers| u64::from(passengers)).sum();
     }
 
     /// Number of passengers of the whole day, before the first flight.

@@ -31,6 +31,11 @@ impl Imagined {
         imagined
     }
 
+    /// A day that goes on as expected already.
+    pub(crate) fn of_expected(day: Simulation) -> Self {
+        Self(day)
+    }
+
     pub(crate) fn restart(&mut self, day: &Simulation) {
         self.0.clone_from(day);
         self.0.expect_no_surprises();

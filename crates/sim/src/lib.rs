@@ -31,6 +31,7 @@ mod error;
 mod imagined;
 mod ledger;
 mod legs;
+pub mod live;
 mod outages;
 mod queue;
 mod room;

@@ -28,32 +28,32 @@ pub struct Decision {
 /// A day that is being flown. The same scenario with the same decisions gives the same day, bit for bit.
 #[derive(Debug)]
 pub struct Simulation {
-    scenario: Arc<Scenario>,
+    pub(crate) scenario: Arc<Scenario>,
     /// Shared by all imagined days.
-    legs: Arc<Legs>,
-    stands: Stands,
-    demand: Demand,
-    queue: ReadyQueue,
+    pub(crate) legs: Arc<Legs>,
+    pub(crate) stands: Stands,
+    pub(crate) demand: Demand,
+    pub(crate) queue: ReadyQueue,
     /// The vertiport where each aircraft stands or will land.
-    place: Vec<VertiportIx>,
+    pub(crate) place: Vec<VertiportIx>,
     /// The time at which each aircraft landed there or will land, or the start of operations.
-    arrival: Vec<Time>,
-    ledger: Ledger,
-    closures: Closures,
+    pub(crate) arrival: Vec<Time>,
+    pub(crate) ledger: Ledger,
+    pub(crate) closures: Closures,
     outages: Outages,
     /// Whether anything unexpected may still happen. Always false on an imagined day, where unknown closures stay as
     /// they are and outages are already contained in `queue`.
     surprises: bool,
     /// Whether anything may happen without a decision: a surprise, or a known closure, which imagined days have too.
-    eventful: bool,
+    pub(crate) eventful: bool,
     /// Time of the latest decision asked for, or the start of operations before the first. Not updated without
     /// surprises.
     now: Time,
     /// The latest demand period whose actual demand is known. Not updated without surprises.
     known_period: usize,
     /// Demand period of the latest decision asked for. Time never runs back.
-    period: usize,
-    potential_usd: f64,
+    pub(crate) period: usize,
+    pub(crate) potential_usd: f64,
 }
 
 clone_into_room!(Simulation {
@@ -105,18 +105,24 @@ impl Simulation {
         if time > self.scenario.operations.end {
             return None;
         }
-        while self.scenario.periods.get(self.period + 1).is_some_and(|&start| start <= time) {
-            self.period += 1;
-        }
-        if self.eventful {
-            self.discover(time);
-        }
+        self.advance_to(time);
         Some(Decision {
             time,
             aircraft,
             at: self.place[aircraft.at()],
             index: self.ledger.decisions(),
         })
+    }
+
+    /// Goes on to a time, which is not before the latest one.
+    #[inline]
+    pub(crate) fn advance_to(&mut self, time: Time) {
+        while self.scenario.periods.get(self.period + 1).is_some_and(|&start| start <= time) {
+            self.period += 1;
+        }
+        if self.eventful {
+            self.discover(time);
+        }
     }
 
     /// Reveals what becomes known up to and at `time`: the demand of periods that have begun, and routes that close or
@@ -141,22 +147,32 @@ impl Simulation {
     #[inline]
     pub fn apply(&mut self, choice: VertiportIx) -> Result<TraceRow, Refusal> {
         let decision = self.next_decision().ok_or(Refusal::DayOver)?;
+        self.carry_out(&decision, choice)
+    }
+
+    /// Carries a decision out, or refuses the choice.
+    #[inline]
+    pub(crate) fn carry_out(
+        &mut self,
+        decision: &Decision,
+        choice: VertiportIx,
+    ) -> Result<TraceRow, Refusal> {
         if choice == decision.at {
-            return Ok(self.hold(&decision));
+            return Ok(self.hold(decision));
         }
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
         if self.legs.within_range(kind, decision.at).contains(choice)
             && self.stands.open().contains(choice)
             && (self.closures.is_empty() || !self.closures.from(decision.at).contains(choice))
         {
-            return Ok(self.fly(&decision, choice));
+            return Ok(self.fly(decision, choice));
         }
-        Err(self.refusal(&decision, choice))
+        Err(self.refusal(decision, choice))
     }
 
     /// The rule that a choice outside the mask breaks.
     #[cold]
-    fn refusal(&self, decision: &Decision, choice: VertiportIx) -> Refusal {
+    pub(crate) fn refusal(&self, decision: &Decision, choice: VertiportIx) -> Refusal {
         let vertiports = &self.scenario.vertiports;
         let Some(to) = vertiports.get(choice.at()) else {
             return Refusal::NoSuchVertiport { position: choice.0, vertiports: vertiports.len() };
@@ -200,8 +216,9 @@ impl Simulation {
         }
     }
 
+    /// Lets the aircraft fly, whether or not the choice is feasible.
     #[inline]
-    fn fly(&mut self, decision: &Decision, to: VertiportIx) -> TraceRow {
+    pub(crate) fn fly(&mut self, decision: &Decision, to: VertiportIx) -> TraceRow {
         let Decision { time, aircraft, at: from, .. } = *decision;
         let kind = self.scenario.aircraft[aircraft.at()].kind;
         let seats = self.scenario.aircraft_types[kind.at()].seats;
@@ -290,6 +307,12 @@ impl Simulation {
         self.surprises = false;
         self.closures.expect_no_surprises();
         self.eventful = !self.closures.known().is_empty();
+    }
+
+    /// The same day, going as expected from now on.
+    pub(crate) fn without_surprises(mut self) -> Self {
+        self.expect_no_surprises();
+        self
     }
 
     /// The view of a policy.

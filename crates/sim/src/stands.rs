@@ -97,19 +97,27 @@ impl Stands {
         &self.open
     }
 
-    /// Moves an aircraft's place from one vertiport to another that is [open](Self::open).
+    /// Moves an aircraft's place from one vertiport to another. The mask admits only [open](Self::open) ones; a report may
+    /// force the move to any.
     #[inline]
     pub(crate) fn transfer(&mut self, aircraft: AircraftIx, from: VertiportIx, to: VertiportIx) {
-        debug_assert!(self.open.contains(to), "the mask admits only vertiports with a place free");
         self.taken[to.at()] += 1;
-        if self.taken[to.at()] == self.limit[to.at()] {
+        if self.taken[to.at()] >= self.limit[to.at()] {
             self.open.remove(to);
         }
         if self.parking.is_some() && self.leave_stand(aircraft, from) {
             return;
         }
-        self.taken[from.at()] -= 1;
-        self.open.insert(from);
+        self.free(from);
+    }
+
+    /// Frees a place. A vertiport that holds more aircraft than it has places stays closed until it has one again.
+    #[inline]
+    fn free(&mut self, at: VertiportIx) {
+        self.taken[at.at()] -= 1;
+        if self.taken[at.at()] < self.limit[at.at()] {
+            self.open.insert(at);
+        }
     }
 
     /// Frees the stand of an aircraft that waits on one beside chargers. Returns `false` if it does not wait on one.
@@ -132,12 +140,47 @@ impl Stands {
     #[cold]
     fn park(&mut self, aircraft: AircraftIx, at: VertiportIx) {
         let Some(parking) = &mut self.parking else { return };
-        if parking.waits[aircraft.at()] || parking.taken[at.at()] == parking.limit[at.at()] {
+        if parking.waits[aircraft.at()] || parking.taken[at.at()] >= parking.limit[at.at()] {
             return;
         }
         parking.waits[aircraft.at()] = true;
         parking.taken[at.at()] += 1;
-        self.taken[at.at()] -= 1;
-        self.open.insert(at);
+        self.free(at);
+    }
+
+    /// Whether an aircraft waits on a stand beside chargers.
+    pub(crate) fn waits(&self, aircraft: AircraftIx) -> bool {
+        self.parking.as_ref().is_some_and(|parking| parking.waits[aircraft.at()])
+    }
+
+    /// Frees whatever an aircraft takes at a vertiport.
+    pub(crate) fn leave(&mut self, aircraft: AircraftIx, at: VertiportIx) {
+        if self.parking.is_none() || !self.leave_stand(aircraft, at) {
+            self.free(at);
+        }
+    }
+
+    /// Takes a place at a vertiport, even if there is none free: a report says that the aircraft is there, or was on
+    /// its way. With `waits` it is a stand beside chargers.
+    pub(crate) fn take(&mut self, aircraft: AircraftIx, at: VertiportIx, waits: bool) {
+        if waits && let Some(parking) = &mut self.parking {
+            parking.waits[aircraft.at()] = true;
+            parking.taken[at.at()] += 1;
+            return;
+        }
+        self.taken[at.at()] += 1;
+        if self.taken[at.at()] >= self.limit[at.at()] {
+            self.open.remove(at);
+        }
+    }
+
+    /// Changes the number of places that flights need at a vertiport.
+    pub(crate) fn set_limit(&mut self, at: VertiportIx, limit: u16) {
+        self.limit[at.at()] = limit;
+        if self.taken[at.at()] < limit {
+            self.open.insert(at);
+        } else {
+            self.open.remove(at);
+        }
     }
 }

@@ -181,7 +181,7 @@ impl ResolvedPolicy {
     }
 
     /// SHA-256 of its weight file, if it has one.
-    pub(crate) fn weights_sha256(&self) -> Option<String> {
+    pub fn weights_sha256(&self) -> Option<String> {
         match self {
             Self::Learned { model, .. } => Some(model.sha256()),
             _ => None,

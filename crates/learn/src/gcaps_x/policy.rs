@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use vertifleet_core::VertiportIx;
-use vertifleet_policy::{Policy, PolicyError, PriceMemory, PricedChoice, Shortlist};
+use vertifleet_policy::{DayPrices, Policy, PolicyError, PriceMemory, PricedChoice, Shortlist};
 use vertifleet_sim::{Decision, View};
 
 use crate::gcaps_x::features::Scene;
@@ -96,6 +96,10 @@ impl Policy for GcapsX {
             values[choice.to.at()] = scorer.worth_usd(0, scene.addition_usd(), choice);
         }
         Ok(())
+    }
+
+    fn prices(&mut self, decision: &Decision, view: &View<'_>) -> Option<&DayPrices> {
+        Some(self.prices.at(*view, decision))
     }
 }
 

@@ -1,0 +1,98 @@
+//! The paths of the service.
+
+mod days;
+mod decisions;
+mod events;
+mod stream;
+
+use std::sync::Arc;
+
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use serde::Serialize;
+use utoipa::OpenApi;
+
+use crate::error::Error;
+use crate::service::Service;
+
+/// The longest body of a request: a scenario with the demand of a large network.
+const LONGEST_BODY: usize = 64 << 20;
+
+/// The description of the API.
+#[derive(OpenApi)]
+#[openapi(
+    info(
+        title = "Vertifleet dispatch service",
+        description = "Live days of fleets of electric air taxis: events, decisions with reasons, outlooks.",
+        license(name = "MIT OR Apache-2.0")
+    ),
+    paths(
+        days::list, days::create, days::read, days::archive, days::delete, days::state,
+        days::trace, events::list, events::append, decisions::propose, decisions::decide,
+        stream::stream
+    ),
+    tags(
+        (name = "days", description = "Days and their state"),
+        (name = "events", description = "What happens on a day"),
+        (name = "decisions", description = "Where an aircraft flies next, and why")
+    )
+)]
+struct Api;
+
+/// The description of the API as indented JSON (`OpenAPI` 3.1).
+pub fn openapi() -> String {
+    Api::openapi().to_pretty_json().expect("plain data can be written") + "\n"
+}
+
+/// All paths.
+pub(crate) fn router(service: Arc<Service>) -> Router {
+    Router::new()
+        .route("/v1/days", get(days::list).post(days::create))
+        .route("/v1/days/{day}", get(days::read).delete(days::delete))
+        .route("/v1/days/{day}/archive", post(days::archive))
+        .route("/v1/days/{day}/state", get(days::state))
+        .route("/v1/days/{day}/trace.csv", get(days::trace))
+        .route("/v1/days/{day}/events", get(events::list).post(events::append))
+        .route("/v1/days/{day}/stream", get(stream::stream))
+        .route("/v1/days/{day}/aircraft/{aircraft}/decision", get(decisions::propose))
+        .route("/v1/days/{day}/decisions", post(decisions::decide))
+        .route("/healthz", get(|| async { "ok\n" }))
+        .route("/readyz", get(ready))
+        .route("/openapi.json", get(described))
+        .fallback(|uri: axum::http::Uri| async move { Error::not_found("path", uri.path()) })
+        .layer(DefaultBodyLimit::max(LONGEST_BODY))
+        .with_state(service)
+}
+
+async fn ready(
+    axum::extract::State(service): axum::extract::State<Arc<Service>>,
+) -> Result<&'static str, Error> {
+    service.days.store().check().await?;
+    Ok("ready\n")
+}
+
+async fn described() -> Response {
+    ([(header::CONTENT_TYPE, "application/json")], openapi()).into_response()
+}
+
+/// An answer in JSON.
+fn json(status: StatusCode, answer: &impl Serialize) -> Response {
+    let body = serde_json::to_string(answer).expect("plain data can be written");
+    written(status, body)
+}
+
+/// An answer that is JSON already.
+fn written(status: StatusCode, body: String) -> Response {
+    (status, [(header::CONTENT_TYPE, "application/json")], body).into_response()
+}
+
+/// An answer about a day at an event, whose number is the `ETag`.
+fn at_event(status: StatusCode, seq: u64, answer: &impl Serialize) -> Response {
+    let mut response = json(status, answer);
+    let tag = format!("\"{seq}\"").parse().expect("a number in quotes is a header");
+    response.headers_mut().insert(header::ETAG, tag);
+    response
+}

@@ -1,0 +1,173 @@
+//! Decisions: proposed, and taken.
+
+use std::sync::{Arc, PoisonError};
+use std::time::Duration;
+
+use axum::body::Bytes;
+use axum::extract::{Path, Query, State};
+use axum::http::{HeaderMap, StatusCode, Uri};
+use axum::response::Response;
+use serde::{Deserialize, Serialize};
+use utoipa::{IntoParams, ToSchema};
+
+use super::{at_event, written};
+use crate::days::{DayCell, Writer};
+use crate::decide::Proposal;
+use crate::error::Error;
+use crate::event::{Event, What};
+use crate::moment::Moment;
+use crate::service::{Service, Write, parse};
+
+/// Decides when the policy that was asked is late.
+const QUICK_POLICY: &str = "greedy";
+
+/// How a decision is asked for.
+#[derive(Debug, Clone, Default, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Asked {
+    /// The policy; without it, the day's.
+    policy: Option<String>,
+    /// The time of the decision; without it, or before what has happened, now.
+    #[param(value_type = Option<String>)]
+    time: Option<Moment>,
+    /// Milliseconds within which an answer is needed. If the policy is not ready then, a faster one answers.
+    deadline_ms: Option<u64>,
+}
+
+/// A decision to be taken.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NewDecision {
+    /// The aircraft.
+    aircraft: String,
+    /// The vertiport, if a person chooses; without it, the policy does.
+    to: Option<String>,
+    /// Why a person chose.
+    reason: Option<String>,
+    /// The policy; without it, the day's.
+    policy: Option<String>,
+    /// The time of the decision; without it, or before what has happened, now.
+    time: Option<Moment>,
+    /// Milliseconds within which the policy must answer; if it does not, a faster one decides.
+    deadline_ms: Option<u64>,
+}
+
+/// A decision that was taken.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct TakenDecision {
+    /// The number of its event.
+    seq: u64,
+    /// Where the aircraft flies; its own vertiport means hold.
+    to: String,
+    /// What the policy proposed, with its reasons; absent if a person chose without asking one.
+    proposal: Option<Proposal>,
+}
+
+/// Proposes a decision for an aircraft that is ready, with reasons. Nothing changes.
+#[utoipa::path(
+    get, path = "/v1/days/{day}/aircraft/{aircraft}/decision", tag = "decisions",
+    params(("day" = String, Path), ("aircraft" = String, Path), Asked),
+    responses((status = 200, body = Proposal), (status = 422, body = crate::problem::Problem))
+)]
+pub(super) async fn propose(
+    State(service): State<Arc<Service>>,
+    Path((day, aircraft)): Path<(String, String)>,
+    Query(asked): Query<Asked>,
+) -> Result<Response, Error> {
+    let day = service.days.get(&day).await?;
+    let proposal = proposed(&day, aircraft, asked).await?;
+    day.stored_up_to(proposal.seq).await?;
+    Ok(at_event(StatusCode::OK, proposal.seq, &proposal))
+}
+
+/// Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable when the answer
+/// comes.
+#[utoipa::path(
+    post, path = "/v1/days/{day}/decisions", tag = "decisions", params(("day" = String, Path)),
+    request_body = NewDecision,
+    responses(
+        (status = 201, body = TakenDecision),
+        (status = 412, body = crate::problem::Problem, description = "the day has gone on"),
+        (status = 422, body = crate::problem::Problem, description = "it breaks a rule")
+    )
+)]
+pub(super) async fn decide(
+    State(service): State<Arc<Service>>,
+    Path(day): Path<String>,
+    uri: Uri,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Result<Response, Error> {
+    let (mut writer, _busy) = match service.write(&headers, uri.path(), &body).await? {
+        Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
+        Write::New(writer, busy) => (writer, busy),
+    };
+    let NewDecision { aircraft, to, reason, policy, time, deadline_ms } = parse(&body)?;
+    let day = service.days.get(&day).await?;
+    let taken = if let Some(to) = to {
+        let what =
+            What::Decided { aircraft, to: to.clone(), policy: None, instead_of: None, reason };
+        take(&service, &day, writer, Event { time, what }, None).await?
+    } else {
+        let asked = Asked { policy, time, deadline_ms };
+        let proposal = proposed(&day, aircraft.clone(), asked).await?;
+        // The proposal holds for the state that it was made for; whoever comes in between wins.
+        writer.if_match.get_or_insert(proposal.seq);
+        let what = What::Decided {
+            aircraft,
+            to: proposal.to.clone(),
+            policy: Some(proposal.policy.clone()),
+            instead_of: None,
+            reason,
+        };
+        let event = Event { time: Some(proposal.time), what };
+        take(&service, &day, writer, event, Some(proposal)).await?
+    };
+    Ok(at_event(StatusCode::CREATED, taken.seq, &taken))
+}
+
+async fn take(
+    service: &Service,
+    day: &Arc<DayCell>,
+    writer: Writer,
+    event: Event,
+    proposal: Option<Proposal>,
+) -> Result<TakenDecision, Error> {
+    let What::Decided { to, .. } = &event.what else { unreachable!("it is a decision") };
+    let to = to.clone();
+    let answer =
+        |appended: &crate::days::Appended| TakenDecision { seq: appended.seq, to, proposal };
+    service.days.append(day, writer, vec![event], answer).await
+}
+
+/// Asks the policy, and if it is late, a quick one.
+async fn proposed(day: &Arc<DayCell>, aircraft: String, asked: Asked) -> Result<Proposal, Error> {
+    let policy = asked.policy.clone().unwrap_or_else(|| day.stored().policy.clone());
+    let answer = ask(Arc::clone(day), aircraft.clone(), policy.clone(), asked.time);
+    let Some(deadline_ms) = asked.deadline_ms else { return answer.await };
+    match tokio::time::timeout(Duration::from_millis(deadline_ms), answer).await {
+        Ok(answer) => answer,
+        Err(_) => {
+            let quick = QUICK_POLICY.to_owned();
+            let proposal = ask(Arc::clone(day), aircraft, quick, asked.time).await?;
+            Ok(Proposal { too_late: Some(policy), ..proposal })
+        }
+    }
+}
+
+/// Asks a policy on a thread of its own, since it may take a while.
+async fn ask(
+    day: Arc<DayCell>,
+    aircraft: String,
+    policy: String,
+    time: Option<Moment>,
+) -> Result<Proposal, Error> {
+    let ask = move || {
+        let scenario = Arc::clone(day.state().live().scenario());
+        let decider = day.deciders.get(&policy, &scenario)?;
+        let mut decider = decider.lock().unwrap_or_else(PoisonError::into_inner);
+        decider.propose(&day, &aircraft, time.map(Moment::time), &policy)
+    };
+    let died = |error| Error::Store { cause: format!("a policy failed: {error}") };
+    tokio::task::spawn_blocking(ask).await.map_err(died)?
+}

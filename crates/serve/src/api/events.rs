@@ -1,0 +1,166 @@
+//! Events of a day: taken in, and listed.
+
+use std::sync::Arc;
+
+use axum::body::Bytes;
+use axum::extract::{Path, Query, State};
+use axum::http::{HeaderMap, StatusCode, Uri};
+use axum::response::Response;
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+use utoipa::{IntoParams, ToSchema};
+
+use super::{at_event, json, written};
+use crate::days::Appended;
+use crate::error::Error;
+use crate::event::Event;
+use crate::service::{Service, Write, parse};
+use crate::store::StoredEvent;
+
+/// The number of events that a request may bring.
+const MOST_EVENTS: u64 = 1_000;
+
+/// One event, or several that are taken all or none.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(untagged)]
+enum OneOrMore {
+    /// Several.
+    More(Vec<Event>),
+    /// One.
+    One(Event),
+}
+
+impl OneOrMore {
+    /// Reads a body. Which of the two it is shows in its first character, so that a message names what is wrong inside.
+    fn parse(body: &[u8]) -> Result<Self, Error> {
+        match body.iter().find(|byte| !byte.is_ascii_whitespace()) {
+            Some(b'[') => parse(body).map(Self::More),
+            _ => parse(body).map(Self::One),
+        }
+    }
+
+    fn events(self) -> Vec<Event> {
+        match self {
+            Self::More(events) => events,
+            Self::One(event) => vec![event],
+        }
+    }
+}
+
+/// What came of events.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct Taken {
+    /// The number of the latest event.
+    seq: u64,
+    /// What people should look at.
+    #[schema(value_type = Vec<Vec<String>>)]
+    notices: Vec<Box<RawValue>>,
+}
+
+impl Taken {
+    pub(super) fn of(appended: &Appended) -> Self {
+        let notices = appended.events.iter().map(|event| raw(&event.notices)).collect();
+        Self { seq: appended.seq, notices }
+    }
+}
+
+fn raw(json: &str) -> Box<RawValue> {
+    RawValue::from_string(json.to_owned()).expect("it was written as JSON")
+}
+
+/// An event as it was taken.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct TakenEvent {
+    /// Its number.
+    seq: u64,
+    /// When it was taken, milliseconds of the Unix clock.
+    at_ms: i64,
+    /// Who sent it.
+    actor: String,
+    /// The event.
+    #[schema(value_type = Event)]
+    event: Box<RawValue>,
+    /// What people should look at.
+    #[schema(value_type = Vec<String>)]
+    notices: Box<RawValue>,
+}
+
+impl TakenEvent {
+    pub(super) fn of(stored: &StoredEvent) -> Self {
+        Self {
+            seq: stored.seq,
+            at_ms: stored.at_ms,
+            actor: stored.actor.clone(),
+            event: raw(&stored.body),
+            notices: raw(&stored.notices),
+        }
+    }
+}
+
+/// Events of a day.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct EventList {
+    /// The events, in order.
+    events: Vec<TakenEvent>,
+    /// The number to read on after, if there may be more.
+    next: Option<u64>,
+}
+
+/// Which events are asked for.
+#[derive(Debug, Deserialize, IntoParams)]
+pub(crate) struct After {
+    /// Events after this number.
+    #[serde(default)]
+    after: u64,
+    /// Their number, at most 10,000.
+    limit: Option<u32>,
+}
+
+/// Takes an event in, or several, all or none. They are durable when the answer comes.
+#[utoipa::path(
+    post, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path)),
+    request_body = OneOrMore,
+    responses(
+        (status = 201, body = Taken),
+        (status = 400, body = crate::problem::Problem),
+        (status = 404, body = crate::problem::Problem),
+        (status = 412, body = crate::problem::Problem, description = "the day has gone on"),
+        (status = 422, body = crate::problem::Problem, description = "the day cannot take it")
+    )
+)]
+pub(super) async fn append(
+    State(service): State<Arc<Service>>,
+    Path(day): Path<String>,
+    uri: Uri,
+    headers: HeaderMap,
+    body: Bytes,
+) -> Result<Response, Error> {
+    let (writer, _busy) = match service.write(&headers, uri.path(), &body).await? {
+        Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
+        Write::New(writer, busy) => (writer, busy),
+    };
+    let events = OneOrMore::parse(&body)?.events();
+    if events.is_empty() || events.len() as u64 > MOST_EVENTS {
+        return Err(Error::BadRequest {
+            rule: format!("1 to {MOST_EVENTS} events are taken at once"),
+        });
+    }
+    let day = service.days.get(&day).await?;
+    let taken = service.days.append(&day, writer, events, Taken::of).await?;
+    Ok(at_event(StatusCode::CREATED, taken.seq, &taken))
+}
+
+/// Lists events.
+#[utoipa::path(get, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path), After), responses((status = 200, body = EventList)))]
+pub(super) async fn list(
+    State(service): State<Arc<Service>>,
+    Path(day): Path<String>,
+    Query(After { after, limit }): Query<After>,
+) -> Result<Response, Error> {
+    let limit = limit.unwrap_or(1_000).clamp(1, 10_000);
+    let day = service.days.get(&day).await?;
+    let stored = service.days.store().events(day.id(), after, limit).await?;
+    let next = (stored.len() == limit as usize).then(|| stored[stored.len() - 1].seq);
+    let events = stored.iter().map(TakenEvent::of).collect();
+    Ok(json(StatusCode::OK, &EventList { events, next }))
+}

@@ -1,0 +1,101 @@
+//! The stream of a day's events (server-sent events).
+
+use std::collections::VecDeque;
+use std::convert::Infallible;
+use std::sync::Arc;
+
+use axum::extract::{Path, Query, State};
+use axum::http::HeaderMap;
+use axum::response::sse::{self, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+use tokio::sync::broadcast::Receiver;
+use tokio::sync::broadcast::error::RecvError;
+use utoipa::IntoParams;
+
+use super::events::TakenEvent;
+use crate::days::DayCell;
+use crate::error::Error;
+use crate::service::Service;
+use crate::store::{Store, StoredEvent};
+
+/// Events that are read from the store at once.
+const PAGE: u32 = 1_000;
+
+/// Where the stream begins.
+#[derive(Debug, Deserialize, IntoParams)]
+pub(crate) struct From {
+    /// Events after this number; `Last-Event-ID` goes before it.
+    after: Option<u64>,
+}
+
+/// A reader of a day's events. It reads from the store what was there before it came and what it missed because it was
+/// slow, and gets the rest as it is stored.
+struct Reader {
+    day: Arc<DayCell>,
+    store: Store,
+    fresh: Receiver<Arc<StoredEvent>>,
+    after: u64,
+    read: VecDeque<StoredEvent>,
+    is_behind: bool,
+}
+
+/// Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on.
+#[utoipa::path(
+    get, path = "/v1/days/{day}/stream", tag = "events", params(("day" = String, Path), From),
+    responses((status = 200, content_type = "text/event-stream", body = TakenEvent))
+)]
+pub(super) async fn stream(
+    State(service): State<Arc<Service>>,
+    Path(day): Path<String>,
+    Query(From { after }): Query<From>,
+    headers: HeaderMap,
+) -> Result<Response, Error> {
+    let day = service.days.get(&day).await?;
+    let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()?.parse().ok());
+    let fresh = day.subscribe();
+    let after = last.or(after).unwrap_or(0);
+    let store = service.days.store().clone();
+    let reader = Reader { day, store, fresh, after, read: VecDeque::new(), is_behind: true };
+    let events = futures_util::stream::unfold(reader, |mut reader| async {
+        let event = reader.next().await?;
+        Some((Ok::<_, Infallible>(event), reader))
+    });
+    Ok(Sse::new(events).keep_alive(KeepAlive::default()).into_response())
+}
+
+impl Reader {
+    /// The next event; `None` if the day can no longer be read.
+    async fn next(&mut self) -> Option<sse::Event> {
+        loop {
+            if let Some(event) = self.read.pop_front() {
+                return Some(self.shown(&event));
+            }
+            if self.is_behind {
+                let events = self.store.events(self.day.id(), self.after, PAGE).await.ok()?;
+                self.is_behind = events.len() == PAGE as usize;
+                self.read = events.into();
+                continue;
+            }
+            match self.fresh.recv().await {
+                Ok(event) if event.seq <= self.after => {}
+                Ok(event) if event.seq == self.after + 1 => return Some(self.shown(&event)),
+                Ok(_) => self.is_behind = true,
+                Err(RecvError::Lagged(missed)) => {
+                    self.is_behind = true;
+                    let text =
+                        format!("{missed} events came faster than they were read; they follow");
+                    return Some(sse::Event::default().event("behind").data(text));
+                }
+                Err(RecvError::Closed) => return None,
+            }
+        }
+    }
+
+    fn shown(&mut self, event: &StoredEvent) -> sse::Event {
+        self.after = event.seq;
+        let text =
+            serde_json::to_string(&TakenEvent::of(event)).expect("plain data can be written");
+        sse::Event::default().id(event.seq.to_string()).data(text)
+    }
+}

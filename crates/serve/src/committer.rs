@@ -1,0 +1,90 @@
+//! The one writer of events. It takes all events that wait and commits them together, so that many clients share the
+//! cost of one write to the disk, and answers each when its events are durable.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use tokio::sync::{mpsc, oneshot};
+
+use crate::days::DayCell;
+use crate::error::Error;
+use crate::store::{Store, StoredAnswer, StoredEvent};
+
+/// At most this many requests are committed together.
+const MOST_TOGETHER: usize = 1_024;
+
+/// Events of a day that wait to be stored.
+pub(crate) struct Append {
+    pub(crate) day: Arc<DayCell>,
+    pub(crate) events: Vec<StoredEvent>,
+    pub(crate) answer: Option<StoredAnswer>,
+    pub(crate) done: oneshot::Sender<Result<(), Error>>,
+}
+
+/// Takes events to be stored.
+#[derive(Debug, Clone)]
+pub(crate) struct Committer {
+    queue: mpsc::UnboundedSender<Append>,
+}
+
+impl Committer {
+    /// Starts the writer. It ends when the last committer is dropped.
+    pub(crate) fn start(store: Store) -> Self {
+        let (queue, waiting) = mpsc::unbounded_channel();
+        tokio::spawn(write_all(store, waiting));
+        Self { queue }
+    }
+
+    /// Puts events into the queue. Events of a day must come in their order, so the caller holds the day's lock.
+    pub(crate) fn push(&self, append: Append) {
+        if let Err(refused) = self.queue.send(append) {
+            let stopped = Error::Store { cause: "the service is stopping".to_owned() };
+            let _ = refused.0.done.send(Err(stopped));
+        }
+    }
+}
+
+async fn write_all(store: Store, mut waiting: mpsc::UnboundedReceiver<Append>) {
+    let mut batch = Vec::new();
+    while waiting.recv_many(&mut batch, MOST_TOGETHER).await > 0 {
+        write(&store, &mut batch).await;
+    }
+}
+
+/// Stores a batch and answers everybody in it. If the batch cannot be stored, each of its requests is tried alone, so
+/// that one that conflicts does not fail the others.
+async fn write(store: &Store, batch: &mut Vec<Append>) {
+    let whole = batch.len() == 1 || store_together(store, batch).await.is_err();
+    for append in batch.drain(..) {
+        let outcome = if append.day.has_failed.load(Ordering::Acquire) {
+            let cause = "an earlier event of the day could not be stored".to_owned();
+            Err(Error::Store { cause })
+        } else if whole {
+            store_together(store, std::slice::from_ref(&append)).await
+        } else {
+            Ok(())
+        };
+        match &outcome {
+            Ok(()) => append.day.publish(append.events),
+            Err(error) => {
+                tracing::error!(day = append.day.id(), %error, "events could not be stored");
+                append.day.has_failed.store(true, Ordering::Release);
+            }
+        }
+        // Whoever asked may have gone.
+        let _ = append.done.send(outcome);
+    }
+}
+
+async fn store_together(store: &Store, batch: &[Append]) -> Result<(), Error> {
+    if batch.iter().any(|append| append.day.has_failed.load(Ordering::Acquire)) {
+        return Err(Error::Store { cause: "a day has failed".to_owned() });
+    }
+    let events: Vec<(&str, &StoredEvent)> = batch
+        .iter()
+        .flat_map(|append| append.events.iter().map(|event| (append.day.id(), event)))
+        .collect();
+    let answers: Vec<&StoredAnswer> =
+        batch.iter().filter_map(|append| append.answer.as_ref()).collect();
+    store.append(&events, &answers).await
+}

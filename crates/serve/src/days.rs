@@ -1,0 +1,317 @@
+//! The days that the service holds in memory, each with its lock, its readers and its policies.
+
+use std::collections::HashMap;
+use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use serde::Serialize;
+use tokio::sync::{OnceCell, broadcast, oneshot, watch};
+use vertifleet_core::Scenario;
+
+use crate::committer::{Append, Committer};
+use crate::decide::Deciders;
+use crate::dispatch_day::DispatchDay;
+use crate::error::Error;
+use crate::event::Event;
+use crate::store::{Store, StoredAnswer, StoredDay, StoredEvent};
+
+/// Events that a slow reader may be behind before it has to read from the store.
+const KEPT_FOR_READERS: usize = 1_024;
+/// Events that are read from the store at once.
+const PAGE: u32 = 10_000;
+
+/// A day in memory.
+pub(crate) struct DayCell {
+    stored: StoredDay,
+    state: Mutex<DispatchDay>,
+    /// The number of the latest event that is stored.
+    durable: watch::Sender<u64>,
+    readers: broadcast::Sender<Arc<StoredEvent>>,
+    /// Whether an event could not be stored, so that memory is ahead of the store and must be thrown away.
+    pub(crate) has_failed: AtomicBool,
+    pub(crate) deciders: Deciders,
+}
+
+impl fmt::Debug for DayCell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("DayCell").field("stored", &self.stored).finish_non_exhaustive()
+    }
+}
+
+/// What a write led to.
+#[derive(Debug, Clone)]
+pub(crate) struct Appended {
+    /// The number of the last event.
+    pub(crate) seq: u64,
+    /// The events as they are stored.
+    pub(crate) events: Vec<StoredEvent>,
+}
+
+/// Who writes, and what must hold for it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Writer {
+    /// The name of the token, or empty.
+    pub(crate) actor: String,
+    /// The number of the event that the day must be at.
+    pub(crate) if_match: Option<u64>,
+    /// The request with its key, if it has one.
+    pub(crate) idempotency: Option<Idempotency>,
+}
+
+/// A request that is carried out once, however often it comes.
+#[derive(Debug, Clone)]
+pub(crate) struct Idempotency {
+    /// The key.
+    pub(crate) key: String,
+    /// The request, shortened to a sum.
+    pub(crate) request: String,
+}
+
+impl Idempotency {
+    /// The answer, to be given again.
+    pub(crate) fn answered_with(self, answer: &impl Serialize) -> StoredAnswer {
+        let answer = serde_json::to_string(answer).expect("plain data can be written");
+        StoredAnswer { key: self.key, request: self.request, answer }
+    }
+}
+
+impl DayCell {
+    fn new(stored: StoredDay, state: DispatchDay) -> Self {
+        let durable = watch::Sender::new(state.seq());
+        let readers = broadcast::Sender::new(KEPT_FOR_READERS);
+        let deciders = Deciders::default();
+        let has_failed = AtomicBool::new(false);
+        Self { stored, state: Mutex::new(state), durable, readers, has_failed, deciders }
+    }
+
+    /// The id of the day.
+    pub(crate) fn id(&self) -> &str {
+        &self.stored.id
+    }
+
+    /// The day as it is stored.
+    pub(crate) fn stored(&self) -> &StoredDay {
+        &self.stored
+    }
+
+    /// The day after its events so far. Some of them may not be stored yet; [`stored_up_to`](Self::stored_up_to) waits
+    /// for them.
+    pub(crate) fn state(&self) -> MutexGuard<'_, DispatchDay> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The events as they are stored from now on.
+    pub(crate) fn subscribe(&self) -> broadcast::Receiver<Arc<StoredEvent>> {
+        self.readers.subscribe()
+    }
+
+    /// Makes events public that are stored.
+    pub(crate) fn publish(&self, events: Vec<StoredEvent>) {
+        if let Some(last) = events.last() {
+            self.durable.send_replace(last.seq);
+        }
+        for event in events {
+            // There may be nobody who reads.
+            let _ = self.readers.send(Arc::new(event));
+        }
+    }
+
+    /// Waits until an event is stored, so that nothing is shown that a crash could take back.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if it cannot be stored.
+    pub(crate) async fn stored_up_to(&self, seq: u64) -> Result<(), Error> {
+        let mut durable = self.durable.subscribe();
+        let is_stored = durable.wait_for(|&stored| stored >= seq);
+        match tokio::time::timeout(std::time::Duration::from_secs(10), is_stored).await {
+            Ok(Ok(_)) => Ok(()),
+            _ => Err(Error::Store { cause: "events are not stored in time".to_owned() }),
+        }
+    }
+}
+
+/// All days.
+#[derive(Debug)]
+pub(crate) struct Days {
+    store: Store,
+    committer: Committer,
+    cells: Mutex<HashMap<String, Arc<OnceCell<Arc<DayCell>>>>>,
+}
+
+impl Days {
+    /// The days of a store. Each is read when it is first asked for.
+    pub(crate) fn new(store: Store) -> Self {
+        let committer = Committer::start(store.clone());
+        Self { store, committer, cells: Mutex::new(HashMap::new()) }
+    }
+
+    /// The store.
+    pub(crate) fn store(&self) -> &Store {
+        &self.store
+    }
+
+    fn cell(&self, id: &str) -> Arc<OnceCell<Arc<DayCell>>> {
+        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        let cell = cells.entry(id.to_owned()).or_default();
+        if cell.get().is_some_and(|day| day.has_failed.load(Ordering::Acquire)) {
+            *cell = Arc::default();
+        }
+        Arc::clone(cell)
+    }
+
+    fn forget(&self, id: &str) {
+        self.cells.lock().unwrap_or_else(PoisonError::into_inner).remove(id);
+    }
+
+    /// A day; it is read from the store if it is not in memory.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there is no such day, [`Error::BadData`] if it is damaged, and [`Error::Store`].
+    pub(crate) async fn get(&self, id: &str) -> Result<Arc<DayCell>, Error> {
+        let cell = self.cell(id);
+        let day = cell.get_or_try_init(|| self.read(id)).await;
+        if day.is_err() {
+            self.forget(id);
+        }
+        day.cloned()
+    }
+
+    async fn read(&self, id: &str) -> Result<Arc<DayCell>, Error> {
+        let found = self.store.day(id).await?;
+        let (stored, scenario) = found.ok_or_else(|| Error::not_found("day", id))?;
+        let scenario = Scenario::from_json(scenario.as_bytes(), id)?;
+        let mut state = DispatchDay::new(Arc::new(scenario));
+        loop {
+            let events = self.store.events(id, state.seq(), PAGE).await?;
+            for event in &events {
+                state.replay(event)?;
+            }
+            if events.len() < PAGE as usize {
+                return Ok(Arc::new(DayCell::new(stored, state)));
+            }
+        }
+    }
+
+    /// A day as it was after an event.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if the day has no such event, and the errors of [`get`](Self::get).
+    pub(crate) async fn at(&self, day: &DayCell, seq: u64) -> Result<DispatchDay, Error> {
+        let mut state = {
+            let now = day.state();
+            if seq > now.seq() {
+                return Err(Error::not_found("event", &seq.to_string()));
+            }
+            DispatchDay::new(Arc::clone(now.live().scenario()))
+        };
+        while state.seq() < seq {
+            let left = u32::try_from(seq - state.seq()).unwrap_or(PAGE).min(PAGE);
+            for event in &self.store.events(day.id(), state.seq(), left).await? {
+                state.replay(event)?;
+            }
+        }
+        Ok(state)
+    }
+
+    /// Makes a day.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if it cannot be stored.
+    pub(crate) async fn add(
+        &self,
+        stored: StoredDay,
+        scenario: Scenario,
+        answer: Option<&StoredAnswer>,
+    ) -> Result<Arc<DayCell>, Error> {
+        self.store.add_day(&stored, &scenario.to_json(), answer).await?;
+        let cell = self.cell(&stored.id);
+        let state = DispatchDay::new(Arc::new(scenario));
+        let day = cell.get_or_init(|| async { Arc::new(DayCell::new(stored, state)) }).await;
+        Ok(Arc::clone(day))
+    }
+
+    /// Adds events to a day, all or none, and returns once they are stored. `answer` makes the answer to the writer, which
+    /// is stored with the events if the request has a key.
+    ///
+    /// # Errors
+    /// Returns [`Error::Moved`] if the day is at another event than the writer expects, [`Error::Archived`], the errors
+    /// of [`DispatchDay::take`], and [`Error::Store`].
+    pub(crate) async fn append<T: Serialize>(
+        &self,
+        day: &Arc<DayCell>,
+        writer: Writer,
+        events: Vec<Event>,
+        answer: impl FnOnce(&Appended) -> T,
+    ) -> Result<T, Error> {
+        if day.stored.archived {
+            return Err(Error::Archived { id: day.id().to_owned() });
+        }
+        let (done, outcome) = oneshot::channel();
+        let answer = {
+            let mut state = day.state();
+            check_match(&writer, state.seq())?;
+            let stored = take_all(&mut state, events, &writer.actor)?;
+            let appended = Appended { seq: state.seq(), events: stored };
+            let answer = answer(&appended);
+            let kept = writer.idempotency.map(|asked| asked.answered_with(&answer));
+            let (day, events) = (Arc::clone(day), appended.events);
+            self.committer.push(Append { day, events, answer: kept, done });
+            answer
+        };
+        let stopped = || Error::Store { cause: "the service is stopping".to_owned() };
+        outcome.await.map_err(|_| stopped())??;
+        Ok(answer)
+    }
+
+    /// Closes a day to writes.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] or [`Error::Store`].
+    pub(crate) async fn archive(&self, id: &str) -> Result<(), Error> {
+        self.get(id).await?;
+        self.store.archive(id).await?;
+        self.forget(id);
+        Ok(())
+    }
+
+    /// Removes a day.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] or [`Error::Store`].
+    pub(crate) async fn delete(&self, id: &str) -> Result<(), Error> {
+        self.get(id).await?.has_failed.store(true, Ordering::Release);
+        self.store.delete(id).await?;
+        self.forget(id);
+        Ok(())
+    }
+}
+
+fn check_match(writer: &Writer, found: u64) -> Result<(), Error> {
+    match writer.if_match {
+        Some(expected) if expected != found => Err(Error::Moved { expected, found }),
+        _ => Ok(()),
+    }
+}
+
+/// Takes events in, all or none.
+fn take_all(
+    state: &mut DispatchDay,
+    events: Vec<Event>,
+    actor: &str,
+) -> Result<Vec<StoredEvent>, Error> {
+    let at_ms = now_ms();
+    let before = (events.len() > 1).then(|| state.clone());
+    let taken = events.into_iter().map(|event| state.take(event, actor, at_ms)).collect();
+    if let (Err(_), Some(before)) = (&taken, before) {
+        *state = before;
+    }
+    taken
+}
+
+/// Milliseconds of the Unix clock.
+pub(crate) fn now_ms() -> i64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
+}

@@ -1,0 +1,281 @@
+//! Decisions with their reasons: what a policy would do with an aircraft, what every alternative is worth, and why some
+//! are not possible.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use serde::Serialize;
+use utoipa::ToSchema;
+use vertifleet_core::{Scenario, Time, VertiportIx};
+use vertifleet_policy::{DayPrices, Policy};
+use vertifleet_sim::live::LiveDay;
+use vertifleet_sim::{Decision, Refusal, Simulation, View};
+use vertifleet_study::{PolicySpec, ResolveFor, ResolvedPolicy};
+
+use crate::days::DayCell;
+use crate::error::Error;
+use crate::moment::Moment;
+
+/// What a policy proposes for an aircraft.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub(crate) struct Proposal {
+    /// The aircraft.
+    pub(crate) aircraft: String,
+    /// Where it stands.
+    pub(crate) at: String,
+    /// The time of the decision.
+    pub(crate) time: Moment,
+    /// The number of the latest event that the proposal takes into account.
+    pub(crate) seq: u64,
+    /// The vertiport to fly to; its own means hold.
+    pub(crate) to: String,
+    /// The policy that decided.
+    pub(crate) policy: String,
+    /// SHA-256 of its weight file, if it is a learned policy.
+    pub(crate) weights_sha256: Option<String>,
+    /// The policy that was asked and was not ready in time, if another decided for it.
+    pub(crate) too_late: Option<String>,
+    /// How long the decision took, microseconds.
+    pub(crate) took_us: u64,
+    /// Every vertiport, in the order of the day: what flying there would bring, and why it is not possible where it is
+    /// not.
+    pub(crate) alternatives: Vec<Alternative>,
+}
+
+/// What flying to a vertiport would bring.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub(crate) struct Alternative {
+    /// The vertiport; the aircraft's own means hold.
+    pub(crate) to: String,
+    /// Why it is not possible; absent if it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) impossible: Option<Impossible>,
+    /// What the policy compares its choices by: dollars for policies that price the rest of the day or roll it out,
+    /// dollars an hour for `greedy`. Absent if the policy did not consider it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) value: Option<f64>,
+    /// Worth at the day's bid prices, dollars: the flight's profit and what being ready there afterwards is worth, less
+    /// the prices of its passengers and its stand. Absent if the policy has no prices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) worth_usd: Option<f64>,
+    /// Profit of the flight itself, dollars; 0 for a hold.
+    pub(crate) flight_profit_usd: f64,
+    /// Passengers on board.
+    pub(crate) passengers: u32,
+    /// When it would land.
+    pub(crate) arrival: Moment,
+    /// When it would be ready again.
+    pub(crate) ready: Moment,
+    /// Stands there, or chargers where they are counted apart.
+    pub(crate) stands: u16,
+    /// Aircraft that take them, standing there or on their way.
+    pub(crate) stands_taken: u16,
+    /// The price of a stand there until the aircraft is ready, dollars.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) stand_price_usd: Option<f64>,
+    /// The price of carrying one passenger there now rather than later, dollars.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) passenger_price_usd: Option<f64>,
+}
+
+/// Why an alternative is not possible.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub(crate) struct Impossible {
+    /// The rule: `out_of_range`, `no_corridor`, `closed` or `no_stand_free`.
+    pub(crate) rule: &'static str,
+    /// The rule in words, with its numbers.
+    pub(crate) reason: String,
+}
+
+/// The policies that decide on a day, each with its memory of the day.
+#[derive(Debug, Default)]
+pub(crate) struct Deciders(Mutex<HashMap<String, Arc<Mutex<Decider>>>>);
+
+/// A policy with its memory.
+pub(crate) struct Decider {
+    policy: Box<dyn Policy>,
+    weights_sha256: Option<String>,
+    room: Option<Simulation>,
+    values: Vec<f64>,
+}
+
+impl std::fmt::Debug for Decider {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Decider")
+    }
+}
+
+impl Deciders {
+    /// At most this many policies decide on a day.
+    const MOST: u64 = 16;
+
+    /// The policy with this name, with its memory of the day.
+    ///
+    /// # Errors
+    /// Returns an error if there is no such policy, or if it does not fit the day.
+    pub(crate) fn get(&self, name: &str, day: &Scenario) -> Result<Arc<Mutex<Decider>>, Error> {
+        let mut deciders = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(decider) = deciders.get(name) {
+            return Ok(Arc::clone(decider));
+        }
+        if deciders.len() as u64 >= Self::MOST {
+            return Err(Error::TooMuch { what: "policies on a day", most: Self::MOST });
+        }
+        let resolved = resolve(name, day)?;
+        let decider = Decider {
+            policy: resolved.build(),
+            weights_sha256: resolved.weights_sha256(),
+            room: None,
+            values: vec![f64::NAN; day.vertiports.len()],
+        };
+        let decider = Arc::new(Mutex::new(decider));
+        deciders.insert(name.to_owned(), Arc::clone(&decider));
+        Ok(decider)
+    }
+}
+
+/// The policy with a name, for a day.
+///
+/// # Errors
+/// Returns an error if there is no such policy, or if it does not fit the day. Traces cannot be replayed, since their
+/// files are not the client's.
+pub(crate) fn resolve(name: &str, day: &Scenario) -> Result<ResolvedPolicy, Error> {
+    let spec = PolicySpec::parse(name)?;
+    if spec.replayed().is_some() {
+        return Err(Error::not_found("policy", name));
+    }
+    let resolved = spec.resolve(None, ResolveFor::Day(day), day.seed)?;
+    resolved.check_fits(day)?;
+    Ok(resolved)
+}
+
+impl Decider {
+    /// Proposes a decision for an aircraft that is ready.
+    ///
+    /// # Errors
+    /// Returns [`Error::UnknownId`] if there is no such aircraft, and [`Error::Unfit`] if it cannot decide now.
+    pub(crate) fn propose(
+        &mut self,
+        cell: &DayCell,
+        aircraft: &str,
+        time: Option<Time>,
+        policy: &str,
+    ) -> Result<Proposal, Error> {
+        let begun = Instant::now();
+        let (decision, seq, refusals) = {
+            let mut state = cell.state();
+            let aircraft = state.ids().aircraft(aircraft)?;
+            let seq = state.seq();
+            let live = state.live_mut();
+            let decision = live.decision(aircraft, time.unwrap_or_default())?;
+            let view = live.view_at(&decision, &mut self.room);
+            let refusals = refusals(live, view, &decision);
+            (decision, seq, refusals)
+        };
+        let day = self.room.as_ref().expect("the view was written into it");
+        let (view, scenario) = (day.view(), Arc::clone(day.scenario()));
+        let to = self
+            .policy
+            .choose(&decision, &view)
+            .map_err(|error| Error::Store { cause: format!("policy {policy:?}: {error}") })?;
+        self.values.fill(f64::NAN);
+        let _ = self.policy.values(&decision, &view, &mut self.values);
+        let prices = self.policy.prices(&decision, &view);
+        let weighed = Weighed { view, decision: &decision, prices, values: &self.values };
+        let every = VertiportIx::all(view.vertiports()).zip(refusals);
+        let alternatives =
+            every.map(|(to, impossible)| weighed.alternative(&scenario, to, impossible)).collect();
+        let id = |vertiport: VertiportIx| scenario.vertiports[vertiport.at()].id.clone();
+        Ok(Proposal {
+            aircraft: aircraft.to_owned(),
+            at: id(decision.at),
+            time: decision.time.into(),
+            seq,
+            to: id(to),
+            policy: policy.to_owned(),
+            weights_sha256: self.weights_sha256.clone(),
+            too_late: None,
+            took_us: u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX),
+            alternatives,
+        })
+    }
+}
+
+/// A decision with what its alternatives are weighed by.
+struct Weighed<'a> {
+    view: View<'a>,
+    decision: &'a Decision,
+    prices: Option<&'a DayPrices>,
+    /// What the policy compares its choices by.
+    values: &'a [f64],
+}
+
+impl Weighed<'_> {
+    fn alternative(
+        &self,
+        scenario: &Scenario,
+        to: VertiportIx,
+        impossible: Option<Impossible>,
+    ) -> Alternative {
+        let Self { view, decision, prices, values } = self;
+        let Decision { time, aircraft, at, .. } = **decision;
+        let (kind, period) = (view.kind(aircraft), view.period());
+        let stays = to == at;
+        let leg = view.leg(kind, at, to);
+        let (flight_s, block_s) =
+            if stays { (0, view.hold_s()) } else { (leg.flight_s, leg.block_s()) };
+        let (passengers, flight_profit_usd) = if stays {
+            (0, 0.0)
+        } else {
+            let waiting = view.demand_left(period, at, to);
+            let seats = u32::from(view.aircraft_type(kind).seats);
+            (waiting.min(seats), view.flight_profit_usd(time, kind, (at, to), waiting))
+        };
+        let ready = time + block_s;
+        let open = prices.filter(|_| impossible.is_none());
+        let passenger_usd = |prices: &DayPrices| prices.passenger_usd(period, at, to);
+        Alternative {
+            to: scenario.vertiports[to.at()].id.clone(),
+            value: Some(values[to.at()]).filter(|value| value.is_finite()),
+            worth_usd: open.map(|prices| prices.choice_usd(*view, decision, to)),
+            flight_profit_usd,
+            passengers,
+            arrival: (time + flight_s).into(),
+            ready: ready.into(),
+            stands: view.stands(to),
+            stands_taken: view.stands_taken()[to.at()],
+            stand_price_usd: open.map(|prices| prices.rent_usd(to, time, ready)),
+            passenger_price_usd: open.filter(|_| !stays).map(passenger_usd),
+            impossible,
+        }
+    }
+}
+
+/// Why each vertiport cannot be chosen, in the order of the day.
+fn refusals(live: &LiveDay, view: View<'_>, decision: &Decision) -> Vec<Option<Impossible>> {
+    let reason = |to| {
+        let refusal = live.refusal(view, decision, to)?;
+        let rule = match refusal {
+            Refusal::OutOfRange { .. } => "out_of_range",
+            Refusal::NoCorridor { .. } => "no_corridor",
+            Refusal::Closed { .. } => "closed",
+            Refusal::NoStandFree { .. } => "no_stand_free",
+            Refusal::DayOver | Refusal::NoSuchVertiport { .. } => return None,
+        };
+        let kind = view.kind(decision.aircraft);
+        let numbers = match rule {
+            "out_of_range" => format!(
+                " ({:.1} kWh of {:.1} kWh)",
+                view.leg(kind, decision.at, to).energy_kwh,
+                view.aircraft_type(kind).battery_kwh
+            ),
+            "no_stand_free" => {
+                format!(" ({} of {})", view.stands_taken()[to.at()], view.stands(to))
+            }
+            _ => String::new(),
+        };
+        Some(Impossible { rule, reason: format!("{refusal}{numbers}") })
+    };
+    VertiportIx::all(view.vertiports()).map(reason).collect()
+}

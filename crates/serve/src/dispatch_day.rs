@@ -1,0 +1,110 @@
+//! A day in memory: the fold of its scenario and its events.
+
+use std::sync::Arc;
+
+use vertifleet_core::Scenario;
+use vertifleet_sim::live::{LiveDay, Notice};
+
+use crate::error::Error;
+use crate::event::{Event, Ids};
+use crate::store::StoredEvent;
+
+/// What is known of a day after its events so far.
+#[derive(Debug, Clone)]
+pub(crate) struct DispatchDay {
+    live: LiveDay,
+    ids: Arc<Ids>,
+    /// Number of events.
+    seq: u64,
+    /// The sum over them.
+    chain: u32,
+    notices: Vec<(u64, String)>,
+}
+
+impl DispatchDay {
+    /// A day before its first event.
+    pub(crate) fn new(scenario: Arc<Scenario>) -> Self {
+        let ids = Arc::new(Ids::of(&scenario));
+        Self { live: LiveDay::new(scenario), ids, seq: 0, chain: 0, notices: Vec::new() }
+    }
+
+    /// The day as the simulator knows it.
+    pub(crate) fn live(&self) -> &LiveDay {
+        &self.live
+    }
+
+    /// The day as the simulator knows it, to be looked at.
+    pub(crate) fn live_mut(&mut self) -> &mut LiveDay {
+        &mut self.live
+    }
+
+    /// The positions of its aircraft and vertiports.
+    pub(crate) fn ids(&self) -> &Ids {
+        &self.ids
+    }
+
+    /// The number of its events.
+    pub(crate) fn seq(&self) -> u64 {
+        self.seq
+    }
+
+    /// What people should look at: what came with events, with their numbers, and what holds now.
+    pub(crate) fn notices(&self) -> impl Iterator<Item = (Option<u64>, String)> + '_ {
+        let told = self.notices.iter().map(|(seq, text)| (Some(*seq), text.clone()));
+        told.chain(self.live.notices().map(|notice| (None, notice.to_string())))
+    }
+
+    /// Takes an event in, and returns it as it is to be stored.
+    ///
+    /// # Errors
+    /// Returns [`Error::UnknownId`] or [`Error::Unfit`] if the day cannot take it. Nothing has changed then.
+    pub(crate) fn take(
+        &mut self,
+        mut event: Event,
+        actor: &str,
+        at_ms: i64,
+    ) -> Result<StoredEvent, Error> {
+        let time = event.time.get_or_insert_with(|| self.live.now().into()).time();
+        let report = event.what.report(&self.ids)?;
+        let notices = self.live.take(time, &report)?;
+        let texts: Vec<String> = notices.iter().map(Notice::to_string).collect();
+        let json = |value: serde_json::Result<String>| value.expect("plain data can be written");
+        let mut stored = StoredEvent {
+            seq: self.seq + 1,
+            at_ms,
+            actor: actor.to_owned(),
+            body: json(serde_json::to_string(&event)),
+            notices: json(serde_json::to_string(&texts)),
+            chain: 0,
+        };
+        stored.chain = stored.chain_after(self.chain);
+        self.enter(stored.seq, stored.chain, texts);
+        Ok(stored)
+    }
+
+    fn enter(&mut self, seq: u64, chain: u32, notices: Vec<String>) {
+        (self.seq, self.chain) = (seq, chain);
+        self.notices.extend(notices.into_iter().map(|text| (seq, text)));
+    }
+
+    /// Takes an event in that is stored already.
+    ///
+    /// # Errors
+    /// Returns [`Error::BadData`] if it is not the next one, is damaged, or cannot be taken.
+    pub(crate) fn replay(&mut self, stored: &StoredEvent) -> Result<(), Error> {
+        let bad = |rule: String| Error::BadData { rule: format!("event {}: {rule}", stored.seq) };
+        if stored.seq != self.seq + 1 {
+            return Err(bad(format!("it follows event {}", self.seq)));
+        }
+        if stored.chain != stored.chain_after(self.chain) {
+            return Err(bad("its sum is wrong".to_owned()));
+        }
+        let event: Event =
+            serde_json::from_str(&stored.body).map_err(|error| bad(error.to_string()))?;
+        let report = event.what.report(&self.ids).map_err(|error| bad(error.to_string()))?;
+        let time = event.time.ok_or_else(|| bad("it has no time".to_owned()))?.time();
+        let notices = self.live.take(time, &report).map_err(|unfit| bad(unfit.to_string()))?;
+        self.enter(stored.seq, stored.chain, notices.iter().map(Notice::to_string).collect());
+        Ok(())
+    }
+}

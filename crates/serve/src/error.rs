@@ -1,0 +1,214 @@
+//! The errors of the service, with stable codes (V6xx) and what they mean in HTTP.
+
+use axum::http::StatusCode;
+use vertifleet_core::{Code, Coded, Exit};
+use vertifleet_sim::live::Unfit;
+
+/// An expected error of the service. Messages are fragments for people; [`Coded::code`] is for programs and for the error
+/// index.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A network, a scenario or a file (V1xx); the error is one of `vertifleet-core`.
+    #[error(transparent)]
+    Core(#[from] vertifleet_core::Error),
+
+    /// A policy (V3xx, V4xx); the error is one of `vertifleet-study`.
+    #[error(transparent)]
+    Study(#[from] vertifleet_study::Error),
+
+    /// V601. A request that is not understood. Cause: JSON that is not well-formed, a member that is missing, unknown or
+    /// of the wrong type, or a value out of bounds. Fix: send what the API's description says.
+    #[error("the request is not understood: {rule}")]
+    BadRequest {
+        /// What is wrong.
+        rule: String,
+    },
+
+    /// V602. There is no such day, network, policy or path. Cause: a wrong id, or a day that was deleted. Fix: list what
+    /// there is.
+    #[error("there is no {what} {id:?}")]
+    NotFound {
+        /// What was asked for.
+        what: &'static str,
+        /// Its id.
+        id: String,
+    },
+
+    /// V603. The day has no such aircraft or vertiport. Cause: a wrong id. Fix: use the ids of the day's scenario.
+    #[error("the day has no {what} {id:?}")]
+    UnknownId {
+        /// Aircraft or vertiport.
+        what: &'static str,
+        /// The id.
+        id: String,
+    },
+
+    /// V604. An event or a decision that the day cannot take. Cause: it breaks a rule, or it contradicts what has been
+    /// reported. Fix: the message names the rule.
+    #[error("{0}")]
+    Unfit(#[from] Unfit),
+
+    /// V605. The day has gone on. Cause: somebody else added an event after the state that the request was made for
+    /// (`If-Match`). Fix: read the day again and decide anew.
+    #[error("the day is at event {found}, and the request was made for event {expected}")]
+    Moved {
+        /// The sequence number in the request.
+        expected: u64,
+        /// The day's sequence number.
+        found: u64,
+    },
+
+    /// V606. The store cannot be used. Cause: a full or broken disk, missing permissions, or a database that does not
+    /// answer. Fix: the message of the store says what failed; nothing that was acknowledged is lost.
+    #[error("the store failed: {cause}")]
+    Store {
+        /// What the store says.
+        cause: String,
+    },
+
+    /// V607. The data belongs to another version of the program, or is damaged. Cause: a newer program wrote it, or bytes
+    /// on the disk changed. Fix: use the newer program, or restore a backup; `vertifleet serve verify` names the rows.
+    #[error("the data of the service cannot be read: {rule}")]
+    BadData {
+        /// What is wrong.
+        rule: String,
+    },
+
+    /// V608. The day is closed to writes. Cause: it was archived. Fix: none; make a new day.
+    #[error("day {id:?} is archived")]
+    Archived {
+        /// The day.
+        id: String,
+    },
+
+    /// V609. The same `Idempotency-Key` came with another request. Cause: a client uses one key twice. Fix: a new key for
+    /// each request.
+    #[error("the idempotency key {key:?} was used for another request")]
+    KeyReused {
+        /// The key.
+        key: String,
+    },
+
+    /// V610. No decision in time. Cause: the deadline is shorter than the fastest policy needs. Fix: a longer deadline.
+    #[error("no policy decides within {deadline_ms} ms")]
+    TooLate {
+        /// The deadline.
+        deadline_ms: u64,
+    },
+
+    /// V611. The service cannot listen. Cause: the address is in use, or not of this machine. Fix: name another one.
+    #[error("cannot listen on {address}: {cause}")]
+    CannotListen {
+        /// The address.
+        address: String,
+        /// What the operating system says.
+        cause: std::io::Error,
+    },
+
+    /// V612. The service has reached a limit. Cause: more days, events, streams or bytes than it takes. Fix: archive or
+    /// delete days, or send less.
+    #[error("the service takes at most {most} {what}")]
+    TooMuch {
+        /// Of what.
+        what: &'static str,
+        /// The limit.
+        most: u64,
+    },
+
+    /// V613. The operator cannot go on. Cause: the service at the address does not answer, or answers with an error.
+    /// Fix: the message has the service's answer.
+    #[error("{url}: {rule}")]
+    NoAnswer {
+        /// The address.
+        url: String,
+        /// What went wrong.
+        rule: String,
+    },
+
+    /// V614. A request with this key is being carried out. Cause: it was sent again before the first was answered. Fix:
+    /// wait, and send it again.
+    #[error("a request with the idempotency key {key:?} is being carried out")]
+    KeyInUse {
+        /// The key.
+        key: String,
+    },
+}
+
+impl Error {
+    /// An id that a day does not have.
+    pub(crate) fn unknown(what: &'static str, id: &str) -> Self {
+        Self::UnknownId { what, id: id.chars().take(64).collect() }
+    }
+
+    /// Something that does not exist.
+    pub(crate) fn not_found(what: &'static str, id: &str) -> Self {
+        Self::NotFound { what, id: id.chars().take(64).collect() }
+    }
+
+    /// The status of the answer.
+    pub fn status(&self) -> StatusCode {
+        match self {
+            Self::Core(_) | Self::Study(_) | Self::BadRequest { .. } => StatusCode::BAD_REQUEST,
+            Self::NotFound { .. } => StatusCode::NOT_FOUND,
+            Self::UnknownId { .. } | Self::Unfit(_) | Self::KeyReused { .. } => {
+                StatusCode::UNPROCESSABLE_ENTITY
+            }
+            Self::Moved { .. } => StatusCode::PRECONDITION_FAILED,
+            Self::Archived { .. } | Self::KeyInUse { .. } => StatusCode::CONFLICT,
+            Self::Store { .. } | Self::TooLate { .. } => StatusCode::SERVICE_UNAVAILABLE,
+            Self::TooMuch { .. } => StatusCode::INSUFFICIENT_STORAGE,
+            Self::BadData { .. } | Self::CannotListen { .. } | Self::NoAnswer { .. } => {
+                StatusCode::INTERNAL_SERVER_ERROR
+            }
+        }
+    }
+}
+
+impl From<sqlx::Error> for Error {
+    fn from(error: sqlx::Error) -> Self {
+        Self::Store { cause: error.to_string() }
+    }
+}
+
+impl Coded for Error {
+    fn code(&self) -> Code {
+        Code(match self {
+            Self::Core(error) => return error.code(),
+            Self::Study(error) => return error.code(),
+            Self::BadRequest { .. } => 601,
+            Self::NotFound { .. } => 602,
+            Self::UnknownId { .. } => 603,
+            Self::Unfit(_) => 604,
+            Self::Moved { .. } => 605,
+            Self::Store { .. } => 606,
+            Self::BadData { .. } => 607,
+            Self::Archived { .. } => 608,
+            Self::KeyReused { .. } => 609,
+            Self::TooLate { .. } => 610,
+            Self::CannotListen { .. } => 611,
+            Self::TooMuch { .. } => 612,
+            Self::NoAnswer { .. } => 613,
+            Self::KeyInUse { .. } => 614,
+        })
+    }
+
+    fn hint(&self) -> Option<&str> {
+        match self {
+            Self::Core(error) => error.hint(),
+            Self::Study(error) => error.hint(),
+            Self::Moved { .. } => Some("read the day again, and decide anew"),
+            Self::KeyReused { .. } => Some("use a new Idempotency-Key for each request"),
+            Self::BadData { .. } => Some("`vertifleet serve verify` checks every row"),
+            _ => None,
+        }
+    }
+
+    fn exit(&self) -> Exit {
+        match self {
+            Self::Core(error) => error.exit(),
+            Self::Study(error) => error.exit(),
+            Self::Store { .. } | Self::CannotListen { .. } | Self::NoAnswer { .. } => Exit::Failed,
+            _ => Exit::Input,
+        }
+    }
+}

@@ -1,0 +1,402 @@
+//! Events as they are written and read: what a live day is told, in JSON, with ids instead of positions.
+
+use std::collections::HashMap;
+
+use serde::{Deserialize, Deserializer, Serialize, de};
+use serde_json::{Map, Value};
+use utoipa::ToSchema;
+use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
+use vertifleet_sim::live::{Booking, Report, Routes};
+
+use crate::error::Error;
+use crate::moment::Moment;
+
+/// An event: something that happened, was decided or became known, and when.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub(crate) struct Event {
+    /// When it happened or became known. Without it, that is now: the latest time that the day has heard of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) time: Option<Moment>,
+    /// What happened.
+    #[serde(flatten)]
+    pub(crate) what: What,
+}
+
+impl<'de> Deserialize<'de> for Event {
+    /// Reads in two steps, because a flattened member would let unknown members pass.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut members = Map::deserialize(deserializer)?;
+        let time = members.remove("time").map(Option::<Moment>::deserialize);
+        let what = What::deserialize(Value::Object(members)).map_err(de::Error::custom)?;
+        Ok(Self { time: time.transpose().map_err(de::Error::custom)?.flatten(), what })
+    }
+}
+
+/// What happened.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+pub(crate) enum What {
+    /// An aircraft that is ready is to fly to a vertiport; its own vertiport means hold. The rules must permit it.
+    Decided {
+        /// The aircraft.
+        aircraft: String,
+        /// The vertiport.
+        to: String,
+        /// The policy that proposed it; absent if a person chose.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        policy: Option<String>,
+        /// What the policy proposed instead, if a person overruled it.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        instead_of: Option<String>,
+        /// Why a person chose.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        reason: Option<String>,
+    },
+    /// The latest decision of an aircraft is taken back. It must not have departed.
+    Undone {
+        /// The aircraft.
+        aircraft: String,
+        /// Why.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        reason: Option<String>,
+    },
+    /// An aircraft has left its stand.
+    Departed {
+        /// The aircraft.
+        aircraft: String,
+        /// Where it flies to, if that is not what was decided.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        to: Option<String>,
+        /// Passengers on board, if not as many as expected.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        passengers: Option<u16>,
+    },
+    /// An aircraft is on the ground.
+    Landed {
+        /// The aircraft.
+        aircraft: String,
+        /// Where it is, if that is not where it was flying to.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        at: Option<String>,
+    },
+    /// An aircraft on the ground is expected to be charged at a time.
+    Charging {
+        /// The aircraft.
+        aircraft: String,
+        /// The expected end of charging.
+        ready: Moment,
+    },
+    /// An aircraft is charged.
+    Ready {
+        /// The aircraft.
+        aircraft: String,
+    },
+    /// What an aircraft does next is expected at another time: its departure if it has been sent off, its landing if it
+    /// is in the air, the end of charging if it stands.
+    Delayed {
+        /// The aircraft.
+        aircraft: String,
+        /// The new time.
+        until: Moment,
+    },
+    /// An aircraft cannot fly before a time, or until it is back in service.
+    OutOfService {
+        /// The aircraft.
+        aircraft: String,
+        /// Until when, if that is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        until: Option<Moment>,
+        /// Why.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        reason: Option<String>,
+    },
+    /// An aircraft can fly again.
+    BackInService {
+        /// The aircraft.
+        aircraft: String,
+    },
+    /// Routes are closed to new flights: one way between two vertiports, or all that lead to a vertiport or away from it.
+    Closed {
+        /// The routes.
+        routes: RouteNames,
+        /// First instant at which they are open again, if it is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        until: Option<Moment>,
+        /// Why.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        reason: Option<String>,
+    },
+    /// Routes are open again.
+    Reopened {
+        /// The routes.
+        routes: RouteNames,
+    },
+    /// The number of passengers who still want to fly in a period has changed, actual or forecast.
+    Demand {
+        /// A time in the period.
+        period: Moment,
+        /// The pairs that change.
+        pairs: Vec<PairDemand>,
+    },
+    /// More passengers want to fly.
+    Booked {
+        /// A time in the period in which they want to fly.
+        period: Moment,
+        /// Where they are.
+        from: String,
+        /// Where they want to go.
+        to: String,
+        /// Their number.
+        passengers: u32,
+    },
+    /// Passengers do not want to fly any more.
+    Cancelled {
+        /// A time in the period in which they wanted to fly.
+        period: Moment,
+        /// Where they are.
+        from: String,
+        /// Where they wanted to go.
+        to: String,
+        /// Their number.
+        passengers: u32,
+    },
+    /// A vertiport has another number of stands, or of chargers where they are counted apart.
+    Stands {
+        /// The vertiport.
+        vertiport: String,
+        /// The number.
+        stands: u16,
+    },
+}
+
+/// Routes that close and open together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(untagged, deny_unknown_fields)]
+pub(crate) enum RouteNames {
+    /// From one vertiport to another.
+    Way {
+        /// Vertiport that flights leave.
+        from: String,
+        /// Vertiport that flights fly to.
+        to: String,
+    },
+    /// All routes of a vertiport.
+    Of {
+        /// The vertiport.
+        vertiport: String,
+    },
+}
+
+/// Passengers of a pair.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PairDemand {
+    /// Where they are.
+    pub(crate) from: String,
+    /// Where they want to go.
+    pub(crate) to: String,
+    /// How many of them still want to fly.
+    pub(crate) passengers: u32,
+}
+
+/// The positions of a day's aircraft and vertiports by their ids.
+#[derive(Debug)]
+pub(crate) struct Ids {
+    aircraft: HashMap<String, AircraftIx>,
+    vertiports: HashMap<String, VertiportIx>,
+    periods: Vec<Time>,
+}
+
+impl Ids {
+    /// The ids of a day.
+    pub(crate) fn of(day: &Scenario) -> Self {
+        let aircraft = day.aircraft.iter().map(|one| one.id.clone());
+        let vertiports = day.vertiports.iter().map(|one| one.id.clone());
+        Self {
+            aircraft: aircraft.zip(AircraftIx::all(day.aircraft.len())).collect(),
+            vertiports: vertiports.zip(VertiportIx::all(day.vertiports.len())).collect(),
+            periods: day.periods.clone(),
+        }
+    }
+
+    /// The position of an aircraft.
+    ///
+    /// # Errors
+    /// Returns [`Error::UnknownId`] if the day has no such aircraft.
+    pub(crate) fn aircraft(&self, id: &str) -> Result<AircraftIx, Error> {
+        self.aircraft.get(id).copied().ok_or_else(|| Error::unknown("aircraft", id))
+    }
+
+    /// The position of a vertiport.
+    ///
+    /// # Errors
+    /// Returns [`Error::UnknownId`] if the day has no such vertiport.
+    pub(crate) fn vertiport(&self, id: &str) -> Result<VertiportIx, Error> {
+        self.vertiports.get(id).copied().ok_or_else(|| Error::unknown("vertiport", id))
+    }
+
+    fn vertiport_if_any(&self, id: Option<&String>) -> Result<Option<VertiportIx>, Error> {
+        id.map(|id| self.vertiport(id)).transpose()
+    }
+
+    fn period(&self, time: Time) -> usize {
+        self.periods.iter().rposition(|&start| start <= time).unwrap_or(0)
+    }
+
+    fn routes(&self, routes: &RouteNames) -> Result<Routes, Error> {
+        Ok(match routes {
+            RouteNames::Way { from, to } => {
+                Routes::Way { from: self.vertiport(from)?, to: self.vertiport(to)? }
+            }
+            RouteNames::Of { vertiport } => Routes::Of(self.vertiport(vertiport)?),
+        })
+    }
+}
+
+impl What {
+    /// The report that the simulator takes.
+    ///
+    /// # Errors
+    /// Returns [`Error::UnknownId`] if the day has no such aircraft or vertiport.
+    pub(crate) fn report(&self, ids: &Ids) -> Result<Report, Error> {
+        Ok(match self {
+            Self::Decided { aircraft, to, .. } => {
+                Report::Decided { aircraft: ids.aircraft(aircraft)?, to: ids.vertiport(to)? }
+            }
+            Self::Undone { aircraft, .. } => Report::Undone { aircraft: ids.aircraft(aircraft)? },
+            Self::Departed { aircraft, to, passengers, .. } => Report::Departed {
+                aircraft: ids.aircraft(aircraft)?,
+                to: ids.vertiport_if_any(to.as_ref())?,
+                passengers: *passengers,
+            },
+            Self::Landed { aircraft, at, .. } => Report::Landed {
+                aircraft: ids.aircraft(aircraft)?,
+                at: ids.vertiport_if_any(at.as_ref())?,
+            },
+            Self::Charging { aircraft, ready, .. } => {
+                Report::Charging { aircraft: ids.aircraft(aircraft)?, ready: ready.time() }
+            }
+            Self::Ready { aircraft, .. } => Report::Ready { aircraft: ids.aircraft(aircraft)? },
+            Self::Delayed { aircraft, until, .. } => {
+                Report::Delayed { aircraft: ids.aircraft(aircraft)?, until: until.time() }
+            }
+            Self::OutOfService { aircraft, until, .. } => Report::OutOfService {
+                aircraft: ids.aircraft(aircraft)?,
+                until: until.map(Moment::time),
+            },
+            Self::BackInService { aircraft, .. } => {
+                Report::BackInService { aircraft: ids.aircraft(aircraft)? }
+            }
+            Self::Closed { routes, until, .. } => {
+                Report::Closed { routes: ids.routes(routes)?, until: until.map(Moment::time) }
+            }
+            Self::Reopened { routes, .. } => Report::Reopened { routes: ids.routes(routes)? },
+            Self::Demand { period, pairs, .. } => Report::Demand {
+                period: ids.period(period.time()),
+                pairs: pairs
+                    .iter()
+                    .map(|pair| {
+                        let ends = (ids.vertiport(&pair.from)?, ids.vertiport(&pair.to)?);
+                        Ok((ends.0, ends.1, pair.passengers))
+                    })
+                    .collect::<Result<_, Error>>()?,
+            },
+            Self::Booked { period, from, to, passengers, .. } => {
+                Report::Booked { booking: ids.booking(*period, (from, to), *passengers)? }
+            }
+            Self::Cancelled { period, from, to, passengers, .. } => {
+                Report::Cancelled { booking: ids.booking(*period, (from, to), *passengers)? }
+            }
+            Self::Stands { vertiport, stands, .. } => {
+                Report::Stands { vertiport: ids.vertiport(vertiport)?, stands: *stands }
+            }
+        })
+    }
+}
+
+impl Ids {
+    fn booking(
+        &self,
+        period: Moment,
+        (from, to): (&str, &str),
+        passengers: u32,
+    ) -> Result<Booking, Error> {
+        let (from, to) = (self.vertiport(from)?, self.vertiport(to)?);
+        Ok(Booking { period: self.period(period.time()), from, to, passengers })
+    }
+}
+
+impl What {
+    /// A report of the simulator as an event of its day.
+    pub(crate) fn of(report: &Report, day: &Scenario) -> Self {
+        let aircraft = |aircraft: AircraftIx| day.aircraft[aircraft.at()].id.clone();
+        let id = |vertiport: VertiportIx| day.vertiports[vertiport.at()].id.clone();
+        let start = |period: usize| Moment::from(day.periods[period]);
+        let names = |routes: &Routes| match *routes {
+            Routes::Way { from, to } => RouteNames::Way { from: id(from), to: id(to) },
+            Routes::Of(vertiport) => RouteNames::Of { vertiport: id(vertiport) },
+        };
+        match report {
+            Report::Decided { aircraft: of, to } => Self::Decided {
+                aircraft: aircraft(*of),
+                to: id(*to),
+                policy: None,
+                instead_of: None,
+                reason: None,
+            },
+            Report::Undone { aircraft: of } => {
+                Self::Undone { aircraft: aircraft(*of), reason: None }
+            }
+            Report::Departed { aircraft: of, to, passengers } => {
+                Self::Departed { aircraft: aircraft(*of), to: to.map(id), passengers: *passengers }
+            }
+            Report::Landed { aircraft: of, at } => {
+                Self::Landed { aircraft: aircraft(*of), at: at.map(id) }
+            }
+            Report::Charging { aircraft: of, ready } => {
+                Self::Charging { aircraft: aircraft(*of), ready: (*ready).into() }
+            }
+            Report::Ready { aircraft: of } => Self::Ready { aircraft: aircraft(*of) },
+            Report::Delayed { aircraft: of, until } => {
+                Self::Delayed { aircraft: aircraft(*of), until: (*until).into() }
+            }
+            Report::OutOfService { aircraft: of, until } => Self::OutOfService {
+                aircraft: aircraft(*of),
+                until: until.map(Moment::from),
+                reason: None,
+            },
+            Report::BackInService { aircraft: of } => {
+                Self::BackInService { aircraft: aircraft(*of) }
+            }
+            Report::Closed { routes, until } => {
+                Self::Closed { routes: names(routes), until: until.map(Moment::from), reason: None }
+            }
+            Report::Reopened { routes } => Self::Reopened { routes: names(routes) },
+            Report::Demand { period, pairs } => {
+                let pair = |&(from, to, passengers): &(VertiportIx, VertiportIx, u32)| PairDemand {
+                    from: id(from),
+                    to: id(to),
+                    passengers,
+                };
+                Self::Demand { period: start(*period), pairs: pairs.iter().map(pair).collect() }
+            }
+            Report::Booked { booking: Booking { period, from, to, passengers } } => Self::Booked {
+                period: start(*period),
+                from: id(*from),
+                to: id(*to),
+                passengers: *passengers,
+            },
+            Report::Cancelled { booking: Booking { period, from, to, passengers } } => {
+                Self::Cancelled {
+                    period: start(*period),
+                    from: id(*from),
+                    to: id(*to),
+                    passengers: *passengers,
+                }
+            }
+            Report::Stands { vertiport, stands } => {
+                Self::Stands { vertiport: id(*vertiport), stands: *stands }
+            }
+        }
+    }
+}

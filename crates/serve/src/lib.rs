@@ -1,0 +1,25 @@
+//! The dispatch service: live days, what happens on them, and decisions with their reasons, over HTTP.
+//!
+//! A day is a scenario and a log of events; its state is the fold of the log by the simulator's rules
+//! ([`vertifleet_sim::live`]) and nothing else. An event is durable before it is acknowledged: a day takes it in
+//! memory, one writer commits many at a time, and only then does anybody hear of it.
+
+mod api;
+mod committer;
+mod days;
+mod decide;
+mod dispatch_day;
+mod error;
+mod event;
+mod moment;
+mod operate;
+mod problem;
+mod server;
+mod service;
+mod store;
+
+pub use api::openapi;
+pub use error::Error;
+pub use operate::{Operation, OperationReport, operate};
+pub use server::{Settings, serve};
+pub use store::Location;

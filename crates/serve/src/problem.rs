@@ -1,0 +1,54 @@
+//! Errors as answers: problem details (RFC 9457) with the project's codes.
+
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+use utoipa::ToSchema;
+use vertifleet_core::Coded;
+
+use crate::error::Error;
+
+/// An error as the service answers it (RFC 9457).
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct Problem {
+    /// Names the kind of error: `urn:vertifleet:` and the code.
+    #[serde(rename = "type")]
+    pub(crate) kind: String,
+    /// The status of HTTP in words.
+    pub(crate) title: String,
+    /// The status of HTTP.
+    pub(crate) status: u16,
+    /// What is wrong here.
+    pub(crate) detail: String,
+    /// The stable code, which the error index explains.
+    pub(crate) code: String,
+    /// What to do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) hint: Option<String>,
+}
+
+impl Problem {
+    /// The answer to a request that cannot be carried out.
+    pub(crate) fn of(error: &Error) -> Self {
+        let status = error.status();
+        let code = error.code().to_string();
+        Self {
+            kind: format!("urn:vertifleet:{code}"),
+            title: status.canonical_reason().unwrap_or_default().to_owned(),
+            status: status.as_u16(),
+            detail: error.to_string(),
+            code,
+            hint: error.hint().map(str::to_owned),
+        }
+    }
+}
+
+impl IntoResponse for Error {
+    fn into_response(self) -> Response {
+        if self.status() >= StatusCode::INTERNAL_SERVER_ERROR {
+            tracing::error!(error = %self, "a request failed");
+        }
+        let body = serde_json::to_string(&Problem::of(&self)).expect("plain data can be written");
+        (self.status(), [(header::CONTENT_TYPE, "application/problem+json")], body).into_response()
+    }
+}

@@ -1,0 +1,119 @@
+//! What all requests share: the days, the keys of requests that are being carried out, and the settings.
+
+use std::collections::HashSet;
+use std::sync::{Mutex, PoisonError};
+
+use axum::http::HeaderMap;
+use serde::de::DeserializeOwned;
+
+use crate::days::{Days, Idempotency, Writer};
+use crate::error::Error;
+
+/// The longest key of a request.
+const LONGEST_KEY: usize = 128;
+
+/// The running service.
+#[derive(Debug)]
+pub(crate) struct Service {
+    /// Its days.
+    pub(crate) days: Days,
+    /// Keys of requests that are being carried out.
+    busy: Mutex<HashSet<String>>,
+}
+
+/// Holds a key while its request is carried out.
+pub(crate) struct Busy<'a> {
+    service: &'a Service,
+    key: String,
+}
+
+impl Drop for Busy<'_> {
+    fn drop(&mut self) {
+        self.service.busy.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.key);
+    }
+}
+
+/// A write as its headers describe it.
+pub(crate) enum Write<'a> {
+    /// It has been carried out before; this was the answer.
+    Done(String),
+    /// It is to be carried out.
+    New(Writer, Option<Busy<'a>>),
+}
+
+impl Service {
+    /// A service of these days.
+    pub(crate) fn new(days: Days) -> Self {
+        Self { days, busy: Mutex::default() }
+    }
+
+    /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.
+    pub(crate) async fn write(
+        &self,
+        headers: &HeaderMap,
+        path: &str,
+        body: &[u8],
+    ) -> Result<Write<'_>, Error> {
+        let if_match = if_match(headers)?;
+        let mut writer = Writer { actor: String::new(), if_match, idempotency: None };
+        let Some(key) = text(headers, "idempotency-key")? else {
+            return Ok(Write::New(writer, None));
+        };
+        if key.is_empty() || key.len() > LONGEST_KEY {
+            let rule = format!("Idempotency-Key must have 1 to {LONGEST_KEY} characters");
+            return Err(Error::BadRequest { rule });
+        }
+        let busy = self.occupy(key)?;
+        let request = sum(path, body);
+        if let Some(known) = self.days.store().answer(key).await? {
+            if known.request != request {
+                return Err(Error::KeyReused { key: key.to_owned() });
+            }
+            return Ok(Write::Done(known.answer));
+        }
+        writer.idempotency = Some(Idempotency { key: key.to_owned(), request });
+        Ok(Write::New(writer, Some(busy)))
+    }
+
+    fn occupy(&self, key: &str) -> Result<Busy<'_>, Error> {
+        let is_free =
+            self.busy.lock().unwrap_or_else(PoisonError::into_inner).insert(key.to_owned());
+        if is_free {
+            Ok(Busy { service: self, key: key.to_owned() })
+        } else {
+            Err(Error::KeyInUse { key: key.to_owned() })
+        }
+    }
+}
+
+fn text<'a>(headers: &'a HeaderMap, name: &str) -> Result<Option<&'a str>, Error> {
+    let wrong = |_| Error::BadRequest { rule: format!("the header {name} must be plain text") };
+    headers.get(name).map(|value| value.to_str().map_err(wrong)).transpose()
+}
+
+/// The number in `If-Match`, with or without quotes.
+fn if_match(headers: &HeaderMap) -> Result<Option<u64>, Error> {
+    let wrong = |_| Error::BadRequest {
+        rule: "If-Match must be the number of an event, as ETag has it".to_owned(),
+    };
+    text(headers, "if-match")?.map(|text| text.trim_matches('"').parse().map_err(wrong)).transpose()
+}
+
+/// A short sum of a request, to tell it from others.
+fn sum(path: &str, body: &[u8]) -> String {
+    use std::hash::Hasher as _;
+
+    use siphasher::sip128::{Hasher128 as _, SipHasher24};
+    let mut hasher = SipHasher24::new();
+    hasher.write(path.as_bytes());
+    hasher.write_u8(0);
+    hasher.write(body);
+    let hash = hasher.finish128();
+    format!("{:016x}{:016x}", hash.h1, hash.h2)
+}
+
+/// Reads the JSON of a request. No body at all is the empty object.
+pub(crate) fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, Error> {
+    let body = if body.is_empty() { b"{}".as_slice() } else { body };
+    serde_json::from_slice(body).map_err(|error| Error::BadRequest { rule: error.to_string() })
+}

@@ -1,0 +1,336 @@
+//! The store: days and their events in `SQLite` or `PostgreSQL`, through one set of statements.
+//!
+//! Events are rows that are only ever added. Each has a sum over itself and the row before, so that a row that is
+//! missing, changed or torn is found when a day is read.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use sqlx::any::{AnyPoolOptions, AnyRow, install_default_drivers};
+use sqlx::{AnyPool, Executor as _, QueryBuilder, Row as _, query, query_scalar};
+
+use crate::error::Error;
+
+/// The version of the tables. A store of a newer version is refused.
+const VERSION: &str = "1";
+
+/// The statements that make the tables.
+const TABLES: [&str; 4] = [
+    "CREATE TABLE IF NOT EXISTS meta (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS days (
+        id TEXT PRIMARY KEY, name TEXT NOT NULL, created_ms BIGINT NOT NULL, archived BIGINT NOT NULL,
+        policy TEXT NOT NULL, scenario TEXT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS events (
+        day TEXT NOT NULL, seq BIGINT NOT NULL, at_ms BIGINT NOT NULL, actor TEXT NOT NULL,
+        body TEXT NOT NULL, notices TEXT NOT NULL, chain BIGINT NOT NULL, PRIMARY KEY (day, seq))",
+    "CREATE TABLE IF NOT EXISTS answers (
+        idempotency_key TEXT PRIMARY KEY, request TEXT NOT NULL, answer TEXT NOT NULL,
+        at_ms BIGINT NOT NULL)",
+];
+
+/// Where the data lies.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Location {
+    /// An `SQLite` database in a folder, which is made if it is not there.
+    Folder(PathBuf),
+    /// A `PostgreSQL` database.
+    Postgres(String),
+}
+
+/// The open store.
+#[derive(Debug, Clone)]
+pub(crate) struct Store {
+    pool: AnyPool,
+}
+
+/// A day as it is stored, without its scenario.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct StoredDay {
+    /// Its id.
+    pub(crate) id: String,
+    /// The name of its scenario.
+    pub(crate) name: String,
+    /// When it was made, milliseconds of the Unix clock.
+    pub(crate) created_ms: i64,
+    /// Whether it is closed to writes.
+    pub(crate) archived: bool,
+    /// The policy that decides when none is asked for.
+    pub(crate) policy: String,
+}
+
+/// An event as it is stored.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct StoredEvent {
+    /// Its number on its day, from 1.
+    pub(crate) seq: u64,
+    /// When it was taken, milliseconds of the Unix clock.
+    pub(crate) at_ms: i64,
+    /// Who sent it.
+    pub(crate) actor: String,
+    /// The event as JSON.
+    pub(crate) body: String,
+    /// What people should look at, as a JSON list of texts.
+    pub(crate) notices: String,
+    /// The sum over the event and those before.
+    pub(crate) chain: u32,
+}
+
+/// An answer that is given again when a request comes again with its key.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct StoredAnswer {
+    /// The key.
+    pub(crate) key: String,
+    /// The request, shortened to a sum.
+    pub(crate) request: String,
+    /// The answer as JSON.
+    pub(crate) answer: String,
+}
+
+impl StoredEvent {
+    /// The sum of an event after one with the sum `before`.
+    pub(crate) fn chain_after(&self, before: u32) -> u32 {
+        let mut sum = crc32c::crc32c_append(before, &self.seq.to_le_bytes());
+        sum = crc32c::crc32c_append(sum, &self.at_ms.to_le_bytes());
+        for text in [&self.actor, &self.body, &self.notices] {
+            sum = crc32c::crc32c_append(sum, &(text.len() as u64).to_le_bytes());
+            sum = crc32c::crc32c_append(sum, text.as_bytes());
+        }
+        sum
+    }
+}
+
+/// The settings of each connection to `SQLite`: a log that readers do not wait for, written to the disk before a commit
+/// is answered.
+const SQLITE: &str =
+    "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA busy_timeout = 5000;
+    PRAGMA foreign_keys = ON";
+
+impl Store {
+    /// Opens a store, and makes its tables if there are none.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if the database cannot be reached, and [`Error::BadData`] if a newer program wrote it.
+    pub(crate) async fn open(location: &Location) -> Result<Self, Error> {
+        install_default_drivers();
+        let mut options = AnyPoolOptions::new().max_connections(8);
+        let url = match location {
+            Location::Folder(folder) => {
+                std::fs::create_dir_all(folder).map_err(|cause| Error::Store {
+                    cause: format!("{}: {cause}", folder.display()),
+                })?;
+                options = options.after_connect(|connection, _| {
+                    Box::pin(async move { connection.execute(SQLITE).await.map(drop) })
+                });
+                sqlite_url(&folder.join("vertifleet.db"))
+            }
+            Location::Postgres(url) => url.clone(),
+        };
+        let store = Self { pool: options.connect(&url).await? };
+        for statement in TABLES {
+            store.pool.execute(statement).await?;
+        }
+        store.check_version().await?;
+        Ok(store)
+    }
+
+    async fn check_version(&self) -> Result<(), Error> {
+        query(
+            "INSERT INTO meta (name, value) VALUES ('version', $1) ON CONFLICT (name) DO NOTHING",
+        )
+        .bind(VERSION)
+        .execute(&self.pool)
+        .await?;
+        let found: String = query_scalar("SELECT value FROM meta WHERE name = 'version'")
+            .fetch_one(&self.pool)
+            .await?;
+        if found != VERSION {
+            let rule =
+                format!("it is of version {found:?}, and this program reads version {VERSION:?}");
+            return Err(Error::BadData { rule });
+        }
+        Ok(())
+    }
+
+    /// Adds a day.
+    pub(crate) async fn add_day(
+        &self,
+        day: &StoredDay,
+        scenario: &str,
+        answer: Option<&StoredAnswer>,
+    ) -> Result<(), Error> {
+        let mut transaction = self.pool.begin().await?;
+        query(
+            "INSERT INTO days (id, name, created_ms, archived, policy, scenario)
+             VALUES ($1, $2, $3, $4, $5, $6)",
+        )
+        .bind(&day.id)
+        .bind(&day.name)
+        .bind(day.created_ms)
+        .bind(i64::from(day.archived))
+        .bind(&day.policy)
+        .bind(scenario)
+        .execute(&mut *transaction)
+        .await?;
+        if let Some(answer) = answer {
+            insert_answers(&mut transaction, &[answer], day.created_ms).await?;
+        }
+        Ok(transaction.commit().await?)
+    }
+
+    /// The days after `after`, in the order of their ids.
+    pub(crate) async fn days(&self, after: &str, limit: u32) -> Result<Vec<StoredDay>, Error> {
+        let rows = query(
+            "SELECT id, name, created_ms, archived, policy FROM days WHERE id > $1
+             ORDER BY id LIMIT $2",
+        )
+        .bind(after)
+        .bind(i64::from(limit))
+        .fetch_all(&self.pool)
+        .await?;
+        rows.iter().map(stored_day).collect()
+    }
+
+    /// A day and its scenario.
+    pub(crate) async fn day(&self, id: &str) -> Result<Option<(StoredDay, String)>, Error> {
+        let row = query(
+            "SELECT id, name, created_ms, archived, policy, scenario FROM days WHERE id = $1",
+        )
+        .bind(id)
+        .fetch_optional(&self.pool)
+        .await?;
+        row.map(|row| Ok((stored_day(&row)?, row.try_get("scenario")?))).transpose()
+    }
+
+    /// Closes a day to writes.
+    pub(crate) async fn archive(&self, id: &str) -> Result<(), Error> {
+        query("UPDATE days SET archived = 1 WHERE id = $1").bind(id).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Removes a day with its events.
+    pub(crate) async fn delete(&self, id: &str) -> Result<(), Error> {
+        let mut transaction = self.pool.begin().await?;
+        query("DELETE FROM events WHERE day = $1").bind(id).execute(&mut *transaction).await?;
+        query("DELETE FROM days WHERE id = $1").bind(id).execute(&mut *transaction).await?;
+        Ok(transaction.commit().await?)
+    }
+
+    /// The events of a day after number `after`, at most `limit`.
+    pub(crate) async fn events(
+        &self,
+        day: &str,
+        after: u64,
+        limit: u32,
+    ) -> Result<Vec<StoredEvent>, Error> {
+        let rows = query(
+            "SELECT seq, at_ms, actor, body, notices, chain FROM events
+             WHERE day = $1 AND seq > $2 ORDER BY seq LIMIT $3",
+        )
+        .bind(day)
+        .bind(as_i64(after))
+        .bind(i64::from(limit))
+        .fetch_all(&self.pool)
+        .await?;
+        rows.iter().map(stored_event).collect()
+    }
+
+    /// Adds events of several days, all or none.
+    pub(crate) async fn append(
+        &self,
+        events: &[(&str, &StoredEvent)],
+        answers: &[&StoredAnswer],
+    ) -> Result<(), Error> {
+        let mut transaction = self.pool.begin().await?;
+        // A statement has at most 32,766 parameters in SQLite.
+        for events in events.chunks(4_000) {
+            let mut insert = QueryBuilder::new(
+                "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain) ",
+            );
+            insert.push_values(events, |mut row, (day, event)| {
+                row.push_bind(*day)
+                    .push_bind(as_i64(event.seq))
+                    .push_bind(event.at_ms)
+                    .push_bind(&event.actor)
+                    .push_bind(&event.body)
+                    .push_bind(&event.notices)
+                    .push_bind(i64::from(event.chain));
+            });
+            insert.build().execute(&mut *transaction).await?;
+        }
+        let at_ms = events.first().map_or(0, |(_, event)| event.at_ms);
+        insert_answers(&mut transaction, answers, at_ms).await?;
+        Ok(transaction.commit().await?)
+    }
+
+    /// The answer that was given to a request with this key.
+    pub(crate) async fn answer(&self, key: &str) -> Result<Option<StoredAnswer>, Error> {
+        let row = query("SELECT request, answer FROM answers WHERE idempotency_key = $1")
+            .bind(key)
+            .fetch_optional(&self.pool)
+            .await?;
+        let answer = |row: AnyRow| {
+            Ok(StoredAnswer {
+                key: key.to_owned(),
+                request: row.try_get("request")?,
+                answer: row.try_get("answer")?,
+            })
+        };
+        row.map(answer).transpose()
+    }
+
+    /// Asks the store for a sign of life.
+    pub(crate) async fn check(&self) -> Result<(), Error> {
+        query("SELECT 1").execute(&self.pool).await?;
+        Ok(())
+    }
+}
+
+async fn insert_answers(
+    transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
+    answers: &[&StoredAnswer],
+    at_ms: i64,
+) -> Result<(), Error> {
+    for answers in answers.chunks(4_000) {
+        let mut insert =
+            QueryBuilder::new("INSERT INTO answers (idempotency_key, request, answer, at_ms) ");
+        insert.push_values(answers, |mut row, answer| {
+            row.push_bind(&answer.key)
+                .push_bind(&answer.request)
+                .push_bind(&answer.answer)
+                .push_bind(at_ms);
+        });
+        insert.build().execute(&mut **transaction).await?;
+    }
+    Ok(())
+}
+
+fn sqlite_url(path: &Path) -> String {
+    format!("sqlite://{}?mode=rwc", path.display())
+}
+
+fn as_i64(seq: u64) -> i64 {
+    i64::try_from(seq).unwrap_or(i64::MAX)
+}
+
+fn stored_day(row: &AnyRow) -> Result<StoredDay, Error> {
+    Ok(StoredDay {
+        id: row.try_get("id")?,
+        name: row.try_get("name")?,
+        created_ms: row.try_get("created_ms")?,
+        archived: row.try_get::<i64, _>("archived")? != 0,
+        policy: row.try_get("policy")?,
+    })
+}
+
+fn stored_event(row: &AnyRow) -> Result<StoredEvent, Error> {
+    let number = |name: &str| -> Result<i64, Error> { Ok(row.try_get(name)?) };
+    let bad = |name: &str| Error::BadData { rule: format!("an event with an impossible {name}") };
+    Ok(StoredEvent {
+        seq: u64::try_from(number("seq")?).map_err(|_| bad("number"))?,
+        at_ms: number("at_ms")?,
+        actor: row.try_get("actor")?,
+        body: row.try_get("body")?,
+        notices: row.try_get("notices")?,
+        chain: u32::try_from(number("chain")?).map_err(|_| bad("sum"))?,
+    })
+}

@@ -1,0 +1,353 @@
+//! A day that happens. The simulator takes what is reported, instead of what it expects.
+//!
+//! What has not been reported yet is expected as the simulator would have it, by the same code: an aircraft that was
+//! sent off departs at once, lands after the flight's time and is ready when it is charged. If reports say just that,
+//! the live day is the simulated day, to the cent. Reports are taken one after the other ([`LiveDay::take`]), so a day
+//! is a function of its scenario and its reports.
+
+mod report;
+mod reporter;
+mod take;
+
+use std::sync::Arc;
+
+use vertifleet_core::{AircraftIx, Closure, Route, Scenario, Time, VertiportIx};
+
+use crate::{DayTotals, Decision, Imagined, Refusal, Simulation, Trace, TraceRow, View};
+
+pub use report::{Booking, Notice, Report, Routes, Unfit};
+pub use reporter::Reporter;
+
+/// A day that happens.
+#[derive(Debug, Clone)]
+pub struct LiveDay {
+    /// Everything that is known. Its queue holds the time at which each aircraft is expected to be ready, which may lie
+    /// before now if the aircraft has not decided.
+    known: Simulation,
+    /// The latest time of a report, or the start of operations.
+    now: Time,
+    aircraft: Vec<LiveAircraft>,
+    /// Every decision, in order; those that were undone are marked.
+    decisions: Vec<LiveDecision>,
+    /// Passengers who have been taken on board, in the layout of the demand.
+    boarded: Vec<u32>,
+    /// Closures whose end is known, those of the scenario among them, each one way.
+    closures: Vec<Closure>,
+    /// Whether the account and the demand of the whole day have to be added up again.
+    is_stale: bool,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct LiveAircraft {
+    phase: Phase,
+    /// The time at which it is charged, whether or not it is in service then.
+    charged: Time,
+    /// Since when it cannot fly: until a time, or until it is reported back.
+    out: Option<OutOfService>,
+    /// Its latest decision, if it can be undone.
+    undoable: Option<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum OutOfService {
+    Until(Time),
+    UntilReported,
+}
+
+/// Where an aircraft is in its round of deciding, flying and charging.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// It stands at its vertiport and charges, is ready or holds.
+    Standing,
+    /// It has been sent off and has not departed.
+    SentOff {
+        /// The position of its flight among the day's decisions.
+        flight: usize,
+        /// When it is expected to depart.
+        departs: Time,
+    },
+    /// It is in the air.
+    InTheAir {
+        /// The position of its flight among the day's decisions.
+        flight: usize,
+    },
+}
+
+/// A decision with what it takes to undo it.
+#[derive(Debug, Clone)]
+struct LiveDecision {
+    row: TraceRow,
+    period: usize,
+    before: Before,
+    is_undone: bool,
+}
+
+/// An aircraft before a decision: when it was charged, when it had landed, and whether it waited beside the chargers.
+#[derive(Debug, Clone, Copy)]
+struct Before {
+    charged: Time,
+    arrival: Time,
+    waited: bool,
+}
+
+/// An aircraft as far as it is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AircraftNow {
+    /// The aircraft.
+    pub aircraft: AircraftIx,
+    /// What it does.
+    pub phase: Phase,
+    /// The vertiport where it stands or will land.
+    pub place: VertiportIx,
+    /// When it landed there or is expected to land.
+    pub arrival: Time,
+    /// When it is expected to be ready; after the end of operations if it is out of service until further notice.
+    pub ready: Time,
+    /// Whether it is out of service.
+    pub is_out: bool,
+}
+
+/// A closure as one for each direction that it closes.
+fn one_way(closure: &Closure) -> impl Iterator<Item = Closure> + use<> {
+    let Closure { route: Route { from, to, both_ways }, .. } = *closure;
+    let one = |(from, to)| Closure { route: Route { from, to, both_ways: false }, ..*closure };
+    [Some(one((from, to))), both_ways.then(|| one((to, from)))].into_iter().flatten()
+}
+
+impl LiveDay {
+    /// A day before its first report. Of the scenario it takes what is expected: the forecast where the demand differs
+    /// from it, and closures that are known; what else disturbs the day has to be reported.
+    pub fn new(scenario: Arc<Scenario>) -> Self {
+        let scenario =
+            if scenario.disturbances.is_none() { scenario } else { Arc::new(scenario.expected()) };
+        let known = Simulation::new(Arc::clone(&scenario));
+        let start = scenario.operations.start;
+        let standing =
+            LiveAircraft { phase: Phase::Standing, charged: start, out: None, undoable: None };
+        Self {
+            now: start,
+            aircraft: vec![standing; scenario.aircraft.len()],
+            decisions: Vec::new(),
+            boarded: vec![0; known.demand.all().len()],
+            closures: scenario.disturbances.closures.iter().flat_map(one_way).collect(),
+            is_stale: false,
+            known: known.without_surprises(),
+        }
+    }
+
+    /// The scenario as it is expected.
+    pub fn scenario(&self) -> &Arc<Scenario> {
+        &self.known.scenario
+    }
+
+    /// The latest time of a report, or the start of operations.
+    pub fn now(&self) -> Time {
+        self.now
+    }
+
+    /// Every aircraft.
+    pub fn aircraft(&self) -> impl Iterator<Item = AircraftNow> + '_ {
+        AircraftIx::all(self.aircraft.len()).map(|aircraft| self.aircraft_now(aircraft))
+    }
+
+    /// An aircraft.
+    ///
+    /// # Panics
+    /// Panics if the day has no such aircraft.
+    pub fn aircraft_now(&self, aircraft: AircraftIx) -> AircraftNow {
+        let state = &self.aircraft[aircraft.at()];
+        AircraftNow {
+            aircraft,
+            phase: state.phase,
+            place: self.known.place[aircraft.at()],
+            arrival: self.known.arrival[aircraft.at()],
+            ready: self.known.queue.ready_at(aircraft),
+            is_out: Self::is_out(*state, self.now),
+        }
+    }
+
+    fn is_out(aircraft: LiveAircraft, time: Time) -> bool {
+        match aircraft.out {
+            None => false,
+            Some(OutOfService::Until(until)) => time < until,
+            Some(OutOfService::UntilReported) => true,
+        }
+    }
+
+    /// The decision of an aircraft at a time, or now if that is later.
+    ///
+    /// # Errors
+    /// Returns an [`Unfit`] if the aircraft is not ready then, or if no decisions are taken any more.
+    pub fn decision(&self, aircraft: AircraftIx, time: Time) -> Result<Decision, Unfit> {
+        let id = self.scenario().aircraft.get(aircraft.at()).ok_or(Unfit::Unknown("aircraft"))?;
+        let time = time.max(self.now);
+        let end = self.scenario().operations.end;
+        if time > end {
+            return Err(Unfit::Over { end });
+        }
+        let state = &self.aircraft[aircraft.at()];
+        let ready = self.known.queue.ready_at(aircraft);
+        if state.phase != Phase::Standing || ready > time {
+            return Err(Unfit::NotReady { aircraft: id.id.clone(), ready, time });
+        }
+        let index = u32::try_from(self.decisions.len()).unwrap_or(u32::MAX);
+        Ok(Decision { time, aircraft, at: self.known.place[aircraft.at()], index })
+    }
+
+    /// The day as a policy sees it at a [decision](Self::decision). It is written into `room`, which keeps its memory
+    /// from one decision to the next.
+    pub fn view_at<'room>(
+        &mut self,
+        decision: &Decision,
+        room: &'room mut Option<Simulation>,
+    ) -> View<'room> {
+        self.add_up();
+        if let Some(room) = room {
+            room.clone_from(&self.known);
+        }
+        let day = room.get_or_insert_with(|| self.known.clone());
+        self.expect_from(day, decision.time, Some(decision.aircraft));
+        day.view()
+    }
+
+    /// Why the aircraft of a decision cannot fly to a vertiport; `None` if it can.
+    pub fn refusal(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> Option<Refusal> {
+        let is_feasible = view.feasible(decision).contains(to);
+        (!is_feasible).then(|| self.known.refusal(decision, to))
+    }
+
+    /// The rest of the day as it is expected now, to be played out.
+    pub fn rest(&mut self) -> Imagined {
+        self.add_up();
+        let mut day = self.known.clone();
+        self.expect_from(&mut day, self.now, None);
+        Imagined::of_expected(day)
+    }
+
+    /// Lets a copy of what is known go on from a time: nothing that has not happened yet happens earlier. If an aircraft
+    /// decides then, it is the first.
+    fn expect_from(&self, day: &mut Simulation, time: Time, first: Option<AircraftIx>) {
+        day.advance_to(time);
+        for aircraft in AircraftIx::all(self.aircraft.len()) {
+            let state = &self.aircraft[aircraft.at()];
+            let known = self.known.queue.ready_at(aircraft);
+            let ready = match state.phase {
+                Phase::Standing if Some(aircraft) == first => time,
+                Phase::Standing => {
+                    let waits_for_first = first.is_some_and(|first| aircraft < first);
+                    known.max(time + u32::from(waits_for_first))
+                }
+                Phase::SentOff { departs, .. } => {
+                    self.late(day, aircraft, time.since(departs), known)
+                }
+                Phase::InTheAir { .. } => {
+                    let late_s = time.since(self.known.arrival[aircraft.at()]);
+                    self.late(day, aircraft, late_s, known)
+                }
+            };
+            if ready != known || Some(aircraft) == first {
+                day.queue.set(aircraft, ready);
+            }
+        }
+    }
+
+    /// Lets an aircraft land later than it is known to; returns when it is ready.
+    fn late(&self, day: &mut Simulation, aircraft: AircraftIx, late_s: u32, known: Time) -> Time {
+        if late_s == 0 {
+            return known;
+        }
+        let state = &self.aircraft[aircraft.at()];
+        day.arrival[aircraft.at()] = self.known.arrival[aircraft.at()] + late_s;
+        self.in_service(state, state.charged + late_s)
+    }
+
+    /// The time at which an aircraft is ready that is charged at a time.
+    fn in_service(&self, aircraft: &LiveAircraft, charged: Time) -> Time {
+        match aircraft.out {
+            None => charged,
+            Some(OutOfService::Until(until)) => charged.max(until),
+            Some(OutOfService::UntilReported) => charged.max(self.scenario().operations.end + 1),
+        }
+    }
+
+    /// Adds the account and the demand of the whole day up, if a report has changed what was in them.
+    fn add_up(&mut self) {
+        if !std::mem::take(&mut self.is_stale) {
+            return;
+        }
+        let scenario = Arc::clone(&self.known.scenario);
+        let mut ledger = crate::Ledger::at_start(&scenario);
+        for LiveDecision { row, .. } in self.decisions.iter().filter(|one| !one.is_undone) {
+            if row.from == row.to {
+                ledger.holds += 1;
+                continue;
+            }
+            let kind = scenario.aircraft[row.aircraft.at()].kind;
+            let seats = scenario.aircraft_types[kind.at()].seats;
+            ledger.enter_flight(row, scenario.distance_mi[(row.from, row.to)], seats);
+        }
+        self.known.ledger = ledger;
+        self.known.demand.set_total(&self.boarded);
+        let pairs = scenario.vertiports.len().pow(2);
+        let left = self.known.demand.all();
+        let of_period = |(period, (left, boarded)): (usize, (&[u32], &[u32]))| {
+            let fares = scenario.fare_usd.in_period(period).cells();
+            let wanted = left.iter().zip(boarded).map(|(left, boarded)| f64::from(left + boarded));
+            wanted.zip(fares).map(|(wanted, &fare)| wanted * fare).collect::<Vec<f64>>()
+        };
+        let periods = left.chunks_exact(pairs).zip(self.boarded.chunks_exact(pairs)).enumerate();
+        self.known.potential_usd = periods.flat_map(of_period).sum();
+    }
+
+    /// The day's numbers so far.
+    pub fn totals(&mut self) -> DayTotals {
+        self.add_up();
+        self.known.totals()
+    }
+
+    /// The day as it is known, with the account so far; the time of its view is the latest report's.
+    pub fn view(&mut self) -> View<'_> {
+        self.add_up();
+        self.known.view()
+    }
+
+    /// The decisions so far that were not undone, with what came of them or is expected to.
+    pub fn trace(&self) -> Trace {
+        let kept = self.decisions.iter().filter(|decision| !decision.is_undone);
+        Trace { rows: kept.map(|decision| decision.row).collect() }
+    }
+
+    /// The latest decision of an aircraft that was not undone.
+    pub fn latest(&self, aircraft: AircraftIx) -> Option<&TraceRow> {
+        let of_it = |one: &&LiveDecision| one.row.aircraft == aircraft && !one.is_undone;
+        self.decisions.iter().rev().find(of_it).map(|decision| &decision.row)
+    }
+
+    /// Passengers who have been taken on board in a period, `[from][to]` row by row.
+    pub fn boarded_in(&self, period: usize) -> &[u32] {
+        let pairs = self.scenario().vertiports.len().pow(2);
+        &self.boarded[period * pairs..][..pairs]
+    }
+
+    /// Vertiports that have more aircraft than stands.
+    pub fn notices(&self) -> impl Iterator<Item = Notice> + '_ {
+        VertiportIx::all(self.scenario().vertiports.len())
+            .filter_map(|vertiport| self.more_than_stands(vertiport))
+    }
+
+    fn more_than_stands(&self, vertiport: VertiportIx) -> Option<Notice> {
+        let stands = &self.known.stands;
+        let ((mut taken, mut limit), parked) = (
+            (stands.taken()[vertiport.at()], stands.limit()[vertiport.at()]),
+            stands.parked(vertiport),
+        );
+        if taken <= limit && parked.0 > parked.1 {
+            (taken, limit) = parked;
+        }
+        (taken > limit).then(|| Notice::MoreThanStands {
+            vertiport: self.scenario().vertiports[vertiport.at()].id.clone(),
+            taken,
+            stands: limit,
+        })
+    }
+}

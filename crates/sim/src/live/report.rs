@@ -1,0 +1,275 @@
+//! What is reported of a day that happens, and why a report is refused.
+
+use vertifleet_core::{AircraftIx, Time, VertiportIx};
+
+use crate::Refusal;
+
+/// Something that happened, was decided or became known.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Report {
+    /// An aircraft that is ready is to fly to a vertiport; its own means hold. It must be feasible.
+    Decided {
+        /// The aircraft.
+        aircraft: AircraftIx,
+        /// The vertiport.
+        to: VertiportIx,
+    },
+    /// The latest decision of an aircraft is taken back. The aircraft must not have departed.
+    Undone {
+        /// The aircraft.
+        aircraft: AircraftIx,
+    },
+    /// An aircraft has left its stand.
+    Departed {
+        /// The aircraft.
+        aircraft: AircraftIx,
+        /// The vertiport that it flies to, if that is not what was decided.
+        to: Option<VertiportIx>,
+        /// Passengers on board, if not as many as expected.
+        passengers: Option<u16>,
+    },
+    /// An aircraft is on the ground.
+    Landed {
+        /// The aircraft.
+        aircraft: AircraftIx,
+        /// The vertiport where it is, if that is not the one that it was flying to.
+        at: Option<VertiportIx>,
+    },
+    /// An aircraft on the ground is expected to be charged at a time.
+    Charging {
+        /// The aircraft.
+        aircraft: AircraftIx,
+        /// That time.
+        ready: Time,
+    },
+    /// An aircraft is charged.
+    Ready {
+        /// The aircraft.
+        aircraft: AircraftIx,
+    },
+    /// What an aircraft does next is expected at another time: its departure if it has been sent off, its landing if it
+    /// is in the air, the end of charging if it stands.
+    Delayed {
+        /// The aircraft.
+        aircraft: AircraftIx,
+        /// That time.
+        until: Time,
+    },
+    /// An aircraft cannot fly again before a time, or until it is back in service. If it is in the air, it still lands.
+    OutOfService {
+        /// The aircraft.
+        aircraft: AircraftIx,
+        /// That time, if it is known.
+        until: Option<Time>,
+    },
+    /// An aircraft can fly again.
+    BackInService {
+        /// The aircraft.
+        aircraft: AircraftIx,
+    },
+    /// Routes are closed to new flights until a time, or until they are reported open.
+    Closed {
+        /// The routes.
+        routes: Routes,
+        /// First instant at which they are open again, if it is known.
+        until: Option<Time>,
+    },
+    /// Routes are open again.
+    Reopened {
+        /// The routes.
+        routes: Routes,
+    },
+    /// This many passengers still want to fly in a period, actual or forecast.
+    Demand {
+        /// Position of the period.
+        period: usize,
+        /// From, to, and passengers, of the pairs that change.
+        pairs: Vec<(VertiportIx, VertiportIx, u32)>,
+    },
+    /// More passengers want to fly.
+    Booked {
+        /// The seats.
+        booking: Booking,
+    },
+    /// Passengers do not want to fly any more.
+    Cancelled {
+        /// The seats.
+        booking: Booking,
+    },
+    /// A vertiport has another number of stands, or of chargers where they are counted apart.
+    Stands {
+        /// The vertiport.
+        vertiport: VertiportIx,
+        /// The number.
+        stands: u16,
+    },
+}
+
+/// Seats of a period from one vertiport to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Booking {
+    /// Position of the period.
+    pub period: usize,
+    /// Where the passengers are.
+    pub from: VertiportIx,
+    /// Where they want to go.
+    pub to: VertiportIx,
+    /// Their number.
+    pub passengers: u32,
+}
+
+/// Routes that close and open together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Routes {
+    /// From one vertiport to another.
+    Way {
+        /// Vertiport that flights leave.
+        from: VertiportIx,
+        /// Vertiport that flights fly to.
+        to: VertiportIx,
+    },
+    /// All routes that lead to a vertiport or away from it.
+    Of(VertiportIx),
+}
+
+impl Routes {
+    /// The pairs of these routes on a day with this many vertiports.
+    pub(super) fn pairs(self, vertiports: usize) -> Vec<(VertiportIx, VertiportIx)> {
+        match self {
+            Self::Way { from, to } => vec![(from, to)],
+            Self::Of(vertiport) => VertiportIx::all(vertiports)
+                .filter(|&other| other != vertiport)
+                .flat_map(|other| [(vertiport, other), (other, vertiport)])
+                .collect(),
+        }
+    }
+}
+
+/// Something about a report that people should look at. The report was taken in.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Notice {
+    /// A vertiport has more aircraft than stands.
+    #[error(
+        "vertiport {vertiport:?} has {taken} aircraft on its {stands} stands or on their way there"
+    )]
+    MoreThanStands {
+        /// The vertiport.
+        vertiport: String,
+        /// Number of aircraft that stand there or are on their way.
+        taken: u16,
+        /// Number of stands, or of chargers where they are counted apart.
+        stands: u16,
+    },
+    /// An aircraft left for a vertiport that no decision could have sent it to.
+    #[error("{0}; it has departed all the same")]
+    AgainstTheRules(Refusal),
+    /// An aircraft landed somewhere else.
+    #[error("aircraft {aircraft:?} landed at {at:?} instead of {to:?}")]
+    Diverted {
+        /// The aircraft.
+        aircraft: String,
+        /// Where it landed.
+        at: String,
+        /// Where it was flying to.
+        to: String,
+    },
+    /// An aircraft is somewhere else without having flown there.
+    #[error("aircraft {aircraft:?} is at {at:?} although no flight to it was reported")]
+    NotFlown {
+        /// The aircraft.
+        aircraft: String,
+        /// Where it is.
+        at: String,
+    },
+}
+
+/// The reason why a report is refused. Nothing has changed then.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Unfit {
+    /// The decision breaks a rule.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The aircraft cannot decide now.
+    #[error("aircraft {aircraft:?} is not ready before {ready}; the decision is for {time}")]
+    NotReady {
+        /// The aircraft.
+        aircraft: String,
+        /// When it is expected to be ready.
+        ready: Time,
+        /// The time of the decision.
+        time: Time,
+    },
+    /// The decision lies before what has been reported.
+    #[error("a decision for {time} comes too late: the day is at {now}")]
+    Past {
+        /// The time of the decision.
+        time: Time,
+        /// The latest time that was reported.
+        now: Time,
+    },
+    /// No decisions are taken so late.
+    #[error("no decision is taken after {end}, the end of operations")]
+    Over {
+        /// The end of operations.
+        end: Time,
+    },
+    /// The report does not go together with where the aircraft is.
+    #[error("aircraft {aircraft:?} {is}, so it cannot {report}")]
+    WrongPlace {
+        /// The aircraft.
+        aircraft: String,
+        /// What it does.
+        is: &'static str,
+        /// What is reported.
+        report: &'static str,
+    },
+    /// The aircraft has decided nothing that could be undone.
+    #[error(
+        "aircraft {aircraft:?} has no decision that can be undone: it has departed, or something else was reported since"
+    )]
+    NothingToUndo {
+        /// The aircraft.
+        aircraft: String,
+    },
+    /// The aircraft has not been out of service.
+    #[error("aircraft {aircraft:?} is in service")]
+    InService {
+        /// The aircraft.
+        aircraft: String,
+    },
+    /// More passengers than an aircraft has seats.
+    #[error("{passengers} passengers do not fit on the {seats} seats of aircraft {aircraft:?}")]
+    NoSeats {
+        /// The aircraft.
+        aircraft: String,
+        /// The passengers.
+        passengers: u16,
+        /// The seats.
+        seats: u16,
+    },
+    /// The period is over.
+    #[error("the period from {start} on is over: the day is at {now}")]
+    PeriodOver {
+        /// The start of the period.
+        start: Time,
+        /// The latest time that was reported.
+        now: Time,
+    },
+    /// More passengers than there are.
+    #[error("{cancelled} passengers cannot be cancelled: {left} want to fly")]
+    NotSoMany {
+        /// Passengers to be cancelled.
+        cancelled: u32,
+        /// Passengers who want to fly.
+        left: u32,
+    },
+    /// More passengers than can be counted.
+    #[error("at most {most} passengers of a pair can wait in a period")]
+    TooMany {
+        /// The limit.
+        most: u32,
+    },
+    /// A period, an aircraft or a vertiport that the day does not have, or a route from a vertiport to itself.
+    #[error("the day has no such {0}")]
+    Unknown(&'static str),
+}

@@ -1,0 +1,169 @@
+//! A simulated day, told as a live day would hear of it: report by report, each when it becomes known.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::sync::Arc;
+
+use vertifleet_core::{AircraftIx, Matrix, Scenario, Time, VertiportIx};
+
+use super::report::{Report, Routes};
+use crate::{DayTotals, Decision, Refusal, Simulation};
+
+/// Plays a day that is known, and reports what happens on it.
+///
+/// A live day that is told these reports, each before any decision that is later, sees at every decision what a policy
+/// sees in the simulation.
+#[derive(Debug)]
+pub struct Reporter {
+    day: Simulation,
+    /// What will be reported, with its time; of several with one time, the first entered comes first.
+    later: BinaryHeap<Reverse<(Time, u64, usize)>>,
+    reports: Vec<Option<Report>>,
+    entered: u64,
+    /// The latest end of outage that was reported of each aircraft.
+    out_until: Vec<Time>,
+}
+
+impl Reporter {
+    /// A day before its first decision.
+    pub fn new(scenario: &Arc<Scenario>) -> Self {
+        let fleet = scenario.aircraft.len();
+        let mut reporter = Self {
+            day: Simulation::new(Arc::clone(scenario)),
+            later: BinaryHeap::new(),
+            reports: Vec::new(),
+            entered: 0,
+            out_until: vec![Time::default(); fleet],
+        };
+        if let Some(forecast) = &scenario.disturbances.forecast {
+            for (period, (actual, forecast)) in scenario.demand.iter().zip(forecast).enumerate() {
+                let pairs = changed_pairs(actual, forecast);
+                if !pairs.is_empty() {
+                    let begins = scenario.periods[period].max(scenario.operations.start);
+                    reporter.report(begins, Report::Demand { period, pairs });
+                }
+            }
+        }
+        let mut changes: Vec<(Time, bool, VertiportIx, VertiportIx)> = Vec::new();
+        for closure in scenario.disturbances.closures.iter().filter(|closure| !closure.known) {
+            let route = closure.route;
+            let back = route.both_ways.then_some((route.to, route.from));
+            for (from, to) in [(route.from, route.to)].into_iter().chain(back) {
+                changes.push((closure.start, true, from, to));
+                changes.push((closure.end, false, from, to));
+            }
+        }
+        changes.sort_by_key(|&(time, closes, ..)| (time, !closes));
+        reporter.report_closures(&changes);
+        reporter
+    }
+
+    /// Closures may overlap, so a route is open again when the last of them ends. If that is one that was known, its end
+    /// is reported again.
+    fn report_closures(&mut self, changes: &[(Time, bool, VertiportIx, VertiportIx)]) {
+        let size = self.day.scenario().vertiports.len();
+        let mut in_force = vec![0_u32; size * size];
+        let start = self.day.scenario().operations.start;
+        for &(time, closes, from, to) in changes {
+            let in_force = &mut in_force[from.at() * size + to.at()];
+            *in_force = if closes { *in_force + 1 } else { *in_force - 1 };
+            let routes = Routes::Way { from, to };
+            let known = self.day.closures().known().spans(from, to);
+            let until = known.iter().find(|span| (span.start..span.end).contains(&time));
+            let report = match until {
+                _ if *in_force > 0 => Report::Closed { routes, until: None },
+                Some(span) => Report::Closed { routes, until: Some(span.end) },
+                None => Report::Reopened { routes },
+            };
+            self.report(time.max(start), report);
+        }
+    }
+
+    fn report(&mut self, time: Time, report: Report) {
+        self.later.push(Reverse((time, self.entered, self.reports.len())));
+        self.reports.push(Some(report));
+        self.entered += 1;
+    }
+
+    /// The next decision of the day, or `None` once it is over.
+    pub fn next_decision(&mut self) -> Option<Decision> {
+        self.day.next_decision()
+    }
+
+    /// The next report that becomes known up to a time.
+    pub fn next_report(&mut self, until: Time) -> Option<(Time, Report)> {
+        let &Reverse((time, _, at)) = self.later.peek()?;
+        if time > until {
+            return None;
+        }
+        self.later.pop();
+        let report = self.reports[at].take().expect("each report is entered once");
+        Some((time, report))
+    }
+
+    /// Carries the decision out that is taken now. What it leads to is reported when it becomes known.
+    ///
+    /// # Errors
+    /// The errors of [`Simulation::apply`].
+    pub fn apply(&mut self, choice: VertiportIx) -> Result<(), Refusal> {
+        let row = self.day.apply(choice)?;
+        if row.from != row.to {
+            let (aircraft, time) = (row.aircraft, row.time);
+            let kind = self.day.scenario().aircraft[aircraft.at()].kind;
+            let flight_s = self.day.legs().leg(kind, row.from, row.to).flight_s;
+            let late_s = row.arrival.since(time + flight_s);
+            if late_s > 0 {
+                self.report(time, Report::Delayed { aircraft, until: time + late_s });
+            }
+            let departed = Report::Departed { aircraft, to: None, passengers: None };
+            self.report(time + late_s, departed);
+            self.report(row.arrival, Report::Landed { aircraft, at: None });
+            self.report_outages(aircraft, time, row.arrival);
+        }
+        Ok(())
+    }
+
+    /// Reports the outages that keep an aircraft on the ground after a landing, each when it is known.
+    fn report_outages(&mut self, aircraft: AircraftIx, decided: Time, arrival: Time) {
+        let scenario = Arc::clone(self.day.scenario());
+        let holds = scenario
+            .disturbances
+            .outages
+            .iter()
+            .filter(|outage| outage.aircraft == aircraft)
+            .filter(|outage| (outage.start..outage.end).contains(&arrival));
+        let mut holds: Vec<_> = holds.copied().collect();
+        holds.sort_by_key(|outage| outage.start);
+        for outage in holds {
+            let until = &mut self.out_until[aircraft.at()];
+            if outage.end > *until {
+                *until = outage.end;
+                let report = Report::OutOfService { aircraft, until: Some(outage.end) };
+                self.report(outage.start.max(decided), report);
+            }
+        }
+    }
+
+    /// The day's numbers so far.
+    pub fn totals(&self) -> DayTotals {
+        self.day.totals()
+    }
+
+    /// The simulated day.
+    pub fn day(&self) -> &Simulation {
+        &self.day
+    }
+}
+
+/// The pairs whose actual demand differs from the forecast.
+fn changed_pairs(
+    actual: &Matrix<u32>,
+    forecast: &Matrix<u32>,
+) -> Vec<(VertiportIx, VertiportIx, u32)> {
+    let size = actual.size();
+    let all =
+        VertiportIx::all(size).flat_map(|from| VertiportIx::all(size).map(move |to| (from, to)));
+    all.filter(|&pair| actual[pair] != forecast[pair])
+        .map(|pair| (pair.0, pair.1, actual[pair]))
+        .collect()
+}

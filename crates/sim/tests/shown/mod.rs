@@ -1,0 +1,79 @@
+//! A view as text, with everything that it shows.
+
+use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
+use vertifleet_sim::{Decision, Imagined, View};
+
+/// Everything that a view shows at a decision, as text.
+pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
+    let mut shown = vec![format!(
+        "{decision:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        view.feasible(decision),
+        view.places(),
+        view.stands_taken(),
+        view.period(),
+        view.period_starts(),
+        view.energy_price_usd(),
+        view.energy_prices_usd(),
+        view.aircraft_types(),
+        (view.day_start(), view.day_end(), view.hold_s(), view.day_seed()),
+        view.vertiports(),
+        view.period_at(decision.time + 1800),
+        (view.day() == view.day(), view.route_changes(), view.fleet_cost_usd()),
+    )];
+    shown.push(format!("{:?}", view.known_closures()));
+    for aircraft in AircraftIx::all(view.places().len()) {
+        let kind = view.kind(aircraft);
+        let times = (view.ready_at(aircraft), view.arrives_at(aircraft));
+        let of_it = (view.aircraft_id(aircraft), times, view.aircraft_type(kind));
+        shown.push(format!("{of_it:?}"));
+    }
+    for from in VertiportIx::all(view.vertiports()) {
+        shown.push(format!("{:?} {:?}", view.stands(from), (view.parked(from), view.closed(from))));
+        shown.push(format!("{:?}", view.closed_unexpectedly(from)));
+        shown.push(format!("{:?}", view.passenger_costs_usd(from)));
+        shown.push(format!("{:?} {:?}", view.flight_costs_usd(from), view.distances_mi(from)));
+        for kind in TypeIx::all(view.aircraft_types().len()) {
+            shown.push(format!(
+                "{:?} {:?}",
+                view.legs_from(kind, from),
+                view.within_range(kind, from)
+            ));
+            for to in VertiportIx::all(view.vertiports()) {
+                let profit = view.flight_profit_usd(decision.time + 3600, kind, (from, to), 3);
+                shown.push(format!("{:?} {profit}", view.leg(kind, from, to)));
+            }
+        }
+        for period in 0..view.period_starts().len() {
+            shown.push(format!("{:?}", view.fares_usd(period, from)));
+            for to in VertiportIx::all(view.vertiports()) {
+                shown.push(format!("{}", view.demand_left(period, from, to)));
+            }
+        }
+    }
+    for period in 0..view.period_starts().len() {
+        shown.push(format!("{:?}", view.demand_left_in(period)));
+    }
+    shown.push(played_out(view));
+    // What is looked at later is what it was.
+    assert_eq!(played_out(view.snapshot().view()), shown[shown.len() - 1]);
+    shown
+}
+
+/// The rest of the day as it can be imagined, with the choices made by a fixed rule.
+fn played_out(view: View<'_>) -> String {
+    let mut fresh = view.imagined();
+    let rest = played_on(&mut fresh);
+    // It is the same when it is imagined in the memory of an earlier imagined day.
+    assert_eq!(played_on(view.imagined_in(&mut Some(fresh))), rest);
+    rest
+}
+
+fn played_on(imagined: &mut Imagined) -> String {
+    let mut rows = Vec::new();
+    while let Some(decision) = imagined.next_decision() {
+        let mask = imagined.view().feasible(&decision);
+        let choice = mask.nth(decision.index % mask.len()).expect("a rank within the mask");
+        rows.push(imagined.apply(choice).expect("a choice from the mask"));
+    }
+    format!("{rows:?} {:?}", imagined.ledger())
+}
