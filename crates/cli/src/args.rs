@@ -1,5 +1,6 @@
 //! The arguments of the command line.
 
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -9,8 +10,9 @@ use vertifleet_core::Purpose;
 use vertifleet_study::PolicySource;
 
 use crate::typed::{
-    parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_seconds, parse_seed,
-    parse_seed_of_a_run, parse_share, parse_split, parse_steps, parse_threads,
+    Speed, parse_count, parse_listen, parse_minutes, parse_model, parse_name, parse_pair,
+    parse_seconds, parse_seed, parse_seed_of_a_run, parse_share, parse_speed, parse_split,
+    parse_steps, parse_threads,
 };
 
 /// Decides where every electric air taxi of an urban fleet flies next.
@@ -44,6 +46,44 @@ pub(crate) enum Command {
     Generalise(GeneraliseArguments),
     /// Measure policies on a frozen suite of days, and verify results
     Evaluate(EvaluateArguments),
+    /// Run the dispatch service: live days over HTTP
+    Serve(ServeArguments),
+    /// Operate a day through a dispatch service, as an operator would
+    Operate(OperateArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ServeArguments {
+    /// Address to listen on; of this machine alone
+    #[arg(long, default_value = "127.0.0.1:8080", value_parser = parse_listen)]
+    pub(crate) listen: SocketAddr,
+    /// Folder of the data, made at the first start
+    #[arg(long, value_name = "DIR", default_value = "vertifleet-data")]
+    pub(crate) data: PathBuf,
+    /// PostgreSQL database to keep the data in, instead of the folder
+    #[arg(long, value_name = "URL")]
+    pub(crate) database: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct OperateArguments {
+    /// Address of the service, for example http://127.0.0.1:8080
+    pub(crate) url: String,
+    /// Network file, the name of a shipped network, random:NUMBER, or random-places:SIZE:NUMBER
+    #[arg(long, default_value = "paper")]
+    pub(crate) network: String,
+    /// Seed of the day
+    #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed)]
+    pub(crate) seed: u64,
+    /// The policy that decides
+    #[arg(long, default_value = "gcaps-x", value_parser = parse_name)]
+    pub(crate) policy: String,
+    /// Seconds of the day that pass in a second, or max
+    #[arg(long, default_value = "max", value_parser = parse_speed)]
+    pub(crate) speed: Speed,
+    /// Print the day's numbers as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

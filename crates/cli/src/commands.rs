@@ -5,8 +5,10 @@ pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod evaluate;
 pub(crate) mod generalise;
+pub(crate) mod operate;
 pub(crate) mod plan;
 pub(crate) mod scenario;
+pub(crate) mod serve;
 pub(crate) mod simulate;
 pub(crate) mod train;
 

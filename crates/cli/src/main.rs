@@ -38,6 +38,8 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
         Command::Compare(arguments) => commands::compare::run(&arguments),
         Command::Generalise(arguments) => commands::generalise::run(&arguments),
         Command::Evaluate(arguments) => commands::evaluate::run(&arguments),
+        Command::Serve(arguments) => commands::serve::run(&arguments),
+        Command::Operate(arguments) => commands::operate::run(&arguments),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Parses the values of arguments one by one. The error of a value that does not fit says what is expected.
 
+use std::net::SocketAddr;
 use std::time::Duration;
 
 use vertifleet_core::Purpose;
@@ -23,6 +24,36 @@ pub(crate) fn parse_name(text: &str) -> Result<String, String> {
     match text.trim() {
         "" => Err("expected a policy's name, found none; is there a comma too many?".to_owned()),
         name => Ok(name.to_owned()),
+    }
+}
+
+/// How fast a day is operated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Speed {
+    /// Seconds of the day in a second.
+    Times(f64),
+    /// As fast as the service answers.
+    Max,
+}
+
+/// The speed of a day.
+pub(crate) fn parse_speed(text: &str) -> Result<Speed, String> {
+    match text.parse() {
+        _ if text == "max" => Ok(Speed::Max),
+        Ok(times) if (1.0..=1e6).contains(&times) => Ok(Speed::Times(times)),
+        _ => Err("expected a number from 1 to 1000000, or max".to_owned()),
+    }
+}
+
+/// An address of this machine.
+pub(crate) fn parse_listen(text: &str) -> Result<SocketAddr, String> {
+    let address: SocketAddr =
+        text.parse().map_err(|_| "expected an address and a port, such as 127.0.0.1:8080")?;
+    if address.ip().is_loopback() {
+        Ok(address)
+    } else {
+        Err("the service has no tokens yet, so it listens on this machine alone (127.0.0.1)"
+            .to_owned())
     }
 }
 

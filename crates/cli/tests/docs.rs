@@ -22,6 +22,8 @@ const COMMANDS: &[&str] = &[
     "compare",
     "generalise",
     "evaluate",
+    "serve",
+    "operate",
 ];
 
 fn root() -> PathBuf {

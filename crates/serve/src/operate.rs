@@ -59,7 +59,7 @@ pub fn operate(
     mut watch: impl FnMut(Time),
 ) -> Result<Option<OperationReport>, Error> {
     let mut client = Client::new(operation);
-    let made: Made = client.post("/v1/days", &client.new_day(operation))?;
+    let made: Made = client.post("/v1/days", &new_day(operation))?;
     let mut reporter = Reporter::new(&operation.day);
     let begun = Instant::now();
     let start = operation.day.operations.start;
@@ -95,6 +95,13 @@ pub fn operate(
         decision_p99_ms: rank(0.99),
         sent_again: client.sent_again,
     }))
+}
+
+/// The day as it is expected, which is all that the service is told of it beforehand.
+fn new_day(operation: &Operation) -> Value {
+    let scenario: Value = serde_json::from_str(&operation.day.expected().to_json())
+        .expect("a scenario is written as JSON");
+    json!({ "scenario": scenario, "policy": operation.policy })
 }
 
 /// Waits until a time of the day has come.
@@ -138,7 +145,7 @@ impl Client {
     fn new(operation: &Operation) -> Self {
         let config = ureq::Agent::config_builder()
             .http_status_as_error(false)
-            .timeout_global(Some(Duration::from_secs(60)))
+            .timeout_global(Some(Duration::from_mins(1)))
             .build();
         let run = std::hash::BuildHasher::hash_one(&std::hash::RandomState::new(), 0_u8);
         Self {
@@ -148,12 +155,6 @@ impl Client {
             sent: 0,
             sent_again: 0,
         }
-    }
-
-    fn new_day(&self, operation: &Operation) -> Value {
-        let scenario: Value = serde_json::from_str(&operation.day.expected().to_json())
-            .expect("a scenario is written as JSON");
-        json!({ "scenario": scenario, "policy": operation.policy })
     }
 
     /// Sends everything that becomes known up to a time.

@@ -2,14 +2,22 @@
 
 use std::net::SocketAddr;
 use std::sync::Arc;
+use std::time::Duration;
 
 use tokio::net::TcpListener;
+use tokio::sync::watch;
+use vertifleet_core::Stop;
 
 use crate::api::router;
 use crate::days::Days;
 use crate::error::Error;
 use crate::service::Service;
 use crate::store::{Location, Store};
+
+/// How often the request to stop is looked for.
+const LOOK: Duration = Duration::from_millis(50);
+/// After a request to stop, requests that are being carried out have this long to end.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// How the service runs.
 #[derive(Debug, Clone)]
@@ -20,14 +28,15 @@ pub struct Settings {
     pub location: Location,
 }
 
-/// Runs the service until `stop` ends. `ready` is called with the address once it listens.
+/// Runs the service until it is asked to stop. `ready` is called with the address once it listens. Requests that are
+/// being carried out are finished first.
 ///
 /// # Errors
 /// Returns [`Error::CannotListen`] if the address cannot be used, and the errors of the store.
 pub fn serve(
     settings: &Settings,
-    ready: impl FnOnce(SocketAddr) + Send,
-    stop: impl Future<Output = ()> + Send + 'static,
+    ready: impl FnOnce(SocketAddr),
+    stop: &Stop,
 ) -> Result<(), Error> {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
@@ -39,6 +48,26 @@ pub fn serve(
         let cannot = |cause| Error::CannotListen { address: settings.listen.to_string(), cause };
         let listener = TcpListener::bind(settings.listen).await.map_err(cannot)?;
         ready(listener.local_addr().map_err(cannot)?);
-        axum::serve(listener, router(service)).with_graceful_shutdown(stop).await.map_err(cannot)
+        let stopping = service.stopping.clone();
+        tokio::spawn(pass_on(stop.clone(), stopping.clone()));
+        let mut heard = stopping.subscribe();
+        let stopped = async move { drop(heard.wait_for(|&stops| stops).await) };
+        let serving = axum::serve(listener, router(service)).with_graceful_shutdown(stopped);
+        let mut heard = stopping.subscribe();
+        tokio::select! {
+            ended = serving.into_future() => ended.map_err(cannot),
+            () = async {
+                drop(heard.wait_for(|&stops| stops).await);
+                tokio::time::sleep(PATIENCE).await;
+            } => Ok(()),
+        }
     })
+}
+
+/// Passes the request to stop on to everything that waits.
+async fn pass_on(stop: Stop, stopping: watch::Sender<bool>) {
+    while !stop.is_requested() {
+        tokio::time::sleep(LOOK).await;
+    }
+    stopping.send_replace(true);
 }

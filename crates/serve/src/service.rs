@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use axum::http::HeaderMap;
 use serde::de::DeserializeOwned;
+use tokio::sync::watch;
 
 use crate::days::{Days, Idempotency, Writer};
 use crate::error::Error;
@@ -17,6 +18,8 @@ const LONGEST_KEY: usize = 128;
 pub(crate) struct Service {
     /// Its days.
     pub(crate) days: Days,
+    /// Whether the service is about to stop, so that streams end.
+    pub(crate) stopping: watch::Sender<bool>,
     /// Keys of requests that are being carried out.
     busy: Mutex<HashSet<String>>,
 }
@@ -44,7 +47,7 @@ pub(crate) enum Write<'a> {
 impl Service {
     /// A service of these days.
     pub(crate) fn new(days: Days) -> Self {
-        Self { days, busy: Mutex::default() }
+        Self { days, stopping: watch::Sender::new(false), busy: Mutex::default() }
     }
 
     /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.

@@ -145,14 +145,12 @@ async fn proposed(day: &Arc<DayCell>, aircraft: String, asked: Asked) -> Result<
     let policy = asked.policy.clone().unwrap_or_else(|| day.stored().policy.clone());
     let answer = ask(Arc::clone(day), aircraft.clone(), policy.clone(), asked.time);
     let Some(deadline_ms) = asked.deadline_ms else { return answer.await };
-    match tokio::time::timeout(Duration::from_millis(deadline_ms), answer).await {
-        Ok(answer) => answer,
-        Err(_) => {
-            let quick = QUICK_POLICY.to_owned();
-            let proposal = ask(Arc::clone(day), aircraft, quick, asked.time).await?;
-            Ok(Proposal { too_late: Some(policy), ..proposal })
-        }
+    if let Ok(answer) = tokio::time::timeout(Duration::from_millis(deadline_ms), answer).await {
+        return answer;
     }
+    let quick = QUICK_POLICY.to_owned();
+    let proposal = ask(Arc::clone(day), aircraft, quick, asked.time).await?;
+    Ok(Proposal { too_late: Some(policy), ..proposal })
 }
 
 /// Asks a policy on a thread of its own, since it may take a while.

@@ -11,6 +11,7 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use tokio::sync::broadcast::Receiver;
 use tokio::sync::broadcast::error::RecvError;
+use tokio::sync::watch;
 use utoipa::IntoParams;
 
 use super::events::TakenEvent;
@@ -38,6 +39,7 @@ struct Reader {
     after: u64,
     read: VecDeque<StoredEvent>,
     is_behind: bool,
+    stopping: watch::Receiver<bool>,
 }
 
 /// Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on.
@@ -56,7 +58,9 @@ pub(super) async fn stream(
     let fresh = day.subscribe();
     let after = last.or(after).unwrap_or(0);
     let store = service.days.store().clone();
-    let reader = Reader { day, store, fresh, after, read: VecDeque::new(), is_behind: true };
+    let stopping = service.stopping.subscribe();
+    let read = VecDeque::new();
+    let reader = Reader { day, store, fresh, after, read, is_behind: true, stopping };
     let events = futures_util::stream::unfold(reader, |mut reader| async {
         let event = reader.next().await?;
         Some((Ok::<_, Infallible>(event), reader))
@@ -77,7 +81,11 @@ impl Reader {
                 self.read = events.into();
                 continue;
             }
-            match self.fresh.recv().await {
+            let fresh = tokio::select! {
+                fresh = self.fresh.recv() => fresh,
+                _ = self.stopping.wait_for(|&stops| stops) => return None,
+            };
+            match fresh {
                 Ok(event) if event.seq <= self.after => {}
                 Ok(event) if event.seq == self.after + 1 => return Some(self.shown(&event)),
                 Ok(_) => self.is_behind = true,
