@@ -3,6 +3,8 @@
 mod days;
 mod decisions;
 mod events;
+mod extract;
+mod outlooks;
 mod stream;
 
 use std::sync::Arc;
@@ -32,12 +34,13 @@ const LONGEST_BODY: usize = 64 << 20;
     paths(
         days::list, days::create, days::read, days::archive, days::delete, days::state,
         days::trace, events::list, events::append, decisions::propose, decisions::decide,
-        stream::stream
+        outlooks::outlook, outlooks::what_if, stream::stream
     ),
     tags(
         (name = "days", description = "Days and their state"),
         (name = "events", description = "What happens on a day"),
-        (name = "decisions", description = "Where an aircraft flies next, and why")
+        (name = "decisions", description = "Where an aircraft flies next, and why"),
+        (name = "outlooks", description = "How a day goes on, and what it would be otherwise")
     )
 )]
 struct Api;
@@ -59,10 +62,15 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
         .route("/v1/days/{day}/stream", get(stream::stream))
         .route("/v1/days/{day}/aircraft/{aircraft}/decision", get(decisions::propose))
         .route("/v1/days/{day}/decisions", post(decisions::decide))
+        .route("/v1/days/{day}/outlook", get(outlooks::outlook))
+        .route("/v1/days/{day}/what-if", post(outlooks::what_if))
         .route("/healthz", get(|| async { "ok\n" }))
         .route("/readyz", get(ready))
         .route("/openapi.json", get(described))
         .fallback(|uri: axum::http::Uri| async move { Error::not_found("path", uri.path()) })
+        .method_not_allowed_fallback(|method: axum::http::Method| async move {
+            Error::NotAllowed { method: method.to_string() }
+        })
         .layer(DefaultBodyLimit::max(LONGEST_BODY))
         .with_state(service)
 }

@@ -69,6 +69,19 @@ pub(crate) struct Idempotency {
     pub(crate) request: String,
 }
 
+impl Writer {
+    /// Checks that the day is where the writer expects it to be.
+    ///
+    /// # Errors
+    /// Returns [`Error::Moved`] if it is not.
+    pub(crate) fn check(&self, found: u64) -> Result<(), Error> {
+        match self.if_match {
+            Some(expected) if expected != found => Err(Error::Moved { expected, found }),
+            _ => Ok(()),
+        }
+    }
+}
+
 impl Idempotency {
     /// The answer, to be given again.
     pub(crate) fn answered_with(self, answer: &impl Serialize) -> StoredAnswer {
@@ -100,6 +113,11 @@ impl DayCell {
     /// for them.
     pub(crate) fn state(&self) -> MutexGuard<'_, DispatchDay> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Whether memory can no longer be trusted: an event could not be stored, or somebody panicked over the state.
+    fn is_spoilt(&self) -> bool {
+        self.has_failed.load(Ordering::Acquire) || self.state.is_poisoned()
     }
 
     /// The events as they are stored from now on.
@@ -155,7 +173,7 @@ impl Days {
     fn cell(&self, id: &str) -> Arc<OnceCell<Arc<DayCell>>> {
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
         let cell = cells.entry(id.to_owned()).or_default();
-        if cell.get().is_some_and(|day| day.has_failed.load(Ordering::Acquire)) {
+        if cell.get().is_some_and(|day| day.is_spoilt()) {
             *cell = Arc::default();
         }
         Arc::clone(cell)
@@ -199,13 +217,27 @@ impl Days {
     /// # Errors
     /// Returns [`Error::NotFound`] if the day has no such event, and the errors of [`get`](Self::get).
     pub(crate) async fn at(&self, day: &DayCell, seq: u64) -> Result<DispatchDay, Error> {
-        let mut state = {
+        let scenario = {
             let now = day.state();
             if seq > now.seq() {
                 return Err(Error::not_found("event", &seq.to_string()));
             }
-            DispatchDay::new(Arc::clone(now.live().scenario()))
+            Arc::clone(now.live().scenario())
         };
+        self.replayed(day, scenario, seq).await
+    }
+
+    /// A day as it would be after its events up to a number if it had begun otherwise.
+    ///
+    /// # Errors
+    /// Returns [`Error::BadData`] if an event could not have happened then.
+    pub(crate) async fn replayed(
+        &self,
+        day: &DayCell,
+        scenario: Arc<Scenario>,
+        seq: u64,
+    ) -> Result<DispatchDay, Error> {
+        let mut state = DispatchDay::new(scenario);
         while state.seq() < seq {
             let left = u32::try_from(seq - state.seq()).unwrap_or(PAGE).min(PAGE);
             for event in &self.store.events(day.id(), state.seq(), left).await? {
@@ -251,7 +283,7 @@ impl Days {
         let (done, outcome) = oneshot::channel();
         let answer = {
             let mut state = day.state();
-            check_match(&writer, state.seq())?;
+            writer.check(state.seq())?;
             let stored = take_all(&mut state, events, &writer.actor)?;
             let appended = Appended { seq: state.seq(), events: stored };
             let answer = answer(&appended);
@@ -285,13 +317,6 @@ impl Days {
         self.store.delete(id).await?;
         self.forget(id);
         Ok(())
-    }
-}
-
-fn check_match(writer: &Writer, found: u64) -> Result<(), Error> {
-    match writer.if_match {
-        Some(expected) if expected != found => Err(Error::Moved { expected, found }),
-        _ => Ok(()),
     }
 }
 

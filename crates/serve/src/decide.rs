@@ -175,10 +175,8 @@ impl Decider {
         };
         let day = self.room.as_ref().expect("the view was written into it");
         let (view, scenario) = (day.view(), Arc::clone(day.scenario()));
-        let to = self
-            .policy
-            .choose(&decision, &view)
-            .map_err(|error| Error::Store { cause: format!("policy {policy:?}: {error}") })?;
+        let to = self.policy.choose(&decision, &view);
+        let to = to.map_err(|error| Error::of_policy(policy, &error))?;
         self.values.fill(f64::NAN);
         let _ = self.policy.values(&decision, &view, &mut self.values);
         let prices = self.policy.prices(&decision, &view);

@@ -2,6 +2,7 @@
 
 use axum::http::StatusCode;
 use vertifleet_core::{Code, Coded, Exit};
+use vertifleet_policy::PolicyError;
 use vertifleet_sim::live::Unfit;
 
 /// An expected error of the service. Messages are fragments for people; [`Coded::code`] is for programs and for the error
@@ -132,9 +133,45 @@ pub enum Error {
         /// The key.
         key: String,
     },
+
+    /// V615. Something that should not happen. Cause: a defect of the program. Fix: report it, with what the log says.
+    #[error("something went wrong inside: {cause}")]
+    Internal {
+        /// What went wrong.
+        cause: String,
+    },
+
+    /// V616. The path cannot be asked in this way. Cause: a wrong method of HTTP. Fix: use one that the API's description
+    /// has for the path.
+    #[error("the path does not take {method}")]
+    NotAllowed {
+        /// The method.
+        method: String,
+    },
+
+    /// V617. What has happened could not have happened on a day that had begun like this. Cause: a what-if with fewer
+    /// stands than the day has used. Fix: ask for a day on which every event so far was possible.
+    #[error("the day could not have gone as it did: {rule}")]
+    Contradiction {
+        /// The event, and why it was not possible.
+        rule: String,
+    },
 }
 
 impl Error {
+    /// A policy that failed, which none of ours does.
+    pub(crate) fn of_policy(policy: &str, error: &PolicyError) -> Self {
+        Self::Internal { cause: format!("policy {policy:?}: {error}") }
+    }
+
+    /// An event that could not have happened on a day that begins otherwise.
+    pub(crate) fn of_what_if(self) -> Self {
+        match self {
+            Self::BadData { rule } => Self::Contradiction { rule },
+            other => other,
+        }
+    }
+
     /// An id that a day does not have.
     pub(crate) fn unknown(what: &'static str, id: &str) -> Self {
         Self::UnknownId { what, id: id.chars().take(64).collect() }
@@ -150,16 +187,19 @@ impl Error {
         match self {
             Self::Core(_) | Self::Study(_) | Self::BadRequest { .. } => StatusCode::BAD_REQUEST,
             Self::NotFound { .. } => StatusCode::NOT_FOUND,
-            Self::UnknownId { .. } | Self::Unfit(_) | Self::KeyReused { .. } => {
-                StatusCode::UNPROCESSABLE_ENTITY
-            }
+            Self::UnknownId { .. }
+            | Self::Unfit(_)
+            | Self::Contradiction { .. }
+            | Self::KeyReused { .. } => StatusCode::UNPROCESSABLE_ENTITY,
             Self::Moved { .. } => StatusCode::PRECONDITION_FAILED,
             Self::Archived { .. } | Self::KeyInUse { .. } => StatusCode::CONFLICT,
             Self::Store { .. } | Self::TooLate { .. } => StatusCode::SERVICE_UNAVAILABLE,
-            Self::TooMuch { .. } => StatusCode::INSUFFICIENT_STORAGE,
-            Self::BadData { .. } | Self::CannotListen { .. } | Self::NoAnswer { .. } => {
-                StatusCode::INTERNAL_SERVER_ERROR
-            }
+            Self::TooMuch { .. } => StatusCode::PAYLOAD_TOO_LARGE,
+            Self::NotAllowed { .. } => StatusCode::METHOD_NOT_ALLOWED,
+            Self::BadData { .. }
+            | Self::Internal { .. }
+            | Self::CannotListen { .. }
+            | Self::NoAnswer { .. } => StatusCode::INTERNAL_SERVER_ERROR,
         }
     }
 }
@@ -189,6 +229,9 @@ impl Coded for Error {
             Self::TooMuch { .. } => 612,
             Self::NoAnswer { .. } => 613,
             Self::KeyInUse { .. } => 614,
+            Self::Internal { .. } => 615,
+            Self::NotAllowed { .. } => 616,
+            Self::Contradiction { .. } => 617,
         })
     }
 
@@ -207,7 +250,10 @@ impl Coded for Error {
         match self {
             Self::Core(error) => error.exit(),
             Self::Study(error) => error.exit(),
-            Self::Store { .. } | Self::CannotListen { .. } | Self::NoAnswer { .. } => Exit::Failed,
+            Self::Store { .. }
+            | Self::Internal { .. }
+            | Self::CannotListen { .. }
+            | Self::NoAnswer { .. } => Exit::Failed,
             _ => Exit::Input,
         }
     }

@@ -13,6 +13,7 @@ mod error;
 mod event;
 mod moment;
 mod operate;
+mod outlook;
 mod problem;
 mod server;
 mod service;

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use axum::http::HeaderMap;
 use serde::de::DeserializeOwned;
-use tokio::sync::watch;
+use tokio::sync::{Semaphore, watch};
 
 use crate::days::{Days, Idempotency, Writer};
 use crate::error::Error;
@@ -22,6 +22,8 @@ pub(crate) struct Service {
     pub(crate) stopping: watch::Sender<bool>,
     /// Keys of requests that are being carried out.
     busy: Mutex<HashSet<String>>,
+    /// Turns for long computations.
+    turns: Semaphore,
 }
 
 /// Holds a key while its request is carried out.
@@ -47,7 +49,9 @@ pub(crate) enum Write<'a> {
 impl Service {
     /// A service of these days.
     pub(crate) fn new(days: Days) -> Self {
-        Self { days, stopping: watch::Sender::new(false), busy: Mutex::default() }
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let stopping = watch::Sender::new(false);
+        Self { days, stopping, busy: Mutex::default(), turns: Semaphore::new(cores) }
     }
 
     /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.
@@ -76,6 +80,16 @@ impl Service {
         }
         writer.idempotency = Some(Idempotency { key: key.to_owned(), request });
         Ok(Write::New(writer, Some(busy)))
+    }
+
+    /// Computes something that takes a while, on a thread of its own, and no more at once than there are cores.
+    pub(crate) async fn compute<T: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> Result<T, Error> + Send + 'static,
+    ) -> Result<T, Error> {
+        let _turn = self.turns.acquire().await.expect("it is never closed");
+        let died = |error| Error::Internal { cause: format!("{error}") };
+        tokio::task::spawn_blocking(work).await.map_err(died)?
     }
 
     fn occupy(&self, key: &str) -> Result<Busy<'_>, Error> {

@@ -2,7 +2,7 @@
 
 use vertifleet_core::VertiportIx;
 
-use crate::{Decision, Ledger, Refusal, Simulation, TraceRow, View};
+use crate::{DayTotals, Decision, Ledger, Refusal, Simulation, TraceRow, View};
 
 /// A day that continues from a decision as expected: demand comes as forecast, flights take off on time, aircraft are
 /// ready when they are expected to be, and known closures begin and end at their times. Unknown closures no longer
@@ -60,6 +60,11 @@ impl Imagined {
     #[inline]
     pub fn view(&self) -> View<'_> {
         self.0.view()
+    }
+
+    /// The numbers of the real day so far and of the imagined one since.
+    pub fn totals(&self) -> DayTotals {
+        self.0.totals()
     }
 
     /// The account of the real day so far and of the imagined one since.

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use axum::body::Bytes;
-use axum::extract::{Path, Query, State};
+use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
@@ -13,6 +12,7 @@ use vertifleet_core::{DaySeed, Network, Scenario, VertiportIx};
 use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::Phase;
 
+use super::extract::{Asked, Body, Named};
 use super::{at_event, json, written};
 use crate::days::{DayCell, now_ms};
 use crate::dispatch_day::DispatchDay;
@@ -148,7 +148,7 @@ impl DayInfo {
 #[utoipa::path(get, path = "/v1/days", tag = "days", params(Page), responses((status = 200, body = DayList)))]
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
-    Query(page): Query<Page>,
+    Asked(page): Asked<Page>,
 ) -> Result<Response, Error> {
     let limit = page.limit.unwrap_or(100).clamp(1, Page::MOST);
     let days = service.days.store().days(&page.after, limit).await?;
@@ -166,7 +166,7 @@ pub(super) async fn create(
     State(service): State<Arc<Service>>,
     uri: Uri,
     headers: HeaderMap,
-    body: Bytes,
+    Body(body): Body,
 ) -> Result<Response, Error> {
     let (writer, _busy) = match service.write(&headers, uri.path(), &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
@@ -215,7 +215,7 @@ fn new_id() -> String {
 #[utoipa::path(get, path = "/v1/days/{day}", tag = "days", params(("day" = String, Path)), responses((status = 200, body = DayInfo)))]
 pub(super) async fn read(
     State(service): State<Arc<Service>>,
-    Path(day): Path<String>,
+    Named(day): Named<String>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let seq = day.state().seq();
@@ -227,7 +227,7 @@ pub(super) async fn read(
 #[utoipa::path(post, path = "/v1/days/{day}/archive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn archive(
     State(service): State<Arc<Service>>,
-    Path(day): Path<String>,
+    Named(day): Named<String>,
 ) -> Result<StatusCode, Error> {
     service.days.archive(&day).await?;
     Ok(StatusCode::NO_CONTENT)
@@ -237,7 +237,7 @@ pub(super) async fn archive(
 #[utoipa::path(delete, path = "/v1/days/{day}", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
-    Path(day): Path<String>,
+    Named(day): Named<String>,
 ) -> Result<StatusCode, Error> {
     service.days.delete(&day).await?;
     Ok(StatusCode::NO_CONTENT)
@@ -254,8 +254,8 @@ pub(crate) struct At {
 #[utoipa::path(get, path = "/v1/days/{day}/state", tag = "days", params(("day" = String, Path), At), responses((status = 200, body = DayState)))]
 pub(super) async fn state(
     State(service): State<Arc<Service>>,
-    Path(day): Path<String>,
-    Query(at): Query<At>,
+    Named(day): Named<String>,
+    Asked(at): Asked<At>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let state = match at.seq {
@@ -305,7 +305,7 @@ impl DayState {
 #[utoipa::path(get, path = "/v1/days/{day}/trace.csv", tag = "days", params(("day" = String, Path)), responses((status = 200, content_type = "text/csv")))]
 pub(super) async fn trace(
     State(service): State<Arc<Service>>,
-    Path(day): Path<String>,
+    Named(day): Named<String>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let (seq, csv) = trace_csv(&day);

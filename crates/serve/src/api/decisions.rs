@@ -3,13 +3,13 @@
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
-use axum::body::Bytes;
-use axum::extract::{Path, Query, State};
+use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, Uri};
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
+use super::extract::{Asked, Body, Named};
 use super::{at_event, written};
 use crate::days::{DayCell, Writer};
 use crate::decide::Proposal;
@@ -24,7 +24,7 @@ const QUICK_POLICY: &str = "greedy";
 /// How a decision is asked for.
 #[derive(Debug, Clone, Default, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Asked {
+pub(crate) struct HowAsked {
     /// The policy; without it, the day's.
     policy: Option<String>,
     /// The time of the decision; without it, or before what has happened, now.
@@ -66,13 +66,13 @@ pub(crate) struct TakenDecision {
 /// Proposes a decision for an aircraft that is ready, with reasons. Nothing changes.
 #[utoipa::path(
     get, path = "/v1/days/{day}/aircraft/{aircraft}/decision", tag = "decisions",
-    params(("day" = String, Path), ("aircraft" = String, Path), Asked),
+    params(("day" = String, Path), ("aircraft" = String, Path), HowAsked),
     responses((status = 200, body = Proposal), (status = 422, body = crate::problem::Problem))
 )]
 pub(super) async fn propose(
     State(service): State<Arc<Service>>,
-    Path((day, aircraft)): Path<(String, String)>,
-    Query(asked): Query<Asked>,
+    Named((day, aircraft)): Named<(String, String)>,
+    Asked(asked): Asked<HowAsked>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let proposal = proposed(&day, aircraft, asked).await?;
@@ -93,10 +93,10 @@ pub(super) async fn propose(
 )]
 pub(super) async fn decide(
     State(service): State<Arc<Service>>,
-    Path(day): Path<String>,
+    Named(day): Named<String>,
     uri: Uri,
     headers: HeaderMap,
-    body: Bytes,
+    Body(body): Body,
 ) -> Result<Response, Error> {
     let (mut writer, _busy) = match service.write(&headers, uri.path(), &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
@@ -104,12 +104,14 @@ pub(super) async fn decide(
     };
     let NewDecision { aircraft, to, reason, policy, time, deadline_ms } = parse(&body)?;
     let day = service.days.get(&day).await?;
+    // What has moved on need not be thought about.
+    writer.check(day.state().seq())?;
     let taken = if let Some(to) = to {
         let what =
             What::Decided { aircraft, to: to.clone(), policy: None, instead_of: None, reason };
         take(&service, &day, writer, Event { time, what }, None).await?
     } else {
-        let asked = Asked { policy, time, deadline_ms };
+        let asked = HowAsked { policy, time, deadline_ms };
         let proposal = proposed(&day, aircraft.clone(), asked).await?;
         // The proposal holds for the state that it was made for; whoever comes in between wins.
         writer.if_match.get_or_insert(proposal.seq);
@@ -141,7 +143,11 @@ async fn take(
 }
 
 /// Asks the policy, and if it is late, a quick one.
-async fn proposed(day: &Arc<DayCell>, aircraft: String, asked: Asked) -> Result<Proposal, Error> {
+async fn proposed(
+    day: &Arc<DayCell>,
+    aircraft: String,
+    asked: HowAsked,
+) -> Result<Proposal, Error> {
     let policy = asked.policy.clone().unwrap_or_else(|| day.stored().policy.clone());
     let answer = ask(Arc::clone(day), aircraft.clone(), policy.clone(), asked.time);
     let Some(deadline_ms) = asked.deadline_ms else { return answer.await };
@@ -166,6 +172,6 @@ async fn ask(
         let mut decider = decider.lock().unwrap_or_else(PoisonError::into_inner);
         decider.propose(&day, &aircraft, time.map(Moment::time), &policy)
     };
-    let died = |error| Error::Store { cause: format!("a policy failed: {error}") };
+    let died = |error| Error::Internal { cause: format!("{error}") };
     tokio::task::spawn_blocking(ask).await.map_err(died)?
 }

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use axum::body::Bytes;
-use axum::extract::{Path, Query, State};
+use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, Uri};
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 
+use super::extract::{Asked, Body, Named};
 use super::{at_event, json, written};
 use crate::days::Appended;
 use crate::error::Error;
@@ -130,10 +130,10 @@ pub(crate) struct After {
 )]
 pub(super) async fn append(
     State(service): State<Arc<Service>>,
-    Path(day): Path<String>,
+    Named(day): Named<String>,
     uri: Uri,
     headers: HeaderMap,
-    body: Bytes,
+    Body(body): Body,
 ) -> Result<Response, Error> {
     let (writer, _busy) = match service.write(&headers, uri.path(), &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
@@ -154,8 +154,8 @@ pub(super) async fn append(
 #[utoipa::path(get, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path), After), responses((status = 200, body = EventList)))]
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
-    Path(day): Path<String>,
-    Query(After { after, limit }): Query<After>,
+    Named(day): Named<String>,
+    Asked(After { after, limit }): Asked<After>,
 ) -> Result<Response, Error> {
     let limit = limit.unwrap_or(1_000).clamp(1, 10_000);
     let day = service.days.get(&day).await?;

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::sync::Arc;
 
-use axum::extract::{Path, Query, State};
+use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::response::sse::{self, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
@@ -15,6 +15,7 @@ use tokio::sync::watch;
 use utoipa::IntoParams;
 
 use super::events::TakenEvent;
+use super::extract::{Asked, Named};
 use crate::days::DayCell;
 use crate::error::Error;
 use crate::service::Service;
@@ -49,8 +50,8 @@ struct Reader {
 )]
 pub(super) async fn stream(
     State(service): State<Arc<Service>>,
-    Path(day): Path<String>,
-    Query(From { after }): Query<From>,
+    Named(day): Named<String>,
+    Asked(From { after }): Asked<From>,
     headers: HeaderMap,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;

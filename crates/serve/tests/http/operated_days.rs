@@ -1,15 +1,14 @@
 //! Whole days through HTTP: what the operator reports makes the simulated day, to the cent.
 
-mod running;
-
 use std::sync::Arc;
 
-use running::Running;
 use vertifleet_core::{DaySeed, Network, Scenario, Stop};
 use vertifleet_policy::play;
 use vertifleet_serve::{Operation, OperationReport, operate};
 use vertifleet_sim::{DayTotals, Simulation};
 use vertifleet_study::{PolicySpec, ResolveFor};
+
+use crate::running::Running;
 
 fn day(network: &str, seed: u64) -> Arc<Scenario> {
     let network = Network::shipped(network).expect("a shipped network");

@@ -1,0 +1,69 @@
+//! Outlooks: how the day is expected to go on, and what it would be if things were otherwise.
+
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::http::StatusCode;
+use axum::response::Response;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+use super::extract::{Asked, Body, Named};
+use super::{at_event, json};
+use crate::error::Error;
+use crate::outlook::{Comparison, Outlook, WhatIf};
+use crate::service::{Service, parse};
+
+/// Which outlook is asked for.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct By {
+    /// The policy that decides from now on; without it, the day's.
+    policy: Option<String>,
+}
+
+/// The rest of the day as it is expected, if a policy takes every decision from now on.
+#[utoipa::path(
+    get, path = "/v1/days/{day}/outlook", tag = "outlooks", params(("day" = String, Path), By),
+    responses((status = 200, body = Outlook))
+)]
+pub(super) async fn outlook(
+    State(service): State<Arc<Service>>,
+    Named(day): Named<String>,
+    Asked(By { policy }): Asked<By>,
+) -> Result<Response, Error> {
+    let day = service.days.get(&day).await?;
+    let mut state = day.state().clone();
+    let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
+    let outlook = service.compute(move || Outlook::of(&mut state, &policy)).await?;
+    day.stored_up_to(outlook.seq).await?;
+    Ok(at_event(StatusCode::OK, outlook.seq, &outlook))
+}
+
+/// Compares the outlook with what it would be after events that have not happened, with another policy, or with other
+/// stands or more aircraft. Nothing changes.
+#[utoipa::path(
+    post, path = "/v1/days/{day}/what-if", tag = "outlooks", params(("day" = String, Path)),
+    request_body = WhatIf,
+    responses((status = 200, body = Comparison), (status = 422, body = crate::problem::Problem))
+)]
+pub(super) async fn what_if(
+    State(service): State<Arc<Service>>,
+    Named(day): Named<String>,
+    Body(body): Body,
+) -> Result<Response, Error> {
+    let asked: WhatIf = parse(&body)?;
+    let day = service.days.get(&day).await?;
+    let mut state = day.state().clone();
+    day.stored_up_to(state.seq()).await?;
+    let otherwise = if asked.begins_otherwise() {
+        let scenario = asked.scenario(state.live().scenario())?;
+        let again = service.days.replayed(&day, Arc::new(scenario), state.seq()).await;
+        Some(again.map_err(Error::of_what_if)?)
+    } else {
+        None
+    };
+    let policy = day.stored().policy.clone();
+    let compared = service.compute(move || asked.compare(&mut state, otherwise, &policy)).await?;
+    Ok(json(StatusCode::OK, &compared))
+}

@@ -1,0 +1,202 @@
+//! The outlook of a day: how it is expected to go on, and what it would be if things were otherwise.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+use vertifleet_core::{Aircraft, Scenario, TypeIx, VertiportIx};
+use vertifleet_sim::{DayTotals, TraceRow};
+
+use crate::decide::resolve;
+use crate::dispatch_day::DispatchDay;
+use crate::error::Error;
+use crate::event::Ids;
+use crate::moment::Moment;
+
+/// How a day is expected to go on if a policy takes every decision from now on.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub(crate) struct Outlook {
+    /// The number of the latest event that it takes into account.
+    pub(crate) seq: u64,
+    /// The latest time that the day has heard of.
+    pub(crate) now: Moment,
+    /// The policy.
+    pub(crate) policy: String,
+    /// Profit so far, dollars: of the flights that have been sent off, less what the fleet costs all day.
+    pub(crate) profit_so_far_usd: f64,
+    /// The numbers of the whole day as it is expected to end.
+    #[schema(value_type = Object)]
+    pub(crate) totals: DayTotals,
+    /// Every flight and hold of the day, in the order of decisions: those that were taken, then those that are expected.
+    pub(crate) legs: Vec<Leg>,
+}
+
+/// A flight or a hold.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub(crate) struct Leg {
+    /// The aircraft.
+    pub(crate) aircraft: String,
+    /// Where it leaves.
+    pub(crate) from: String,
+    /// Where it flies to; a hold stays where it is.
+    pub(crate) to: String,
+    /// When it was decided, or is expected to be.
+    pub(crate) time: Moment,
+    /// When it lands.
+    pub(crate) arrival: Moment,
+    /// When the aircraft is ready again.
+    pub(crate) ready: Moment,
+    /// Passengers on board.
+    pub(crate) passengers: u16,
+    /// Fares less all costs of the flight, dollars.
+    pub(crate) profit_usd: f64,
+    /// Whether the decision has been taken.
+    pub(crate) is_taken: bool,
+}
+
+/// A day as it might be.
+#[derive(Debug, Clone, Default, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WhatIf {
+    /// Events that might happen now, in their order.
+    #[serde(default)]
+    pub(crate) events: Vec<crate::event::Event>,
+    /// The policy that would decide; without it, the day's.
+    pub(crate) policy: Option<String>,
+    /// Stands (or chargers where they are counted apart) that vertiports would have had since the morning.
+    #[serde(default)]
+    pub(crate) stands: std::collections::BTreeMap<String, u16>,
+    /// Aircraft that the fleet would have had since the morning.
+    #[serde(default)]
+    pub(crate) aircraft: Vec<MoreAircraft>,
+}
+
+/// An aircraft that the fleet might have.
+#[derive(Debug, Clone, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MoreAircraft {
+    /// Its id.
+    id: String,
+    /// Its type; without it, the first of the day.
+    #[serde(rename = "type")]
+    kind: Option<String>,
+    /// The vertiport where it would have stood in the morning.
+    at: String,
+}
+
+/// What a change would lead to.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub(crate) struct Comparison {
+    /// The outlook as things are, by the day's policy.
+    pub(crate) as_it_is: Outlook,
+    /// The outlook as they might be.
+    pub(crate) what_if: Outlook,
+    /// How much more the day would earn, dollars.
+    pub(crate) difference_usd: f64,
+    /// What people should look at of the events that might happen.
+    pub(crate) notices: Vec<String>,
+}
+
+impl Outlook {
+    /// Plays the rest of a day out.
+    ///
+    /// # Errors
+    /// Returns an error if there is no such policy, or if it cannot play the day.
+    pub(crate) fn of(day: &mut DispatchDay, policy: &str) -> Result<Self, Error> {
+        let seq = day.seq();
+        let live = day.live_mut();
+        let scenario = Arc::clone(live.scenario());
+        let mut decider = resolve(policy, &scenario)?.build();
+        let profit_so_far_usd = live.totals().profit_usd;
+        let taken = live.trace().rows;
+        let mut legs: Vec<Leg> = taken.iter().map(|row| Leg::of(row, &scenario, true)).collect();
+        let mut rest = live.rest();
+        while let Some(decision) = rest.next_decision() {
+            let choice = decider.choose(&decision, &rest.view());
+            let choice = choice.map_err(|error| Error::of_policy(policy, &error))?;
+            let row = rest.apply(choice).expect("policies choose from the mask");
+            legs.push(Leg::of(&row, &scenario, false));
+        }
+        Ok(Self {
+            seq,
+            now: live.now().into(),
+            policy: policy.to_owned(),
+            profit_so_far_usd,
+            totals: rest.totals(),
+            legs,
+        })
+    }
+}
+
+impl Leg {
+    fn of(row: &TraceRow, scenario: &Scenario, is_taken: bool) -> Self {
+        let id = |vertiport: VertiportIx| scenario.vertiports[vertiport.at()].id.clone();
+        Self {
+            aircraft: scenario.aircraft[row.aircraft.at()].id.clone(),
+            from: id(row.from),
+            to: id(row.to),
+            time: row.time.into(),
+            arrival: row.arrival.into(),
+            ready: row.ready.into(),
+            passengers: row.passengers,
+            profit_usd: row.profit_usd(),
+            is_taken,
+        }
+    }
+}
+
+impl WhatIf {
+    /// Whether the day has to begin otherwise, and not only to go on otherwise.
+    pub(crate) fn begins_otherwise(&self) -> bool {
+        !self.stands.is_empty() || !self.aircraft.is_empty()
+    }
+
+    /// The scenario as it might have been.
+    ///
+    /// # Errors
+    /// Returns [`Error::UnknownId`], or an error of the scenario's check.
+    pub(crate) fn scenario(&self, scenario: &Scenario) -> Result<Scenario, Error> {
+        let ids = Ids::of(scenario);
+        let mut day = scenario.clone().into_day();
+        for (vertiport, &stands) in &self.stands {
+            let vertiport = &mut day.vertiports[ids.vertiport(vertiport)?.at()];
+            match &mut vertiport.chargers {
+                Some(chargers) => *chargers = stands,
+                None => vertiport.stands = stands,
+            }
+        }
+        for MoreAircraft { id, kind, at } in &self.aircraft {
+            let at = ids.vertiport(at)?;
+            let position = kind.as_ref().map_or(Some(0), |kind| {
+                day.aircraft_types.iter().position(|known| &known.id == kind)
+            });
+            let unknown = || Error::unknown("aircraft type", kind.as_deref().unwrap_or_default());
+            let kind = TypeIx::new(position.ok_or_else(unknown)?);
+            day.aircraft.push(Aircraft { id: id.clone(), kind, at });
+        }
+        Ok(day.check("what-if")?)
+    }
+
+    /// Compares a day as it is with what it might be. `otherwise` is the day with another beginning, if it has one.
+    ///
+    /// # Errors
+    /// Returns an error if an event cannot be taken, or if a policy cannot play the day.
+    pub(crate) fn compare(
+        self,
+        day: &mut DispatchDay,
+        otherwise: Option<DispatchDay>,
+        policy: &str,
+    ) -> Result<Comparison, Error> {
+        let mut changed = otherwise.unwrap_or_else(|| day.clone());
+        let before = changed.notices().filter(|(seq, _)| seq.is_some()).count();
+        for event in self.events {
+            changed.take(event, "", 0)?;
+        }
+        let told = changed.notices().filter(|(seq, _)| seq.is_some()).skip(before);
+        let notices = told.map(|(_, text)| text).collect();
+        let as_it_is = Outlook::of(day, policy)?;
+        let what_if = Outlook::of(&mut changed, self.policy.as_deref().unwrap_or(policy))?;
+        let difference_usd = what_if.totals.profit_usd - as_it_is.totals.profit_usd;
+        Ok(Comparison { as_it_is, what_if, difference_usd, notices })
+    }
+}

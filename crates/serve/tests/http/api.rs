@@ -1,0 +1,286 @@
+//! The API as its users see it.
+
+use std::io::{BufRead as _, BufReader};
+
+use serde_json::{Value, json};
+
+use crate::running::Running;
+
+fn text<'a>(value: &'a Value, name: &str) -> &'a str {
+    value[name].as_str().unwrap_or_else(|| panic!("no text {name:?} in {value}"))
+}
+
+pub(crate) fn service() -> (tempfile::TempDir, Running) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let service = Running::start(folder.path());
+    (folder, service)
+}
+
+/// Everything of a state but the number of its event.
+fn without_seq(mut state: Value) -> Value {
+    state.as_object_mut().expect("an object").remove("seq");
+    state
+}
+
+#[test]
+fn a_proposal_has_its_reasons() {
+    let (_folder, service) = service();
+    let day = service.new_day("gcaps-x");
+    let answer = service.get(&format!("{day}/aircraft/A01/decision"));
+    assert_eq!((answer.status, answer.tag.as_str()), (200, "\"0\""));
+    let proposal = answer.json;
+    assert_eq!(text(&proposal, "policy"), "gcaps-x");
+    assert_eq!(text(&proposal, "weights_sha256").len(), 64);
+    let alternatives = proposal["alternatives"].as_array().expect("a list");
+    assert_eq!(alternatives.len(), 8);
+    let chosen: Vec<&Value> =
+        alternatives.iter().filter(|one| one["to"] == proposal["to"]).collect();
+    let [chosen] = chosen[..] else { panic!("{proposal}") };
+    for one in alternatives {
+        if let Some(impossible) = one.get("impossible") {
+            assert_eq!(text(impossible, "rule"), "no_stand_free");
+            assert!(text(impossible, "reason").ends_with("(6 of 6)"), "{impossible}");
+            assert_eq!(one.get("worth_usd"), None);
+        } else {
+            assert!(one["worth_usd"].is_number() && one["stand_price_usd"].is_number(), "{one}");
+        }
+        if let Some(value) = one.get("value") {
+            assert!(value.as_f64() <= chosen["value"].as_f64(), "{one} is above {chosen}");
+        }
+    }
+    // A proposal changes nothing.
+    assert_eq!(service.get(&day).json["seq"], 0);
+}
+
+#[test]
+fn a_late_policy_is_replaced_and_the_answer_says_so() {
+    let (_folder, service) = service();
+    let day = service.new_day("rolling");
+    let path = format!("{day}/aircraft/A01/decision?deadline_ms=0");
+    let proposal = service.get(&path).json;
+    assert_eq!((text(&proposal, "policy"), text(&proposal, "too_late")), ("greedy", "rolling"));
+}
+
+#[test]
+fn a_request_with_a_key_is_carried_out_once() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let path = format!("{day}/events");
+    let booked = |passengers: u32| {
+        json!({"type": "booked", "period": "07:00:00", "from": "V1", "to": "V2", "passengers": passengers})
+            .to_string()
+    };
+    let key = [("idempotency-key", "one")];
+    let first = service.send("POST", &path, &key, booked(2).as_bytes());
+    let again = service.send("POST", &path, &key, booked(2).as_bytes());
+    assert_eq!((first.status, again.status), (201, 201));
+    assert_eq!(first.json, again.json);
+    assert_eq!(service.get(&day).json["seq"], 1);
+    let other = service.send("POST", &path, &key, booked(3).as_bytes());
+    assert_eq!((other.status, text(&other.json, "code")), (422, "V609"));
+    let decided = service.send("POST", &format!("{day}/decisions"), &key, b"{}");
+    assert_eq!(text(&decided.json, "code"), "V609");
+}
+
+#[test]
+fn of_two_dispatchers_one_decides() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let path = format!("{day}/decisions");
+    let decide =
+        |tag: &str| service.send("POST", &path, &[("if-match", tag)], br#"{"aircraft": "A01"}"#);
+    let first = decide("\"0\"");
+    assert_eq!((first.status, first.tag.as_str()), (201, "\"1\""));
+    let second = decide("\"0\"");
+    assert_eq!((second.status, text(&second.json, "code")), (412, "V605"));
+    // Without If-Match, the rules still forbid that an aircraft decides twice.
+    let third = service.post(&path, &json!({"aircraft": "A01"}));
+    assert_eq!((third.status, text(&third.json, "code")), (422, "V604"));
+}
+
+#[test]
+fn a_person_decides_and_changes_their_mind() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let before = service.get(&format!("{day}/state")).json;
+    let place = before["aircraft"].as_array().expect("a list")[0]["place"].clone();
+    let held = json!({"aircraft": "A01", "to": place, "reason": "the crew is late"});
+    assert_eq!(service.post(&format!("{day}/decisions"), &held).status, 201);
+    let undone = json!({"type": "undone", "aircraft": "A01", "reason": "the crew is here"});
+    assert_eq!(service.post(&format!("{day}/events"), &undone).status, 201);
+    let after = service.get(&format!("{day}/state")).json;
+    assert_eq!(after["seq"], 2);
+    assert_eq!(without_seq(after), without_seq(before));
+    let events = service.get(&format!("{day}/events?limit=1")).json;
+    assert_eq!(text(&events["events"][0]["event"], "reason"), "the crew is late");
+    assert_eq!(events["next"], 1);
+}
+
+#[test]
+fn several_events_are_taken_all_or_none() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let good = json!({"type": "out_of_service", "aircraft": "A02", "until": 30_000});
+    let bad = json!({"type": "landed", "aircraft": "A03"});
+    let refused = service.post(&format!("{day}/events"), &json!([good, bad]));
+    assert_eq!((refused.status, text(&refused.json, "code")), (422, "V604"));
+    assert!(text(&refused.json, "detail").contains("stands at its vertiport"), "{refused:?}");
+    assert_eq!(service.get(&day).json["seq"], 0);
+    let taken = service.post(&format!("{day}/events"), &json!([good, good]));
+    assert_eq!((taken.status, &taken.json["seq"]), (201, &json!(2)));
+    let state = service.get(&format!("{day}/state")).json;
+    assert_eq!(state["aircraft"][1]["out_of_service"], true);
+    assert_eq!(state["aircraft"][1]["ready"], "08:20:00");
+}
+
+#[test]
+fn what_reality_forces_is_taken_with_a_notice_that_stays() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let fewer = json!({"type": "stands", "vertiport": "V1", "stands": 0});
+    let taken = service.post(&format!("{day}/events"), &fewer).json;
+    assert!(
+        taken["notices"][0][0].as_str().is_some_and(|text| text.contains("0 stands")),
+        "{taken}"
+    );
+    let state = service.get(&format!("{day}/state")).json;
+    assert_eq!(state["notices"].as_array().map(Vec::len), Some(2), "with its event, and now");
+    // Nobody can fly there, and the reason has the numbers.
+    let proposal = service.get(&format!("{day}/aircraft/A40/decision")).json;
+    let to =
+        proposal["alternatives"].as_array().expect("a list").iter().find(|one| one["to"] == "V1");
+    let to = to.expect("V1 is among them");
+    assert!(proposal["at"] == "V1" || text(&to["impossible"], "rule") == "no_stand_free", "{to}");
+}
+
+#[test]
+fn a_day_is_the_same_after_a_restart_and_can_be_read_at_any_event() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let service = Running::start(folder.path());
+    let day = service.new_day("greedy");
+    let mut states = vec![service.get(&format!("{day}/state")).json];
+    for aircraft in ["A01", "A02", "A03"] {
+        assert_eq!(
+            service.post(&format!("{day}/decisions"), &json!({"aircraft": aircraft})).status,
+            201
+        );
+        states.push(service.get(&format!("{day}/state")).json);
+    }
+    drop(service);
+    let service = Running::start(folder.path());
+    assert_eq!(service.get(&format!("{day}/state")).json, states[3]);
+    for (seq, state) in states.iter().enumerate() {
+        assert_eq!(&service.get(&format!("{day}/state?seq={seq}")).json, state);
+    }
+    assert_eq!(service.get(&format!("{day}/state?seq=4")).status, 404);
+    let trace = service.get(&format!("{day}/trace.csv")).json;
+    assert_eq!(trace.as_str().map(|csv| csv.lines().count()), Some(4));
+}
+
+#[test]
+fn the_stream_goes_on_where_a_reader_left() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let decide =
+        |aircraft: &str| service.post(&format!("{day}/decisions"), &json!({"aircraft": aircraft}));
+    assert_eq!((decide("A01").status, decide("A02").status), (201, 201));
+    let request = ureq::get(format!("{}{day}/stream", service.url)).header("last-event-id", "1");
+    let mut answer = request.call().expect("a stream");
+    let mut lines = BufReader::new(answer.body_mut().as_reader()).lines();
+    let mut next =
+        || lines.by_ref().map(|line| line.expect("a line")).find(|line| !line.is_empty());
+    assert_eq!(next().as_deref(), Some("id: 2"));
+    assert!(next().is_some_and(|data| data.contains("\"aircraft\":\"A02\"")));
+    assert_eq!(decide("A03").status, 201);
+    assert_eq!(next().as_deref(), Some("id: 3"));
+}
+
+#[test]
+fn an_outlook_is_the_simulated_day_and_what_if_leaves_the_day_alone() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let outlook = service.get(&format!("{day}/outlook")).json;
+    let asked = json!({
+        "events": [{"type": "closed", "routes": {"vertiport": "V1"}, "until": "20:00:00"}],
+    });
+    let compared = service.post(&format!("{day}/what-if"), &asked).json;
+    assert_eq!(compared["as_it_is"]["totals"], outlook["totals"]);
+    assert!(compared["difference_usd"].as_f64().is_some_and(|usd| usd < -1_000.0), "{compared}");
+    let legs = compared["what_if"]["legs"].as_array().expect("a list");
+    assert!(
+        legs.iter()
+            .all(|leg| leg["from"] == leg["to"] || (leg["from"] != "V1" && leg["to"] != "V1"))
+    );
+    let more =
+        json!({"aircraft": [{"id": "A99", "at": "V2"}], "stands": {"V2": 12}, "policy": "gcaps-x"});
+    let compared = service.post(&format!("{day}/what-if"), &more).json;
+    assert!(compared["difference_usd"].as_f64().is_some_and(|usd| usd > 0.0), "{compared}");
+    assert!(
+        compared["what_if"]["legs"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .any(|leg| leg["aircraft"] == "A99")
+    );
+    assert_eq!(service.get(&day).json["seq"], 0);
+}
+
+#[test]
+fn an_archived_day_is_read_only_and_a_deleted_one_is_gone() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    assert_eq!(service.send("POST", &format!("{day}/archive"), &[], b"").status, 204);
+    let refused = service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"}));
+    assert_eq!((refused.status, text(&refused.json, "code")), (409, "V608"));
+    assert_eq!(service.get(&day).json["archived"], true);
+    assert_eq!(service.send("DELETE", &day, &[], b"").status, 204);
+    assert_eq!(text(&service.get(&day).json, "code"), "V602");
+}
+
+#[test]
+fn wrong_requests_are_answered_with_a_code() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let cases = [
+        ("GET", "/v1/nothing".to_owned(), "", 404, "V602"),
+        ("GET", "/v1/days/none".to_owned(), "", 404, "V602"),
+        ("POST", "/v1/days".to_owned(), "{}", 400, "V601"),
+        ("POST", "/v1/days".to_owned(), r#"{"network": "nowhere"}"#, 404, "V602"),
+        (
+            "POST",
+            "/v1/days".to_owned(),
+            r#"{"network": "paper", "policy": "replay:/etc/passwd"}"#,
+            404,
+            "V602",
+        ),
+        ("POST", format!("{day}/events"), "[", 400, "V601"),
+        ("POST", format!("{day}/events"), "[]", 400, "V601"),
+        ("POST", format!("{day}/events"), r#"{"type": "ready"}"#, 400, "V601"),
+        (
+            "POST",
+            format!("{day}/events"),
+            r#"{"type": "ready", "aircraft": "A01", "more": 1}"#,
+            400,
+            "V601",
+        ),
+        (
+            "POST",
+            format!("{day}/events"),
+            r#"{"type": "ready", "aircraft": "A01", "time": "7 am"}"#,
+            400,
+            "V601",
+        ),
+        ("POST", format!("{day}/events"), r#"{"type": "ready", "aircraft": "X"}"#, 422, "V603"),
+        ("GET", format!("{day}/aircraft/A01/decision?policy=none"), "", 400, "V307"),
+        ("GET", format!("{day}/aircraft/A01/decision?deadline=1"), "", 400, "V601"),
+        ("PUT", day.clone(), "", 405, "V616"),
+    ];
+    for (method, path, body, status, code) in cases {
+        let answer = service.send(method, &path, &[], body.as_bytes());
+        assert_eq!(
+            (answer.status, answer.json["code"].as_str()),
+            (status, Some(code)),
+            "{method} {path} {body}: {answer:?}"
+        );
+    }
+}

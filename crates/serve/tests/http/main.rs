@@ -1,0 +1,6 @@
+//! The service over HTTP, as its users meet it.
+
+mod api;
+mod malformed;
+mod operated_days;
+mod running;

@@ -1,0 +1,99 @@
+//! A service that runs in this process, on a port of its own.
+
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::Path;
+use std::sync::mpsc;
+use std::thread::JoinHandle;
+
+use serde_json::{Value, json};
+use vertifleet_core::Stop;
+use vertifleet_serve::{Error, Location, Settings, serve};
+
+/// A running service. It stops when it is dropped.
+pub(crate) struct Running {
+    pub(crate) url: String,
+    stop: Stop,
+    thread: Option<JoinHandle<Result<(), Error>>>,
+}
+
+impl Running {
+    /// Starts a service with its data in a folder.
+    pub(crate) fn start(folder: &Path) -> Self {
+        let listen = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
+        let settings = Settings { listen, location: Location::Folder(folder.to_owned()) };
+        let stop = Stop::default();
+        let heard = stop.clone();
+        let (listens, address) = mpsc::channel();
+        let run = move || {
+            let ready = move |address| listens.send(address).expect("the test waits for it");
+            serve(&settings, ready, &heard)
+        };
+        let thread = std::thread::spawn(run);
+        let address: SocketAddr = address.recv().expect("it starts");
+        Self { url: format!("http://{address}"), stop, thread: Some(thread) }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.stop.request();
+        let outcome = self.thread.take().expect("it has not been stopped before").join();
+        if !std::thread::panicking() {
+            outcome.expect("no panic").expect("no error");
+        }
+    }
+}
+
+/// An answer: its status, its `ETag` and its JSON.
+#[derive(Debug)]
+pub(crate) struct Answer {
+    pub(crate) status: u16,
+    pub(crate) tag: String,
+    pub(crate) json: Value,
+}
+
+impl Running {
+    /// Sends a request with some headers, and a body if it is to be posted.
+    pub(crate) fn send(
+        &self,
+        method: &str,
+        path: &str,
+        headers: &[(&str, &str)],
+        body: &[u8],
+    ) -> Answer {
+        let config = ureq::Agent::config_builder()
+            .http_status_as_error(false)
+            .allow_non_standard_methods(true)
+            .timeout_global(Some(std::time::Duration::from_mins(1)))
+            .build();
+        let agent: ureq::Agent = config.into();
+        let mut request =
+            ureq::http::Request::builder().method(method).uri(format!("{}{path}", self.url));
+        for (name, value) in headers {
+            request = request.header(*name, *value);
+        }
+        let request = request.body(body.to_vec()).expect("a request");
+        let mut answer = agent.run(request).expect("the service answers");
+        let tag = answer.headers().get("etag").and_then(|tag| tag.to_str().ok());
+        let tag = tag.unwrap_or_default().to_owned();
+        let text = answer.body_mut().read_to_vec().expect("a body");
+        let json = serde_json::from_slice(&text)
+            .unwrap_or_else(|_| String::from_utf8_lossy(&text).into_owned().into());
+        Answer { status: answer.status().as_u16(), tag, json }
+    }
+
+    pub(crate) fn get(&self, path: &str) -> Answer {
+        self.send("GET", path, &[], b"")
+    }
+
+    pub(crate) fn post(&self, path: &str, body: &Value) -> Answer {
+        self.send("POST", path, &[], body.to_string().as_bytes())
+    }
+
+    /// Makes a day of `paper`, and returns its path.
+    pub(crate) fn new_day(&self, policy: &str) -> String {
+        let made = self.post("/v1/days", &json!({"network": "paper", "seed": 3, "policy": policy}));
+        assert_eq!(made.status, 201, "{made:?}");
+        format!("/v1/days/{}", made.json["id"].as_str().expect("an id"))
+    }
+}
