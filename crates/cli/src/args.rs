@@ -7,10 +7,11 @@ use std::time::Duration;
 use clap::builder::{PathBufValueParser, TypedValueParser as _};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use vertifleet_core::Purpose;
+use vertifleet_serve::Role;
 use vertifleet_study::PolicySource;
 
 use crate::typed::{
-    Speed, parse_count, parse_listen, parse_minutes, parse_model, parse_name, parse_pair,
+    Speed, parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_role,
     parse_seconds, parse_seed, parse_seed_of_a_run, parse_share, parse_speed, parse_split,
     parse_steps, parse_threads,
 };
@@ -54,15 +55,47 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct ServeArguments {
-    /// Address to listen on; of this machine alone
-    #[arg(long, default_value = "127.0.0.1:8080", value_parser = parse_listen)]
+    /// Address to listen on
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8080")]
     pub(crate) listen: SocketAddr,
     /// Folder of the data, made at the first start
-    #[arg(long, value_name = "DIR", default_value = "vertifleet-data")]
+    #[arg(long, value_name = "DIR", default_value = "vertifleet-data", global = true)]
     pub(crate) data: PathBuf,
     /// PostgreSQL database to keep the data in, instead of the folder
-    #[arg(long, value_name = "URL")]
+    #[arg(long, value_name = "URL", global = true)]
     pub(crate) database: Option<String>,
+    /// A proxy that speaks TLS stands before the service, which may then listen on other addresses
+    #[arg(long)]
+    pub(crate) behind_proxy: bool,
+    #[command(subcommand)]
+    pub(crate) action: Option<ServeAction>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum ServeAction {
+    /// Make, list and revoke tokens
+    #[command(subcommand)]
+    Token(TokenAction),
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum TokenAction {
+    /// Make a token and print it; it cannot be printed again
+    Make {
+        /// What the token is called in the record of who did what
+        #[arg(long, value_parser = parse_name)]
+        name: String,
+        /// What it permits
+        #[arg(long, value_parser = parse_role)]
+        role: Role,
+    },
+    /// List the tokens, without their secrets, as JSON
+    List,
+    /// Revoke a token
+    Revoke {
+        /// The token's id, which is the part after vf_
+        id: String,
+    },
 }
 
 #[derive(Debug, Args)]

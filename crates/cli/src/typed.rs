@@ -1,9 +1,9 @@
 //! Parses the values of arguments one by one. The error of a value that does not fit says what is expected.
 
-use std::net::SocketAddr;
 use std::time::Duration;
 
 use vertifleet_core::Purpose;
+use vertifleet_serve::Role;
 use vertifleet_study::{MOST_DAYS, PolicySource};
 
 pub(crate) fn parse_pair(text: &str) -> Result<(String, String), String> {
@@ -45,16 +45,10 @@ pub(crate) fn parse_speed(text: &str) -> Result<Speed, String> {
     }
 }
 
-/// An address of this machine.
-pub(crate) fn parse_listen(text: &str) -> Result<SocketAddr, String> {
-    let address: SocketAddr =
-        text.parse().map_err(|_| "expected an address and a port, such as 127.0.0.1:8080")?;
-    if address.ip().is_loopback() {
-        Ok(address)
-    } else {
-        Err("the service has no tokens yet, so it listens on this machine alone (127.0.0.1)"
-            .to_owned())
-    }
+/// What a token permits.
+pub(crate) fn parse_role(text: &str) -> Result<Role, String> {
+    let known = Role::ALL.map(Role::name).join(", ");
+    Role::named(text).ok_or_else(|| format!("expected one of {known}"))
 }
 
 /// The purpose of days.

@@ -12,11 +12,14 @@ use std::sync::Arc;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::http::{StatusCode, header};
+use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use serde::Serialize;
 use utoipa::OpenApi;
 
+pub(crate) use self::extract::Sender;
+use crate::access::admit;
 use crate::error::Error;
 use crate::service::Service;
 
@@ -72,6 +75,7 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
             Error::NotAllowed { method: method.to_string() }
         })
         .layer(DefaultBodyLimit::max(LONGEST_BODY))
+        .layer(from_fn_with_state(Arc::clone(&service), admit))
         .with_state(service)
 }
 

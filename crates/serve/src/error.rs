@@ -68,7 +68,7 @@ pub enum Error {
     },
 
     /// V607. The data belongs to another version of the program, or is damaged. Cause: a newer program wrote it, or bytes
-    /// on the disk changed. Fix: use the newer program, or restore a backup; `vertifleet serve verify` names the rows.
+    /// on the disk changed. Fix: use the newer program, or restore a backup.
     #[error("the data of the service cannot be read: {rule}")]
     BadData {
         /// What is wrong.
@@ -90,12 +90,10 @@ pub enum Error {
         key: String,
     },
 
-    /// V610. No decision in time. Cause: the deadline is shorter than the fastest policy needs. Fix: a longer deadline.
-    #[error("no policy decides within {deadline_ms} ms")]
-    TooLate {
-        /// The deadline.
-        deadline_ms: u64,
-    },
+    /// V610. A request without a token that is in force. Cause: no `Authorization: Bearer` header, a wrong token, or one
+    /// that was revoked. Fix: make a token with `vertifleet serve token make`, and send it.
+    #[error("the request needs a token that is in force")]
+    NoToken,
 
     /// V611. The service cannot listen. Cause: the address is in use, or not of this machine. Fix: name another one.
     #[error("cannot listen on {address}: {cause}")]
@@ -156,6 +154,25 @@ pub enum Error {
         /// The event, and why it was not possible.
         rule: String,
     },
+
+    /// V618. A token that does not permit this. Cause: its role. Fix: use a token with the role that the message names.
+    #[error("a token with the role {role:?} does not permit this; {needed:?} does")]
+    NotPermitted {
+        /// The token's role.
+        role: &'static str,
+        /// The role that is needed.
+        needed: &'static str,
+    },
+
+    /// V619. An address that others can reach, without protection. Cause: `--listen` names an address beyond this
+    /// machine. Fix: let a proxy that speaks TLS stand before the service (`--behind-proxy`), and make a token.
+    #[error("{address} can be reached by others: {missing}")]
+    Unprotected {
+        /// The address.
+        address: String,
+        /// What is missing.
+        missing: &'static str,
+    },
 }
 
 impl Error {
@@ -193,11 +210,14 @@ impl Error {
             | Self::KeyReused { .. } => StatusCode::UNPROCESSABLE_ENTITY,
             Self::Moved { .. } => StatusCode::PRECONDITION_FAILED,
             Self::Archived { .. } | Self::KeyInUse { .. } => StatusCode::CONFLICT,
-            Self::Store { .. } | Self::TooLate { .. } => StatusCode::SERVICE_UNAVAILABLE,
+            Self::Store { .. } => StatusCode::SERVICE_UNAVAILABLE,
+            Self::NoToken => StatusCode::UNAUTHORIZED,
+            Self::NotPermitted { .. } => StatusCode::FORBIDDEN,
             Self::TooMuch { .. } => StatusCode::PAYLOAD_TOO_LARGE,
             Self::NotAllowed { .. } => StatusCode::METHOD_NOT_ALLOWED,
             Self::BadData { .. }
             | Self::Internal { .. }
+            | Self::Unprotected { .. }
             | Self::CannotListen { .. }
             | Self::NoAnswer { .. } => StatusCode::INTERNAL_SERVER_ERROR,
         }
@@ -224,7 +244,7 @@ impl Coded for Error {
             Self::BadData { .. } => 607,
             Self::Archived { .. } => 608,
             Self::KeyReused { .. } => 609,
-            Self::TooLate { .. } => 610,
+            Self::NoToken => 610,
             Self::CannotListen { .. } => 611,
             Self::TooMuch { .. } => 612,
             Self::NoAnswer { .. } => 613,
@@ -232,6 +252,8 @@ impl Coded for Error {
             Self::Internal { .. } => 615,
             Self::NotAllowed { .. } => 616,
             Self::Contradiction { .. } => 617,
+            Self::NotPermitted { .. } => 618,
+            Self::Unprotected { .. } => 619,
         })
     }
 
@@ -241,7 +263,10 @@ impl Coded for Error {
             Self::Study(error) => error.hint(),
             Self::Moved { .. } => Some("read the day again, and decide anew"),
             Self::KeyReused { .. } => Some("use a new Idempotency-Key for each request"),
-            Self::BadData { .. } => Some("`vertifleet serve verify` checks every row"),
+            Self::NoToken => Some("send it as `Authorization: Bearer vf_...`"),
+            Self::Unprotected { .. } => Some(
+                "listen on 127.0.0.1, or stand behind a proxy that speaks TLS (--behind-proxy) and make a token",
+            ),
             _ => None,
         }
     }

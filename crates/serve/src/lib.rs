@@ -4,6 +4,7 @@
 //! ([`vertifleet_sim::live`]) and nothing else. An event is durable before it is acknowledged: a day takes it in
 //! memory, one writer commits many at a time, and only then does anybody hear of it.
 
+mod access;
 mod api;
 mod committer;
 mod days;
@@ -19,6 +20,7 @@ mod server;
 mod service;
 mod store;
 
+pub use access::{Role, StoredToken, Tokens};
 pub use api::openapi;
 pub use error::Error;
 pub use operate::{Operation, OperationReport, operate};

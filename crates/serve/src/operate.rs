@@ -49,14 +49,14 @@ pub struct OperationReport {
     pub sent_again: u64,
 }
 
-/// Operates a day to its end. `watch` is called with the time of each decision.
+/// Operates a day to its end. `watch` is called with the time of each decision and how long it took.
 ///
 /// # Errors
 /// Returns [`Error::NoAnswer`] if the service does not answer or refuses a request.
 pub fn operate(
     operation: &Operation,
     stop: &Stop,
-    mut watch: impl FnMut(Time),
+    mut watch: impl FnMut(Time, Duration),
 ) -> Result<Option<OperationReport>, Error> {
     let mut client = Client::new(operation);
     let made: Made = client.post("/v1/days", &new_day(operation))?;
@@ -71,12 +71,13 @@ pub fn operate(
         client.report(&made.id, &mut reporter, decision.time)?;
         let asked = Instant::now();
         let taken = client.decide(&made.id, &operation.day, &decision)?;
-        took.push(asked.elapsed().as_secs_f64() * 1e3);
+        let asked = asked.elapsed();
+        took.push(asked.as_secs_f64() * 1e3);
         let all = VertiportIx::all(operation.day.vertiports.len()).zip(&operation.day.vertiports);
         let to = all.into_iter().find(|(_, vertiport)| vertiport.id == taken.to);
         let (to, _) = to.ok_or_else(|| client.wrong("an answer with an unknown vertiport"))?;
         reporter.apply(to).map_err(|refusal| client.wrong(&refusal.to_string()))?;
-        watch(decision.time);
+        watch(decision.time, asked);
     }
     client.report(&made.id, &mut reporter, Time::from_seconds(u32::MAX))?;
     let state: State = client.get(&format!("/v1/days/{}/state", made.id))?;

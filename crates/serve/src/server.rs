@@ -26,6 +26,8 @@ pub struct Settings {
     pub listen: SocketAddr,
     /// Where its data lies.
     pub location: Location,
+    /// Whether a proxy that speaks TLS stands before it.
+    pub behind_proxy: bool,
 }
 
 /// Runs the service until it is asked to stop. `ready` is called with the address once it listens. Requests that are
@@ -45,6 +47,7 @@ pub fn serve(
     runtime.block_on(async {
         let store = Store::open(&settings.location).await?;
         let service = Arc::new(Service::new(Days::new(store)));
+        check_protection(settings, &service).await?;
         let cannot = |cause| Error::CannotListen { address: settings.listen.to_string(), cause };
         let listener = TcpListener::bind(settings.listen).await.map_err(cannot)?;
         ready(listener.local_addr().map_err(cannot)?);
@@ -62,6 +65,22 @@ pub fn serve(
             } => Ok(()),
         }
     })
+}
+
+/// Refuses an address that others can reach, unless a proxy encrypts what they say and tokens tell who they are.
+async fn check_protection(settings: &Settings, service: &Service) -> Result<(), Error> {
+    if settings.listen.ip().is_loopback() {
+        return Ok(());
+    }
+    let unprotected =
+        |missing| Error::Unprotected { address: settings.listen.to_string(), missing };
+    if !settings.behind_proxy {
+        return Err(unprotected("what is said there is not encrypted"));
+    }
+    if !service.access.is_guarded().await? {
+        return Err(unprotected("there is no token in force"));
+    }
+    Ok(())
 }
 
 /// Passes the request to stop on to everything that waits.

@@ -7,6 +7,8 @@ use axum::http::HeaderMap;
 use serde::de::DeserializeOwned;
 use tokio::sync::{Semaphore, watch};
 
+use crate::access::Access;
+use crate::api::Sender;
 use crate::days::{Days, Idempotency, Writer};
 use crate::error::Error;
 
@@ -18,6 +20,8 @@ const LONGEST_KEY: usize = 128;
 pub(crate) struct Service {
     /// Its days.
     pub(crate) days: Days,
+    /// Who may do what.
+    pub(crate) access: Access,
     /// Whether the service is about to stop, so that streams end.
     pub(crate) stopping: watch::Sender<bool>,
     /// Keys of requests that are being carried out.
@@ -51,18 +55,15 @@ impl Service {
     pub(crate) fn new(days: Days) -> Self {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let stopping = watch::Sender::new(false);
-        Self { days, stopping, busy: Mutex::default(), turns: Semaphore::new(cores) }
+        let access = Access::new(days.store().clone());
+        Self { days, access, stopping, busy: Mutex::default(), turns: Semaphore::new(cores) }
     }
 
     /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.
-    pub(crate) async fn write(
-        &self,
-        headers: &HeaderMap,
-        path: &str,
-        body: &[u8],
-    ) -> Result<Write<'_>, Error> {
+    pub(crate) async fn write(&self, sender: &Sender, body: &[u8]) -> Result<Write<'_>, Error> {
+        let Sender { actor, headers, path } = sender;
         let if_match = if_match(headers)?;
-        let mut writer = Writer { actor: String::new(), if_match, idempotency: None };
+        let mut writer = Writer { actor: actor.clone(), if_match, idempotency: None };
         let Some(key) = text(headers, "idempotency-key")? else {
             return Ok(Write::New(writer, None));
         };

@@ -3,6 +3,8 @@
 //! Events are rows that are only ever added. Each has a sum over itself and the row before, so that a row that is
 //! missing, changed or torn is found when a day is read.
 
+mod tokens;
+
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -15,7 +17,7 @@ use crate::error::Error;
 const VERSION: &str = "1";
 
 /// The statements that make the tables.
-const TABLES: [&str; 4] = [
+const TABLES: [&str; 6] = [
     "CREATE TABLE IF NOT EXISTS meta (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS days (
         id TEXT PRIMARY KEY, name TEXT NOT NULL, created_ms BIGINT NOT NULL, archived BIGINT NOT NULL,
@@ -26,6 +28,11 @@ const TABLES: [&str; 4] = [
     "CREATE TABLE IF NOT EXISTS answers (
         idempotency_key TEXT PRIMARY KEY, request TEXT NOT NULL, answer TEXT NOT NULL,
         at_ms BIGINT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS tokens (
+        id TEXT PRIMARY KEY, name TEXT NOT NULL, role TEXT NOT NULL, hash TEXT NOT NULL,
+        created_ms BIGINT NOT NULL, revoked_ms BIGINT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS audit (
+        at_ms BIGINT NOT NULL, actor TEXT NOT NULL, action TEXT NOT NULL, target TEXT NOT NULL)",
 ];
 
 /// Where the data lies.
@@ -131,6 +138,10 @@ impl Store {
         }
         store.check_version().await?;
         Ok(store)
+    }
+
+    fn pool(&self) -> &AnyPool {
+        &self.pool
     }
 
     async fn check_version(&self) -> Result<(), Error> {

@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &OperateArguments) -> Result<ExitCode, Failure> {
     let operation = Operation { url, day, policy, speed };
     let bar = Bar::new(u64::from(end.since(start) / 60), "minutes of the day");
     let mut shown = 0;
-    let report = operate(&operation, &stop, |now| {
+    let report = operate(&operation, &stop, |now, _| {
         let minute = u64::from(now.since(start) / 60);
         bar.advance(minute - shown);
         shown = minute;

@@ -1,21 +1,39 @@
-//! `vertifleet serve`: runs the dispatch service.
+//! `vertifleet serve`: runs the dispatch service, and keeps its tokens.
 
 use std::process::ExitCode;
 
 use anstream::eprintln;
-use vertifleet_serve::{Location, Settings, serve};
+use vertifleet_serve::{Location, Settings, Tokens, serve};
 
-use crate::args::ServeArguments;
+use crate::args::{ServeAction, ServeArguments, TokenAction};
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
+use crate::output::print;
 
 pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
-    let stop = stop_on_interrupt()?;
     let location = match &arguments.database {
         Some(url) => Location::Postgres(url.clone()),
         None => Location::Folder(arguments.data.clone()),
     };
-    let settings = Settings { listen: arguments.listen, location };
-    serve(&settings, |address| eprintln!("listening on http://{address}"), &stop)?;
+    match &arguments.action {
+        Some(ServeAction::Token(action)) => keep_tokens(&Tokens::open(&location)?, action)?,
+        None => {
+            let stop = stop_on_interrupt()?;
+            let ServeArguments { listen, behind_proxy, .. } = *arguments;
+            let settings = Settings { listen, location, behind_proxy };
+            serve(&settings, |address| eprintln!("listening on http://{address}"), &stop)?;
+        }
+    }
     Ok(ExitCode::SUCCESS)
+}
+
+fn keep_tokens(tokens: &Tokens, action: &TokenAction) -> Result<(), Failure> {
+    match action {
+        TokenAction::Make { name, role } => print(&tokens.make(name, *role)?),
+        TokenAction::List => {
+            let list = serde_json::to_string_pretty(&tokens.list()?);
+            print(&list.expect("plain data can be written"))
+        }
+        TokenAction::Revoke { id } => Ok(tokens.revoke(id)?),
+    }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode, Uri, header};
+use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
@@ -12,7 +12,7 @@ use vertifleet_core::{DaySeed, Network, Scenario, VertiportIx};
 use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::Phase;
 
-use super::extract::{Asked, Body, Named};
+use super::extract::{Asked, Body, Named, Sender};
 use super::{at_event, json, written};
 use crate::days::{DayCell, now_ms};
 use crate::dispatch_day::DispatchDay;
@@ -164,11 +164,10 @@ pub(super) async fn list(
 )]
 pub(super) async fn create(
     State(service): State<Arc<Service>>,
-    uri: Uri,
-    headers: HeaderMap,
+    sender: Sender,
     Body(body): Body,
 ) -> Result<Response, Error> {
-    let (writer, _busy) = match service.write(&headers, uri.path(), &body).await? {
+    let (writer, _busy) = match service.write(&sender, &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
         Write::New(writer, busy) => (writer, busy),
     };
@@ -184,8 +183,10 @@ pub(super) async fn create(
         policy,
     };
     let info = DayInfo::of(&stored, Some(0));
+    let (actor, id) = (writer.actor, stored.id.clone());
     let answer = writer.idempotency.map(|asked| asked.answered_with(&info));
     service.days.add(stored, scenario, answer.as_ref()).await?;
+    service.days.store().record(&actor, "day made", &id, now_ms()).await?;
     Ok(at_event(StatusCode::CREATED, 0, &info))
 }
 
@@ -227,9 +228,11 @@ pub(super) async fn read(
 #[utoipa::path(post, path = "/v1/days/{day}/archive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn archive(
     State(service): State<Arc<Service>>,
+    sender: Sender,
     Named(day): Named<String>,
 ) -> Result<StatusCode, Error> {
     service.days.archive(&day).await?;
+    service.days.store().record(&sender.actor, "day archived", &day, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -237,9 +240,11 @@ pub(super) async fn archive(
 #[utoipa::path(delete, path = "/v1/days/{day}", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
+    sender: Sender,
     Named(day): Named<String>,
 ) -> Result<StatusCode, Error> {
     service.days.delete(&day).await?;
+    service.days.store().record(&sender.actor, "day deleted", &day, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 

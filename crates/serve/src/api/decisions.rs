@@ -4,12 +4,12 @@ use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode, Uri};
+use axum::http::StatusCode;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use super::extract::{Asked, Body, Named};
+use super::extract::{Asked, Body, Named, Sender};
 use super::{at_event, written};
 use crate::days::{DayCell, Writer};
 use crate::decide::Proposal;
@@ -94,11 +94,10 @@ pub(super) async fn propose(
 pub(super) async fn decide(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    uri: Uri,
-    headers: HeaderMap,
+    sender: Sender,
     Body(body): Body,
 ) -> Result<Response, Error> {
-    let (mut writer, _busy) = match service.write(&headers, uri.path(), &body).await? {
+    let (mut writer, _busy) = match service.write(&sender, &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
         Write::New(writer, busy) => (writer, busy),
     };

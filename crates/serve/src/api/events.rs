@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode, Uri};
+use axum::http::StatusCode;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 
-use super::extract::{Asked, Body, Named};
+use super::extract::{Asked, Body, Named, Sender};
 use super::{at_event, json, written};
 use crate::days::Appended;
 use crate::error::Error;
@@ -131,11 +131,10 @@ pub(crate) struct After {
 pub(super) async fn append(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    uri: Uri,
-    headers: HeaderMap,
+    sender: Sender,
     Body(body): Body,
 ) -> Result<Response, Error> {
-    let (writer, _busy) = match service.write(&headers, uri.path(), &body).await? {
+    let (writer, _busy) = match service.write(&sender, &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
         Write::New(writer, busy) => (writer, busy),
     };

@@ -1,12 +1,15 @@
 //! The parts of a request, with the service's own errors where they cannot be read.
 
+use std::convert::Infallible;
+
 use axum::body::Bytes;
 use axum::extract::rejection::{BytesRejection, PathRejection, QueryRejection};
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
-use axum::http::StatusCode;
 use axum::http::request::Parts;
+use axum::http::{HeaderMap, StatusCode};
 use serde::de::DeserializeOwned;
 
+use crate::access::Actor;
 use crate::error::Error;
 
 /// What stands after the question mark.
@@ -31,6 +34,25 @@ impl<S: Send + Sync, T: DeserializeOwned + Send> FromRequestParts<S> for Named<T
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Error> {
         let wrong = |error: PathRejection| Error::BadRequest { rule: error.body_text() };
         Path::from_request_parts(parts, state).await.map(|Path(ids)| Self(ids)).map_err(wrong)
+    }
+}
+
+/// Whoever asks, and how.
+pub(crate) struct Sender {
+    /// The name of the token; empty without tokens.
+    pub(crate) actor: String,
+    /// The headers of the request.
+    pub(crate) headers: HeaderMap,
+    /// Its path.
+    pub(crate) path: String,
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Sender {
+    type Rejection = Infallible;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
+        let Actor(actor) = parts.extensions.get().cloned().unwrap_or_default();
+        Ok(Self { actor, headers: parts.headers.clone(), path: parts.uri.path().to_owned() })
     }
 }
 

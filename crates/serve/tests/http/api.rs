@@ -4,6 +4,8 @@ use std::io::{BufRead as _, BufReader};
 
 use serde_json::{Value, json};
 
+use vertifleet_serve::{Location, Role, Tokens};
+
 use crate::running::Running;
 
 fn text<'a>(value: &'a Value, name: &str) -> &'a str {
@@ -283,4 +285,50 @@ fn wrong_requests_are_answered_with_a_code() {
             "{method} {path} {body}: {answer:?}"
         );
     }
+}
+
+#[test]
+fn tokens_say_who_may_do_what_and_who_did_it() {
+    let (folder, service) = service();
+    let day = service.new_day("greedy");
+    let tokens = Tokens::open(&Location::Folder(folder.path().to_owned())).expect("a store");
+    let read = tokens.make("auditor", Role::Read).expect("a token");
+    let dispatch = tokens.make("console", Role::Dispatch).expect("a token");
+    let admin = tokens.make("operations", Role::Admin).expect("a token");
+    // The service looks for tokens every two seconds.
+    std::thread::sleep(std::time::Duration::from_millis(2_100));
+    let ask = |method: &str, path: &str, token: &str, body: &str| {
+        let bearer = format!("Bearer {token}");
+        let answer =
+            service.send(method, path, &[("authorization", bearer.as_str())], body.as_bytes());
+        (answer.status, answer.json["code"].as_str().unwrap_or_default().to_owned())
+    };
+    let (events, booked) = (
+        format!("{day}/events"),
+        r#"{"type": "booked", "period": "09:00:00", "from": "V1", "to": "V2", "passengers": 1}"#,
+    );
+    let outcome = |status: u16, code: &str| (status, code.to_owned());
+    assert_eq!(service.get("/healthz").status, 200);
+    assert_eq!(text(&service.get(&day).json, "code"), "V610");
+    assert_eq!(ask("GET", &day, &format!("{read}0"), ""), outcome(401, "V610"));
+    assert_eq!(ask("GET", &day, &read, "").0, 200);
+    assert_eq!(ask("POST", &format!("{day}/what-if"), &read, "{}").0, 200);
+    assert_eq!(ask("POST", &events, &read, booked), outcome(403, "V618"));
+    assert_eq!(ask("POST", &events, &dispatch, booked).0, 201);
+    assert_eq!(ask("DELETE", &day, &dispatch, ""), outcome(403, "V618"));
+    let listed = service.send("GET", &events, &[("authorization", &format!("Bearer {read}"))], b"");
+    assert_eq!(text(&listed.json["events"][0], "actor"), "console");
+    let id = tokens
+        .list()
+        .expect("a list")
+        .iter()
+        .find(|token| token.name == "console")
+        .expect("it")
+        .id
+        .clone();
+    tokens.revoke(&id).expect("it is in force");
+    assert!(tokens.revoke(&id).is_err(), "only once");
+    std::thread::sleep(std::time::Duration::from_millis(2_100));
+    assert_eq!(ask("POST", &events, &dispatch, booked), outcome(401, "V610"));
+    assert_eq!(ask("DELETE", &day, &admin, "").0, 204);
 }

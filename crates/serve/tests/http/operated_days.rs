@@ -26,7 +26,7 @@ fn simulated(day: &Arc<Scenario>, policy: &str) -> DayTotals {
 fn operated(service: &Running, day: &Arc<Scenario>, policy: &str) -> OperationReport {
     let (url, policy) = (service.url.clone(), policy.to_owned());
     let operation = Operation { url, day: Arc::clone(day), policy, speed: None };
-    let report = operate(&operation, &Stop::default(), |_| ()).expect("the service answers");
+    let report = operate(&operation, &Stop::default(), |_, _| ()).expect("the service answers");
     report.expect("nobody stops it")
 }
 

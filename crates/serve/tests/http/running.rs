@@ -20,7 +20,8 @@ impl Running {
     /// Starts a service with its data in a folder.
     pub(crate) fn start(folder: &Path) -> Self {
         let listen = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
-        let settings = Settings { listen, location: Location::Folder(folder.to_owned()) };
+        let settings =
+            Settings { listen, location: Location::Folder(folder.to_owned()), behind_proxy: false };
         let stop = Stop::default();
         let heard = stop.clone();
         let (listens, address) = mpsc::channel();

@@ -1,0 +1,257 @@
+//! Who may do what: bearer tokens with roles. As long as no token has been made, everybody on this machine may do
+//! everything, and the service listens on this machine alone.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use axum::extract::{Request, State};
+use axum::http::{HeaderMap, Method, header};
+use axum::middleware::Next;
+use axum::response::Response;
+use serde::Serialize;
+use sha2::{Digest as _, Sha256};
+use subtle::ConstantTimeEq as _;
+use tokio::sync::Mutex;
+
+use crate::days::now_ms;
+use crate::error::Error;
+use crate::service::Service;
+use crate::store::{Location, Store};
+
+/// A token that is revoked is refused after this time at the latest.
+const FRESH: Duration = Duration::from_secs(2);
+/// Every token begins like this, so that people and scanners know one when they see it.
+const PREFIX: &str = "vf_";
+
+/// What a token permits. Each role permits what those before it do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Role {
+    /// To read days, and to ask for proposals, outlooks and what-if.
+    Read,
+    /// To report events and to take decisions, and to make days.
+    Dispatch,
+    /// To archive and delete days.
+    Admin,
+}
+
+impl Role {
+    /// All roles.
+    pub const ALL: [Self; 3] = [Self::Read, Self::Dispatch, Self::Admin];
+
+    /// The role's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Read => "read",
+            Self::Dispatch => "dispatch",
+            Self::Admin => "admin",
+        }
+    }
+
+    /// The role with a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|role| role.name() == name)
+    }
+
+    /// The role that a request needs.
+    fn needed(method: &Method, path: &str) -> Self {
+        match *method {
+            Method::GET | Method::HEAD | Method::OPTIONS => Self::Read,
+            Method::POST if path.ends_with("/what-if") => Self::Read,
+            Method::POST if !path.ends_with("/archive") => Self::Dispatch,
+            _ => Self::Admin,
+        }
+    }
+}
+
+/// A token as it is stored. Its secret is not.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct StoredToken {
+    /// Its id, which is the first part of the token.
+    pub id: String,
+    /// What it is called in the record of who did what.
+    pub name: String,
+    /// What it permits.
+    pub role: Role,
+    /// SHA-256 of its secret, in hexadecimal digits.
+    #[serde(skip)]
+    pub hash: String,
+    /// When it was made, milliseconds of the Unix clock.
+    pub created_ms: i64,
+    /// When it was revoked; 0 if it is in force.
+    pub revoked_ms: i64,
+}
+
+/// Whoever sent a request, by the name of the token; empty without tokens.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Actor(pub(crate) String);
+
+/// Knows the tokens.
+#[derive(Debug)]
+pub(crate) struct Access {
+    store: Store,
+    known: Mutex<Option<(Instant, Arc<[StoredToken]>)>>,
+}
+
+impl Access {
+    pub(crate) fn new(store: Store) -> Self {
+        Self { store, known: Mutex::new(None) }
+    }
+
+    /// The tokens, at most [`FRESH`] old.
+    async fn tokens(&self) -> Result<Arc<[StoredToken]>, Error> {
+        let mut known = self.known.lock().await;
+        if let Some((read, tokens)) = &*known
+            && read.elapsed() < FRESH
+        {
+            return Ok(Arc::clone(tokens));
+        }
+        let tokens: Arc<[StoredToken]> = self.store.tokens().await?.into();
+        *known = Some((Instant::now(), Arc::clone(&tokens)));
+        Ok(tokens)
+    }
+
+    /// Whether requests need a token.
+    pub(crate) async fn is_guarded(&self) -> Result<bool, Error> {
+        Ok(self.tokens().await?.iter().any(|token| token.revoked_ms == 0))
+    }
+
+    /// Lets a request in, or not.
+    async fn admit(&self, headers: &HeaderMap, needed: Role) -> Result<Actor, Error> {
+        let tokens = self.tokens().await?;
+        // Once there has been a token, revoking the last one does not open the door to everybody.
+        if tokens.is_empty() {
+            return Ok(Actor::default());
+        }
+        let given = headers.get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
+        let given = given.and_then(|text| text.strip_prefix("Bearer ")).ok_or(Error::NoToken)?;
+        let token = matching(&tokens, given).ok_or(Error::NoToken)?;
+        if token.role < needed {
+            return Err(Error::NotPermitted { role: token.role.name(), needed: needed.name() });
+        }
+        Ok(Actor(token.name.clone()))
+    }
+}
+
+/// The token in force that a text is.
+fn matching<'a>(tokens: &'a [StoredToken], given: &str) -> Option<&'a StoredToken> {
+    let (id, secret) = given.strip_prefix(PREFIX)?.split_once('_')?;
+    let token = tokens.iter().find(|token| token.id == id && token.revoked_ms == 0)?;
+    let is_it: bool = hash(secret).as_bytes().ct_eq(token.hash.as_bytes()).into();
+    is_it.then_some(token)
+}
+
+/// Lets requests in that may be carried out. Signs of life need no token.
+pub(crate) async fn admit(
+    State(service): State<Arc<Service>>,
+    mut request: Request,
+    next: Next,
+) -> Result<Response, Error> {
+    let path = request.uri().path();
+    if !matches!(path, "/healthz" | "/readyz") {
+        let needed = Role::needed(request.method(), path);
+        let actor = service.access.admit(request.headers(), needed).await?;
+        request.extensions_mut().insert(actor);
+    }
+    Ok(next.run(request).await)
+}
+
+fn hash(secret: &str) -> String {
+    hexadecimal(&Sha256::digest(secret.as_bytes()))
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
+}
+
+fn random_digits(bytes: usize) -> Result<String, Error> {
+    let mut random = vec![0; bytes];
+    let failed = |error: getrandom::Error| Error::Internal { cause: error.to_string() };
+    getrandom::fill(&mut random).map_err(failed)?;
+    Ok(hexadecimal(&random))
+}
+
+/// Makes, lists and revokes tokens, beside a running service or without one.
+#[derive(Debug)]
+pub struct Tokens {
+    runtime: tokio::runtime::Runtime,
+    store: Store,
+}
+
+impl Tokens {
+    /// Opens the store of a service.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] or [`Error::BadData`] if it cannot be opened.
+    pub fn open(location: &Location) -> Result<Self, Error> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+        let runtime = runtime.map_err(|cause| Error::Internal { cause: cause.to_string() })?;
+        let store = runtime.block_on(Store::open(location))?;
+        Ok(Self { runtime, store })
+    }
+
+    /// Makes a token and returns its text, which cannot be had again.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if it cannot be stored.
+    pub fn make(&self, name: &str, role: Role) -> Result<String, Error> {
+        let (id, secret) = (random_digits(4)?, random_digits(32)?);
+        let token = StoredToken {
+            id: id.clone(),
+            name: name.to_owned(),
+            role,
+            hash: hash(&secret),
+            created_ms: now_ms(),
+            revoked_ms: 0,
+        };
+        self.runtime.block_on(async {
+            self.store.add_token(&token).await?;
+            self.store.record("", "token made", &token.id, token.created_ms).await
+        })?;
+        Ok(format!("{PREFIX}{id}_{secret}"))
+    }
+
+    /// All tokens.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if they cannot be read.
+    pub fn list(&self) -> Result<Vec<StoredToken>, Error> {
+        self.runtime.block_on(self.store.tokens())
+    }
+
+    /// Revokes a token.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there is no such token in force, and [`Error::Store`].
+    pub fn revoke(&self, id: &str) -> Result<(), Error> {
+        self.runtime.block_on(async {
+            if !self.store.revoke_token(id, now_ms()).await? {
+                return Err(Error::not_found("token", id));
+            }
+            self.store.record("", "token revoked", id, now_ms()).await
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Role, StoredToken, hash, matching};
+
+    #[test]
+    fn a_token_matches_by_its_whole_secret_and_only_while_it_is_in_force() {
+        let token = |revoked_ms| StoredToken {
+            id: "1f".to_owned(),
+            name: "console".to_owned(),
+            role: Role::Dispatch,
+            hash: hash("secret"),
+            created_ms: 1,
+            revoked_ms,
+        };
+        let (good, revoked) = ([token(0)], [token(5)]);
+        assert_eq!(matching(&good, "vf_1f_secret"), Some(&good[0]));
+        for wrong in ["vf_1f_secre", "vf_1f_secret2", "vf_1e_secret", "1f_secret", "vf_1f", ""] {
+            assert_eq!(matching(&good, wrong), None, "{wrong:?}");
+        }
+        assert_eq!(matching(&revoked, "vf_1f_secret"), None);
+    }
+}

@@ -1,0 +1,71 @@
+//! Tokens in the store, as hashes, and the record of who did what beside the events of days.
+
+use sqlx::any::AnyRow;
+use sqlx::{Row as _, query};
+
+use super::Store;
+use crate::access::{Role, StoredToken};
+use crate::error::Error;
+
+impl Store {
+    /// Adds a token.
+    pub(crate) async fn add_token(&self, token: &StoredToken) -> Result<(), Error> {
+        query(
+            "INSERT INTO tokens (id, name, role, hash, created_ms, revoked_ms)
+             VALUES ($1, $2, $3, $4, $5, 0)",
+        )
+        .bind(&token.id)
+        .bind(&token.name)
+        .bind(token.role.name())
+        .bind(&token.hash)
+        .bind(token.created_ms)
+        .execute(self.pool())
+        .await?;
+        Ok(())
+    }
+
+    /// All tokens, those that were revoked among them.
+    pub(crate) async fn tokens(&self) -> Result<Vec<StoredToken>, Error> {
+        let select = "SELECT id, name, role, hash, created_ms, revoked_ms FROM tokens ORDER BY created_ms, id";
+        let rows = query(select).fetch_all(self.pool()).await?;
+        rows.iter().map(stored_token).collect()
+    }
+
+    /// Revokes a token. Returns whether there was such a token in force.
+    pub(crate) async fn revoke_token(&self, id: &str, now_ms: i64) -> Result<bool, Error> {
+        let update = "UPDATE tokens SET revoked_ms = $2 WHERE id = $1 AND revoked_ms = 0";
+        let done = query(update).bind(id).bind(now_ms).execute(self.pool()).await?;
+        Ok(done.rows_affected() > 0)
+    }
+
+    /// Records what somebody did beside the events of days.
+    pub(crate) async fn record(
+        &self,
+        actor: &str,
+        action: &str,
+        target: &str,
+        at_ms: i64,
+    ) -> Result<(), Error> {
+        query("INSERT INTO audit (at_ms, actor, action, target) VALUES ($1, $2, $3, $4)")
+            .bind(at_ms)
+            .bind(actor)
+            .bind(action)
+            .bind(target)
+            .execute(self.pool())
+            .await?;
+        Ok(())
+    }
+}
+
+fn stored_token(row: &AnyRow) -> Result<StoredToken, Error> {
+    let role: String = row.try_get("role")?;
+    let bad = || Error::BadData { rule: format!("a token with the role {role:?}") };
+    Ok(StoredToken {
+        id: row.try_get("id")?,
+        name: row.try_get("name")?,
+        role: Role::named(&role).ok_or_else(bad)?,
+        hash: row.try_get("hash")?,
+        created_ms: row.try_get("created_ms")?,
+        revoked_ms: row.try_get("revoked_ms")?,
+    })
+}
