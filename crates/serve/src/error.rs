@@ -1,5 +1,7 @@
 //! The errors of the service, with stable codes (V6xx) and what they mean in HTTP.
 
+use std::path::PathBuf;
+
 use axum::http::StatusCode;
 use vertifleet_core::{Code, Coded, Exit};
 use vertifleet_policy::PolicyError;
@@ -173,6 +175,14 @@ pub enum Error {
         /// What is missing.
         missing: &'static str,
     },
+
+    /// V620. Another service uses the folder. Cause: a second `vertifleet serve` with the same `--data`. Fix: stop the
+    /// other one, name another folder, or let both use a `PostgreSQL` database.
+    #[error("{}: another service uses this folder", folder.display())]
+    InUse {
+        /// The folder.
+        folder: PathBuf,
+    },
 }
 
 impl Error {
@@ -218,6 +228,7 @@ impl Error {
             Self::BadData { .. }
             | Self::Internal { .. }
             | Self::Unprotected { .. }
+            | Self::InUse { .. }
             | Self::CannotListen { .. }
             | Self::NoAnswer { .. } => StatusCode::INTERNAL_SERVER_ERROR,
         }
@@ -254,6 +265,7 @@ impl Coded for Error {
             Self::Contradiction { .. } => 617,
             Self::NotPermitted { .. } => 618,
             Self::Unprotected { .. } => 619,
+            Self::InUse { .. } => 620,
         })
     }
 

@@ -12,6 +12,7 @@ mod decide;
 mod dispatch_day;
 mod error;
 mod event;
+mod keys;
 mod moment;
 mod operate;
 mod outlook;

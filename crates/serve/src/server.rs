@@ -1,5 +1,6 @@
 //! The running server: listens until it is asked to stop.
 
+use std::fs::{File, TryLockError};
 use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
@@ -46,7 +47,9 @@ pub fn serve(
         .map_err(|cause| Error::Store { cause: cause.to_string() })?;
     runtime.block_on(async {
         let store = Store::open(&settings.location).await?;
-        let service = Arc::new(Service::new(Days::new(store)));
+        // Held until the service stops. The operating system lets go of it even if the service is killed.
+        let _lock = lock(&settings.location)?;
+        let service = Arc::new(Service::new(Days::new(store)).await?);
         check_protection(settings, &service).await?;
         let cannot = |cause| Error::CannotListen { address: settings.listen.to_string(), cause };
         let listener = TcpListener::bind(settings.listen).await.map_err(cannot)?;
@@ -65,6 +68,18 @@ pub fn serve(
             } => Ok(()),
         }
     })
+}
+
+/// Takes the folder of the data for this service alone.
+fn lock(location: &Location) -> Result<Option<File>, Error> {
+    let Location::Folder(folder) = location else { return Ok(None) };
+    let failed = |cause| Error::Store { cause: format!("{}: {cause}", folder.display()) };
+    let file = File::create(folder.join("serve.lock")).map_err(failed)?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Err(Error::InUse { folder: folder.clone() }),
+        Err(TryLockError::Error(cause)) => Err(failed(cause)),
+    }
 }
 
 /// Refuses an address that others can reach, unless a proxy encrypts what they say and tokens tell who they are.

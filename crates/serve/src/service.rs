@@ -1,8 +1,5 @@
 //! What all requests share: the days, the keys of requests that are being carried out, and the settings.
 
-use std::collections::HashSet;
-use std::sync::{Mutex, PoisonError};
-
 use axum::http::HeaderMap;
 use serde::de::DeserializeOwned;
 use tokio::sync::{Semaphore, watch};
@@ -11,6 +8,7 @@ use crate::access::Access;
 use crate::api::Sender;
 use crate::days::{Days, Idempotency, Writer};
 use crate::error::Error;
+use crate::keys::{Busy, Keys};
 
 /// The longest key of a request.
 const LONGEST_KEY: usize = 128;
@@ -24,22 +22,9 @@ pub(crate) struct Service {
     pub(crate) access: Access,
     /// Whether the service is about to stop, so that streams end.
     pub(crate) stopping: watch::Sender<bool>,
-    /// Keys of requests that are being carried out.
-    busy: Mutex<HashSet<String>>,
+    keys: Keys,
     /// Turns for long computations.
     turns: Semaphore,
-}
-
-/// Holds a key while its request is carried out.
-pub(crate) struct Busy<'a> {
-    service: &'a Service,
-    key: String,
-}
-
-impl Drop for Busy<'_> {
-    fn drop(&mut self) {
-        self.service.busy.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.key);
-    }
 }
 
 /// A write as its headers describe it.
@@ -52,11 +37,17 @@ pub(crate) enum Write<'a> {
 
 impl Service {
     /// A service of these days.
-    pub(crate) fn new(days: Days) -> Self {
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if the store cannot be read.
+    pub(crate) async fn new(days: Days) -> Result<Self, Error> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let stopping = watch::Sender::new(false);
         let access = Access::new(days.store().clone());
-        Self { days, access, stopping, busy: Mutex::default(), turns: Semaphore::new(cores) }
+        let used = days.store().keys().await?;
+        let keys = Keys::new(used.as_deref());
+        let turns = Semaphore::new(cores);
+        Ok(Self { days, access, stopping, keys, turns })
     }
 
     /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.
@@ -71,9 +62,9 @@ impl Service {
             let rule = format!("Idempotency-Key must have 1 to {LONGEST_KEY} characters");
             return Err(Error::BadRequest { rule });
         }
-        let busy = self.occupy(key)?;
+        let (busy, may_be_known) = self.keys.take(key)?;
         let request = sum(path, body);
-        if let Some(known) = self.days.store().answer(key).await? {
+        if may_be_known && let Some(known) = self.days.store().answer(key).await? {
             if known.request != request {
                 return Err(Error::KeyReused { key: key.to_owned() });
             }
@@ -91,16 +82,6 @@ impl Service {
         let _turn = self.turns.acquire().await.expect("it is never closed");
         let died = |error| Error::Internal { cause: format!("{error}") };
         tokio::task::spawn_blocking(work).await.map_err(died)?
-    }
-
-    fn occupy(&self, key: &str) -> Result<Busy<'_>, Error> {
-        let is_free =
-            self.busy.lock().unwrap_or_else(PoisonError::into_inner).insert(key.to_owned());
-        if is_free {
-            Ok(Busy { service: self, key: key.to_owned() })
-        } else {
-            Err(Error::KeyInUse { key: key.to_owned() })
-        }
     }
 }
 

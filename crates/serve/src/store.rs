@@ -48,6 +48,8 @@ pub enum Location {
 #[derive(Debug, Clone)]
 pub(crate) struct Store {
     pool: AnyPool,
+    /// Whether other processes may use it too.
+    is_shared: bool,
 }
 
 /// A day as it is stored, without its scenario.
@@ -132,7 +134,8 @@ impl Store {
             }
             Location::Postgres(url) => url.clone(),
         };
-        let store = Self { pool: options.connect(&url).await? };
+        let is_shared = matches!(location, Location::Postgres(_));
+        let store = Self { pool: options.connect(&url).await?, is_shared };
         for statement in TABLES {
             store.pool.execute(statement).await?;
         }
@@ -287,6 +290,15 @@ impl Store {
             })
         };
         row.map(answer).transpose()
+    }
+
+    /// All keys that requests have used; `None` if other processes may use keys too.
+    pub(crate) async fn keys(&self) -> Result<Option<Vec<String>>, Error> {
+        if self.is_shared {
+            return Ok(None);
+        }
+        let keys = query_scalar("SELECT idempotency_key FROM answers").fetch_all(&self.pool);
+        Ok(Some(keys.await?))
     }
 
     /// Asks the store for a sign of life.

@@ -68,6 +68,7 @@ pub(crate) struct DayList {
 
 /// A page of a list.
 #[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
 pub(crate) struct Page {
     /// The cursor that an earlier page ended with.
     #[serde(default)]
@@ -145,7 +146,7 @@ impl DayInfo {
 }
 
 /// Lists the days.
-#[utoipa::path(get, path = "/v1/days", tag = "days", params(Page), responses((status = 200, body = DayList)))]
+#[utoipa::path(operation_id = "list_days", get, path = "/v1/days", tag = "days", params(Page), responses((status = 200, body = DayList)))]
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
     Asked(page): Asked<Page>,
@@ -159,7 +160,7 @@ pub(super) async fn list(
 
 /// Makes a day.
 #[utoipa::path(
-    post, path = "/v1/days", tag = "days", request_body = NewDay,
+    operation_id = "make_day", post, path = "/v1/days", tag = "days", request_body = NewDay,
     responses((status = 201, body = DayInfo), (status = 400, body = crate::problem::Problem))
 )]
 pub(super) async fn create(
@@ -213,7 +214,7 @@ fn new_id() -> String {
 }
 
 /// Reads a day.
-#[utoipa::path(get, path = "/v1/days/{day}", tag = "days", params(("day" = String, Path)), responses((status = 200, body = DayInfo)))]
+#[utoipa::path(operation_id = "read_day", get, path = "/v1/days/{day}", tag = "days", params(("day" = String, Path)), responses((status = 200, body = DayInfo)))]
 pub(super) async fn read(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
@@ -225,7 +226,7 @@ pub(super) async fn read(
 }
 
 /// Closes a day to writes.
-#[utoipa::path(post, path = "/v1/days/{day}/archive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
+#[utoipa::path(operation_id = "archive_day", post, path = "/v1/days/{day}/archive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn archive(
     State(service): State<Arc<Service>>,
     sender: Sender,
@@ -237,7 +238,7 @@ pub(super) async fn archive(
 }
 
 /// Removes a day with its events.
-#[utoipa::path(delete, path = "/v1/days/{day}", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
+#[utoipa::path(operation_id = "delete_day", delete, path = "/v1/days/{day}", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
     sender: Sender,
@@ -250,13 +251,14 @@ pub(super) async fn delete(
 
 /// The state to be read.
 #[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
 pub(crate) struct At {
     /// The number of the event after which the state is asked for; without it, the latest.
     seq: Option<u64>,
 }
 
 /// What is known of a day, now or after any of its events.
-#[utoipa::path(get, path = "/v1/days/{day}/state", tag = "days", params(("day" = String, Path), At), responses((status = 200, body = DayState)))]
+#[utoipa::path(operation_id = "day_state", get, path = "/v1/days/{day}/state", tag = "days", params(("day" = String, Path), At), responses((status = 200, body = DayState)))]
 pub(super) async fn state(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
@@ -307,7 +309,7 @@ impl DayState {
 }
 
 /// The decisions so far as CSV: the trace of the day.
-#[utoipa::path(get, path = "/v1/days/{day}/trace.csv", tag = "days", params(("day" = String, Path)), responses((status = 200, content_type = "text/csv")))]
+#[utoipa::path(operation_id = "day_trace", get, path = "/v1/days/{day}/trace.csv", tag = "days", params(("day" = String, Path)), responses((status = 200, content_type = "text/csv")))]
 pub(super) async fn trace(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,

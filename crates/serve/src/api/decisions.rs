@@ -23,6 +23,7 @@ const QUICK_POLICY: &str = "greedy";
 
 /// How a decision is asked for.
 #[derive(Debug, Clone, Default, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HowAsked {
     /// The policy; without it, the day's.
@@ -65,7 +66,7 @@ pub(crate) struct TakenDecision {
 
 /// Proposes a decision for an aircraft that is ready, with reasons. Nothing changes.
 #[utoipa::path(
-    get, path = "/v1/days/{day}/aircraft/{aircraft}/decision", tag = "decisions",
+    operation_id = "propose_decision", get, path = "/v1/days/{day}/aircraft/{aircraft}/decision", tag = "decisions",
     params(("day" = String, Path), ("aircraft" = String, Path), HowAsked),
     responses((status = 200, body = Proposal), (status = 422, body = crate::problem::Problem))
 )]
@@ -83,7 +84,7 @@ pub(super) async fn propose(
 /// Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable when the answer
 /// comes.
 #[utoipa::path(
-    post, path = "/v1/days/{day}/decisions", tag = "decisions", params(("day" = String, Path)),
+    operation_id = "take_decision", post, path = "/v1/days/{day}/decisions", tag = "decisions", params(("day" = String, Path)),
     request_body = NewDecision,
     responses(
         (status = 201, body = TakenDecision),

@@ -108,6 +108,7 @@ pub(crate) struct EventList {
 
 /// Which events are asked for.
 #[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
 pub(crate) struct After {
     /// Events after this number.
     #[serde(default)]
@@ -118,7 +119,7 @@ pub(crate) struct After {
 
 /// Takes an event in, or several, all or none. They are durable when the answer comes.
 #[utoipa::path(
-    post, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path)),
+    operation_id = "add_events", post, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path)),
     request_body = OneOrMore,
     responses(
         (status = 201, body = Taken),
@@ -150,7 +151,7 @@ pub(super) async fn append(
 }
 
 /// Lists events.
-#[utoipa::path(get, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path), After), responses((status = 200, body = EventList)))]
+#[utoipa::path(operation_id = "list_events", get, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path), After), responses((status = 200, body = EventList)))]
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,

@@ -16,6 +16,7 @@ use crate::service::{Service, parse};
 
 /// Which outlook is asked for.
 #[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct By {
     /// The policy that decides from now on; without it, the day's.
@@ -24,7 +25,7 @@ pub(crate) struct By {
 
 /// The rest of the day as it is expected, if a policy takes every decision from now on.
 #[utoipa::path(
-    get, path = "/v1/days/{day}/outlook", tag = "outlooks", params(("day" = String, Path), By),
+    operation_id = "day_outlook", get, path = "/v1/days/{day}/outlook", tag = "outlooks", params(("day" = String, Path), By),
     responses((status = 200, body = Outlook))
 )]
 pub(super) async fn outlook(
@@ -43,7 +44,7 @@ pub(super) async fn outlook(
 /// Compares the outlook with what it would be after events that have not happened, with another policy, or with other
 /// stands or more aircraft. Nothing changes.
 #[utoipa::path(
-    post, path = "/v1/days/{day}/what-if", tag = "outlooks", params(("day" = String, Path)),
+    operation_id = "what_if", post, path = "/v1/days/{day}/what-if", tag = "outlooks", params(("day" = String, Path)),
     request_body = WhatIf,
     responses((status = 200, body = Comparison), (status = 422, body = crate::problem::Problem))
 )]

@@ -26,6 +26,7 @@ const PAGE: u32 = 1_000;
 
 /// Where the stream begins.
 #[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
 pub(crate) struct From {
     /// Events after this number; `Last-Event-ID` goes before it.
     after: Option<u64>,
@@ -45,7 +46,7 @@ struct Reader {
 
 /// Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on.
 #[utoipa::path(
-    get, path = "/v1/days/{day}/stream", tag = "events", params(("day" = String, Path), From),
+    operation_id = "stream_events", get, path = "/v1/days/{day}/stream", tag = "events", params(("day" = String, Path), From),
     responses((status = 200, content_type = "text/event-stream", body = TakenEvent))
 )]
 pub(super) async fn stream(

@@ -4,7 +4,8 @@ use std::io::{BufRead as _, BufReader};
 
 use serde_json::{Value, json};
 
-use vertifleet_serve::{Location, Role, Tokens};
+use vertifleet_core::{Coded as _, Stop};
+use vertifleet_serve::{Location, Role, Settings, Tokens};
 
 use crate::running::Running;
 
@@ -331,4 +332,26 @@ fn tokens_say_who_may_do_what_and_who_did_it() {
     std::thread::sleep(std::time::Duration::from_millis(2_100));
     assert_eq!(ask("POST", &events, &dispatch, booked), outcome(401, "V610"));
     assert_eq!(ask("DELETE", &day, &admin, "").0, 204);
+}
+
+#[test]
+fn a_folder_belongs_to_one_service() {
+    let (folder, _service) = service();
+    let listen = std::net::SocketAddr::from((std::net::Ipv4Addr::LOCALHOST, 0));
+    let location = Location::Folder(folder.path().to_owned());
+    let settings = Settings { listen, location, behind_proxy: false };
+    let second = vertifleet_serve::serve(&settings, |_| (), &Stop::default());
+    assert_eq!(second.expect_err("the first one runs").code().to_string(), "V620");
+}
+
+#[test]
+fn an_address_of_others_needs_a_proxy_and_a_token() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let listen = std::net::SocketAddr::from((std::net::Ipv4Addr::UNSPECIFIED, 0));
+    let location = Location::Folder(folder.path().to_owned());
+    for behind_proxy in [false, true] {
+        let settings = Settings { listen, location: location.clone(), behind_proxy };
+        let refused = vertifleet_serve::serve(&settings, |_| (), &Stop::default());
+        assert_eq!(refused.expect_err("there is no token").code().to_string(), "V619");
+    }
 }

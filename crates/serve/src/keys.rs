@@ -1,0 +1,88 @@
+//! The keys of requests: which are being carried out, and which may have been before.
+//!
+//! A request with a key that was never used must not wait for the store to say so. All used keys are therefore kept in
+//! memory, as hashes, as long as there are not too many; otherwise, and for a key that may be known, the store is asked.
+
+use std::collections::HashSet;
+use std::hash::{BuildHasher as _, RandomState};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::error::Error;
+
+/// So many hashes take some 50 MB.
+const MOST: usize = 4_000_000;
+
+/// The keys of a service.
+#[derive(Debug)]
+pub(crate) struct Keys {
+    hasher: RandomState,
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    /// Keys of requests that are being carried out.
+    busy: HashSet<String>,
+    /// Hashes of all keys that were ever used; `None` if they are not known.
+    used: Option<HashSet<u64>>,
+}
+
+/// Holds a key while its request is carried out.
+pub(crate) struct Busy<'a> {
+    keys: &'a Keys,
+    key: String,
+}
+
+impl Drop for Busy<'_> {
+    fn drop(&mut self) {
+        self.keys.state().busy.remove(&self.key);
+    }
+}
+
+impl Keys {
+    /// Keys of which these have been used; `None` if others may have been used too.
+    pub(crate) fn new(used: Option<&[String]>) -> Self {
+        let hasher = RandomState::new();
+        let used = used.map(|keys| keys.iter().map(|key| hasher.hash_one(key)).collect());
+        Self { hasher, state: Mutex::new(State { busy: HashSet::new(), used }) }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes a key for a request. Returns whether it may have been used before.
+    ///
+    /// # Errors
+    /// Returns [`Error::KeyInUse`] if a request with this key is being carried out.
+    pub(crate) fn take(&self, key: &str) -> Result<(Busy<'_>, bool), Error> {
+        let mut state = self.state();
+        if !state.busy.insert(key.to_owned()) {
+            return Err(Error::KeyInUse { key: key.to_owned() });
+        }
+        let busy = Busy { keys: self, key: key.to_owned() };
+        let Some(used) = &mut state.used else { return Ok((busy, true)) };
+        let is_new = used.insert(self.hasher.hash_one(key));
+        if used.len() > MOST {
+            state.used = None;
+        }
+        Ok((busy, !is_new))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Keys;
+
+    #[test]
+    fn a_key_is_held_by_one_request_at_a_time_and_known_afterwards() {
+        let keys = Keys::new(Some(&["old".to_owned()]));
+        let (busy, may_be_known) = keys.take("new").expect("nobody holds it");
+        assert!(!may_be_known);
+        assert!(keys.take("new").is_err(), "it is being carried out");
+        drop(busy);
+        assert!(keys.take("new").expect("nobody holds it").1);
+        assert!(keys.take("old").expect("nobody holds it").1);
+        assert!(Keys::new(None).take("any").expect("nobody holds it").1, "nothing is known");
+    }
+}
