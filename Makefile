@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo check test lint deny bench train suites notebooks python python-light python-test wheel sdist prepare tools
+.PHONY: demo check test soak database lint deny bench train suites notebooks python python-light python-test wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network.
 demo: prepare
@@ -8,7 +8,7 @@ demo: prepare
 	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,prices,rolling,mlp,gcaps,gcaps-x --days 100 --seed 1 --report out/report
 
 # What to run before a commit, in minutes: formatting, lints, Rust's tests, and those of Python that need no PyTorch and no Ray.
-check: prepare python-light
+check: prepare database python-light
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	cargo test --workspace --locked
@@ -16,7 +16,7 @@ check: prepare python-light
 	python/.venv/bin/pytest -q -c python/pyproject.toml --ignore python/tests/frameworks python/tests
 
 # Rust's tests first: they take minutes, and need nothing to be downloaded but crates.
-test: prepare
+test: prepare database
 	cargo test --workspace --locked
 	$(MAKE) python-test
 
@@ -36,6 +36,14 @@ python: prepare
 	@scripts/python dev
 python-light: prepare
 	@scripts/python light
+
+# What the tests of services that share a database need.
+database:
+	@scripts/database
+
+# How often the service survives: 1,000 kills while clients write.
+soak: prepare
+	VERTIFLEET_KILLS=1000 cargo test --release --locked -p vertifleet-cli --test serve_killed -- --nocapture
 
 # What the lints need beside Rust and Python.
 tools: prepare

@@ -254,8 +254,10 @@ fn commands_in_the_pages_use_flags_that_exist() {
                 let Some((_, rest)) = line.split_once(&format!("vertifleet {command} ")) else {
                     continue;
                 };
-                let inner = |other: &&str| other.starts_with(&format!("{command} "));
-                if SUBCOMMANDS.iter().filter(inner).any(|other| line.contains(other)) {
+                let is_inner = |other: &&str| {
+                    other.starts_with(&format!("{command} ")) && line.contains(*other)
+                };
+                if SUBCOMMANDS.iter().any(is_inner) {
                     continue;
                 }
                 let used = long_flags(rest);

@@ -57,8 +57,8 @@ async fn write(store: &Store, batch: &mut Vec<Append>) {
     let whole = batch.len() == 1 || store_together(store, batch).await.is_err();
     for append in batch.drain(..) {
         let outcome = if append.day.has_failed.load(Ordering::Acquire) {
-            let cause = "an earlier event of the day could not be stored".to_owned();
-            Err(Error::Store { cause })
+            // An earlier event of the day could not be stored. The day is read again before this one is tried again.
+            Err(Error::Conflict)
         } else if whole {
             store_together(store, std::slice::from_ref(&append)).await
         } else {

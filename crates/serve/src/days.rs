@@ -19,6 +19,8 @@ use crate::store::{Store, StoredAnswer, StoredDay, StoredEvent};
 
 /// Events that a slow reader may be behind before it has to read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
+/// A write is tried so often when other services write to the same day.
+const TRIES: u32 = 5;
 /// Events that are read from the store at once.
 const PAGE: u32 = 10_000;
 
@@ -188,12 +190,43 @@ impl Days {
     /// # Errors
     /// Returns [`Error::NotFound`] if there is no such day, [`Error::BadData`] if it is damaged, and [`Error::Store`].
     pub(crate) async fn get(&self, id: &str) -> Result<Arc<DayCell>, Error> {
+        let day = self.in_memory(id).await?;
+        if !self.store.is_shared() || self.catch_up(&day).await? {
+            return Ok(day);
+        }
+        day.has_failed.store(true, Ordering::Release);
+        self.in_memory(id).await
+    }
+
+    async fn in_memory(&self, id: &str) -> Result<Arc<DayCell>, Error> {
         let cell = self.cell(id);
         let day = cell.get_or_try_init(|| self.read(id)).await;
         if day.is_err() {
             self.forget(id);
         }
         day.cloned()
+    }
+
+    /// Takes in what other services have added to a day. Returns false if memory does not go on as the store does,
+    /// because an event of ours waits to be stored under a number that has been taken.
+    async fn catch_up(&self, day: &DayCell) -> Result<bool, Error> {
+        loop {
+            let known = day.state().seq();
+            let events = self.store.events(day.id(), known, PAGE).await?;
+            let is_whole = events.len() < PAGE as usize;
+            let mut state = day.state();
+            for event in events {
+                if event.seq == state.seq() + 1 {
+                    if state.replay(&event).is_err() {
+                        return Ok(false);
+                    }
+                    day.publish(vec![event]);
+                }
+            }
+            if is_whole {
+                return Ok(true);
+            }
+        }
     }
 
     async fn read(&self, id: &str) -> Result<Arc<DayCell>, Error> {
@@ -275,7 +308,25 @@ impl Days {
         day: &Arc<DayCell>,
         writer: Writer,
         events: Vec<Event>,
-        answer: impl FnOnce(&Appended) -> T,
+        answer: impl Fn(&Appended) -> T,
+    ) -> Result<T, Error> {
+        let mut day = Arc::clone(day);
+        for _ in 0..TRIES {
+            match self.append_once(&day, writer.clone(), events.clone(), &answer).await {
+                // Somebody else was quicker: the day is read again, and the events are taken in after theirs.
+                Err(Error::Conflict) => day = self.get(day.id()).await?,
+                outcome => return outcome,
+            }
+        }
+        Err(Error::Conflict)
+    }
+
+    async fn append_once<T: Serialize>(
+        &self,
+        day: &Arc<DayCell>,
+        writer: Writer,
+        events: Vec<Event>,
+        answer: impl Fn(&Appended) -> T,
     ) -> Result<T, Error> {
         if day.stored.archived {
             return Err(Error::Archived { id: day.id().to_owned() });

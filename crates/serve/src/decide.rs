@@ -235,19 +235,26 @@ impl Weighed<'_> {
         let passenger_usd = |prices: &DayPrices| prices.passenger_usd(period, at, to);
         Alternative {
             to: scenario.vertiports[to.at()].id.clone(),
-            value: Some(values[to.at()]).filter(|value| value.is_finite()),
-            worth_usd: open.map(|prices| prices.choice_usd(*view, decision, to)),
-            flight_profit_usd,
+            value: Some(values[to.at()]).filter(|value| value.is_finite()).map(to_cents),
+            worth_usd: open.map(|prices| to_cents(prices.choice_usd(*view, decision, to))),
+            flight_profit_usd: to_cents(flight_profit_usd),
             passengers,
             arrival: (time + flight_s).into(),
             ready: ready.into(),
             stands: view.stands(to),
             stands_taken: view.stands_taken()[to.at()],
-            stand_price_usd: open.map(|prices| prices.rent_usd(to, time, ready)),
-            passenger_price_usd: open.filter(|_| !stays).map(passenger_usd),
+            stand_price_usd: open.map(|prices| to_cents(prices.rent_usd(to, time, ready))),
+            passenger_price_usd: open
+                .filter(|_| !stays)
+                .map(|prices| to_cents(passenger_usd(prices))),
             impossible,
         }
     }
+}
+
+/// An amount to the hundredth, which is all that people read and much shorter than a float.
+fn to_cents(amount: f64) -> f64 {
+    (amount * 100.0).round() / 100.0
 }
 
 /// Why each vertiport cannot be chosen, in the order of the day.

@@ -183,6 +183,11 @@ pub enum Error {
         /// The folder.
         folder: PathBuf,
     },
+
+    /// V621. Another process wrote to the same day at the same time, again and again. Cause: several services share a
+    /// database, and many clients write to one day through all of them. Fix: send the request again.
+    #[error("another service wrote to the day at the same time")]
+    Conflict,
 }
 
 impl Error {
@@ -220,7 +225,7 @@ impl Error {
             | Self::KeyReused { .. } => StatusCode::UNPROCESSABLE_ENTITY,
             Self::Moved { .. } => StatusCode::PRECONDITION_FAILED,
             Self::Archived { .. } | Self::KeyInUse { .. } => StatusCode::CONFLICT,
-            Self::Store { .. } => StatusCode::SERVICE_UNAVAILABLE,
+            Self::Store { .. } | Self::Conflict => StatusCode::SERVICE_UNAVAILABLE,
             Self::NoToken => StatusCode::UNAUTHORIZED,
             Self::NotPermitted { .. } => StatusCode::FORBIDDEN,
             Self::TooMuch { .. } => StatusCode::PAYLOAD_TOO_LARGE,
@@ -237,7 +242,10 @@ impl Error {
 
 impl From<sqlx::Error> for Error {
     fn from(error: sqlx::Error) -> Self {
-        Self::Store { cause: error.to_string() }
+        match &error {
+            sqlx::Error::Database(cause) if cause.is_unique_violation() => Self::Conflict,
+            _ => Self::Store { cause: error.to_string() },
+        }
     }
 }
 
@@ -266,6 +274,7 @@ impl Coded for Error {
             Self::NotPermitted { .. } => 618,
             Self::Unprotected { .. } => 619,
             Self::InUse { .. } => 620,
+            Self::Conflict => 621,
         })
     }
 

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sqlx::any::{AnyPoolOptions, AnyRow, install_default_drivers};
-use sqlx::{AnyPool, Executor as _, QueryBuilder, Row as _, query, query_scalar};
+use sqlx::{AnyPool, AssertSqlSafe, Executor as _, Row as _, query, query_scalar};
 
 use crate::error::Error;
 
@@ -143,6 +143,11 @@ impl Store {
         Ok(store)
     }
 
+    /// Whether other processes may use it too.
+    pub(crate) fn is_shared(&self) -> bool {
+        self.is_shared
+    }
+
     fn pool(&self) -> &AnyPool {
         &self.pool
     }
@@ -257,19 +262,20 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         // A statement has at most 32,766 parameters in SQLite.
         for events in events.chunks(4_000) {
-            let mut insert = QueryBuilder::new(
-                "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain) ",
-            );
-            insert.push_values(events, |mut row, (day, event)| {
-                row.push_bind(*day)
-                    .push_bind(as_i64(event.seq))
-                    .push_bind(event.at_ms)
-                    .push_bind(&event.actor)
-                    .push_bind(&event.body)
-                    .push_bind(&event.notices)
-                    .push_bind(i64::from(event.chain));
-            });
-            insert.build().execute(&mut *transaction).await?;
+            let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain) VALUES ";
+            let sql = sql.to_owned() + &rows(events.len(), 7);
+            let mut insert = query(AssertSqlSafe(sql));
+            for (day, event) in events {
+                insert = insert
+                    .bind(*day)
+                    .bind(as_i64(event.seq))
+                    .bind(event.at_ms)
+                    .bind(&event.actor)
+                    .bind(&event.body)
+                    .bind(&event.notices)
+                    .bind(i64::from(event.chain));
+            }
+            insert.execute(&mut *transaction).await?;
         }
         let at_ms = events.first().map_or(0, |(_, event)| event.at_ms);
         insert_answers(&mut transaction, answers, at_ms).await?;
@@ -314,17 +320,25 @@ async fn insert_answers(
     at_ms: i64,
 ) -> Result<(), Error> {
     for answers in answers.chunks(4_000) {
-        let mut insert =
-            QueryBuilder::new("INSERT INTO answers (idempotency_key, request, answer, at_ms) ");
-        insert.push_values(answers, |mut row, answer| {
-            row.push_bind(&answer.key)
-                .push_bind(&answer.request)
-                .push_bind(&answer.answer)
-                .push_bind(at_ms);
-        });
-        insert.build().execute(&mut **transaction).await?;
+        let sql = "INSERT INTO answers (idempotency_key, request, answer, at_ms) VALUES ";
+        let mut insert = query(AssertSqlSafe(sql.to_owned() + &rows(answers.len(), 4)));
+        for answer in answers {
+            insert =
+                insert.bind(&answer.key).bind(&answer.request).bind(&answer.answer).bind(at_ms);
+        }
+        insert.execute(&mut **transaction).await?;
     }
     Ok(())
+}
+
+/// The places of the values of some rows, `($1, $2), ($3, $4)`, as both databases read them.
+fn rows(rows: usize, columns: usize) -> String {
+    let row = |row: usize| {
+        let places: Vec<String> =
+            (1..=columns).map(|column| format!("${}", row * columns + column)).collect();
+        format!("({})", places.join(", "))
+    };
+    (0..rows).map(row).collect::<Vec<_>>().join(", ")
 }
 
 fn sqlite_url(path: &Path) -> String {

@@ -18,6 +18,8 @@ use crate::event::{Event, What};
 use crate::moment::Moment;
 use crate::service::{Service, Write, parse};
 
+/// A policy is asked so often when events come in between.
+const TRIES: u32 = 5;
 /// Decides when the policy that was asked is late.
 const QUICK_POLICY: &str = "greedy";
 
@@ -98,34 +100,62 @@ pub(super) async fn decide(
     sender: Sender,
     Body(body): Body,
 ) -> Result<Response, Error> {
-    let (mut writer, _busy) = match service.write(&sender, &body).await? {
+    let (writer, _busy) = match service.write(&sender, &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
         Write::New(writer, busy) => (writer, busy),
     };
-    let NewDecision { aircraft, to, reason, policy, time, deadline_ms } = parse(&body)?;
+    let asked: NewDecision = parse(&body)?;
     let day = service.days.get(&day).await?;
     // What has moved on need not be thought about.
     writer.check(day.state().seq())?;
-    let taken = if let Some(to) = to {
-        let what =
-            What::Decided { aircraft, to: to.clone(), policy: None, instead_of: None, reason };
-        take(&service, &day, writer, Event { time, what }, None).await?
-    } else {
-        let asked = HowAsked { policy, time, deadline_ms };
-        let proposal = proposed(&day, aircraft.clone(), asked).await?;
-        // The proposal holds for the state that it was made for; whoever comes in between wins.
-        writer.if_match.get_or_insert(proposal.seq);
+    let taken = match asked.to.clone() {
+        Some(to) => by_hand(&service, &day, writer, asked, to).await?,
+        None => by_policy(&service, &day, writer, asked).await?,
+    };
+    Ok(at_event(StatusCode::CREATED, taken.seq, &taken))
+}
+
+/// Takes the decision of a person.
+async fn by_hand(
+    service: &Service,
+    day: &Arc<DayCell>,
+    writer: Writer,
+    NewDecision { aircraft, reason, time, .. }: NewDecision,
+    to: String,
+) -> Result<TakenDecision, Error> {
+    let what = What::Decided { aircraft, to, policy: None, instead_of: None, reason };
+    take(service, day, writer, Event { time, what }, None).await
+}
+
+/// Takes the decision of a policy. It holds for the state that it was made for: if an event comes in between, the policy
+/// is asked again, unless the writer wanted this very state.
+async fn by_policy(
+    service: &Service,
+    day: &Arc<DayCell>,
+    writer: Writer,
+    NewDecision { aircraft, reason, policy, time, deadline_ms, .. }: NewDecision,
+) -> Result<TakenDecision, Error> {
+    let asked = HowAsked { policy, time, deadline_ms };
+    let mut tries = 0;
+    loop {
+        tries += 1;
+        let day = service.days.get(day.id()).await?;
+        let proposal = proposed(&day, aircraft.clone(), asked.clone()).await?;
         let what = What::Decided {
-            aircraft,
+            aircraft: aircraft.clone(),
             to: proposal.to.clone(),
             policy: Some(proposal.policy.clone()),
             instead_of: None,
-            reason,
+            reason: reason.clone(),
         };
         let event = Event { time: Some(proposal.time), what };
-        take(&service, &day, writer, event, Some(proposal)).await?
-    };
-    Ok(at_event(StatusCode::CREATED, taken.seq, &taken))
+        let if_match = writer.if_match.or(Some(proposal.seq));
+        let once = Writer { if_match, ..writer.clone() };
+        match take(service, &day, once, event, Some(proposal)).await {
+            Err(Error::Moved { .. }) if writer.if_match.is_none() && tries < TRIES => {}
+            outcome => return outcome,
+        }
+    }
 }
 
 async fn take(
@@ -137,8 +167,11 @@ async fn take(
 ) -> Result<TakenDecision, Error> {
     let What::Decided { to, .. } = &event.what else { unreachable!("it is a decision") };
     let to = to.clone();
-    let answer =
-        |appended: &crate::days::Appended| TakenDecision { seq: appended.seq, to, proposal };
+    let answer = |appended: &crate::days::Appended| TakenDecision {
+        seq: appended.seq,
+        to: to.clone(),
+        proposal: proposal.clone(),
+    };
     service.days.append(day, writer, vec![event], answer).await
 }
 

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::sync::Arc;
+use std::time::Duration;
 
 use axum::extract::State;
 use axum::http::HeaderMap;
@@ -23,6 +24,9 @@ use crate::store::{Store, StoredEvent};
 
 /// Events that are read from the store at once.
 const PAGE: u32 = 1_000;
+
+/// How often a store that others write to is looked into.
+const LOOK: Duration = Duration::from_millis(250);
 
 /// Where the stream begins.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -85,6 +89,10 @@ impl Reader {
             }
             let fresh = tokio::select! {
                 fresh = self.fresh.recv() => fresh,
+                () = tokio::time::sleep(LOOK), if self.store.is_shared() => {
+                    self.is_behind = true;
+                    continue;
+                }
                 _ = self.stopping.wait_for(|&stops| stops) => return None,
             };
             match fresh {

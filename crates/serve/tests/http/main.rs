@@ -3,4 +3,5 @@
 mod api;
 mod malformed;
 mod operated_days;
+mod postgres;
 mod running;

@@ -10,12 +10,12 @@ use vertifleet_study::{PolicySpec, ResolveFor};
 
 use crate::running::Running;
 
-fn day(network: &str, seed: u64) -> Arc<Scenario> {
+pub(crate) fn day(network: &str, seed: u64) -> Arc<Scenario> {
     let network = Network::shipped(network).expect("a shipped network");
     Arc::new(network.draw(DaySeed::validation(seed).expect("a seed of validation")))
 }
 
-fn simulated(day: &Arc<Scenario>, policy: &str) -> DayTotals {
+pub(crate) fn simulated(day: &Arc<Scenario>, policy: &str) -> DayTotals {
     let spec = PolicySpec::parse(policy).expect("a policy");
     let resolved = spec.resolve(None, ResolveFor::Day(day), day.seed).expect("a policy");
     let mut simulation = Simulation::new(Arc::clone(day));
@@ -23,7 +23,7 @@ fn simulated(day: &Arc<Scenario>, policy: &str) -> DayTotals {
     simulation.totals()
 }
 
-fn operated(service: &Running, day: &Arc<Scenario>, policy: &str) -> OperationReport {
+pub(crate) fn operated(service: &Running, day: &Arc<Scenario>, policy: &str) -> OperationReport {
     let (url, policy) = (service.url.clone(), policy.to_owned());
     let operation = Operation { url, day: Arc::clone(day), policy, speed: None };
     let report = operate(&operation, &Stop::default(), |_, _| ()).expect("the service answers");

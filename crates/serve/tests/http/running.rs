@@ -19,9 +19,13 @@ pub(crate) struct Running {
 impl Running {
     /// Starts a service with its data in a folder.
     pub(crate) fn start(folder: &Path) -> Self {
+        Self::start_at(Location::Folder(folder.to_owned()))
+    }
+
+    /// Starts a service with its data somewhere.
+    pub(crate) fn start_at(location: Location) -> Self {
         let listen = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
-        let settings =
-            Settings { listen, location: Location::Folder(folder.to_owned()), behind_proxy: false };
+        let settings = Settings { listen, location, behind_proxy: false };
         let stop = Stop::default();
         let heard = stop.clone();
         let (listens, address) = mpsc::channel();
