@@ -11,16 +11,18 @@ use std::sync::Arc;
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
-use axum::http::{StatusCode, header};
-use axum::middleware::from_fn_with_state;
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::middleware::{Next, from_fn, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use serde::Serialize;
+use tower_http::catch_panic::CatchPanicLayer;
 use utoipa::OpenApi;
 
 pub(crate) use self::extract::Sender;
 use crate::access::admit;
 use crate::error::Error;
+use crate::metrics::{measure, show};
 use crate::service::Service;
 
 /// The longest body of a request: a scenario with the demand of a large network.
@@ -69,6 +71,7 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
         .route("/v1/days/{day}/what-if", post(outlooks::what_if))
         .route("/healthz", get(|| async { "ok\n" }))
         .route("/readyz", get(ready))
+        .route("/metrics", get(show))
         .route("/openapi.json", get(described))
         .fallback(|uri: axum::http::Uri| async move { Error::not_found("path", uri.path()) })
         .method_not_allowed_fallback(|method: axum::http::Method| async move {
@@ -76,7 +79,34 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
         })
         .layer(DefaultBodyLimit::max(LONGEST_BODY))
         .layer(from_fn_with_state(Arc::clone(&service), admit))
+        .layer(CatchPanicLayer::custom(panicked))
+        .layer(from_fn_with_state(Arc::clone(&service), measure))
+        .layer(from_fn(with_headers))
         .with_state(service)
+}
+
+/// The answer after a panic. What happened is in the log, under the number that the client gets.
+#[expect(clippy::needless_pass_by_value, reason = "the signature of the layer")]
+fn panicked(panic: Box<dyn std::any::Any + Send>) -> Response {
+    let said = panic.downcast_ref::<String>().map(String::as_str);
+    let said = said.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic");
+    let id = crate::days::now_ms();
+    tracing::error!(id, said, "a request failed inside");
+    Error::Internal { cause: format!("the log has more under {id}") }.into_response()
+}
+
+/// Adds the headers that keep browsers from guessing and from showing answers inside other pages.
+async fn with_headers(request: axum::extract::Request, next: Next) -> Response {
+    let mut answer = next.run(request).await;
+    let headers = answer.headers_mut();
+    for (name, value) in [
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::CONTENT_SECURITY_POLICY, "default-src 'none'; frame-ancestors 'none'"),
+        (header::CACHE_CONTROL, "no-store"),
+    ] {
+        headers.entry(name).or_insert(HeaderValue::from_static(value));
+    }
+    answer
 }
 
 async fn ready(

@@ -8,6 +8,7 @@ use tokio::sync::{mpsc, oneshot};
 
 use crate::days::DayCell;
 use crate::error::Error;
+use crate::metrics::Metrics;
 use crate::store::{Store, StoredAnswer, StoredEvent};
 
 /// At most this many requests are committed together.
@@ -29,9 +30,9 @@ pub(crate) struct Committer {
 
 impl Committer {
     /// Starts the writer. It ends when the last committer is dropped.
-    pub(crate) fn start(store: Store) -> Self {
+    pub(crate) fn start(store: Store, metrics: Arc<Metrics>) -> Self {
         let (queue, waiting) = mpsc::unbounded_channel();
-        tokio::spawn(write_all(store, waiting));
+        tokio::spawn(write_all(store, metrics, waiting));
         Self { queue }
     }
 
@@ -44,16 +45,21 @@ impl Committer {
     }
 }
 
-async fn write_all(store: Store, mut waiting: mpsc::UnboundedReceiver<Append>) {
+async fn write_all(
+    store: Store,
+    metrics: Arc<Metrics>,
+    mut waiting: mpsc::UnboundedReceiver<Append>,
+) {
     let mut batch = Vec::new();
     while waiting.recv_many(&mut batch, MOST_TOGETHER).await > 0 {
-        write(&store, &mut batch).await;
+        metrics.commits.inc();
+        write(&store, &metrics, &mut batch).await;
     }
 }
 
 /// Stores a batch and answers everybody in it. If the batch cannot be stored, each of its requests is tried alone, so
 /// that one that conflicts does not fail the others.
-async fn write(store: &Store, batch: &mut Vec<Append>) {
+async fn write(store: &Store, metrics: &Metrics, batch: &mut Vec<Append>) {
     let whole = batch.len() == 1 || store_together(store, batch).await.is_err();
     for append in batch.drain(..) {
         let outcome = if append.day.has_failed.load(Ordering::Acquire) {
@@ -65,7 +71,10 @@ async fn write(store: &Store, batch: &mut Vec<Append>) {
             Ok(())
         };
         match &outcome {
-            Ok(()) => append.day.publish(append.events),
+            Ok(()) => {
+                metrics.events.inc_by(append.events.len() as u64);
+                append.day.publish(append.events);
+            }
             Err(error) => {
                 tracing::error!(day = append.day.id(), %error, "events could not be stored");
                 append.day.has_failed.store(true, Ordering::Release);

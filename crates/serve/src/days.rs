@@ -15,6 +15,7 @@ use crate::decide::Deciders;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::event::Event;
+use crate::metrics::Metrics;
 use crate::store::{Store, StoredAnswer, StoredDay, StoredEvent};
 
 /// Events that a slow reader may be behind before it has to read from the store.
@@ -156,6 +157,7 @@ impl DayCell {
 #[derive(Debug)]
 pub(crate) struct Days {
     store: Store,
+    metrics: Arc<Metrics>,
     committer: Committer,
     cells: Mutex<HashMap<String, Arc<OnceCell<Arc<DayCell>>>>>,
 }
@@ -163,8 +165,14 @@ pub(crate) struct Days {
 impl Days {
     /// The days of a store. Each is read when it is first asked for.
     pub(crate) fn new(store: Store) -> Self {
-        let committer = Committer::start(store.clone());
-        Self { store, committer, cells: Mutex::new(HashMap::new()) }
+        let metrics = Arc::new(Metrics::default());
+        let committer = Committer::start(store.clone(), Arc::clone(&metrics));
+        Self { store, metrics, committer, cells: Mutex::new(HashMap::new()) }
+    }
+
+    /// What is measured.
+    pub(crate) fn metrics(&self) -> &Metrics {
+        &self.metrics
     }
 
     /// The store.
@@ -178,7 +186,9 @@ impl Days {
         if cell.get().is_some_and(|day| day.is_spoilt()) {
             *cell = Arc::default();
         }
-        Arc::clone(cell)
+        let cell = Arc::clone(cell);
+        self.metrics.days.set(i64::try_from(cells.len()).unwrap_or(i64::MAX));
+        cell
     }
 
     fn forget(&self, id: &str) {

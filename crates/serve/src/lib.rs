@@ -13,6 +13,7 @@ mod dispatch_day;
 mod error;
 mod event;
 mod keys;
+mod metrics;
 mod moment;
 mod operate;
 mod outlook;

@@ -3,6 +3,8 @@
 use std::process::ExitCode;
 
 use anstream::eprintln;
+use tracing_subscriber::EnvFilter;
+use tracing_subscriber::filter::LevelFilter;
 use vertifleet_serve::{Location, Settings, Tokens, serve};
 
 use crate::args::{ServeAction, ServeArguments, TokenAction};
@@ -19,12 +21,20 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
         Some(ServeAction::Token(action)) => keep_tokens(&Tokens::open(&location)?, action)?,
         None => {
             let stop = stop_on_interrupt()?;
+            log_to_stderr();
             let ServeArguments { listen, behind_proxy, .. } = *arguments;
             let settings = Settings { listen, location, behind_proxy };
             serve(&settings, |address| eprintln!("listening on http://{address}"), &stop)?;
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Logs as JSON, a line each: errors and warnings, or what `RUST_LOG` says.
+fn log_to_stderr() {
+    let filter =
+        EnvFilter::builder().with_default_directive(LevelFilter::WARN.into()).from_env_lossy();
+    tracing_subscriber::fmt().json().with_env_filter(filter).with_writer(std::io::stderr).init();
 }
 
 fn keep_tokens(tokens: &Tokens, action: &TokenAction) -> Result<(), Failure> {

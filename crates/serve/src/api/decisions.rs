@@ -78,7 +78,7 @@ pub(super) async fn propose(
     Asked(asked): Asked<HowAsked>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
-    let proposal = proposed(&day, aircraft, asked).await?;
+    let proposal = proposed(&service, &day, aircraft, asked).await?;
     day.stored_up_to(proposal.seq).await?;
     Ok(at_event(StatusCode::OK, proposal.seq, &proposal))
 }
@@ -140,7 +140,7 @@ async fn by_policy(
     loop {
         tries += 1;
         let day = service.days.get(day.id()).await?;
-        let proposal = proposed(&day, aircraft.clone(), asked.clone()).await?;
+        let proposal = proposed(service, &day, aircraft.clone(), asked.clone()).await?;
         let what = What::Decided {
             aircraft: aircraft.clone(),
             to: proposal.to.clone(),
@@ -177,19 +177,29 @@ async fn take(
 
 /// Asks the policy, and if it is late, a quick one.
 async fn proposed(
+    service: &Service,
     day: &Arc<DayCell>,
     aircraft: String,
     asked: HowAsked,
 ) -> Result<Proposal, Error> {
     let policy = asked.policy.clone().unwrap_or_else(|| day.stored().policy.clone());
     let answer = ask(Arc::clone(day), aircraft.clone(), policy.clone(), asked.time);
-    let Some(deadline_ms) = asked.deadline_ms else { return answer.await };
-    if let Ok(answer) = tokio::time::timeout(Duration::from_millis(deadline_ms), answer).await {
-        return answer;
-    }
-    let quick = QUICK_POLICY.to_owned();
-    let proposal = ask(Arc::clone(day), aircraft, quick, asked.time).await?;
-    Ok(Proposal { too_late: Some(policy), ..proposal })
+    let in_time = match asked.deadline_ms {
+        None => Some(answer.await?),
+        Some(deadline_ms) => {
+            let deadline = Duration::from_millis(deadline_ms);
+            tokio::time::timeout(deadline, answer).await.ok().transpose()?
+        }
+    };
+    let proposal = if let Some(proposal) = in_time {
+        proposal
+    } else {
+        let quick = ask(Arc::clone(day), aircraft, QUICK_POLICY.to_owned(), asked.time);
+        Proposal { too_late: Some(policy), ..quick.await? }
+    };
+    let seconds = Duration::from_micros(proposal.took_us).as_secs_f64();
+    service.days.metrics().decided(&proposal.policy, seconds);
+    Ok(proposal)
 }
 
 /// Asks a policy on a thread of its own, since it may take a while.

@@ -46,6 +46,13 @@ struct Reader {
     read: VecDeque<StoredEvent>,
     is_behind: bool,
     stopping: watch::Receiver<bool>,
+    service: Arc<Service>,
+}
+
+impl Drop for Reader {
+    fn drop(&mut self) {
+        self.service.days.metrics().streams.dec();
+    }
 }
 
 /// Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on.
@@ -66,7 +73,8 @@ pub(super) async fn stream(
     let store = service.days.store().clone();
     let stopping = service.stopping.subscribe();
     let read = VecDeque::new();
-    let reader = Reader { day, store, fresh, after, read, is_behind: true, stopping };
+    service.days.metrics().streams.inc();
+    let reader = Reader { day, store, fresh, after, read, is_behind: true, stopping, service };
     let events = futures_util::stream::unfold(reader, |mut reader| async {
         let event = reader.next().await?;
         Some((Ok::<_, Infallible>(event), reader))

@@ -335,6 +335,24 @@ fn tokens_say_who_may_do_what_and_who_did_it() {
 }
 
 #[test]
+fn the_service_measures_itself() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    assert_eq!(service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"})).status, 201);
+    let text = service.get("/metrics").json;
+    let text = text.as_str().expect("no JSON");
+    for line in [
+        r#"vertifleet_requests_total{method="POST",path="/v1/days/{day}/decisions",status="201"} 1"#,
+        r#"vertifleet_decision_seconds_count{policy="greedy"} 1"#,
+        "vertifleet_events_total 1",
+        "vertifleet_commits_total 1",
+        "vertifleet_days_in_memory 1",
+    ] {
+        assert!(text.contains(line), "{line} is not in {text}");
+    }
+}
+
+#[test]
 fn a_folder_belongs_to_one_service() {
     let (folder, _service) = service();
     let listen = std::net::SocketAddr::from((std::net::Ipv4Addr::LOCALHOST, 0));

@@ -3,5 +3,6 @@
 mod api;
 mod malformed;
 mod operated_days;
+#[cfg(unix)]
 mod postgres;
 mod running;

@@ -1,0 +1,132 @@
+//! What the service measures about itself, for Prometheus.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use axum::extract::{MatchedPath, Request, State};
+use axum::http::header;
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use prometheus_client::encoding::EncodeLabelSet;
+use prometheus_client::encoding::text::encode;
+use prometheus_client::metrics::counter::Counter;
+use prometheus_client::metrics::family::Family;
+use prometheus_client::metrics::gauge::Gauge;
+use prometheus_client::metrics::histogram::{Histogram, exponential_buckets};
+use prometheus_client::registry::Registry;
+
+use crate::service::Service;
+
+/// A path with a method, as it stands in the description of the API.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct Path {
+    method: String,
+    path: String,
+}
+
+/// A path with what was answered.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct Answered {
+    method: String,
+    path: String,
+    status: u16,
+}
+
+/// A policy.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct ByPolicy {
+    policy: String,
+}
+
+/// The numbers.
+#[derive(Debug)]
+pub(crate) struct Metrics {
+    registry: Registry,
+    requests: Family<Answered, Counter>,
+    request_seconds: Family<Path, Histogram>,
+    decision_seconds: Family<ByPolicy, Histogram>,
+    /// Events that were stored.
+    pub(crate) events: Counter,
+    /// Writes to the disk, each for all events that waited.
+    pub(crate) commits: Counter,
+    /// Days in memory.
+    pub(crate) days: Gauge,
+    /// Readers of streams.
+    pub(crate) streams: Gauge,
+}
+
+/// From a tenth of a millisecond to about half a minute.
+fn times() -> Histogram {
+    Histogram::new(exponential_buckets(1e-4, 2.0, 19))
+}
+
+impl Default for Metrics {
+    fn default() -> Self {
+        let metrics = Self {
+            registry: Registry::with_prefix("vertifleet"),
+            requests: Family::default(),
+            request_seconds: Family::new_with_constructor(times),
+            decision_seconds: Family::new_with_constructor(times),
+            events: Counter::default(),
+            commits: Counter::default(),
+            days: Gauge::default(),
+            streams: Gauge::default(),
+        };
+        metrics.registered()
+    }
+}
+
+impl Metrics {
+    fn registered(mut self) -> Self {
+        let registry = &mut self.registry;
+        registry.register("requests", "Requests that were answered", self.requests.clone());
+        let help = "Time from a request to its answer";
+        registry.register("request_seconds", help, self.request_seconds.clone());
+        let help = "Time that a policy took to propose a decision with its reasons";
+        registry.register("decision_seconds", help, self.decision_seconds.clone());
+        registry.register("events", "Events that were stored", self.events.clone());
+        registry.register("commits", "Writes of events to the disk", self.commits.clone());
+        registry.register("days_in_memory", "Days in memory", self.days.clone());
+        registry.register("streams", "Readers of streams of events", self.streams.clone());
+        self
+    }
+
+    /// Counts a decision.
+    pub(crate) fn decided(&self, policy: &str, seconds: f64) {
+        let policy = ByPolicy { policy: policy.to_owned() };
+        self.decision_seconds.get_or_create(&policy).observe(seconds);
+    }
+
+    /// Everything in Prometheus's text format.
+    pub(crate) fn text(&self) -> String {
+        let mut text = String::new();
+        encode(&mut text, &self.registry).expect("memory takes everything");
+        text
+    }
+}
+
+/// Answers with the numbers.
+pub(crate) async fn show(State(service): State<Arc<Service>>) -> Response {
+    let kind = "application/openmetrics-text; version=1.0.0; charset=utf-8";
+    ([(header::CONTENT_TYPE, kind)], service.days.metrics().text()).into_response()
+}
+
+/// Measures a request.
+pub(crate) async fn measure(
+    State(service): State<Arc<Service>>,
+    request: Request,
+    next: Next,
+) -> Response {
+    let method = request.method().to_string();
+    // Paths as they are described, since each id would be a series of its own.
+    let path = request.extensions().get::<MatchedPath>();
+    let path = path.map_or("unknown", MatchedPath::as_str).to_owned();
+    let begun = Instant::now();
+    let answer = next.run(request).await;
+    let metrics = service.days.metrics();
+    let of_path = Path { method: method.clone(), path: path.clone() };
+    metrics.request_seconds.get_or_create(&of_path).observe(begun.elapsed().as_secs_f64());
+    let answered = Answered { method, path, status: answer.status().as_u16() };
+    metrics.requests.get_or_create(&answered).inc();
+    answer
+}
