@@ -76,6 +76,23 @@ pub(crate) enum ServeAction {
     /// Make, list and revoke tokens
     #[command(subcommand)]
     Token(TokenAction),
+    /// Check every event of every day
+    Verify,
+    /// Copy the data to a new file, while the service may run
+    Backup {
+        /// The file
+        file: PathBuf,
+    },
+    /// Put a copy back, into a folder without data
+    Restore {
+        /// The copy
+        file: PathBuf,
+    },
+    /// Print a day with all its events as JSON
+    Export {
+        /// The id of the day
+        day: String,
+    },
 }
 
 #[derive(Debug, Subcommand)]

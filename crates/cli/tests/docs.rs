@@ -27,7 +27,15 @@ const COMMANDS: &[&str] = &[
 ];
 
 /// Commands within commands.
-const SUBCOMMANDS: &[&str] = &["serve token make", "serve token list", "serve token revoke"];
+const SUBCOMMANDS: &[&str] = &[
+    "serve token make",
+    "serve token list",
+    "serve token revoke",
+    "serve verify",
+    "serve backup",
+    "serve restore",
+    "serve export",
+];
 
 fn root() -> PathBuf {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("crates/cli is in a folder");

@@ -8,6 +8,7 @@ mod outlooks;
 mod stream;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
@@ -27,6 +28,9 @@ use crate::service::Service;
 
 /// The longest body of a request: a scenario with the demand of a large network.
 const LONGEST_BODY: usize = 64 << 20;
+
+/// No request takes longer.
+const LONGEST: Duration = Duration::from_secs(30);
 
 /// The description of the API.
 #[derive(OpenApi)]
@@ -81,6 +85,7 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
         .layer(from_fn_with_state(Arc::clone(&service), admit))
         .layer(CatchPanicLayer::custom(panicked))
         .layer(from_fn_with_state(Arc::clone(&service), measure))
+        .layer(from_fn(in_time))
         .layer(from_fn(with_headers))
         .with_state(service)
 }
@@ -93,6 +98,12 @@ fn panicked(panic: Box<dyn std::any::Any + Send>) -> Response {
     let id = crate::days::now_ms();
     tracing::error!(id, said, "a request failed inside");
     Error::Internal { cause: format!("the log has more under {id}") }.into_response()
+}
+
+/// Ends a request that takes too long to be read or answered. Streams are answered at once, and go on.
+async fn in_time(request: axum::extract::Request, next: Next) -> Result<Response, Error> {
+    let answer = tokio::time::timeout(LONGEST, next.run(request)).await;
+    answer.map_err(|_| Error::TooSlow { limit_s: LONGEST.as_secs() })
 }
 
 /// Adds the headers that keep browsers from guessing and from showing answers inside other pages.

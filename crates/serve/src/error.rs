@@ -70,7 +70,7 @@ pub enum Error {
     },
 
     /// V607. The data belongs to another version of the program, or is damaged. Cause: a newer program wrote it, or bytes
-    /// on the disk changed. Fix: use the newer program, or restore a backup.
+    /// on the disk changed. Fix: use the newer program, or restore a copy; `vertifleet serve verify` names the events.
     #[error("the data of the service cannot be read: {rule}")]
     BadData {
         /// What is wrong.
@@ -188,6 +188,14 @@ pub enum Error {
     /// database, and many clients write to one day through all of them. Fix: send the request again.
     #[error("another service wrote to the day at the same time")]
     Conflict,
+
+    /// V622. A request that took too long. Cause: its body came too slowly, or the service has too much to do. Fix: send it
+    /// again, with the same `Idempotency-Key`.
+    #[error("the request took longer than {limit_s} s")]
+    TooSlow {
+        /// The limit.
+        limit_s: u64,
+    },
 }
 
 impl Error {
@@ -226,6 +234,7 @@ impl Error {
             Self::Moved { .. } => StatusCode::PRECONDITION_FAILED,
             Self::Archived { .. } | Self::KeyInUse { .. } => StatusCode::CONFLICT,
             Self::Store { .. } | Self::Conflict => StatusCode::SERVICE_UNAVAILABLE,
+            Self::TooSlow { .. } => StatusCode::REQUEST_TIMEOUT,
             Self::NoToken => StatusCode::UNAUTHORIZED,
             Self::NotPermitted { .. } => StatusCode::FORBIDDEN,
             Self::TooMuch { .. } => StatusCode::PAYLOAD_TOO_LARGE,
@@ -275,6 +284,7 @@ impl Coded for Error {
             Self::Unprotected { .. } => 619,
             Self::InUse { .. } => 620,
             Self::Conflict => 621,
+            Self::TooSlow { .. } => 622,
         })
     }
 
@@ -284,6 +294,7 @@ impl Coded for Error {
             Self::Study(error) => error.hint(),
             Self::Moved { .. } => Some("read the day again, and decide anew"),
             Self::KeyReused { .. } => Some("use a new Idempotency-Key for each request"),
+            Self::BadData { .. } => Some("`vertifleet serve verify` names what is damaged"),
             Self::NoToken => Some("send it as `Authorization: Bearer vf_...`"),
             Self::Unprotected { .. } => Some(
                 "listen on 127.0.0.1, or stand behind a proxy that speaks TLS (--behind-proxy) and make a token",

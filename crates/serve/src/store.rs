@@ -13,6 +13,8 @@ use sqlx::{AnyPool, AssertSqlSafe, Executor as _, Row as _, query, query_scalar}
 
 use crate::error::Error;
 
+/// The name of the database in the folder of the data.
+pub(crate) const DATABASE: &str = "vertifleet.db";
 /// The version of the tables. A store of a newer version is refused.
 const VERSION: &str = "1";
 
@@ -130,7 +132,7 @@ impl Store {
                 options = options.after_connect(|connection, _| {
                     Box::pin(async move { connection.execute(SQLITE).await.map(drop) })
                 });
-                sqlite_url(&folder.join("vertifleet.db"))
+                sqlite_url(&folder.join(DATABASE))
             }
             Location::Postgres(url) => url.clone(),
         };
@@ -305,6 +307,12 @@ impl Store {
         }
         let keys = query_scalar("SELECT idempotency_key FROM answers").fetch_all(&self.pool);
         Ok(Some(keys.await?))
+    }
+
+    /// Writes a copy of everything to a new file. `SQLite` alone can do that.
+    pub(crate) async fn copy_to(&self, file: &str) -> Result<(), Error> {
+        query("VACUUM INTO $1").bind(file).execute(&self.pool).await?;
+        Ok(())
     }
 
     /// Asks the store for a sign of life.

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use anstream::eprintln;
 use tracing_subscriber::EnvFilter;
 use tracing_subscriber::filter::LevelFilter;
-use vertifleet_serve::{Location, Settings, Tokens, serve};
+use vertifleet_serve::{DayCheck, Keeper, Location, Settings, Tokens, restore, serve};
 
 use crate::args::{ServeAction, ServeArguments, TokenAction};
 use crate::failure::Failure;
@@ -19,6 +19,10 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
     };
     match &arguments.action {
         Some(ServeAction::Token(action)) => keep_tokens(&Tokens::open(&location)?, action)?,
+        Some(ServeAction::Verify) => return verify(&Keeper::open(&location)?),
+        Some(ServeAction::Backup { file }) => Keeper::open(&location)?.backup(file)?,
+        Some(ServeAction::Restore { file }) => restore(file, &arguments.data)?,
+        Some(ServeAction::Export { day }) => print(&Keeper::open(&location)?.export(day)?)?,
         None => {
             let stop = stop_on_interrupt()?;
             log_to_stderr();
@@ -28,6 +32,19 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Prints what is found about each day. The exit code is 1 if something is damaged.
+fn verify(keeper: &Keeper) -> Result<ExitCode, Failure> {
+    let mut is_sound = true;
+    let mut lines = Vec::new();
+    keeper.verify(|DayCheck { day, events, finding }| {
+        is_sound &= finding.is_none();
+        let finding = finding.unwrap_or_else(|| "sound".to_owned());
+        lines.push(format!("{day}: {events} events, {finding}"));
+    })?;
+    print(&lines.join("\n"))?;
+    Ok(if is_sound { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 /// Logs as JSON, a line each: errors and warnings, or what `RUST_LOG` says.

@@ -1,0 +1,202 @@
+//! Keeping the data: every event checked, copies made and put back, days written out for other programs.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde::Serialize;
+use serde_json::value::RawValue;
+use tokio::runtime::Runtime;
+use vertifleet_core::Scenario;
+
+use crate::dispatch_day::DispatchDay;
+use crate::error::Error;
+use crate::store::{DATABASE, Location, Store, StoredDay, StoredEvent};
+
+/// Rows that are read from the store at once.
+const PAGE: u32 = 10_000;
+
+/// The data of a service, which may run meanwhile.
+#[derive(Debug)]
+pub struct Keeper {
+    runtime: Runtime,
+    store: Store,
+}
+
+/// What was found about a day.
+#[derive(Debug, Clone, Serialize)]
+pub struct DayCheck {
+    /// Its id.
+    pub day: String,
+    /// Number of its events that are sound, from the first on.
+    pub events: u64,
+    /// What is wrong with the next one, or with the day; `None` if nothing is.
+    pub finding: Option<String>,
+}
+
+/// A day as it is written out.
+#[derive(Debug, Serialize)]
+struct Exported {
+    format: &'static str,
+    id: String,
+    name: String,
+    created_ms: i64,
+    archived: bool,
+    policy: String,
+    scenario: Box<RawValue>,
+    events: Vec<ExportedEvent>,
+}
+
+#[derive(Debug, Serialize)]
+struct ExportedEvent {
+    seq: u64,
+    at_ms: i64,
+    actor: String,
+    event: Box<RawValue>,
+    notices: Box<RawValue>,
+}
+
+/// Name and version of the format of days that are written out.
+const FORMAT: &str = "vertifleet-live-day/1";
+
+impl Keeper {
+    /// Opens the data of a service.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] or [`Error::BadData`] if it cannot be opened.
+    pub fn open(location: &Location) -> Result<Self, Error> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+        let runtime = runtime.map_err(|cause| Error::Internal { cause: cause.to_string() })?;
+        let store = runtime.block_on(Store::open(location))?;
+        Ok(Self { runtime, store })
+    }
+
+    /// Reads every event of every day, checks its sum, and plays it.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if the data cannot be read at all.
+    pub fn verify(&self, mut found: impl FnMut(DayCheck)) -> Result<(), Error> {
+        let mut after = String::new();
+        loop {
+            let days = self.runtime.block_on(self.store.days(&after, PAGE))?;
+            let Some(last) = days.last() else { return Ok(()) };
+            after.clone_from(&last.id);
+            for day in &days {
+                found(self.runtime.block_on(self.check(&day.id))?);
+            }
+        }
+    }
+
+    async fn check(&self, id: &str) -> Result<DayCheck, Error> {
+        let check = |events, finding| DayCheck { day: id.to_owned(), events, finding };
+        let found = self.store.day(id).await?;
+        let (_, scenario) = found.ok_or_else(|| Error::not_found("day", id))?;
+        let mut state = match Scenario::from_json(scenario.as_bytes(), id) {
+            Ok(scenario) => DispatchDay::new(Arc::new(scenario)),
+            Err(error) => return Ok(check(0, Some(error.to_string()))),
+        };
+        loop {
+            let events = self.store.events(id, state.seq(), PAGE).await?;
+            for event in &events {
+                if let Err(error) = state.replay(event) {
+                    return Ok(check(state.seq(), Some(error.to_string())));
+                }
+            }
+            if events.len() < PAGE as usize {
+                return Ok(check(state.seq(), None));
+            }
+        }
+    }
+
+    /// Writes a copy of all data to a new file, as it is at one moment, while the service may run.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if the file exists or cannot be written, or if the data lies in `PostgreSQL`, whose own
+    /// programs make copies.
+    pub fn backup(&self, file: &Path) -> Result<(), Error> {
+        if self.store.is_shared() {
+            let cause = "a PostgreSQL database is copied by pg_dump".to_owned();
+            return Err(Error::Store { cause });
+        }
+        self.runtime.block_on(self.store.copy_to(&file.display().to_string()))
+    }
+
+    /// A day with its scenario and all events, as JSON.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Store`].
+    pub fn export(&self, id: &str) -> Result<String, Error> {
+        self.runtime.block_on(async {
+            let found = self.store.day(id).await?;
+            let (day, scenario) = found.ok_or_else(|| Error::not_found("day", id))?;
+            let mut events: Vec<StoredEvent> = Vec::new();
+            loop {
+                let after = events.last().map_or(0, |event| event.seq);
+                let page = self.store.events(id, after, PAGE).await?;
+                let is_last = page.len() < PAGE as usize;
+                events.extend(page);
+                if is_last {
+                    return written_out(day, scenario, events);
+                }
+            }
+        })
+    }
+}
+
+fn written_out(
+    day: StoredDay,
+    scenario: String,
+    events: Vec<StoredEvent>,
+) -> Result<String, Error> {
+    let raw = |text: String| {
+        RawValue::from_string(text).map_err(|error| Error::BadData { rule: error.to_string() })
+    };
+    let event = |event: StoredEvent| {
+        let StoredEvent { seq, at_ms, actor, body, notices, .. } = event;
+        Ok(ExportedEvent { seq, at_ms, actor, event: raw(body)?, notices: raw(notices)? })
+    };
+    let StoredDay { id, name, created_ms, archived, policy } = day;
+    let scenario = raw(scenario)?;
+    let events = events.into_iter().map(event).collect::<Result<_, Error>>()?;
+    let format = FORMAT;
+    let exported = Exported { format, id, name, created_ms, archived, policy, scenario, events };
+    Ok(serde_json::to_string_pretty(&exported).expect("plain data can be written"))
+}
+
+/// Puts a copy back as the data of a service, into a folder that has none.
+///
+/// # Errors
+/// Returns [`Error::Store`] if the folder has data already or cannot be written to, and [`Error::BadData`] if the copy is
+/// damaged.
+pub fn restore(copy: &Path, folder: &Path) -> Result<(), Error> {
+    let database = folder.join(DATABASE);
+    let failed = |cause: String| Error::Store { cause };
+    if database.exists() {
+        return Err(failed(format!("{} is there already", database.display())));
+    }
+    let bytes =
+        std::fs::read(copy).map_err(|error| failed(format!("{}: {error}", copy.display())))?;
+    vertifleet_core::create_folder(folder)?;
+    // It is checked in a place of its own, so that a damaged copy never looks like the data of a service.
+    let trial: PathBuf = folder.join("restoring");
+    vertifleet_core::create_folder(&trial)?;
+    vertifleet_core::write_atomically(&trial.join(DATABASE), &bytes)?;
+    let checked = check_copy(&trial);
+    let removed = std::fs::remove_dir_all(&trial);
+    checked?;
+    removed.map_err(|error| failed(format!("{}: {error}", trial.display())))?;
+    Ok(vertifleet_core::write_atomically(&database, &bytes)?)
+}
+
+fn check_copy(folder: &Path) -> Result<(), Error> {
+    let keeper = Keeper::open(&Location::Folder(folder.to_owned()))?;
+    let mut finding = None;
+    keeper.verify(|check| {
+        if let Some(rule) = check.finding {
+            finding.get_or_insert(format!("day {}: {rule}", check.day));
+        }
+    })?;
+    match finding {
+        Some(rule) => Err(Error::BadData { rule }),
+        None => Ok(()),
+    }
+}
