@@ -66,6 +66,7 @@ impl Load {
                 url: self.url.clone(),
                 day: Arc::new(network.draw(seed)),
                 policy: self.policy.clone(),
+                token: None,
                 speed: None,
             };
             let mut took_ms = Vec::new();

@@ -20,6 +20,8 @@ use crate::store::{Store, StoredAnswer, StoredDay, StoredEvent};
 
 /// Events that a slow reader may be behind before it has to read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
+/// Beyond so many days, those that nobody uses leave memory. A day of `paper` takes half a megabyte.
+const MOST_IN_MEMORY: usize = 1_000;
 /// A write is tried so often when other services write to the same day.
 const TRIES: u32 = 5;
 /// Events that are read from the store at once.
@@ -119,7 +121,7 @@ impl DayCell {
     }
 
     /// Whether memory can no longer be trusted: an event could not be stored, or somebody panicked over the state.
-    fn is_spoilt(&self) -> bool {
+    pub(crate) fn is_spoilt(&self) -> bool {
         self.has_failed.load(Ordering::Acquire) || self.state.is_poisoned()
     }
 
@@ -182,6 +184,13 @@ impl Days {
 
     fn cell(&self, id: &str) -> Arc<OnceCell<Arc<DayCell>>> {
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        if cells.len() >= MOST_IN_MEMORY && !cells.contains_key(id) {
+            // Days that nobody is using are read again when they are asked for.
+            cells.retain(|_, cell| {
+                Arc::strong_count(cell) > 1
+                    || cell.get().is_some_and(|day| Arc::strong_count(day) > 1)
+            });
+        }
         let cell = cells.entry(id.to_owned()).or_default();
         if cell.get().is_some_and(|day| day.is_spoilt()) {
             *cell = Arc::default();
@@ -247,7 +256,7 @@ impl Days {
         loop {
             let events = self.store.events(id, state.seq(), PAGE).await?;
             for event in &events {
-                state.replay(event)?;
+                state.replay(event).map_err(|error| error.of_day(id))?;
             }
             if events.len() < PAGE as usize {
                 return Ok(Arc::new(DayCell::new(stored, state)));

@@ -204,6 +204,14 @@ impl Error {
         Self::Internal { cause: format!("policy {policy:?}: {error}") }
     }
 
+    /// The same error with the day that it is about.
+    pub(crate) fn of_day(self, id: &str) -> Self {
+        match self {
+            Self::BadData { rule } => Self::BadData { rule: format!("day {id}: {rule}") },
+            other => other,
+        }
+    }
+
     /// An event that could not have happened on a day that begins otherwise.
     pub(crate) fn of_what_if(self) -> Self {
         match self {

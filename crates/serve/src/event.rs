@@ -239,8 +239,10 @@ impl Ids {
         id.map(|id| self.vertiport(id)).transpose()
     }
 
-    fn period(&self, time: Time) -> usize {
-        self.periods.iter().rposition(|&start| start <= time).unwrap_or(0)
+    /// The position of the period that contains a time; the last one lasts for the rest of the day.
+    fn period(&self, time: Time) -> Result<usize, Error> {
+        let position = self.periods.iter().rposition(|&start| start <= time);
+        position.ok_or_else(|| Error::unknown("period that contains", &time.to_string()))
     }
 
     fn routes(&self, routes: &RouteNames) -> Result<Routes, Error> {
@@ -292,7 +294,7 @@ impl What {
             }
             Self::Reopened { routes, .. } => Report::Reopened { routes: ids.routes(routes)? },
             Self::Demand { period, pairs, .. } => Report::Demand {
-                period: ids.period(period.time()),
+                period: ids.period(period.time())?,
                 pairs: pairs
                     .iter()
                     .map(|pair| {
@@ -322,7 +324,7 @@ impl Ids {
         passengers: u32,
     ) -> Result<Booking, Error> {
         let (from, to) = (self.vertiport(from)?, self.vertiport(to)?);
-        Ok(Booking { period: self.period(period.time()), from, to, passengers })
+        Ok(Booking { period: self.period(period.time())?, from, to, passengers })
     }
 }
 

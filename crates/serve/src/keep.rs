@@ -33,6 +33,15 @@ pub struct DayCheck {
     pub finding: Option<String>,
 }
 
+/// How much data there is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Contents {
+    /// Number of days.
+    pub days: u64,
+    /// Number of events of all days.
+    pub events: u64,
+}
+
 /// A day as it is written out.
 #[derive(Debug, Serialize)]
 struct Exported {
@@ -59,11 +68,18 @@ struct ExportedEvent {
 const FORMAT: &str = "vertifleet-live-day/1";
 
 impl Keeper {
-    /// Opens the data of a service.
+    /// Opens the data of a service, which must be there.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] or [`Error::BadData`] if it cannot be opened.
+    /// Returns [`Error::Store`] or [`Error::BadData`] if it is not there or cannot be opened.
     pub fn open(location: &Location) -> Result<Self, Error> {
+        if let Location::Folder(folder) = location
+            && !folder.join(DATABASE).exists()
+        {
+            let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.clone());
+            let cause = format!("there is no data of a service in {}", folder.display());
+            return Err(Error::Store { cause });
+        }
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|cause| Error::Internal { cause: cause.to_string() })?;
         let store = runtime.block_on(Store::open(location))?;
@@ -167,11 +183,16 @@ fn written_out(
 /// # Errors
 /// Returns [`Error::Store`] if the folder has data already or cannot be written to, and [`Error::BadData`] if the copy is
 /// damaged.
-pub fn restore(copy: &Path, folder: &Path) -> Result<(), Error> {
+pub fn restore(copy: &Path, folder: &Path) -> Result<Contents, Error> {
     let database = folder.join(DATABASE);
     let failed = |cause: String| Error::Store { cause };
-    if database.exists() {
-        return Err(failed(format!("{} is there already", database.display())));
+    // A log that an earlier database left behind would be played into the copy.
+    for name in [DATABASE.to_owned(), format!("{DATABASE}-wal"), format!("{DATABASE}-shm")] {
+        let there = folder.join(name);
+        if there.exists() {
+            let said = format!("{} is there already: name a folder without data", there.display());
+            return Err(failed(said));
+        }
     }
     let bytes =
         std::fs::read(copy).map_err(|error| failed(format!("{}: {error}", copy.display())))?;
@@ -182,21 +203,25 @@ pub fn restore(copy: &Path, folder: &Path) -> Result<(), Error> {
     vertifleet_core::write_atomically(&trial.join(DATABASE), &bytes)?;
     let checked = check_copy(&trial);
     let removed = std::fs::remove_dir_all(&trial);
-    checked?;
+    let contents = checked?;
     removed.map_err(|error| failed(format!("{}: {error}", trial.display())))?;
-    Ok(vertifleet_core::write_atomically(&database, &bytes)?)
+    vertifleet_core::write_atomically(&database, &bytes)?;
+    Ok(contents)
 }
 
-fn check_copy(folder: &Path) -> Result<(), Error> {
+fn check_copy(folder: &Path) -> Result<Contents, Error> {
     let keeper = Keeper::open(&Location::Folder(folder.to_owned()))?;
     let mut finding = None;
+    let mut contents = Contents { days: 0, events: 0 };
     keeper.verify(|check| {
+        contents.days += 1;
+        contents.events += check.events;
         if let Some(rule) = check.finding {
             finding.get_or_insert(format!("day {}: {rule}", check.day));
         }
     })?;
     match finding {
         Some(rule) => Err(Error::BadData { rule }),
-        None => Ok(()),
+        None => Ok(contents),
     }
 }

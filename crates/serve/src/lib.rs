@@ -26,7 +26,7 @@ mod store;
 pub use access::{Role, StoredToken, Tokens};
 pub use api::openapi;
 pub use error::Error;
-pub use keep::{DayCheck, Keeper, restore};
+pub use keep::{Contents, DayCheck, Keeper, restore};
 pub use operate::{Operation, OperationReport, operate};
 pub use server::{Settings, serve};
 pub use store::Location;

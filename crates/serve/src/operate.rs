@@ -27,6 +27,8 @@ pub struct Operation {
     pub day: Arc<Scenario>,
     /// The policy that decides.
     pub policy: String,
+    /// The token of the operator, if the service asks for one.
+    pub token: Option<String>,
     /// Seconds of the day that pass in a second; `None` to go as fast as it goes.
     pub speed: Option<f64>,
 }
@@ -140,6 +142,8 @@ struct Client {
     run: String,
     sent: u64,
     sent_again: u64,
+    /// The value of the header that carries the token.
+    bearer: Option<String>,
 }
 
 impl Client {
@@ -155,6 +159,7 @@ impl Client {
             run: format!("operate-{run:016x}"),
             sent: 0,
             sent_again: 0,
+            bearer: operation.token.as_ref().map(|token| format!("Bearer {token}")),
         }
     }
 
@@ -190,6 +195,10 @@ impl Client {
         let begun = Instant::now();
         loop {
             let request = self.agent.post(&url).header("idempotency-key", &key);
+            let request = match &self.bearer {
+                Some(bearer) => request.header("authorization", bearer),
+                None => request,
+            };
             let sent = request.header("content-type", "application/json").send(&body);
             match sent.and_then(|mut answer| {
                 Ok((answer.status().as_u16(), answer.body_mut().read_to_vec()?))
@@ -210,7 +219,12 @@ impl Client {
     }
 
     fn get<T: DeserializeOwned>(&self, path: &str) -> Result<T, Error> {
-        let answer = self.agent.get(format!("{}{path}", self.url)).call();
+        let request = self.agent.get(format!("{}{path}", self.url));
+        let request = match &self.bearer {
+            Some(bearer) => request.header("authorization", bearer),
+            None => request,
+        };
+        let answer = request.call();
         let answer = answer.and_then(|mut answer| answer.body_mut().read_to_vec());
         self.read(&answer.map_err(|error| self.wrong(&error.to_string()))?)
     }

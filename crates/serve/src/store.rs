@@ -6,6 +6,7 @@
 mod tokens;
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use sqlx::any::{AnyPoolOptions, AnyRow, install_default_drivers};
@@ -15,6 +16,8 @@ use crate::error::Error;
 
 /// The name of the database in the folder of the data.
 pub(crate) const DATABASE: &str = "vertifleet.db";
+/// A store that does not answer for so long has failed.
+const PATIENCE: Duration = Duration::from_secs(5);
 /// The version of the tables. A store of a newer version is refused.
 const VERSION: &str = "1";
 
@@ -123,7 +126,7 @@ impl Store {
     /// Returns [`Error::Store`] if the database cannot be reached, and [`Error::BadData`] if a newer program wrote it.
     pub(crate) async fn open(location: &Location) -> Result<Self, Error> {
         install_default_drivers();
-        let mut options = AnyPoolOptions::new().max_connections(8);
+        let mut options = AnyPoolOptions::new().max_connections(8).acquire_timeout(PATIENCE);
         let url = match location {
             Location::Folder(folder) => {
                 std::fs::create_dir_all(folder).map_err(|cause| Error::Store {

@@ -18,6 +18,9 @@ use crate::{DayTotals, Decision, Imagined, Refusal, Simulation, Trace, TraceRow,
 pub use report::{Booking, Notice, Report, Routes, Unfit};
 pub use reporter::Reporter;
 
+/// An aircraft that should have departed or landed so long ago is overdue, seconds.
+const LATE_S: u32 = 300;
+
 /// A day that happens.
 #[derive(Debug, Clone)]
 pub struct LiveDay {
@@ -71,6 +74,17 @@ pub enum Phase {
         /// The position of its flight among the day's decisions.
         flight: usize,
     },
+}
+
+impl Phase {
+    /// What an aircraft does that is on its way; `None` if it stands.
+    fn on_its_way(self) -> Option<&'static str> {
+        match self {
+            Self::Standing => None,
+            Self::SentOff { .. } => Some("has been sent off, and has not been reported departed"),
+            Self::InTheAir { .. } => Some("is in the air, and has not been reported landed"),
+        }
+    }
 }
 
 /// A decision with what it takes to undo it.
@@ -187,8 +201,19 @@ impl LiveDay {
         }
         let state = &self.aircraft[aircraft.at()];
         let ready = self.known.queue.ready_at(aircraft);
-        if state.phase != Phase::Standing || ready > time {
-            return Err(Unfit::NotReady { aircraft: id.id.clone(), ready, time });
+        let aircraft_id = || id.id.clone();
+        if let Some(is) = state.phase.on_its_way() {
+            return Err(Unfit::OnItsWay { aircraft: aircraft_id(), is });
+        }
+        if Self::is_out(*state, time) {
+            let until = match state.out {
+                Some(OutOfService::Until(until)) => Some(until),
+                _ => None,
+            };
+            return Err(Unfit::OutOfService { aircraft: aircraft_id(), until });
+        }
+        if ready > time {
+            return Err(Unfit::NotReady { aircraft: aircraft_id(), ready, time });
         }
         let index = u32::try_from(self.decisions.len()).unwrap_or(u32::MAX);
         Ok(Decision { time, aircraft, at: self.known.place[aircraft.at()], index })
@@ -329,10 +354,21 @@ impl LiveDay {
         &self.boarded[period * pairs..][..pairs]
     }
 
-    /// Vertiports that have more aircraft than stands.
+    /// What people should look at now: vertiports that have more aircraft than stands, and aircraft that are overdue.
     pub fn notices(&self) -> impl Iterator<Item = Notice> + '_ {
-        VertiportIx::all(self.scenario().vertiports.len())
-            .filter_map(|vertiport| self.more_than_stands(vertiport))
+        let vertiports = VertiportIx::all(self.scenario().vertiports.len());
+        let crowded = vertiports.filter_map(|vertiport| self.more_than_stands(vertiport));
+        crowded.chain(self.aircraft().filter_map(|aircraft| self.overdue(aircraft)))
+    }
+
+    fn overdue(&self, aircraft: AircraftNow) -> Option<Notice> {
+        let (done, time) = match aircraft.phase {
+            Phase::Standing => return None,
+            Phase::SentOff { departs, .. } => ("departed", departs),
+            Phase::InTheAir { .. } => ("landed", aircraft.arrival),
+        };
+        let aircraft = self.scenario().aircraft[aircraft.aircraft.at()].id.clone();
+        (self.now > time + LATE_S).then_some(Notice::Overdue { aircraft, done, time })
     }
 
     fn more_than_stands(&self, vertiport: VertiportIx) -> Option<Notice> {

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use anstream::eprintln;
 use tracing_subscriber::EnvFilter;
 use tracing_subscriber::filter::LevelFilter;
-use vertifleet_serve::{DayCheck, Keeper, Location, Settings, Tokens, restore, serve};
+use vertifleet_serve::{Contents, DayCheck, Keeper, Location, Settings, Tokens, restore, serve};
 
 use crate::args::{ServeAction, ServeArguments, TokenAction};
 use crate::failure::Failure;
@@ -18,20 +18,41 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
         None => Location::Folder(arguments.data.clone()),
     };
     match &arguments.action {
-        Some(ServeAction::Token(action)) => keep_tokens(&Tokens::open(&location)?, action)?,
+        Some(ServeAction::Token(action)) => {
+            let tokens = Tokens::open(&location)?;
+            eprintln!("tokens of {}", place(arguments));
+            keep_tokens(&tokens, action)?;
+        }
         Some(ServeAction::Verify) => return verify(&Keeper::open(&location)?),
-        Some(ServeAction::Backup { file }) => Keeper::open(&location)?.backup(file)?,
-        Some(ServeAction::Restore { file }) => restore(file, &arguments.data)?,
+        Some(ServeAction::Backup { file }) => {
+            Keeper::open(&location)?.backup(file)?;
+            eprintln!("copied {} to {}", place(arguments), file.display());
+        }
+        Some(ServeAction::Restore { file }) => {
+            let Contents { days, events } = restore(file, &arguments.data)?;
+            eprintln!("put {days} days with {events} events back into {}", place(arguments));
+        }
         Some(ServeAction::Export { day }) => print(&Keeper::open(&location)?.export(day)?)?,
         None => {
             let stop = stop_on_interrupt()?;
             log_to_stderr();
             let ServeArguments { listen, behind_proxy, .. } = *arguments;
             let settings = Settings { listen, location, behind_proxy };
-            serve(&settings, |address| eprintln!("listening on http://{address}"), &stop)?;
+            let listens = |address| {
+                eprintln!("listening on http://{address}, with the data in {}", place(arguments));
+            };
+            serve(&settings, listens, &stop)?;
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Where the data lies, for people.
+fn place(arguments: &ServeArguments) -> String {
+    let data = &arguments.data;
+    let folder = || std::path::absolute(data).unwrap_or_else(|_| data.clone());
+    let in_database = arguments.database.as_ref().map(|_| "the database".to_owned());
+    in_database.unwrap_or_else(|| folder().display().to_string())
 }
 
 /// Prints what is found about each day. The exit code is 1 if something is damaged.

@@ -25,7 +25,7 @@ use crate::store::{Store, StoredEvent};
 /// Events that are read from the store at once.
 const PAGE: u32 = 1_000;
 
-/// How often a store that others write to is looked into.
+/// How often a reader looks for what nobody tells it.
 const LOOK: Duration = Duration::from_millis(250);
 
 /// Where the stream begins.
@@ -49,6 +49,15 @@ struct Reader {
     service: Arc<Service>,
 }
 
+/// The number of the event that a reader saw last.
+fn last_event(headers: &HeaderMap) -> Result<Option<u64>, Error> {
+    let Some(id) = headers.get("last-event-id") else { return Ok(None) };
+    let number = id.to_str().ok().and_then(|id| id.parse().ok());
+    let wrong =
+        || Error::BadRequest { rule: "Last-Event-ID must be the number of an event".to_owned() };
+    number.map(Some).ok_or_else(wrong)
+}
+
 impl Drop for Reader {
     fn drop(&mut self) {
         self.service.days.metrics().streams.dec();
@@ -67,9 +76,15 @@ pub(super) async fn stream(
     headers: HeaderMap,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
-    let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()?.parse().ok());
     let fresh = day.subscribe();
-    let after = last.or(after).unwrap_or(0);
+    let after = last_event(&headers)?.or(after).unwrap_or(0);
+    let seq = day.state().seq();
+    if after > seq {
+        let rule = format!(
+            "the day is at event {seq}, so nothing follows event {after}: read its state again"
+        );
+        return Err(Error::BadRequest { rule });
+    }
     let store = service.days.store().clone();
     let stopping = service.stopping.subscribe();
     let read = VecDeque::new();
@@ -96,12 +111,13 @@ impl Reader {
                 continue;
             }
             let fresh = tokio::select! {
-                fresh = self.fresh.recv() => fresh,
-                () = tokio::time::sleep(LOOK), if self.store.is_shared() => {
-                    self.is_behind = true;
-                    continue;
-                }
+                fresh = self.fresh.recv() => Some(fresh),
+                () = tokio::time::sleep(LOOK) => None,
                 _ = self.stopping.wait_for(|&stops| stops) => return None,
+            };
+            let Some(fresh) = fresh else {
+                self.look_around().await?;
+                continue;
             };
             match fresh {
                 Ok(event) if event.seq <= self.after => {}
@@ -116,6 +132,18 @@ impl Reader {
                 Err(RecvError::Closed) => return None,
             }
         }
+    }
+
+    /// Reads what other services wrote. If the day in memory was thrown away, goes on with the one that took its place;
+    /// `None` if there is none.
+    async fn look_around(&mut self) -> Option<()> {
+        if self.day.is_spoilt() {
+            self.day = self.service.days.get(self.day.id()).await.ok()?;
+            self.fresh = self.day.subscribe();
+            self.is_behind = true;
+        }
+        self.is_behind |= self.store.is_shared();
+        Some(())
     }
 
     fn shown(&mut self, event: &StoredEvent) -> sse::Event {

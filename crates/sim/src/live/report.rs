@@ -173,6 +173,16 @@ pub enum Notice {
         /// Where it was flying to.
         to: String,
     },
+    /// An aircraft should have departed or landed, and no report says that it did.
+    #[error("aircraft {aircraft:?} should have {done} at {time}, and no report says that it has")]
+    Overdue {
+        /// The aircraft.
+        aircraft: String,
+        /// Departed or landed.
+        done: &'static str,
+        /// When.
+        time: Time,
+    },
     /// An aircraft is somewhere else without having flown there.
     #[error("aircraft {aircraft:?} is at {at:?} although no flight to it was reported")]
     NotFlown {
@@ -206,6 +216,40 @@ pub enum Unfit {
         time: Time,
         /// The latest time that was reported.
         now: Time,
+    },
+    /// The report is far ahead of all others.
+    #[error(
+        "{time} is more than 4 h after {now}, the latest time of the day: is it a slip of the pen?"
+    )]
+    TooFarAhead {
+        /// The time of the report.
+        time: Time,
+        /// The latest time that was reported.
+        now: Time,
+    },
+    /// A delay until before it became known.
+    #[error("a delay until {until} cannot become known at {time}")]
+    Backwards {
+        /// The time of the report.
+        time: Time,
+        /// The end of the delay.
+        until: Time,
+    },
+    /// The aircraft is on its way, as far as has been reported.
+    #[error("aircraft {aircraft:?} cannot decide: it {is}")]
+    OnItsWay {
+        /// The aircraft.
+        aircraft: String,
+        /// What it does.
+        is: &'static str,
+    },
+    /// The aircraft is out of service.
+    #[error("aircraft {aircraft:?} is out of service{}", until.map(|until| format!(" until {until}")).unwrap_or_default())]
+    OutOfService {
+        /// The aircraft.
+        aircraft: String,
+        /// Until when, if that is known.
+        until: Option<Time>,
     },
     /// No decisions are taken so late.
     #[error("no decision is taken after {end}, the end of operations")]

@@ -39,7 +39,9 @@ impl Reporter {
             for (period, (actual, forecast)) in scenario.demand.iter().zip(forecast).enumerate() {
                 let pairs = changed_pairs(actual, forecast);
                 if !pairs.is_empty() {
-                    let begins = scenario.periods[period].max(scenario.operations.start);
+                    // What comes after the last decision is told right after it.
+                    let (start, end) = (scenario.operations.start, scenario.operations.end);
+                    let begins = scenario.periods[period].max(start).min(end + 1);
                     reporter.report(begins, Report::Demand { period, pairs });
                 }
             }

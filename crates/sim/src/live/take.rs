@@ -8,6 +8,8 @@ use super::report::{Booking, Notice, Report, Routes, Unfit};
 use super::{Before, LiveAircraft, LiveDay, LiveDecision, OutOfService, Phase};
 use crate::{Decision, TraceRow};
 
+/// The clock of a day never runs back, so a report whose time was mistyped must not move it on by hours.
+const LONGEST_STEP_S: u32 = 4 * 3_600;
 /// At most this many passengers of a pair wait in a period.
 const MOST_PASSENGERS: u32 = 1_000_000;
 
@@ -18,6 +20,9 @@ impl LiveDay {
     /// # Errors
     /// Returns an [`Unfit`] if the report makes no sense or is a decision that breaks a rule. Nothing has changed then.
     pub fn take(&mut self, time: Time, report: &Report) -> Result<Vec<Notice>, Unfit> {
+        if time > self.now + LONGEST_STEP_S {
+            return Err(Unfit::TooFarAhead { time, now: self.now });
+        }
         let mut notices = Vec::new();
         match *report {
             Report::Decided { aircraft, to } => self.decide(aircraft, time, to)?,
@@ -28,7 +33,12 @@ impl LiveDay {
             Report::Landed { aircraft, at } => self.land(aircraft, time, at, &mut notices)?,
             Report::Charging { aircraft, ready } => self.charge(aircraft, ready, "be charging")?,
             Report::Ready { aircraft } => self.charge(aircraft, time, "be ready")?,
-            Report::Delayed { aircraft, until } => self.delay(aircraft, until)?,
+            Report::Delayed { aircraft, until } => {
+                if until < time {
+                    return Err(Unfit::Backwards { time, until });
+                }
+                self.delay(aircraft, until)?;
+            }
             Report::OutOfService { aircraft, until } => {
                 let until = until.map_or(OutOfService::UntilReported, OutOfService::Until);
                 self.set_out(aircraft, Some(until))?;
