@@ -24,7 +24,12 @@ impl PriceMemory {
     /// before, or starts again.
     pub fn at(&mut self, view: View<'_>, decision: &Decision) -> &mut DayPrices {
         let day = view.day();
-        let goes_on = |kept: &Kept| kept.day == day && kept.decision <= decision.index;
+        // A proposal may have been asked for a later time; its prices say nothing about the time before it.
+        let goes_on = |kept: &Kept| {
+            kept.day == day
+                && kept.decision <= decision.index
+                && kept.prices.made_at() <= decision.time
+        };
         let mut prices = match self.kept.take() {
             Some(kept) if goes_on(&kept) => kept.prices,
             _ => DayPrices::of(view, decision.time),

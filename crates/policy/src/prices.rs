@@ -95,6 +95,11 @@ impl DayPrices {
         }
     }
 
+    /// The time from which on the prices are valid.
+    pub(crate) fn made_at(&self) -> Time {
+        self.made_at
+    }
+
     fn search(&mut self, view: View<'_>, effort: Effort) {
         self.relaxation.load(view);
         let rest_usd = self.volume.search(&mut self.relaxation, effort);

@@ -8,6 +8,7 @@ use tokio::sync::{mpsc, oneshot};
 
 use crate::days::DayCell;
 use crate::error::Error;
+use crate::keys::Busy;
 use crate::metrics::Metrics;
 use crate::store::{Store, StoredAnswer, StoredEvent};
 
@@ -19,6 +20,7 @@ pub(crate) struct Append {
     pub(crate) day: Arc<DayCell>,
     pub(crate) events: Vec<StoredEvent>,
     pub(crate) answer: Option<StoredAnswer>,
+    pub(crate) _busy: Option<Arc<Busy>>,
     pub(crate) done: oneshot::Sender<Result<(), Error>>,
 }
 
@@ -60,15 +62,15 @@ async fn write_all(
 /// Stores a batch and answers everybody in it. If the batch cannot be stored, each of its requests is tried alone, so
 /// that one that conflicts does not fail the others.
 async fn write(store: &Store, metrics: &Metrics, batch: &mut Vec<Append>) {
-    let whole = batch.len() == 1 || store_together(store, batch).await.is_err();
+    let is_single = batch.len() == 1 || store_together(store, batch).await.is_err();
     for append in batch.drain(..) {
-        let outcome = if append.day.has_failed.load(Ordering::Acquire) {
+        let outcome = if !is_single {
+            Ok(())
+        } else if append.day.has_failed.load(Ordering::Acquire) {
             // An earlier event of the day could not be stored. The day is read again before this one is tried again.
             Err(Error::Conflict)
-        } else if whole {
-            store_together(store, std::slice::from_ref(&append)).await
         } else {
-            Ok(())
+            store_together(store, std::slice::from_ref(&append)).await
         };
         match &outcome {
             Ok(()) => {

@@ -15,6 +15,7 @@ use crate::decide::Deciders;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::event::Event;
+use crate::keys::Busy;
 use crate::metrics::Metrics;
 use crate::store::{Store, StoredAnswer, StoredDay, StoredEvent};
 
@@ -63,6 +64,8 @@ pub(crate) struct Writer {
     pub(crate) if_match: Option<u64>,
     /// The request with its key, if it has one.
     pub(crate) idempotency: Option<Idempotency>,
+    /// Holds the key until the events are stored, even if the client goes away before.
+    pub(crate) busy: Option<Arc<Busy>>,
 }
 
 /// A request that is carried out once, however often it comes.
@@ -133,7 +136,12 @@ impl DayCell {
     /// Makes events public that are stored.
     pub(crate) fn publish(&self, events: Vec<StoredEvent>) {
         if let Some(last) = events.last() {
-            self.durable.send_replace(last.seq);
+            let seq = last.seq;
+            self.durable.send_if_modified(|stored| {
+                let is_later = seq > *stored;
+                *stored = seq.max(*stored);
+                is_later
+            });
         }
         for event in events {
             // There may be nobody who reads.
@@ -221,7 +229,14 @@ impl Days {
         let cell = self.cell(id);
         let day = cell.get_or_try_init(|| self.read(id)).await;
         if day.is_err() {
-            self.forget(id);
+            // Only if nobody else is reading it.
+            let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+            if cells
+                .get(id)
+                .is_some_and(|kept| Arc::ptr_eq(kept, &cell) && Arc::strong_count(kept) == 2)
+            {
+                cells.remove(id);
+            }
         }
         day.cloned()
     }
@@ -292,7 +307,11 @@ impl Days {
         let mut state = DispatchDay::new(scenario);
         while state.seq() < seq {
             let left = u32::try_from(seq - state.seq()).unwrap_or(PAGE).min(PAGE);
-            for event in &self.store.events(day.id(), state.seq(), left).await? {
+            let events = self.store.events(day.id(), state.seq(), left).await?;
+            if events.is_empty() {
+                return Err(Error::not_found("event", &(state.seq() + 1).to_string()));
+            }
+            for event in &events {
                 state.replay(event)?;
             }
         }
@@ -333,7 +352,9 @@ impl Days {
         for _ in 0..TRIES {
             match self.append_once(&day, writer.clone(), events.clone(), &answer).await {
                 // Somebody else was quicker: the day is read again, and the events are taken in after theirs.
-                Err(Error::Conflict) => day = self.get(day.id()).await?,
+                Err(Error::Conflict) if writer.if_match.is_none() => {
+                    day = self.get(day.id()).await?;
+                }
                 outcome => return outcome,
             }
         }
@@ -357,9 +378,10 @@ impl Days {
             let stored = take_all(&mut state, events, &writer.actor)?;
             let appended = Appended { seq: state.seq(), events: stored };
             let answer = answer(&appended);
-            let kept = writer.idempotency.map(|asked| asked.answered_with(&answer));
+            let Writer { idempotency, busy, .. } = writer;
+            let kept = idempotency.map(|asked| asked.answered_with(&answer));
             let (day, events) = (Arc::clone(day), appended.events);
-            self.committer.push(Append { day, events, answer: kept, done });
+            self.committer.push(Append { day, events, answer: kept, _busy: busy, done });
             answer
         };
         let stopped = || Error::Store { cause: "the service is stopping".to_owned() };
@@ -398,7 +420,11 @@ fn take_all(
 ) -> Result<Vec<StoredEvent>, Error> {
     let at_ms = now_ms();
     let before = (events.len() > 1).then(|| state.clone());
-    let taken = events.into_iter().map(|event| state.take(event, actor, at_ms)).collect();
+    let take = |event| {
+        state.check_times(&event)?;
+        state.take(event, actor, at_ms)
+    };
+    let taken = events.into_iter().map(take).collect();
     if let (Err(_), Some(before)) = (&taken, before) {
         *state = before;
     }

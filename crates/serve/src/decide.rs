@@ -9,7 +9,6 @@ use serde::Serialize;
 use utoipa::ToSchema;
 use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_policy::{DayPrices, Policy};
-use vertifleet_sim::live::LiveDay;
 use vertifleet_sim::{Decision, Refusal, Simulation, View};
 use vertifleet_study::{PolicySpec, ResolveFor, ResolvedPolicy};
 
@@ -107,8 +106,8 @@ impl std::fmt::Debug for Decider {
 }
 
 impl Deciders {
-    /// At most this many policies decide on a day.
-    const MOST: u64 = 16;
+    /// At most this many policies remember a day.
+    const MOST: usize = 16;
 
     /// The policy with this name, with its memory of the day.
     ///
@@ -119,8 +118,11 @@ impl Deciders {
         if let Some(decider) = deciders.get(name) {
             return Ok(Arc::clone(decider));
         }
-        if deciders.len() as u64 >= Self::MOST {
-            return Err(Error::TooMuch { what: "policies on a day", most: Self::MOST });
+        if deciders.len() >= Self::MOST
+            && let Some(other) = deciders.keys().next().cloned()
+        {
+            // It finds its prices anew when it is asked again.
+            deciders.remove(&other);
         }
         let resolved = resolve(name, day)?;
         let decider = Decider {
@@ -170,7 +172,7 @@ impl Decider {
             let live = state.live_mut();
             let decision = live.decision(aircraft, time.unwrap_or_default())?;
             let view = live.view_at(&decision, &mut self.room);
-            let refusals = refusals(live, view, &decision);
+            let refusals = refusals(view, &decision);
             (decision, seq, refusals)
         };
         let day = self.room.as_ref().expect("the view was written into it");
@@ -258,9 +260,9 @@ fn to_cents(amount: f64) -> f64 {
 }
 
 /// Why each vertiport cannot be chosen, in the order of the day.
-fn refusals(live: &LiveDay, view: View<'_>, decision: &Decision) -> Vec<Option<Impossible>> {
+fn refusals(view: View<'_>, decision: &Decision) -> Vec<Option<Impossible>> {
     let reason = |to| {
-        let refusal = live.refusal(view, decision, to)?;
+        let refusal = view.refusal(decision, to)?;
         let rule = match refusal {
             Refusal::OutOfRange { .. } => "out_of_range",
             Refusal::NoCorridor { .. } => "no_corridor",

@@ -7,6 +7,7 @@ use vertifleet_sim::live::{LiveDay, Notice};
 
 use crate::error::Error;
 use crate::event::{Event, Ids};
+use crate::moment::Moment;
 use crate::store::StoredEvent;
 
 /// What is known of a day after its events so far.
@@ -52,6 +53,16 @@ impl DispatchDay {
     pub(crate) fn notices(&self) -> impl Iterator<Item = (Option<u64>, String)> + '_ {
         let told = self.notices.iter().map(|(seq, text)| (Some(*seq), text.clone()));
         told.chain(self.live.notices().map(|notice| (None, notice.to_string())))
+    }
+
+    /// Whether the time of an event may be a slip of the pen.
+    ///
+    /// # Errors
+    /// Returns [`Error::UnknownId`], or [`Error::Unfit`] if it may be.
+    pub(crate) fn check_times(&self, event: &Event) -> Result<(), Error> {
+        let report = event.what.report(&self.ids)?;
+        let time = event.time.map_or(self.live.now(), Moment::time);
+        Ok(self.live.check_times(time, &report)?)
     }
 
     /// Takes an event in, and returns it as it is to be stored.

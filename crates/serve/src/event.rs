@@ -36,6 +36,8 @@ impl<'de> Deserialize<'de> for Event {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum What {
+    /// The day is at this time; nothing else is known. Other events may not lie more than four hours after the latest.
+    Clock,
     /// An aircraft that is ready is to fly to a vertiport; its own vertiport means hold. The rules must permit it.
     Decided {
         /// The aircraft.
@@ -262,6 +264,7 @@ impl What {
     /// Returns [`Error::UnknownId`] if the day has no such aircraft or vertiport.
     pub(crate) fn report(&self, ids: &Ids) -> Result<Report, Error> {
         Ok(match self {
+            Self::Clock => Report::Clock,
             Self::Decided { aircraft, to, .. } => {
                 Report::Decided { aircraft: ids.aircraft(aircraft)?, to: ids.vertiport(to)? }
             }
@@ -339,6 +342,7 @@ impl What {
             Routes::Of(vertiport) => RouteNames::Of { vertiport: id(vertiport) },
         };
         match report {
+            Report::Clock => Self::Clock,
             Report::Decided { aircraft: of, to } => Self::Decided {
                 aircraft: aircraft(*of),
                 to: id(*to),

@@ -5,7 +5,7 @@
 
 use std::collections::HashSet;
 use std::hash::{BuildHasher as _, RandomState};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::error::Error;
 
@@ -28,12 +28,13 @@ struct State {
 }
 
 /// Holds a key while its request is carried out.
-pub(crate) struct Busy<'a> {
-    keys: &'a Keys,
+#[derive(Debug)]
+pub(crate) struct Busy {
+    keys: Arc<Keys>,
     key: String,
 }
 
-impl Drop for Busy<'_> {
+impl Drop for Busy {
     fn drop(&mut self) {
         self.keys.state().busy.remove(&self.key);
     }
@@ -41,10 +42,10 @@ impl Drop for Busy<'_> {
 
 impl Keys {
     /// Keys of which these have been used; `None` if others may have been used too.
-    pub(crate) fn new(used: Option<&[String]>) -> Self {
+    pub(crate) fn new(used: Option<&[String]>) -> Arc<Self> {
         let hasher = RandomState::new();
         let used = used.map(|keys| keys.iter().map(|key| hasher.hash_one(key)).collect());
-        Self { hasher, state: Mutex::new(State { busy: HashSet::new(), used }) }
+        Arc::new(Self { hasher, state: Mutex::new(State { busy: HashSet::new(), used }) })
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -55,12 +56,12 @@ impl Keys {
     ///
     /// # Errors
     /// Returns [`Error::KeyInUse`] if a request with this key is being carried out.
-    pub(crate) fn take(&self, key: &str) -> Result<(Busy<'_>, bool), Error> {
+    pub(crate) fn take(self: &Arc<Self>, key: &str) -> Result<(Busy, bool), Error> {
         let mut state = self.state();
         if !state.busy.insert(key.to_owned()) {
             return Err(Error::KeyInUse { key: key.to_owned() });
         }
-        let busy = Busy { keys: self, key: key.to_owned() };
+        let busy = Busy { keys: Arc::clone(self), key: key.to_owned() };
         let Some(used) = &mut state.used else { return Ok((busy, true)) };
         let is_new = used.insert(self.hasher.hash_one(key));
         if used.len() > MOST {

@@ -45,7 +45,7 @@ pub fn serve(
         .enable_all()
         .build()
         .map_err(|cause| Error::Store { cause: cause.to_string() })?;
-    runtime.block_on(async {
+    let outcome = runtime.block_on(async {
         let store = Store::open(&settings.location).await?;
         // Held until the service stops. The operating system lets go of it even if the service is killed.
         let _lock = lock(&settings.location)?;
@@ -67,7 +67,10 @@ pub fn serve(
                 tokio::time::sleep(PATIENCE).await;
             } => Ok(()),
         }
-    })
+    });
+    // A policy that still thinks is not waited for.
+    runtime.shutdown_timeout(LOOK);
+    outcome
 }
 
 /// Takes the folder of the data for this service alone.

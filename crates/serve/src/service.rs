@@ -1,5 +1,7 @@
 //! What all requests share: the days, the keys of requests that are being carried out, and the settings.
 
+use std::sync::Arc;
+
 use axum::http::HeaderMap;
 use serde::de::DeserializeOwned;
 use tokio::sync::{Semaphore, watch};
@@ -8,7 +10,7 @@ use crate::access::Access;
 use crate::api::Sender;
 use crate::days::{Days, Idempotency, Writer};
 use crate::error::Error;
-use crate::keys::{Busy, Keys};
+use crate::keys::Keys;
 
 /// The longest key of a request.
 const LONGEST_KEY: usize = 128;
@@ -22,17 +24,17 @@ pub(crate) struct Service {
     pub(crate) access: Access,
     /// Whether the service is about to stop, so that streams end.
     pub(crate) stopping: watch::Sender<bool>,
-    keys: Keys,
+    keys: Arc<Keys>,
     /// Turns for long computations.
-    turns: Semaphore,
+    turns: Arc<Semaphore>,
 }
 
 /// A write as its headers describe it.
-pub(crate) enum Write<'a> {
+pub(crate) enum Write {
     /// It has been carried out before; this was the answer.
     Done(String),
     /// It is to be carried out.
-    New(Writer, Option<Busy<'a>>),
+    New(Writer),
 }
 
 impl Service {
@@ -46,17 +48,17 @@ impl Service {
         let access = Access::new(days.store().clone());
         let used = days.store().keys().await?;
         let keys = Keys::new(used.as_deref());
-        let turns = Semaphore::new(cores);
+        let turns = Arc::new(Semaphore::new(cores));
         Ok(Self { days, access, stopping, keys, turns })
     }
 
     /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.
-    pub(crate) async fn write(&self, sender: &Sender, body: &[u8]) -> Result<Write<'_>, Error> {
+    pub(crate) async fn write(&self, sender: &Sender, body: &[u8]) -> Result<Write, Error> {
         let Sender { actor, headers, path } = sender;
         let if_match = if_match(headers)?;
-        let mut writer = Writer { actor: actor.clone(), if_match, idempotency: None };
+        let mut writer = Writer { actor: actor.clone(), if_match, idempotency: None, busy: None };
         let Some(key) = text(headers, "idempotency-key")? else {
-            return Ok(Write::New(writer, None));
+            return Ok(Write::New(writer));
         };
         if key.is_empty() || key.len() > LONGEST_KEY {
             let rule = format!("Idempotency-Key must have 1 to {LONGEST_KEY} characters");
@@ -71,7 +73,8 @@ impl Service {
             return Ok(Write::Done(known.answer));
         }
         writer.idempotency = Some(Idempotency { key: key.to_owned(), request });
-        Ok(Write::New(writer, Some(busy)))
+        writer.busy = Some(Arc::new(busy));
+        Ok(Write::New(writer))
     }
 
     /// Computes something that takes a while, on a thread of its own, and no more at once than there are cores.
@@ -79,8 +82,14 @@ impl Service {
         &self,
         work: impl FnOnce() -> Result<T, Error> + Send + 'static,
     ) -> Result<T, Error> {
-        let _turn = self.turns.acquire().await.expect("it is never closed");
+        let turn = Arc::clone(&self.turns).acquire_owned().await.expect("it is never closed");
         let died = |error| Error::Internal { cause: format!("{error}") };
+        // The turn lasts as long as the work, even if the client goes away before.
+        let work = move || {
+            let outcome = work();
+            drop(turn);
+            outcome
+        };
         tokio::task::spawn_blocking(work).await.map_err(died)?
     }
 }

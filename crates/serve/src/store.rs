@@ -5,6 +5,7 @@
 
 mod tokens;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -265,6 +266,9 @@ impl Store {
         answers: &[&StoredAnswer],
     ) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
+        if self.is_shared {
+            check_days(&mut transaction, events).await?;
+        }
         // A statement has at most 32,766 parameters in SQLite.
         for events in events.chunks(4_000) {
             let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain) VALUES ";
@@ -323,6 +327,24 @@ impl Store {
         query("SELECT 1").execute(&self.pool).await?;
         Ok(())
     }
+}
+
+/// Checks that no other service has archived or deleted a day, and keeps them from it until the events are stored.
+async fn check_days(
+    transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
+    events: &[(&str, &StoredEvent)],
+) -> Result<(), Error> {
+    let days: BTreeSet<&str> = events.iter().map(|(day, _)| *day).collect();
+    for day in days {
+        let found = query("SELECT id FROM days WHERE id = $1 AND archived = 0 FOR SHARE")
+            .bind(day)
+            .fetch_optional(&mut **transaction)
+            .await?;
+        if found.is_none() {
+            return Err(Error::Archived { id: day.to_owned() });
+        }
+    }
+    Ok(())
 }
 
 async fn insert_answers(

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, Closure, Route, Scenario, Time, VertiportIx};
 
-use crate::{DayTotals, Decision, Imagined, Refusal, Simulation, Trace, TraceRow, View};
+use crate::{DayTotals, Decision, Imagined, Simulation, Trace, TraceRow, View};
 
 pub use report::{Booking, Notice, Report, Routes, Unfit};
 pub use reporter::Reporter;
@@ -233,12 +233,6 @@ impl LiveDay {
         let day = room.get_or_insert_with(|| self.known.clone());
         self.expect_from(day, decision.time, Some(decision.aircraft));
         day.view()
-    }
-
-    /// Why the aircraft of a decision cannot fly to a vertiport; `None` if it can.
-    pub fn refusal(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> Option<Refusal> {
-        let is_feasible = view.feasible(decision).contains(to);
-        (!is_feasible).then(|| self.known.refusal(decision, to))
     }
 
     /// The rest of the day as it is expected now, to be played out.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, AircraftType, ClosedTimes, Scenario, Time, TypeIx, VertiportIx};
 
-use crate::{Decision, Imagined, Leg, Simulation, Snapshot, VertiportSet};
+use crate::{Decision, Imagined, Leg, Refusal, Simulation, Snapshot, VertiportSet};
 
 /// The state of the day at the moment of a decision. It is borrowed and costs nothing to make.
 #[derive(Debug, Clone, Copy)]
@@ -41,6 +41,12 @@ impl<'a> View<'a> {
     #[inline]
     pub fn feasible(&self, decision: &Decision) -> VertiportSet {
         self.simulation.feasible(decision)
+    }
+
+    /// The rule that keeps the aircraft of a decision from flying to a vertiport; `None` if it is feasible.
+    pub fn refusal(&self, decision: &Decision, to: VertiportIx) -> Option<Refusal> {
+        let is_feasible = self.feasible(decision).contains(to);
+        (!is_feasible).then(|| self.simulation.refusal(decision, to))
     }
 
     /// The id of an aircraft, for messages; `None` if the day has no such aircraft.

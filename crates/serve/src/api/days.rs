@@ -168,9 +168,9 @@ pub(super) async fn create(
     sender: Sender,
     Body(body): Body,
 ) -> Result<Response, Error> {
-    let (writer, _busy) = match service.write(&sender, &body).await? {
+    let writer = match service.write(&sender, &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
-        Write::New(writer, busy) => (writer, busy),
+        Write::New(writer) => writer,
     };
     let asked: NewDay = parse(&body)?;
     let policy = asked.policy.clone().unwrap_or_else(|| DEFAULT_POLICY.to_owned());
@@ -184,7 +184,7 @@ pub(super) async fn create(
         policy,
     };
     let info = DayInfo::of(&stored, Some(0));
-    let (actor, id) = (writer.actor, stored.id.clone());
+    let (actor, id, _busy) = (writer.actor, stored.id.clone(), writer.busy);
     let answer = writer.idempotency.map(|asked| asked.answered_with(&info));
     service.days.add(stored, scenario, answer.as_ref()).await?;
     service.days.store().record(&actor, "day made", &id, now_ms()).await?;

@@ -100,9 +100,9 @@ pub(super) async fn decide(
     sender: Sender,
     Body(body): Body,
 ) -> Result<Response, Error> {
-    let (writer, _busy) = match service.write(&sender, &body).await? {
+    let writer = match service.write(&sender, &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
-        Write::New(writer, busy) => (writer, busy),
+        Write::New(writer) => writer,
     };
     let asked: NewDecision = parse(&body)?;
     let day = service.days.get(&day).await?;
@@ -124,6 +124,8 @@ async fn by_hand(
     to: String,
 ) -> Result<TakenDecision, Error> {
     let what = What::Decided { aircraft, to, policy: None, instead_of: None, reason };
+    let now = day.state().live().now();
+    let time = time.filter(|time| time.time() >= now);
     take(service, day, writer, Event { time, what }, None).await
 }
 
@@ -152,7 +154,8 @@ async fn by_policy(
         let if_match = writer.if_match.or(Some(proposal.seq));
         let once = Writer { if_match, ..writer.clone() };
         match take(service, &day, once, event, Some(proposal)).await {
-            Err(Error::Moved { .. }) if writer.if_match.is_none() && tries < TRIES => {}
+            Err(Error::Moved { .. } | Error::Conflict)
+                if writer.if_match.is_none() && tries < TRIES => {}
             outcome => return outcome,
         }
     }

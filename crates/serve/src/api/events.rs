@@ -18,7 +18,7 @@ use crate::service::{Service, Write, parse};
 use crate::store::StoredEvent;
 
 /// The number of events that a request may bring.
-const MOST_EVENTS: u64 = 1_000;
+pub(super) const MOST_EVENTS: u64 = 1_000;
 
 /// One event, or several that are taken all or none.
 #[derive(Debug, Serialize, ToSchema)]
@@ -135,9 +135,9 @@ pub(super) async fn append(
     sender: Sender,
     Body(body): Body,
 ) -> Result<Response, Error> {
-    let (writer, _busy) = match service.write(&sender, &body).await? {
+    let writer = match service.write(&sender, &body).await? {
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
-        Write::New(writer, busy) => (writer, busy),
+        Write::New(writer) => writer,
     };
     let events = OneOrMore::parse(&body)?.events();
     if events.is_empty() || events.len() as u64 > MOST_EVENTS {

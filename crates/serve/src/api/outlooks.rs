@@ -8,6 +8,7 @@ use axum::response::Response;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
+use super::events::MOST_EVENTS;
 use super::extract::{Asked, Body, Named};
 use super::{at_event, json};
 use crate::error::Error;
@@ -54,6 +55,9 @@ pub(super) async fn what_if(
     Body(body): Body,
 ) -> Result<Response, Error> {
     let asked: WhatIf = parse(&body)?;
+    if asked.events.len() as u64 > MOST_EVENTS {
+        return Err(Error::TooMuch { what: "events in a what-if", most: MOST_EVENTS });
+    }
     let day = service.days.get(&day).await?;
     let mut state = day.state().clone();
     day.stored_up_to(state.seq()).await?;

@@ -373,3 +373,60 @@ fn an_address_of_others_needs_a_proxy_and_a_token() {
         assert_eq!(refused.expect_err("there is no token").code().to_string(), "V619");
     }
 }
+
+#[test]
+fn a_slip_of_the_pen_does_not_move_the_clock() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let events = format!("{day}/events");
+    let ready = json!({"type": "ready", "aircraft": "A01", "time": "17:10:00"});
+    let refused = service.post(&events, &ready);
+    assert_eq!((refused.status, text(&refused.json, "code")), (422, "V604"));
+    assert_eq!(service.get(&format!("{day}/state")).json["now"], "06:00:00");
+    let back = json!({"type": "delayed", "aircraft": "A01", "until": "05:00:00"});
+    assert_eq!(service.post(&events, &back).status, 422);
+    assert_eq!(service.post(&events, &json!({"type": "clock", "time": "17:00:00"})).status, 201);
+    assert_eq!(service.post(&events, &ready).status, 201);
+}
+
+#[test]
+fn an_aircraft_that_nobody_reports_is_overdue() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    assert_eq!(service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"})).status, 201);
+    assert_eq!(
+        service
+            .post(&format!("{day}/events"), &json!({"type": "clock", "time": "06:30:00"}))
+            .status,
+        201
+    );
+    let notices = service.get(&format!("{day}/state")).json["notices"].clone();
+    assert!(
+        notices[0]["text"]
+            .as_str()
+            .is_some_and(|text| text.contains("should have departed at 06:00:00")),
+        "{notices}"
+    );
+    let refused = service.get(&format!("{day}/aircraft/A01/decision")).json;
+    assert!(text(&refused, "detail").contains("has not been reported departed"), "{refused}");
+}
+
+#[test]
+fn a_proposal_for_later_leaves_the_prices_of_now_alone() {
+    let (_folder, service) = service();
+    let (asked, plain) = (service.new_day("prices"), service.new_day("prices"));
+    let proposal =
+        |day: &str, query: &str| service.get(&format!("{day}/aircraft/A01/decision{query}")).json;
+    assert_eq!(text(&proposal(&asked, "?time=16:00:00"), "time"), "16:00:00");
+    assert_eq!(proposal(&asked, "")["alternatives"], proposal(&plain, "")["alternatives"]);
+}
+
+#[test]
+fn a_stream_cannot_begin_after_what_there_is() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    for id in ["7", "abc"] {
+        let refused = service.send("GET", &format!("{day}/stream"), &[("last-event-id", id)], b"");
+        assert_eq!((refused.status, text(&refused.json, "code")), (400, "V601"), "{id}");
+    }
+}

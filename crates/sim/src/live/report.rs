@@ -7,6 +7,8 @@ use crate::Refusal;
 /// Something that happened, was decided or became known.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Report {
+    /// The day is at this time; nothing else is known.
+    Clock,
     /// An aircraft that is ready is to fly to a vertiport; its own means hold. It must be feasible.
     Decided {
         /// The aircraft.
@@ -219,7 +221,7 @@ pub enum Unfit {
     },
     /// The report is far ahead of all others.
     #[error(
-        "{time} is more than 4 h after {now}, the latest time of the day: is it a slip of the pen?"
+        "{time} is more than 4 h after {now}, the latest time of the day; if it is no slip of the pen, send an event of the type `clock` first"
     )]
     TooFarAhead {
         /// The time of the report.

@@ -65,7 +65,8 @@ impl Reporter {
     fn report_closures(&mut self, changes: &[(Time, bool, VertiportIx, VertiportIx)]) {
         let size = self.day.scenario().vertiports.len();
         let mut in_force = vec![0_u32; size * size];
-        let start = self.day.scenario().operations.start;
+        let (start, end) =
+            (self.day.scenario().operations.start, self.day.scenario().operations.end);
         for &(time, closes, from, to) in changes {
             let in_force = &mut in_force[from.at() * size + to.at()];
             *in_force = if closes { *in_force + 1 } else { *in_force - 1 };
@@ -77,7 +78,7 @@ impl Reporter {
                 Some(span) => Report::Closed { routes, until: Some(span.end) },
                 None => Report::Reopened { routes },
             };
-            self.report(time.max(start), report);
+            self.report(time.max(start).min(end + 1), report);
         }
     }
 

@@ -2,27 +2,40 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, Closure, Route, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Closure, Route, Scenario, Time, VertiportIx};
 
 use super::report::{Booking, Notice, Report, Routes, Unfit};
 use super::{Before, LiveAircraft, LiveDay, LiveDecision, OutOfService, Phase};
 use crate::{Decision, TraceRow};
 
-/// The clock of a day never runs back, so a report whose time was mistyped must not move it on by hours.
+/// A report that moves the clock on further must say that it means to.
 const LONGEST_STEP_S: u32 = 4 * 3_600;
 /// At most this many passengers of a pair wait in a period.
 const MOST_PASSENGERS: u32 = 1_000_000;
 
 impl LiveDay {
+    /// Whether a report may be a slip of the pen: it lies hours after everything that the day has heard of, or delays
+    /// something into the past. Since the clock never runs back, such a report does harm that cannot be undone.
+    ///
+    /// # Errors
+    /// Returns [`Unfit::TooFarAhead`] or [`Unfit::Backwards`].
+    pub fn check_times(&self, time: Time, report: &Report) -> Result<(), Unfit> {
+        match *report {
+            Report::Clock => Ok(()),
+            _ if time > self.now + LONGEST_STEP_S => {
+                Err(Unfit::TooFarAhead { time, now: self.now })
+            }
+            Report::Delayed { until, .. } if until < time => Err(Unfit::Backwards { time, until }),
+            _ => Ok(()),
+        }
+    }
+
     /// Takes a report in. `time` is when it happened; reports may come late, but the day's clock never runs back.
     /// Returns what people should look at.
     ///
     /// # Errors
     /// Returns an [`Unfit`] if the report makes no sense or is a decision that breaks a rule. Nothing has changed then.
     pub fn take(&mut self, time: Time, report: &Report) -> Result<Vec<Notice>, Unfit> {
-        if time > self.now + LONGEST_STEP_S {
-            return Err(Unfit::TooFarAhead { time, now: self.now });
-        }
         let mut notices = Vec::new();
         match *report {
             Report::Decided { aircraft, to } => self.decide(aircraft, time, to)?,
@@ -33,12 +46,7 @@ impl LiveDay {
             Report::Landed { aircraft, at } => self.land(aircraft, time, at, &mut notices)?,
             Report::Charging { aircraft, ready } => self.charge(aircraft, ready, "be charging")?,
             Report::Ready { aircraft } => self.charge(aircraft, time, "be ready")?,
-            Report::Delayed { aircraft, until } => {
-                if until < time {
-                    return Err(Unfit::Backwards { time, until });
-                }
-                self.delay(aircraft, until)?;
-            }
+            Report::Delayed { aircraft, until } => self.delay(aircraft, until)?,
             Report::OutOfService { aircraft, until } => {
                 let until = until.map_or(OutOfService::UntilReported, OutOfService::Until);
                 self.set_out(aircraft, Some(until))?;
@@ -54,8 +62,10 @@ impl LiveDay {
             Report::Demand { period, ref pairs } => self.set_demand(period, pairs)?,
             Report::Booked { booking } => self.book(booking)?,
             Report::Cancelled { booking } => self.cancel(booking)?,
+            Report::Clock => {}
             Report::Stands { vertiport, stands } => {
                 self.check_vertiport(vertiport)?;
+                self.forget();
                 self.known.stands.set_limit(vertiport, stands);
                 notices.extend(self.more_than_stands(vertiport));
             }
@@ -408,6 +418,7 @@ impl LiveDay {
     fn reopen(&mut self, time: Time, routes: Routes) -> Result<(), Unfit> {
         let size = self.check_routes(routes)?;
         let pairs = routes.pairs(size);
+        let time = time.max(self.now);
         let in_force = |closure: &Closure| {
             let pair = (closure.route.from, closure.route.to);
             (closure.start..closure.end).contains(&time) && pairs.contains(&pair)
@@ -428,6 +439,13 @@ impl LiveDay {
         let (now, size) = (self.now.max(time), self.scenario().vertiports.len());
         self.known.closures.announce(&self.closures, told, now, size);
         self.known.eventful = true;
+        self.forget();
+    }
+
+    /// Makes the day another one for policies that remember it, because what they remember no longer holds: they read
+    /// stands and known closures once a day.
+    fn forget(&mut self) {
+        self.known.scenario = Arc::new(Scenario::clone(&self.known.scenario));
     }
 
     fn check_routes(&self, routes: Routes) -> Result<usize, Unfit> {

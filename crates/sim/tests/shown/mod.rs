@@ -21,6 +21,11 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         (view.day() == view.day(), view.route_changes(), view.fleet_cost_usd()),
     )];
     shown.push(format!("{:?}", view.known_closures()));
+    let refusal = |to| view.refusal(decision, to);
+    shown.push(format!(
+        "{:?}",
+        VertiportIx::all(view.vertiports()).map(refusal).collect::<Vec<_>>()
+    ));
     for aircraft in AircraftIx::all(view.places().len()) {
         let kind = view.kind(aircraft);
         let times = (view.ready_at(aircraft), view.arrives_at(aircraft));
