@@ -62,9 +62,9 @@ async fn write_all(
 /// Stores a batch and answers everybody in it. If the batch cannot be stored, each of its requests is tried alone, so
 /// that one that conflicts does not fail the others.
 async fn write(store: &Store, metrics: &Metrics, batch: &mut Vec<Append>) {
-    let is_single = batch.len() == 1 || store_together(store, batch).await.is_err();
+    let one_by_one = batch.len() == 1 || store_together(store, batch).await.is_err();
     for append in batch.drain(..) {
-        let outcome = if !is_single {
+        let outcome = if !one_by_one {
             Ok(())
         } else if append.day.has_failed.load(Ordering::Acquire) {
             // An earlier event of the day could not be stored. The day is read again before this one is tried again.

@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::event::Event;
 use crate::keys::Busy;
 use crate::metrics::Metrics;
-use crate::store::{Store, StoredAnswer, StoredDay, StoredEvent};
+use crate::store::{PAGE, Store, StoredAnswer, StoredDay, StoredEvent};
 
 /// Events that a slow reader may be behind before it has to read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
@@ -25,8 +25,6 @@ const KEPT_FOR_READERS: usize = 1_024;
 const MOST_IN_MEMORY: usize = 1_000;
 /// A write is tried so often when other services write to the same day.
 const TRIES: u32 = 5;
-/// Events that are read from the store at once.
-const PAGE: u32 = 10_000;
 
 /// A day in memory.
 pub(crate) struct DayCell {
@@ -268,15 +266,9 @@ impl Days {
         let (stored, scenario) = found.ok_or_else(|| Error::not_found("day", id))?;
         let scenario = Scenario::from_json(scenario.as_bytes(), id)?;
         let mut state = DispatchDay::new(Arc::new(scenario));
-        loop {
-            let events = self.store.events(id, state.seq(), PAGE).await?;
-            for event in &events {
-                state.replay(event).map_err(|error| error.of_day(id))?;
-            }
-            if events.len() < PAGE as usize {
-                return Ok(Arc::new(DayCell::new(stored, state)));
-            }
-        }
+        let replayed = self.store.replay(id, &mut state, u64::MAX).await;
+        replayed.map_err(|error| error.of_day(id))?;
+        Ok(Arc::new(DayCell::new(stored, state)))
     }
 
     /// A day as it was after an event.
@@ -305,15 +297,9 @@ impl Days {
         seq: u64,
     ) -> Result<DispatchDay, Error> {
         let mut state = DispatchDay::new(scenario);
-        while state.seq() < seq {
-            let left = u32::try_from(seq - state.seq()).unwrap_or(PAGE).min(PAGE);
-            let events = self.store.events(day.id(), state.seq(), left).await?;
-            if events.is_empty() {
-                return Err(Error::not_found("event", &(state.seq() + 1).to_string()));
-            }
-            for event in &events {
-                state.replay(event)?;
-            }
+        self.store.replay(day.id(), &mut state, seq).await?;
+        if state.seq() < seq {
+            return Err(Error::not_found("event", &(state.seq() + 1).to_string()));
         }
         Ok(state)
     }
@@ -420,11 +406,7 @@ fn take_all(
 ) -> Result<Vec<StoredEvent>, Error> {
     let at_ms = now_ms();
     let before = (events.len() > 1).then(|| state.clone());
-    let take = |event| {
-        state.check_times(&event)?;
-        state.take(event, actor, at_ms)
-    };
-    let taken = events.into_iter().map(take).collect();
+    let taken = events.into_iter().map(|event| state.admit(event, actor, at_ms)).collect();
     if let (Err(_), Some(before)) = (&taken, before) {
         *state = before;
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use vertifleet_core::Scenario;
-use vertifleet_sim::live::{LiveDay, Notice};
+use vertifleet_sim::live::{LiveDay, Notice, Report};
 
 use crate::error::Error;
 use crate::event::{Event, Ids};
@@ -55,14 +55,21 @@ impl DispatchDay {
         told.chain(self.live.notices().map(|notice| (None, notice.to_string())))
     }
 
-    /// Whether the time of an event may be a slip of the pen.
+    /// Takes an event in that somebody sends, unless its time may be a slip of the pen, and returns it as it is to be
+    /// stored.
     ///
     /// # Errors
-    /// Returns [`Error::UnknownId`], or [`Error::Unfit`] if it may be.
-    pub(crate) fn check_times(&self, event: &Event) -> Result<(), Error> {
+    /// Returns [`Error::UnknownId`] or [`Error::Unfit`] if the day does not take it. Nothing has changed then.
+    pub(crate) fn admit(
+        &mut self,
+        event: Event,
+        actor: &str,
+        at_ms: i64,
+    ) -> Result<StoredEvent, Error> {
         let report = event.what.report(&self.ids)?;
         let time = event.time.map_or(self.live.now(), Moment::time);
-        Ok(self.live.check_times(time, &report)?)
+        self.live.check_times(time, &report)?;
+        self.enter_report(event, &report, actor, at_ms)
     }
 
     /// Takes an event in, and returns it as it is to be stored.
@@ -71,13 +78,23 @@ impl DispatchDay {
     /// Returns [`Error::UnknownId`] or [`Error::Unfit`] if the day cannot take it. Nothing has changed then.
     pub(crate) fn take(
         &mut self,
+        event: Event,
+        actor: &str,
+        at_ms: i64,
+    ) -> Result<StoredEvent, Error> {
+        let report = event.what.report(&self.ids)?;
+        self.enter_report(event, &report, actor, at_ms)
+    }
+
+    fn enter_report(
+        &mut self,
         mut event: Event,
+        report: &Report,
         actor: &str,
         at_ms: i64,
     ) -> Result<StoredEvent, Error> {
         let time = event.time.get_or_insert_with(|| self.live.now().into()).time();
-        let report = event.what.report(&self.ids)?;
-        let notices = self.live.take(time, &report)?;
+        let notices = self.live.take(time, report)?;
         let texts: Vec<String> = notices.iter().map(Notice::to_string).collect();
         let json = |value: serde_json::Result<String>| value.expect("plain data can be written");
         let mut stored = StoredEvent {

@@ -10,10 +10,7 @@ use vertifleet_core::Scenario;
 
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
-use crate::store::{DATABASE, Location, Store, StoredDay, StoredEvent};
-
-/// Rows that are read from the store at once.
-const PAGE: u32 = 10_000;
+use crate::store::{DATABASE, Location, PAGE, Store, StoredDay, StoredEvent};
 
 /// The data of a service, which may run meanwhile.
 #[derive(Debug)]
@@ -110,16 +107,10 @@ impl Keeper {
             Ok(scenario) => DispatchDay::new(Arc::new(scenario)),
             Err(error) => return Ok(check(0, Some(error.to_string()))),
         };
-        loop {
-            let events = self.store.events(id, state.seq(), PAGE).await?;
-            for event in &events {
-                if let Err(error) = state.replay(event) {
-                    return Ok(check(state.seq(), Some(error.to_string())));
-                }
-            }
-            if events.len() < PAGE as usize {
-                return Ok(check(state.seq(), None));
-            }
+        match self.store.replay(id, &mut state, u64::MAX).await {
+            Ok(()) => Ok(check(state.seq(), None)),
+            Err(damage @ Error::BadData { .. }) => Ok(check(state.seq(), Some(damage.to_string()))),
+            Err(error) => Err(error),
         }
     }
 

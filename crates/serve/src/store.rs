@@ -13,12 +13,15 @@ use serde::{Deserialize, Serialize};
 use sqlx::any::{AnyPoolOptions, AnyRow, install_default_drivers};
 use sqlx::{AnyPool, AssertSqlSafe, Executor as _, Row as _, query, query_scalar};
 
+use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 
 /// The name of the database in the folder of the data.
 pub(crate) const DATABASE: &str = "vertifleet.db";
 /// A store that does not answer for so long has failed.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// Rows that are read at once.
+pub(crate) const PAGE: u32 = 10_000;
 /// The version of the tables. A store of a newer version is refused.
 const VERSION: &str = "1";
 
@@ -257,6 +260,29 @@ impl Store {
         .fetch_all(&self.pool)
         .await?;
         rows.iter().map(stored_event).collect()
+    }
+
+    /// Replays the events of a day that follow those of a state, up to a number or to the last one that is stored.
+    ///
+    /// # Errors
+    /// Returns the errors of [`DispatchDay::replay`]; the events before the one that is wrong have been replayed then.
+    pub(crate) async fn replay(
+        &self,
+        day: &str,
+        state: &mut DispatchDay,
+        until: u64,
+    ) -> Result<(), Error> {
+        while state.seq() < until {
+            let most = u32::try_from(until - state.seq()).unwrap_or(PAGE).min(PAGE);
+            let events = self.events(day, state.seq(), most).await?;
+            for event in &events {
+                state.replay(event)?;
+            }
+            if events.len() < most as usize {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Adds events of several days, all or none.

@@ -336,12 +336,6 @@ impl LiveDay {
         Trace { rows: kept.map(|decision| decision.row).collect() }
     }
 
-    /// The latest decision of an aircraft that was not undone.
-    pub fn latest(&self, aircraft: AircraftIx) -> Option<&TraceRow> {
-        let of_it = |one: &&LiveDecision| one.row.aircraft == aircraft && !one.is_undone;
-        self.decisions.iter().rev().find(of_it).map(|decision| &decision.row)
-    }
-
     /// Passengers who have been taken on board in a period, `[from][to]` row by row.
     pub fn boarded_in(&self, period: usize) -> &[u32] {
         let pairs = self.scenario().vertiports.len().pow(2);
