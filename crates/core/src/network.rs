@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use crate::demand_model::DemandModel;
 use crate::disturbance_model::DisturbanceModel;
 use crate::{
-    AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Vertiport, files,
-    nearest, network_file, parse, random_network, random_places,
+    AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Time, Vertiport,
+    files, nearest, network_file, parse, random_network, random_places,
 };
 
 /// The prefix of the number of a random network.
@@ -26,6 +26,7 @@ const SHIPPED: &[(&str, &str)] = &[
 #[derive(Debug, Clone)]
 pub struct Network {
     pub(crate) name: String,
+    pub(crate) time_zone: Option<String>,
     /// The text that the network was read from.
     pub(crate) toml: String,
     /// The files that the network was read from.
@@ -126,6 +127,12 @@ impl Network {
         &self.name
     }
 
+    /// The time zone of the clocks of its vertiports by its name in the IANA database, for example `America/New_York`, if
+    /// the file names one.
+    pub fn time_zone(&self) -> Option<&str> {
+        self.time_zone.as_deref()
+    }
+
     /// The text of the network file, with the rows of its table of demand in it if it has one. Reading this text gives
     /// the same network.
     pub fn toml(&self) -> &str {
@@ -151,6 +158,11 @@ impl Network {
     /// Number of aircraft of all types together.
     pub fn fleet_size(&self) -> usize {
         self.idle_day.aircraft.len()
+    }
+
+    /// Start of each demand period; the last one lasts for the rest of the day.
+    pub fn period_starts(&self) -> &[Time] {
+        &self.idle_day.periods
     }
 
     /// Number of demand periods.

@@ -31,6 +31,7 @@ struct RawNetwork {
     name: String,
     #[serde(rename = "start_positions")]
     _start_positions: StartPositions,
+    time_zone: Option<String>,
     operations: RawOperations,
     vertiports: Vec<RawSite>,
     corridors: Option<Vec<RawRoute>>,
@@ -96,6 +97,7 @@ impl RawNetwork {
     fn check(self, text: &str, origin: &str) -> Result<Network, Error> {
         let raw = self;
         name(&raw.name, origin)?;
+        raw.time_zone.as_deref().map(|zone| time_zone(zone, origin)).transpose()?;
         let list = |member, found, most| check::entry_count(origin, member, found, most);
         list("vertiports", raw.vertiports.len(), entries::VERTIPORTS)?;
         list("aircraft_types", raw.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
@@ -145,6 +147,7 @@ impl RawNetwork {
         };
         Ok(Network {
             name: raw.name,
+            time_zone: raw.time_zone,
             toml: text.to_owned(),
             files: Vec::new(),
             idle_day: idle_day.check(origin)?,
@@ -204,6 +207,17 @@ fn name(name: &str, origin: &str) -> Result<(), Error> {
         return Ok(());
     }
     let (member, found) = ("name".to_owned(), shortened(name, 64));
+    Err(Error::BadId { origin: origin.to_owned(), member, rule: RULE, found })
+}
+
+/// Checks that a time zone looks like one. Whether it exists is for those to say who know all of them.
+fn time_zone(zone: &str, origin: &str) -> Result<(), Error> {
+    const RULE: &str = "the name of a time zone, such as America/New_York";
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '/' | '_' | '-' | '+');
+    if (1..=40).contains(&zone.len()) && zone.chars().all(plain) {
+        return Ok(());
+    }
+    let (member, found) = ("time_zone".to_owned(), shortened(zone, 64));
     Err(Error::BadId { origin: origin.to_owned(), member, rule: RULE, found })
 }
 

@@ -31,7 +31,7 @@ pub enum Role {
     Read,
     /// To report events and to take decisions, and to make days.
     Dispatch,
-    /// To archive and delete days.
+    /// To archive and delete days, and to upload networks and policies.
     Admin,
 }
 
@@ -57,7 +57,7 @@ impl Role {
     fn needed(method: &Method, path: &str) -> Self {
         match *method {
             Method::GET | Method::HEAD | Method::OPTIONS => Self::Read,
-            Method::POST if path.ends_with("/what-if") => Self::Read,
+            Method::POST if path.ends_with("/what-if") || path.ends_with("/validate") => Self::Read,
             Method::POST if !path.ends_with("/archive") => Self::Dispatch,
             _ => Self::Admin,
         }

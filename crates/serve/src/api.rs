@@ -2,9 +2,12 @@
 
 mod days;
 mod decisions;
+mod describe;
 mod events;
 mod extract;
+mod networks;
 mod outlooks;
+mod policies;
 mod stream;
 
 use std::sync::Arc;
@@ -16,14 +19,17 @@ use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tower_http::catch_panic::CatchPanicLayer;
-use utoipa::OpenApi;
+use utoipa::{IntoParams, ToSchema};
 
+pub use self::describe::openapi;
 pub(crate) use self::extract::Sender;
 use crate::access::admit;
+use crate::days::DayCell;
 use crate::error::Error;
 use crate::metrics::{measure, show};
+use crate::moment::by_calendar;
 use crate::service::Service;
 
 /// The longest body of a request: a scenario with the demand of a large network.
@@ -32,33 +38,6 @@ const LONGEST_BODY: usize = 64 << 20;
 /// No request takes longer.
 const LONGEST: Duration = Duration::from_secs(30);
 
-/// The description of the API.
-#[derive(OpenApi)]
-#[openapi(
-    info(
-        title = "Vertifleet dispatch service",
-        description = "Live days of fleets of electric air taxis: events, decisions with reasons, outlooks.",
-        license(name = "MIT OR Apache-2.0")
-    ),
-    paths(
-        days::list, days::create, days::read, days::archive, days::delete, days::state,
-        days::trace, events::list, events::append, decisions::propose, decisions::decide,
-        outlooks::outlook, outlooks::what_if, stream::stream
-    ),
-    tags(
-        (name = "days", description = "Days and their state"),
-        (name = "events", description = "What happens on a day"),
-        (name = "decisions", description = "Where an aircraft flies next, and why"),
-        (name = "outlooks", description = "How a day goes on, and what it would be otherwise")
-    )
-)]
-struct Api;
-
-/// The description of the API as indented JSON (`OpenAPI` 3.1).
-pub fn openapi() -> String {
-    Api::openapi().to_pretty_json().expect("plain data can be written") + "\n"
-}
-
 /// All paths.
 pub(crate) fn router(service: Arc<Service>) -> Router {
     Router::new()
@@ -66,6 +45,7 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
         .route("/v1/days/{day}", get(days::read).delete(days::delete))
         .route("/v1/days/{day}/archive", post(days::archive))
         .route("/v1/days/{day}/state", get(days::state))
+        .route("/v1/days/{day}/scenario", get(days::scenario))
         .route("/v1/days/{day}/trace.csv", get(days::trace))
         .route("/v1/days/{day}/events", get(events::list).post(events::append))
         .route("/v1/days/{day}/stream", get(stream::stream))
@@ -73,6 +53,18 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
         .route("/v1/days/{day}/decisions", post(decisions::decide))
         .route("/v1/days/{day}/outlook", get(outlooks::outlook))
         .route("/v1/days/{day}/what-if", post(outlooks::what_if))
+        .route("/v1/networks", get(networks::list))
+        .route("/v1/networks/validate", post(networks::validate))
+        .route(
+            "/v1/networks/{network}",
+            get(networks::read).put(networks::put).delete(networks::delete),
+        )
+        .route("/v1/policies", get(policies::list))
+        .route("/v1/policies/validate", post(policies::validate))
+        .route(
+            "/v1/policies/{policy}",
+            get(policies::read).put(policies::put).delete(policies::delete),
+        )
         .route("/healthz", get(|| async { "ok\n" }))
         .route("/readyz", get(ready))
         .route("/metrics", get(show))
@@ -129,6 +121,41 @@ async fn ready(
 
 async fn described() -> Response {
     ([(header::CONTENT_TYPE, "application/json")], openapi()).into_response()
+}
+
+/// How times are written in an answer.
+#[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
+#[serde(rename_all = "lowercase")]
+enum Times {
+    /// As `HH:MM:SS` of the day.
+    #[default]
+    Clock,
+    /// In ISO 8601 with the offset of the place, for days that have a date.
+    Iso,
+}
+
+impl Times {
+    /// Writes an answer about a day.
+    fn of<T>(self, day: &DayCell, write: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        match (self, day.calendar()) {
+            (Self::Clock, _) => write(),
+            (Self::Iso, Some(calendar)) => by_calendar(Some(calendar), write),
+            (Self::Iso, None) => {
+                let rule = "times can be written in ISO 8601 for days that have a date".to_owned();
+                Err(Error::BadRequest { rule })
+            }
+        }
+    }
+}
+
+/// Which times are asked for.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    /// How times are written in the answer.
+    #[serde(default)]
+    times: Times,
 }
 
 /// An answer in JSON.

@@ -10,6 +10,7 @@ use serde::Serialize;
 use tokio::sync::{OnceCell, broadcast, oneshot, watch};
 use vertifleet_core::Scenario;
 
+use crate::calendar::Calendar;
 use crate::committer::{Append, Committer};
 use crate::decide::Deciders;
 use crate::dispatch_day::DispatchDay;
@@ -29,6 +30,7 @@ const TRIES: u32 = 5;
 /// A day in memory.
 pub(crate) struct DayCell {
     stored: StoredDay,
+    calendar: Option<Calendar>,
     state: Mutex<DispatchDay>,
     /// The number of the latest event that is stored.
     durable: watch::Sender<u64>,
@@ -97,12 +99,16 @@ impl Idempotency {
 }
 
 impl DayCell {
-    fn new(stored: StoredDay, state: DispatchDay) -> Self {
+    fn new(stored: StoredDay, state: DispatchDay) -> Result<Self, Error> {
+        let StoredDay { date, time_zone, .. } = &stored;
+        let is_dated = !date.is_empty();
+        let calendar = is_dated.then(|| Calendar::new(date, time_zone)).transpose()?;
         let durable = watch::Sender::new(state.seq());
         let readers = broadcast::Sender::new(KEPT_FOR_READERS);
         let deciders = Deciders::default();
         let has_failed = AtomicBool::new(false);
-        Self { stored, state: Mutex::new(state), durable, readers, has_failed, deciders }
+        let state = Mutex::new(state);
+        Ok(Self { stored, calendar, state, durable, readers, has_failed, deciders })
     }
 
     /// The id of the day.
@@ -113,6 +119,11 @@ impl DayCell {
     /// The day as it is stored.
     pub(crate) fn stored(&self) -> &StoredDay {
         &self.stored
+    }
+
+    /// Its calendar, if it has a date.
+    pub(crate) fn calendar(&self) -> Option<&Calendar> {
+        self.calendar.as_ref()
     }
 
     /// The day after its events so far. Some of them may not be stored yet; [`stored_up_to`](Self::stored_up_to) waits
@@ -268,7 +279,7 @@ impl Days {
         let mut state = DispatchDay::new(Arc::new(scenario));
         let replayed = self.store.replay(id, &mut state, u64::MAX).await;
         replayed.map_err(|error| error.of_day(id))?;
-        Ok(Arc::new(DayCell::new(stored, state)))
+        Ok(Arc::new(DayCell::new(stored, state)?))
     }
 
     /// A day as it was after an event.
@@ -317,7 +328,8 @@ impl Days {
         self.store.add_day(&stored, &scenario.to_json(), answer).await?;
         let cell = self.cell(&stored.id);
         let state = DispatchDay::new(Arc::new(scenario));
-        let day = cell.get_or_init(|| async { Arc::new(DayCell::new(stored, state)) }).await;
+        let new = Arc::new(DayCell::new(stored, state)?);
+        let day = cell.get_or_init(|| async { new }).await;
         Ok(Arc::clone(day))
     }
 
@@ -406,7 +418,15 @@ fn take_all(
 ) -> Result<Vec<StoredEvent>, Error> {
     let at_ms = now_ms();
     let before = (events.len() > 1).then(|| state.clone());
-    let taken = events.into_iter().map(|event| state.admit(event, actor, at_ms)).collect();
+    let of = events.len();
+    let admit = |(at, event)| {
+        let taken = state.admit(event, actor, at_ms);
+        taken.map_err(|cause| match of {
+            1 => cause,
+            _ => Error::InList { number: at + 1, of, cause: Box::new(cause) },
+        })
+    };
+    let taken = events.into_iter().enumerate().map(admit).collect();
     if let (Err(_), Some(before)) = (&taken, before) {
         *state = before;
     }

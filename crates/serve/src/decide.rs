@@ -2,7 +2,7 @@
 //! are not possible.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use serde::Serialize;
@@ -10,11 +10,11 @@ use utoipa::ToSchema;
 use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_policy::{DayPrices, Policy};
 use vertifleet_sim::{Decision, Refusal, Simulation, View};
-use vertifleet_study::{PolicySpec, ResolveFor, ResolvedPolicy};
 
 use crate::days::DayCell;
 use crate::error::Error;
 use crate::moment::Moment;
+use crate::policies::Policies;
 
 /// What a policy proposes for an aircraft.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -113,43 +113,37 @@ impl Deciders {
     ///
     /// # Errors
     /// Returns an error if there is no such policy, or if it does not fit the day.
-    pub(crate) fn get(&self, name: &str, day: &Scenario) -> Result<Arc<Mutex<Decider>>, Error> {
-        let mut deciders = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(decider) = deciders.get(name) {
+    pub(crate) async fn get(
+        &self,
+        name: &str,
+        day: &Scenario,
+        policies: &Policies,
+    ) -> Result<Arc<Mutex<Decider>>, Error> {
+        if let Some(decider) = self.lock().get(name) {
             return Ok(Arc::clone(decider));
         }
+        let resolved = policies.resolve(name, day).await?;
+        let mut deciders = self.lock();
         if deciders.len() >= Self::MOST
             && let Some(other) = deciders.keys().next().cloned()
         {
             // It finds its prices anew when it is asked again.
             deciders.remove(&other);
         }
-        let resolved = resolve(name, day)?;
         let decider = Decider {
             policy: resolved.build(),
             weights_sha256: resolved.weights_sha256(),
             room: None,
             values: vec![f64::NAN; day.vertiports.len()],
         };
-        let decider = Arc::new(Mutex::new(decider));
-        deciders.insert(name.to_owned(), Arc::clone(&decider));
-        Ok(decider)
+        // Somebody else may have asked for it at the same time.
+        let decider = deciders.entry(name.to_owned()).or_insert(Arc::new(Mutex::new(decider)));
+        Ok(Arc::clone(decider))
     }
-}
 
-/// The policy with a name, for a day.
-///
-/// # Errors
-/// Returns an error if there is no such policy, or if it does not fit the day. Traces cannot be replayed, since their
-/// files are not the client's.
-pub(crate) fn resolve(name: &str, day: &Scenario) -> Result<ResolvedPolicy, Error> {
-    let spec = PolicySpec::parse(name)?;
-    if spec.replayed().is_some() {
-        return Err(Error::not_found("policy", name));
+    fn lock(&self) -> MutexGuard<'_, HashMap<String, Arc<Mutex<Decider>>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
-    let resolved = spec.resolve(None, ResolveFor::Day(day), day.seed)?;
-    resolved.check_fits(day)?;
-    Ok(resolved)
 }
 
 impl Decider {

@@ -51,6 +51,17 @@ pub enum Error {
     #[error("{0}")]
     Unfit(#[from] Unfit),
 
+    /// An event of several, which has the code of what is wrong with it.
+    #[error("event {number} of {of}: {cause}")]
+    InList {
+        /// Its number in the list, from 1.
+        number: usize,
+        /// The number of events in the list.
+        of: usize,
+        /// What is wrong with it.
+        cause: Box<Error>,
+    },
+
     /// V605. The day has gone on. Cause: somebody else added an event after the state that the request was made for
     /// (`If-Match`). Fix: read the day again and decide anew.
     #[error("the day is at event {found}, and the request was made for event {expected}")]
@@ -234,6 +245,7 @@ impl Error {
     pub fn status(&self) -> StatusCode {
         match self {
             Self::Core(_) | Self::Study(_) | Self::BadRequest { .. } => StatusCode::BAD_REQUEST,
+            Self::InList { cause, .. } => cause.status(),
             Self::NotFound { .. } => StatusCode::NOT_FOUND,
             Self::UnknownId { .. }
             | Self::Unfit(_)
@@ -271,6 +283,7 @@ impl Coded for Error {
         Code(match self {
             Self::Core(error) => return error.code(),
             Self::Study(error) => return error.code(),
+            Self::InList { cause, .. } => return cause.code(),
             Self::BadRequest { .. } => 601,
             Self::NotFound { .. } => 602,
             Self::UnknownId { .. } => 603,
@@ -300,6 +313,7 @@ impl Coded for Error {
         match self {
             Self::Core(error) => error.hint(),
             Self::Study(error) => error.hint(),
+            Self::InList { cause, .. } => cause.hint(),
             Self::Moved { .. } => Some("read the day again, and decide anew"),
             Self::KeyReused { .. } => Some("use a new Idempotency-Key for each request"),
             Self::BadData { .. } => Some("`vertifleet serve verify` names what is damaged"),

@@ -47,7 +47,7 @@ pub(crate) enum What {
         /// The policy that proposed it; absent if a person chose.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         policy: Option<String>,
-        /// What the policy proposed instead, if a person overruled it.
+        /// What the policy would have chosen, if a person overruled it.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         instead_of: Option<String>,
         /// Why a person chose.
@@ -242,7 +242,7 @@ impl Ids {
     }
 
     /// The position of the period that contains a time; the last one lasts for the rest of the day.
-    fn period(&self, time: Time) -> Result<usize, Error> {
+    pub(crate) fn period(&self, time: Time) -> Result<usize, Error> {
         let position = self.periods.iter().rposition(|&start| start <= time);
         position.ok_or_else(|| Error::unknown("period that contains", &time.to_string()))
     }

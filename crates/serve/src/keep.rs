@@ -48,6 +48,8 @@ struct Exported {
     created_ms: i64,
     archived: bool,
     policy: String,
+    date: String,
+    time_zone: String,
     scenario: Box<RawValue>,
     events: Vec<ExportedEvent>,
 }
@@ -161,11 +163,22 @@ fn written_out(
         let StoredEvent { seq, at_ms, actor, body, notices, .. } = event;
         Ok(ExportedEvent { seq, at_ms, actor, event: raw(body)?, notices: raw(notices)? })
     };
-    let StoredDay { id, name, created_ms, archived, policy } = day;
+    let StoredDay { id, name, created_ms, archived, policy, date, time_zone } = day;
     let scenario = raw(scenario)?;
     let events = events.into_iter().map(event).collect::<Result<_, Error>>()?;
     let format = FORMAT;
-    let exported = Exported { format, id, name, created_ms, archived, policy, scenario, events };
+    let exported = Exported {
+        format,
+        id,
+        name,
+        created_ms,
+        archived,
+        policy,
+        date,
+        time_zone,
+        scenario,
+        events,
+    };
     Ok(serde_json::to_string_pretty(&exported).expect("plain data can be written"))
 }
 

@@ -6,6 +6,7 @@
 
 mod access;
 mod api;
+mod calendar;
 mod committer;
 mod days;
 mod decide;
@@ -16,8 +17,10 @@ mod keep;
 mod keys;
 mod metrics;
 mod moment;
+mod networks;
 mod operate;
 mod outlook;
+mod policies;
 mod problem;
 mod server;
 mod service;

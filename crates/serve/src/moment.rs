@@ -1,13 +1,34 @@
-//! Times in requests: seconds since midnight, or `HH:MM:SS`.
+//! Times in requests and answers: seconds since midnight, `HH:MM:SS`, or ISO 8601 on days that have a date.
 
+use std::cell::RefCell;
 use std::fmt;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use utoipa::{PartialSchema, ToSchema, openapi};
 use vertifleet_core::Time;
 
+use crate::calendar::Calendar;
+
+thread_local! {
+    /// What times mean while a request is read or an answer written. A type that is read or written as JSON is told
+    /// nothing of the day that it belongs to, so it stands here.
+    static CALENDAR: RefCell<Option<Calendar>> = const { RefCell::new(None) };
+}
+
+/// Does some reading or writing of times with the calendar of their day; without a calendar, times have no dates.
+pub(crate) fn by_calendar<T>(calendar: Option<&Calendar>, work: impl FnOnce() -> T) -> T {
+    struct Put(Option<Calendar>);
+    impl Drop for Put {
+        fn drop(&mut self) {
+            CALENDAR.replace(self.0.take());
+        }
+    }
+    let _put = Put(CALENDAR.replace(calendar.cloned()));
+    work()
+}
+
 /// A time of the day that is being dispatched, as seconds since midnight or as `HH:MM:SS`, which may pass 24:00:00. It is
-/// written as `HH:MM:SS`.
+/// written as `HH:MM:SS`. By a calendar it is read and written in ISO 8601 too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Moment(Time);
 
@@ -19,6 +40,31 @@ impl Moment {
     pub(crate) fn time(self) -> Time {
         self.0
     }
+
+    fn of_seconds(seconds: u64) -> Result<Self, String> {
+        let seconds = u32::try_from(seconds).ok().filter(|&seconds| seconds < LATEST_S);
+        let time = seconds.map(|seconds| Self(Time::from_seconds(seconds)));
+        time.ok_or_else(|| "a time must lie before 100:00:00".to_owned())
+    }
+
+    /// Reads a text. The error is the rule that it breaks.
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        if let Ok(seconds) = text.parse() {
+            return Self::of_seconds(seconds);
+        }
+        if !text.contains('T') {
+            let time = text.parse::<Time>().map_err(|error| error.to_string())?;
+            return Self::of_seconds(time.seconds().into());
+        }
+        let shown = text.chars().take(40).collect::<String>();
+        let read = CALENDAR.with_borrow(|calendar| Some(calendar.as_ref()?.read(text)));
+        let read = read
+            .ok_or_else(|| format!("{shown:?} has a date, but the day has none: write HH:MM:SS"))?;
+        let time = read.ok_or_else(|| {
+            format!("{shown:?} is no time of the day: write it as 2026-11-23T07:10:00-05:00")
+        })?;
+        Self::of_seconds(time.seconds().into())
+    }
 }
 
 impl From<Time> for Moment {
@@ -29,7 +75,10 @@ impl From<Time> for Moment {
 
 impl Serialize for Moment {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.0.serialize(serializer)
+        CALENDAR.with_borrow(|calendar| match calendar {
+            Some(calendar) => serializer.serialize_str(&calendar.write(self.0)),
+            None => self.0.serialize(serializer),
+        })
     }
 }
 
@@ -49,14 +98,11 @@ impl de::Visitor<'_> for Visitor {
     }
 
     fn visit_u64<E: de::Error>(self, seconds: u64) -> Result<Moment, E> {
-        let seconds = u32::try_from(seconds).ok().filter(|&seconds| seconds < LATEST_S);
-        let wrong = || E::custom("a time must lie before 100:00:00");
-        seconds.map(|seconds| Moment(Time::from_seconds(seconds))).ok_or_else(wrong)
+        Moment::of_seconds(seconds).map_err(E::custom)
     }
 
     fn visit_str<E: de::Error>(self, text: &str) -> Result<Moment, E> {
-        let time: Time = text.parse().map_err(E::custom)?;
-        self.visit_u64(time.seconds().into())
+        Moment::parse(text).map_err(E::custom)
     }
 }
 
@@ -68,9 +114,13 @@ impl PartialSchema for Moment {
                 openapi::Type::Integer,
             ]))
             .description(Some(
-                "A time of the day, as HH:MM:SS or as seconds since midnight; before 100:00:00.",
+                "A time of the day, as HH:MM:SS or as seconds since midnight, before 100:00:00; or in ISO 8601 with an offset, if the day has a date.",
             ))
-            .examples([serde_json::json!("07:10:00"), serde_json::json!(25_800)])
+            .examples([
+                serde_json::json!("07:10:00"),
+                serde_json::json!(25_800),
+                serde_json::json!("2026-11-23T07:10:00-05:00"),
+            ])
             .into()
     }
 }

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use vertifleet_core::{Aircraft, Scenario, TypeIx, VertiportIx};
 use vertifleet_sim::{DayTotals, TraceRow};
+use vertifleet_study::ResolvedPolicy;
 
-use crate::decide::resolve;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::event::Ids;
@@ -97,30 +97,39 @@ pub(crate) struct Comparison {
     pub(crate) notices: Vec<String>,
 }
 
+/// A policy with the name that it was asked for by.
+#[derive(Debug, Clone)]
+pub(crate) struct NamedPolicy {
+    /// The name.
+    pub(crate) name: String,
+    /// The policy.
+    pub(crate) resolved: ResolvedPolicy,
+}
+
 impl Outlook {
     /// Plays the rest of a day out.
     ///
     /// # Errors
     /// Returns an error if there is no such policy, or if it cannot play the day.
-    pub(crate) fn of(day: &mut DispatchDay, policy: &str) -> Result<Self, Error> {
+    pub(crate) fn of(day: &mut DispatchDay, policy: &NamedPolicy) -> Result<Self, Error> {
         let seq = day.seq();
         let live = day.live_mut();
         let scenario = Arc::clone(live.scenario());
-        let mut decider = resolve(policy, &scenario)?.build();
+        let mut decider = policy.resolved.build();
         let profit_so_far_usd = live.totals().profit_usd;
         let taken = live.trace().rows;
         let mut legs: Vec<Leg> = taken.iter().map(|row| Leg::of(row, &scenario, true)).collect();
         let mut rest = live.rest();
         while let Some(decision) = rest.next_decision() {
             let choice = decider.choose(&decision, &rest.view());
-            let choice = choice.map_err(|error| Error::of_policy(policy, &error))?;
+            let choice = choice.map_err(|error| Error::of_policy(&policy.name, &error))?;
             let row = rest.apply(choice).expect("policies choose from the mask");
             legs.push(Leg::of(&row, &scenario, false));
         }
         Ok(Self {
             seq,
             now: live.now().into(),
-            policy: policy.to_owned(),
+            policy: policy.name.clone(),
             profit_so_far_usd,
             totals: rest.totals(),
             legs,
@@ -177,7 +186,8 @@ impl WhatIf {
         Ok(day.check("what-if")?)
     }
 
-    /// Compares a day as it is with what it might be. `otherwise` is the day with another beginning, if it has one.
+    /// Compares a day as it is with what it might be. `otherwise` is the day with another beginning, if it has one. The
+    /// first policy decides as things are, the second as they might be.
     ///
     /// # Errors
     /// Returns an error if an event cannot be taken, or if a policy cannot play the day.
@@ -185,7 +195,7 @@ impl WhatIf {
         self,
         day: &mut DispatchDay,
         otherwise: Option<DispatchDay>,
-        policy: &str,
+        policies: [&NamedPolicy; 2],
     ) -> Result<Comparison, Error> {
         let mut changed = otherwise.unwrap_or_else(|| day.clone());
         let before = changed.notices().filter(|(seq, _)| seq.is_some()).count();
@@ -194,8 +204,9 @@ impl WhatIf {
         }
         let told = changed.notices().filter(|(seq, _)| seq.is_some()).skip(before);
         let notices = told.map(|(_, text)| text).collect();
-        let as_it_is = Outlook::of(day, policy)?;
-        let what_if = Outlook::of(&mut changed, self.policy.as_deref().unwrap_or(policy))?;
+        let [ours, theirs] = policies;
+        let as_it_is = Outlook::of(day, ours)?;
+        let what_if = Outlook::of(&mut changed, theirs)?;
         let difference_usd = what_if.totals.profit_usd - as_it_is.totals.profit_usd;
         Ok(Comparison { as_it_is, what_if, difference_usd, notices })
     }

@@ -11,6 +11,7 @@ use crate::api::Sender;
 use crate::days::{Days, Idempotency, Writer};
 use crate::error::Error;
 use crate::keys::Keys;
+use crate::policies::Policies;
 
 /// The longest key of a request.
 const LONGEST_KEY: usize = 128;
@@ -20,6 +21,8 @@ const LONGEST_KEY: usize = 128;
 pub(crate) struct Service {
     /// Its days.
     pub(crate) days: Days,
+    /// The policies that decide.
+    pub(crate) policies: Policies,
     /// Who may do what.
     pub(crate) access: Access,
     /// Whether the service is about to stop, so that streams end.
@@ -46,10 +49,11 @@ impl Service {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let stopping = watch::Sender::new(false);
         let access = Access::new(days.store().clone());
+        let policies = Policies::new(days.store().clone());
         let used = days.store().keys().await?;
         let keys = Keys::new(used.as_deref());
         let turns = Arc::new(Semaphore::new(cores));
-        Ok(Self { days, access, stopping, keys, turns })
+        Ok(Self { days, policies, access, stopping, keys, turns })
     }
 
     /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.
@@ -123,5 +127,7 @@ fn sum(path: &str, body: &[u8]) -> String {
 /// Reads the JSON of a request. No body at all is the empty object.
 pub(crate) fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, Error> {
     let body = if body.is_empty() { b"{}".as_slice() } else { body };
-    serde_json::from_slice(body).map_err(|error| Error::BadRequest { rule: error.to_string() })
+    // What a format calls a field is a member here.
+    let rule = |error: serde_json::Error| error.to_string().replace(" field ", " member ");
+    serde_json::from_slice(body).map_err(|error| Error::BadRequest { rule: rule(error) })
 }

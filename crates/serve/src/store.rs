@@ -3,6 +3,7 @@
 //! Events are rows that are only ever added. Each has a sum over itself and the row before, so that a row that is
 //! missing, changed or torn is found when a day is read.
 
+mod library;
 mod tokens;
 
 use std::collections::BTreeSet;
@@ -13,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use sqlx::any::{AnyPoolOptions, AnyRow, install_default_drivers};
 use sqlx::{AnyPool, AssertSqlSafe, Executor as _, Row as _, query, query_scalar};
 
+pub(crate) use self::library::{StoredNetwork, StoredPolicy};
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 
@@ -23,14 +25,15 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Rows that are read at once.
 pub(crate) const PAGE: u32 = 10_000;
 /// The version of the tables. A store of a newer version is refused.
-const VERSION: &str = "1";
+const VERSION: &str = "2";
 
 /// The statements that make the tables.
-const TABLES: [&str; 6] = [
+const TABLES: [&str; 8] = [
     "CREATE TABLE IF NOT EXISTS meta (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS days (
         id TEXT PRIMARY KEY, name TEXT NOT NULL, created_ms BIGINT NOT NULL, archived BIGINT NOT NULL,
-        policy TEXT NOT NULL, scenario TEXT NOT NULL)",
+        policy TEXT NOT NULL, scenario TEXT NOT NULL, date TEXT NOT NULL DEFAULT '',
+        time_zone TEXT NOT NULL DEFAULT '')",
     "CREATE TABLE IF NOT EXISTS events (
         day TEXT NOT NULL, seq BIGINT NOT NULL, at_ms BIGINT NOT NULL, actor TEXT NOT NULL,
         body TEXT NOT NULL, notices TEXT NOT NULL, chain BIGINT NOT NULL, PRIMARY KEY (day, seq))",
@@ -42,6 +45,16 @@ const TABLES: [&str; 6] = [
         created_ms BIGINT NOT NULL, revoked_ms BIGINT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS audit (
         at_ms BIGINT NOT NULL, actor TEXT NOT NULL, action TEXT NOT NULL, target TEXT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS networks (
+        name TEXT PRIMARY KEY, toml TEXT NOT NULL, created_ms BIGINT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS policies (
+        name TEXT PRIMARY KEY, weights BYTEA NOT NULL, sha256 TEXT NOT NULL, created_ms BIGINT NOT NULL)",
+];
+
+/// What a store of version 1 lacks.
+const SINCE_1: [&str; 2] = [
+    "ALTER TABLE days ADD COLUMN date TEXT NOT NULL DEFAULT ''",
+    "ALTER TABLE days ADD COLUMN time_zone TEXT NOT NULL DEFAULT ''",
 ];
 
 /// Where the data lies.
@@ -74,6 +87,10 @@ pub(crate) struct StoredDay {
     pub(crate) archived: bool,
     /// The policy that decides when none is asked for.
     pub(crate) policy: String,
+    /// Its date (`2026-11-23`), or empty.
+    pub(crate) date: String,
+    /// The time zone of its clock by its name in the IANA database; empty without a date.
+    pub(crate) time_zone: String,
 }
 
 /// An event as it is stored.
@@ -171,12 +188,29 @@ impl Store {
         let found: String = query_scalar("SELECT value FROM meta WHERE name = 'version'")
             .fetch_one(&self.pool)
             .await?;
+        if found == "1" {
+            return self.bring_up_to_date().await;
+        }
         if found != VERSION {
             let rule =
                 format!("it is of version {found:?}, and this program reads version {VERSION:?}");
             return Err(Error::BadData { rule });
         }
         Ok(())
+    }
+
+    /// Adds to a store of version 1 what it lacks.
+    async fn bring_up_to_date(&self) -> Result<(), Error> {
+        let mut transaction = self.pool.begin().await?;
+        let update = "UPDATE meta SET value = $1 WHERE name = 'version' AND value = '1'";
+        let updated = query(update).bind(VERSION).execute(&mut *transaction).await?;
+        // Another service may have done it in the meantime.
+        if updated.rows_affected() > 0 {
+            for statement in SINCE_1 {
+                query(statement).execute(&mut *transaction).await?;
+            }
+        }
+        Ok(transaction.commit().await?)
     }
 
     /// Adds a day.
@@ -188,8 +222,8 @@ impl Store {
     ) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
         query(
-            "INSERT INTO days (id, name, created_ms, archived, policy, scenario)
-             VALUES ($1, $2, $3, $4, $5, $6)",
+            "INSERT INTO days (id, name, created_ms, archived, policy, scenario, date, time_zone)
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",
         )
         .bind(&day.id)
         .bind(&day.name)
@@ -197,6 +231,8 @@ impl Store {
         .bind(i64::from(day.archived))
         .bind(&day.policy)
         .bind(scenario)
+        .bind(&day.date)
+        .bind(&day.time_zone)
         .execute(&mut *transaction)
         .await?;
         if let Some(answer) = answer {
@@ -208,7 +244,7 @@ impl Store {
     /// The days after `after`, in the order of their ids.
     pub(crate) async fn days(&self, after: &str, limit: u32) -> Result<Vec<StoredDay>, Error> {
         let rows = query(
-            "SELECT id, name, created_ms, archived, policy FROM days WHERE id > $1
+            "SELECT id, name, created_ms, archived, policy, date, time_zone FROM days WHERE id > $1
              ORDER BY id LIMIT $2",
         )
         .bind(after)
@@ -221,7 +257,8 @@ impl Store {
     /// A day and its scenario.
     pub(crate) async fn day(&self, id: &str) -> Result<Option<(StoredDay, String)>, Error> {
         let row = query(
-            "SELECT id, name, created_ms, archived, policy, scenario FROM days WHERE id = $1",
+            "SELECT id, name, created_ms, archived, policy, date, time_zone, scenario FROM days
+             WHERE id = $1",
         )
         .bind(id)
         .fetch_optional(&self.pool)
@@ -415,6 +452,8 @@ fn stored_day(row: &AnyRow) -> Result<StoredDay, Error> {
         created_ms: row.try_get("created_ms")?,
         archived: row.try_get::<i64, _>("archived")? != 0,
         policy: row.try_get("policy")?,
+        date: row.try_get("date")?,
+        time_zone: row.try_get("time_zone")?,
     })
 }
 
@@ -429,4 +468,43 @@ fn stored_event(row: &AnyRow) -> Result<StoredEvent, Error> {
         notices: row.try_get("notices")?,
         chain: u32::try_from(number("chain")?).map_err(|_| bad("sum"))?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use sqlx::Executor as _;
+
+    use super::{Location, Store, StoredDay};
+
+    #[tokio::test]
+    async fn a_store_of_the_version_before_is_brought_up_to_date() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let location = Location::Folder(folder.path().to_owned());
+        let store = Store::open(&location).await.expect("a store");
+        let day = StoredDay {
+            id: "1".to_owned(),
+            name: "old".to_owned(),
+            created_ms: 7,
+            archived: false,
+            policy: "greedy".to_owned(),
+            date: String::new(),
+            time_zone: String::new(),
+        };
+        store.add_day(&day, "{}", None).await.expect("it is stored");
+        for statement in [
+            "ALTER TABLE days DROP COLUMN date",
+            "ALTER TABLE days DROP COLUMN time_zone",
+            "DROP TABLE networks",
+            "DROP TABLE policies",
+            "UPDATE meta SET value = '1' WHERE name = 'version'",
+        ] {
+            store.pool.execute(statement).await.expect("a store as it was");
+        }
+        drop(store);
+        for _ in 0..2 {
+            let store = Store::open(&location).await.expect("it is brought up to date");
+            assert_eq!(store.days("", 10).await.expect("days"), std::slice::from_ref(&day));
+            assert_eq!(store.networks().await.expect("a table"), []);
+        }
+    }
 }

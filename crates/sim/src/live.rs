@@ -119,6 +119,10 @@ pub struct AircraftNow {
     pub ready: Time,
     /// Whether it is out of service.
     pub is_out: bool,
+    /// When it is expected back in service, if that is known.
+    pub out_until: Option<Time>,
+    /// Whether it waits for a decision.
+    pub needs_decision: bool,
 }
 
 /// A closure as one for each direction that it closes.
@@ -177,6 +181,11 @@ impl LiveDay {
             arrival: self.known.arrival[aircraft.at()],
             ready: self.known.queue.ready_at(aircraft),
             is_out: Self::is_out(*state, self.now),
+            out_until: match state.out {
+                Some(OutOfService::Until(until)) if self.now < until => Some(until),
+                _ => None,
+            },
+            needs_decision: self.decision(aircraft, self.now).is_ok(),
         }
     }
 
@@ -334,6 +343,25 @@ impl LiveDay {
     pub fn trace(&self) -> Trace {
         let kept = self.decisions.iter().filter(|decision| !decision.is_undone);
         Trace { rows: kept.map(|decision| decision.row).collect() }
+    }
+
+    /// The flight of an aircraft that has been sent off or is in the air.
+    pub fn flight(&self, aircraft: AircraftIx) -> Option<&TraceRow> {
+        match self.aircraft.get(aircraft.at())?.phase {
+            Phase::Standing => None,
+            Phase::SentOff { flight, .. } | Phase::InTheAir { flight } => {
+                Some(&self.decisions[flight].row)
+            }
+        }
+    }
+
+    /// When a route opens that is closed now, if that is known.
+    pub fn opens(&self, from: VertiportIx, to: VertiportIx) -> Option<Time> {
+        let in_force = |closure: &&Closure| {
+            (closure.route.from, closure.route.to) == (from, to)
+                && (closure.start..closure.end).contains(&self.now)
+        };
+        self.closures.iter().filter(in_force).map(|closure| closure.end).max()
     }
 
     /// Passengers who have been taken on board in a period, `[from][to]` row by row.

@@ -121,6 +121,11 @@ impl PolicySpec {
         self.name == name || is_architecture(&self.kind)
     }
 
+    /// Whether this is a name that the user chose for weights or a function.
+    pub fn is_own(&self) -> bool {
+        self.kind == Kind::Own
+    }
+
     /// The trace that is replayed, if this is a replay.
     pub fn replayed(&self) -> Option<&Path> {
         match &self.kind {

@@ -1,5 +1,6 @@
 //! Days: made, listed, read, archived, deleted.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use axum::extract::State;
@@ -8,35 +9,65 @@ use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
-use vertifleet_core::{DaySeed, Network, Scenario, VertiportIx};
+use vertifleet_core::{DaySeed, Matrix, Scenario, VertiportIx};
 use vertifleet_sim::DayTotals;
-use vertifleet_sim::live::Phase;
+use vertifleet_sim::live::{LiveDay, Phase};
 
 use super::extract::{Asked, Body, Named, Sender};
-use super::{at_event, json, written};
+use super::{Times, at_event, json, written};
+use crate::calendar::Calendar;
 use crate::days::{DayCell, now_ms};
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
+use crate::event::Ids;
 use crate::moment::Moment;
+use crate::networks;
 use crate::service::{Service, Write, parse};
 use crate::store::StoredDay;
 
 /// The policy that decides on a day if none is named.
 const DEFAULT_POLICY: &str = "gcaps-x";
 
-/// A day to be made: from a network and a seed, or from a scenario.
+/// A day to be made: from a network, or from a scenario.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NewDay {
     /// A network that the program ships, or that was uploaded.
     network: Option<String>,
-    /// The seed of the day.
+    /// The seed with which the day is drawn from the network: its forecast and where aircraft stand in the morning, unless
+    /// they are given. 1 if it is absent.
     seed: Option<u64>,
     /// A whole scenario, as a scenario file has it.
     #[schema(value_type = Option<Object>)]
     scenario: Option<Box<RawValue>>,
+    /// The passengers who are expected, in place of those of the network or the scenario. Nobody flies where no row is.
+    forecast: Option<Vec<ForecastRow>>,
+    /// Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The others stand where the
+    /// network or the scenario has them.
+    #[serde(default)]
+    aircraft: BTreeMap<String, String>,
+    /// What people call the day; without it, the name of its scenario, or of its network with the date.
+    name: Option<String>,
+    /// Its date, for example `2026-11-23`. Times may then be written in ISO 8601.
+    date: Option<String>,
+    /// The time zone of its clock by its name in the IANA database; without it, that of the network.
+    time_zone: Option<String>,
     /// The policy that decides when none is asked for.
     policy: Option<String>,
+}
+
+/// Passengers who are expected to fly from one vertiport to another in one period.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ForecastRow {
+    /// A time within the period, without a date.
+    period: Moment,
+    /// Where they leave.
+    from: String,
+    /// Where they fly to.
+    to: String,
+    /// Their number.
+    passengers: u32,
 }
 
 /// A day.
@@ -44,8 +75,14 @@ pub(crate) struct NewDay {
 pub(crate) struct DayInfo {
     /// Its id.
     id: String,
-    /// The name of its scenario.
+    /// What people call it.
     name: String,
+    /// Its date, if it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    date: Option<String>,
+    /// The time zone of its clock, if it has a date.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time_zone: Option<String>,
     /// When it was made, milliseconds of the Unix clock.
     created_ms: i64,
     /// Whether it is closed to writes.
@@ -112,8 +149,36 @@ pub(crate) struct AircraftState {
     arrival: Moment,
     /// When it is expected to be ready.
     ready: Moment,
+    /// Whether it waits for a decision.
+    needs_decision: bool,
     /// Whether it is out of service.
     out_of_service: bool,
+    /// When it is expected back in service, if that is known.
+    out_until: Option<Moment>,
+    /// The flight that it has been sent off on, until it has landed.
+    flight: Option<FlightState>,
+}
+
+/// A flight that has not landed.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct FlightState {
+    /// Where it leaves.
+    from: String,
+    /// Where it flies to.
+    to: String,
+    /// When it was decided.
+    decided: Moment,
+    /// Passengers on board.
+    passengers: u16,
+}
+
+/// A route that is closed to new flights.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct ClosedRoute {
+    /// Where it leads.
+    to: String,
+    /// When it opens, if that is known.
+    until: Option<Moment>,
 }
 
 /// A vertiport.
@@ -125,8 +190,8 @@ pub(crate) struct VertiportState {
     stands: u16,
     /// Aircraft that take them, standing there or on their way.
     taken: u16,
-    /// The vertiports to which flights from here are closed.
-    closed_to: Vec<String>,
+    /// The routes from here that are closed.
+    closed: Vec<ClosedRoute>,
 }
 
 /// Something that people should look at.
@@ -140,8 +205,10 @@ pub(crate) struct NoticeState {
 
 impl DayInfo {
     fn of(stored: &StoredDay, seq: Option<u64>) -> Self {
-        let StoredDay { id, name, created_ms, archived, policy } = stored.clone();
-        Self { id, name, created_ms, archived, policy, seq }
+        let StoredDay { id, name, created_ms, archived, policy, date, time_zone } = stored.clone();
+        let [date, time_zone] =
+            [date, time_zone].map(|text| Some(text).filter(|text| !text.is_empty()));
+        Self { id, name, date, time_zone, created_ms, archived, policy, seq }
     }
 }
 
@@ -161,7 +228,7 @@ pub(super) async fn list(
 /// Makes a day.
 #[utoipa::path(
     operation_id = "make_day", post, path = "/v1/days", tag = "days", request_body = NewDay,
-    responses((status = 201, body = DayInfo), (status = 400, body = crate::problem::Problem))
+    responses((status = 201, body = DayInfo))
 )]
 pub(super) async fn create(
     State(service): State<Arc<Service>>,
@@ -174,14 +241,17 @@ pub(super) async fn create(
     };
     let asked: NewDay = parse(&body)?;
     let policy = asked.policy.clone().unwrap_or_else(|| DEFAULT_POLICY.to_owned());
-    let scenario = scenario(&asked)?.expected();
-    crate::decide::resolve(&policy, &scenario)?;
+    let (scenario, zone) = asked.scenario(&service).await?;
+    service.policies.resolve(&policy, &scenario).await?;
+    let (date, time_zone) = asked.calendar(zone)?;
     let stored = StoredDay {
         id: new_id(),
-        name: scenario.name.clone(),
+        name: asked.name_of(&scenario)?,
         created_ms: now_ms(),
         archived: false,
         policy,
+        date,
+        time_zone,
     };
     let info = DayInfo::of(&stored, Some(0));
     let (actor, id, _busy) = (writer.actor, stored.id.clone(), writer.busy);
@@ -191,19 +261,86 @@ pub(super) async fn create(
     Ok(at_event(StatusCode::CREATED, 0, &info))
 }
 
-fn scenario(asked: &NewDay) -> Result<Scenario, Error> {
-    match (&asked.network, &asked.scenario) {
-        (Some(network), None) => {
-            let network =
-                Network::shipped(network).ok_or_else(|| Error::not_found("network", network))?;
-            Ok(network.draw(DaySeed::comparison(asked.seed.unwrap_or(1))?))
+/// The longest name of a day.
+const LONGEST_NAME: usize = 80;
+
+impl NewDay {
+    /// The day as it is expected before it begins, and the time zone of its network.
+    async fn scenario(&self, service: &Service) -> Result<(Scenario, Option<String>), Error> {
+        let (scenario, zone) = match (&self.network, &self.scenario) {
+            (Some(network), None) => {
+                let (network, _) = networks::find(service.days.store(), network).await?;
+                let seed = DaySeed::comparison(self.seed.unwrap_or(1))?;
+                (network.draw(seed), network.time_zone().map(str::to_owned))
+            }
+            (None, Some(_)) if self.seed.is_some() => {
+                let rule = "`seed` goes with `network`: a scenario is drawn already".to_owned();
+                return Err(Error::BadRequest { rule });
+            }
+            (None, Some(scenario)) => {
+                (Scenario::from_json(scenario.get().as_bytes(), "scenario")?, None)
+            }
+            _ => {
+                let rule = "name a `network` or give a `scenario`".to_owned();
+                return Err(Error::BadRequest { rule });
+            }
+        };
+        Ok((self.changed(scenario.expected())?, zone))
+    }
+
+    /// The day with the forecast and the places of aircraft that were given.
+    fn changed(&self, scenario: Scenario) -> Result<Scenario, Error> {
+        if self.forecast.is_none() && self.aircraft.is_empty() {
+            return Ok(scenario);
         }
-        (None, Some(_)) if asked.seed.is_some() => {
-            let rule = "`seed` goes with `network`: a scenario is drawn already".to_owned();
-            Err(Error::BadRequest { rule })
+        let ids = Ids::of(&scenario);
+        let mut day = scenario.into_day();
+        if let Some(rows) = &self.forecast {
+            for table in &mut day.demand {
+                *table = Matrix::from_fn(table.size(), |_, _| 0);
+            }
+            for ForecastRow { period, from, to, passengers } in rows {
+                let period = ids.period(period.time())?;
+                let pair = (ids.vertiport(from)?, ids.vertiport(to)?);
+                let cell = &mut day.demand[period][pair];
+                *cell = cell.saturating_add(*passengers);
+            }
         }
-        (None, Some(scenario)) => Ok(Scenario::from_json(scenario.get().as_bytes(), "scenario")?),
-        _ => Err(Error::BadRequest { rule: "name a `network` or give a `scenario`".to_owned() }),
+        for (aircraft, vertiport) in &self.aircraft {
+            day.aircraft[ids.aircraft(aircraft)?.at()].at = ids.vertiport(vertiport)?;
+        }
+        Ok(day.check("the day")?)
+    }
+
+    /// Its date and its time zone, both empty if it has no date.
+    fn calendar(&self, of_network: Option<String>) -> Result<(String, String), Error> {
+        let wrong = |rule: &str| Error::BadRequest { rule: rule.to_owned() };
+        let Some(date) = &self.date else {
+            return match self.time_zone {
+                None => Ok(Default::default()),
+                Some(_) => Err(wrong("`time_zone` goes with `date`")),
+            };
+        };
+        let zone = self.time_zone.clone().or(of_network);
+        let zone = zone.ok_or_else(|| {
+            wrong("a day with a `date` needs a `time_zone`: its network has none")
+        })?;
+        Calendar::new(date, &zone)?;
+        Ok((date.clone(), zone))
+    }
+
+    fn name_of(&self, scenario: &Scenario) -> Result<String, Error> {
+        let Some(name) = &self.name else {
+            let dated = self.network.as_ref().zip(self.date.as_ref());
+            let dated = dated.map(|(network, date)| format!("{network} {date}"));
+            return Ok(dated.unwrap_or_else(|| scenario.name.clone()));
+        };
+        let length = name.chars().count();
+        if length == 0 || length > LONGEST_NAME || name.contains(char::is_control) {
+            let rule = format!("the `name` of a day has 1 to {LONGEST_NAME} characters");
+            return Err(Error::BadRequest { rule });
+        }
+        Ok(name.clone())
     }
 }
 
@@ -255,6 +392,9 @@ pub(super) async fn delete(
 pub(crate) struct At {
     /// The number of the event after which the state is asked for; without it, the latest.
     seq: Option<u64>,
+    /// How times are written in the answer.
+    #[serde(default)]
+    times: Times,
 }
 
 /// What is known of a day, now or after any of its events.
@@ -270,7 +410,17 @@ pub(super) async fn state(
         Some(seq) => DayState::of(&mut service.days.at(&day, seq).await?),
     };
     day.stored_up_to(state.seq).await?;
-    Ok(at_event(StatusCode::OK, state.seq, &state))
+    at.times.of(&day, || Ok(at_event(StatusCode::OK, state.seq, &state)))
+}
+
+/// The routes from each vertiport that are closed, with the time at which each opens.
+fn closed(live: &mut LiveDay) -> Vec<Vec<(VertiportIx, Option<Moment>)>> {
+    let all = VertiportIx::all(live.scenario().vertiports.len());
+    let masks: Vec<_> = all.clone().map(|from| live.view().closed(from)).collect();
+    let opens = |from, to| live.opens(from, to).map(Moment::from);
+    all.zip(masks)
+        .map(|(from, mask)| mask.iter().map(|to| (to, opens(from, to))).collect())
+        .collect()
 }
 
 impl DayState {
@@ -291,21 +441,44 @@ impl DayState {
                 place: id(now.place),
                 arrival: now.arrival.into(),
                 ready: now.ready.into(),
+                needs_decision: now.needs_decision,
                 out_of_service: now.is_out,
+                out_until: now.out_until.map(Moment::from),
+                flight: live.flight(now.aircraft).map(|row| FlightState {
+                    from: id(row.from),
+                    to: id(row.to),
+                    decided: row.time.into(),
+                    passengers: row.passengers,
+                }),
             })
             .collect();
         let totals = live.totals();
+        let closed = closed(live);
         let view = live.view();
         let vertiports = VertiportIx::all(view.vertiports())
             .map(|vertiport| VertiportState {
                 id: id(vertiport),
                 stands: view.stands(vertiport),
                 taken: view.stands_taken()[vertiport.at()],
-                closed_to: view.closed(vertiport).iter().map(id).collect(),
+                closed: closed[vertiport.at()]
+                    .iter()
+                    .map(|&(to, until)| ClosedRoute { to: id(to), until })
+                    .collect(),
             })
             .collect();
         Self { seq, now: live.now().into(), aircraft, vertiports, totals, notices }
     }
+}
+
+/// The scenario that the day began with, as a scenario file has it.
+#[utoipa::path(operation_id = "day_scenario", get, path = "/v1/days/{day}/scenario", tag = "days", params(("day" = String, Path)), responses((status = 200, body = Object)))]
+pub(super) async fn scenario(
+    State(service): State<Arc<Service>>,
+    Named(day): Named<String>,
+) -> Result<Response, Error> {
+    let day = service.days.get(&day).await?;
+    let scenario = Arc::clone(day.state().live().scenario());
+    Ok(written(StatusCode::OK, scenario.to_json()))
 }
 
 /// The decisions so far as CSV: the trace of the day.

@@ -10,16 +10,18 @@ use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use super::extract::{Asked, Body, Named, Sender};
-use super::{at_event, written};
+use super::{Times, at_event, written};
 use crate::days::{DayCell, Writer};
 use crate::decide::Proposal;
 use crate::error::Error;
 use crate::event::{Event, What};
-use crate::moment::Moment;
+use crate::moment::{Moment, by_calendar};
 use crate::service::{Service, Write, parse};
 
 /// A policy is asked so often when events come in between.
 const TRIES: u32 = 5;
+/// The policy that a person overrules has so long to say what it would have done.
+const PATIENCE_WITH_OVERRULED: Duration = Duration::from_millis(100);
 /// Decides when the policy that was asked is late.
 const QUICK_POLICY: &str = "greedy";
 
@@ -31,9 +33,20 @@ pub(crate) struct HowAsked {
     /// The policy; without it, the day's.
     policy: Option<String>,
     /// The time of the decision; without it, or before what has happened, now.
-    #[param(value_type = Option<String>)]
-    time: Option<Moment>,
+    time: Option<String>,
     /// Milliseconds within which an answer is needed. If the policy is not ready then, a faster one answers.
+    deadline_ms: Option<u64>,
+    /// How times are written in the answer.
+    #[serde(default)]
+    times: Times,
+}
+
+/// How a policy is asked.
+#[derive(Debug, Clone)]
+struct Question {
+    aircraft: String,
+    policy: Option<String>,
+    time: Option<Moment>,
     deadline_ms: Option<u64>,
 }
 
@@ -70,7 +83,7 @@ pub(crate) struct TakenDecision {
 #[utoipa::path(
     operation_id = "propose_decision", get, path = "/v1/days/{day}/aircraft/{aircraft}/decision", tag = "decisions",
     params(("day" = String, Path), ("aircraft" = String, Path), HowAsked),
-    responses((status = 200, body = Proposal), (status = 422, body = crate::problem::Problem))
+    responses((status = 200, body = Proposal))
 )]
 pub(super) async fn propose(
     State(service): State<Arc<Service>>,
@@ -78,9 +91,13 @@ pub(super) async fn propose(
     Asked(asked): Asked<HowAsked>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
-    let proposal = proposed(&service, &day, aircraft, asked).await?;
+    let HowAsked { policy, time, deadline_ms, times } = asked;
+    let time = time.map(|text| by_calendar(day.calendar(), || Moment::parse(&text))).transpose();
+    let time = time.map_err(|rule| Error::BadRequest { rule })?;
+    let question = Question { aircraft, policy, time, deadline_ms };
+    let proposal = proposed(&service, &day, question).await?;
     day.stored_up_to(proposal.seq).await?;
-    Ok(at_event(StatusCode::OK, proposal.seq, &proposal))
+    times.of(&day, || Ok(at_event(StatusCode::OK, proposal.seq, &proposal)))
 }
 
 /// Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable when the answer
@@ -89,9 +106,7 @@ pub(super) async fn propose(
     operation_id = "take_decision", post, path = "/v1/days/{day}/decisions", tag = "decisions", params(("day" = String, Path)),
     request_body = NewDecision,
     responses(
-        (status = 201, body = TakenDecision),
-        (status = 412, body = crate::problem::Problem, description = "the day has gone on"),
-        (status = 422, body = crate::problem::Problem, description = "it breaks a rule")
+        (status = 201, body = TakenDecision)
     )
 )]
 pub(super) async fn decide(
@@ -104,8 +119,8 @@ pub(super) async fn decide(
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
         Write::New(writer) => writer,
     };
-    let asked: NewDecision = parse(&body)?;
     let day = service.days.get(&day).await?;
+    let asked: NewDecision = by_calendar(day.calendar(), || parse(&body))?;
     // What has moved on need not be thought about.
     writer.check(day.state().seq())?;
     let taken = match asked.to.clone() {
@@ -120,10 +135,17 @@ async fn by_hand(
     service: &Service,
     day: &Arc<DayCell>,
     writer: Writer,
-    NewDecision { aircraft, reason, time, .. }: NewDecision,
+    NewDecision { aircraft, reason, policy, time, deadline_ms, .. }: NewDecision,
     to: String,
 ) -> Result<TakenDecision, Error> {
-    let what = What::Decided { aircraft, to, policy: None, instead_of: None, reason };
+    let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
+    // For the record only, so it must not hold a person up, and whatever goes wrong shows when the event is taken.
+    let deadline = deadline_ms.map_or(PATIENCE_WITH_OVERRULED, Duration::from_millis);
+    let overruled = ask(service, day, aircraft.clone(), policy, time);
+    let overruled = tokio::time::timeout(deadline, overruled).await;
+    let instead_of = overruled.ok().and_then(Result::ok).map(|proposal| proposal.to);
+    let instead_of = instead_of.filter(|proposed| *proposed != to);
+    let what = What::Decided { aircraft, to, policy: None, instead_of, reason };
     let now = day.state().live().now();
     let time = time.filter(|time| time.time() >= now);
     take(service, day, writer, Event { time, what }, None).await
@@ -137,12 +159,12 @@ async fn by_policy(
     writer: Writer,
     NewDecision { aircraft, reason, policy, time, deadline_ms, .. }: NewDecision,
 ) -> Result<TakenDecision, Error> {
-    let asked = HowAsked { policy, time, deadline_ms };
+    let question = Question { aircraft: aircraft.clone(), policy, time, deadline_ms };
     let mut tries = 0;
     loop {
         tries += 1;
         let day = service.days.get(day.id()).await?;
-        let proposal = proposed(service, &day, aircraft.clone(), asked.clone()).await?;
+        let proposal = proposed(service, &day, question.clone()).await?;
         let what = What::Decided {
             aircraft: aircraft.clone(),
             to: proposal.to.clone(),
@@ -182,12 +204,11 @@ async fn take(
 async fn proposed(
     service: &Service,
     day: &Arc<DayCell>,
-    aircraft: String,
-    asked: HowAsked,
+    Question { aircraft, policy, time, deadline_ms }: Question,
 ) -> Result<Proposal, Error> {
-    let policy = asked.policy.clone().unwrap_or_else(|| day.stored().policy.clone());
-    let answer = ask(Arc::clone(day), aircraft.clone(), policy.clone(), asked.time);
-    let in_time = match asked.deadline_ms {
+    let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
+    let answer = ask(service, day, aircraft.clone(), policy.clone(), time);
+    let in_time = match deadline_ms {
         None => Some(answer.await?),
         Some(deadline_ms) => {
             let deadline = Duration::from_millis(deadline_ms);
@@ -197,7 +218,7 @@ async fn proposed(
     let proposal = if let Some(proposal) = in_time {
         proposal
     } else {
-        let quick = ask(Arc::clone(day), aircraft, QUICK_POLICY.to_owned(), asked.time);
+        let quick = ask(service, day, aircraft, QUICK_POLICY.to_owned(), time);
         Proposal { too_late: Some(policy), ..quick.await? }
     };
     let seconds = Duration::from_micros(proposal.took_us).as_secs_f64();
@@ -207,14 +228,16 @@ async fn proposed(
 
 /// Asks a policy on a thread of its own, since it may take a while.
 async fn ask(
-    day: Arc<DayCell>,
+    service: &Service,
+    day: &Arc<DayCell>,
     aircraft: String,
     policy: String,
     time: Option<Moment>,
 ) -> Result<Proposal, Error> {
+    let scenario = Arc::clone(day.state().live().scenario());
+    let decider = day.deciders.get(&policy, &scenario, &service.policies).await?;
+    let day = Arc::clone(day);
     let ask = move || {
-        let scenario = Arc::clone(day.state().live().scenario());
-        let decider = day.deciders.get(&policy, &scenario)?;
         let mut decider = decider.lock().unwrap_or_else(PoisonError::into_inner);
         decider.propose(&day, &aircraft, time.map(Moment::time), &policy)
     };

@@ -10,10 +10,11 @@ use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 
 use super::extract::{Asked, Body, Named, Sender};
-use super::{at_event, json, written};
+use super::{Times, at_event, json, written};
 use crate::days::Appended;
 use crate::error::Error;
 use crate::event::Event;
+use crate::moment::by_calendar;
 use crate::service::{Service, Write, parse};
 use crate::store::StoredEvent;
 
@@ -68,6 +69,13 @@ fn raw(json: &str) -> Box<RawValue> {
     RawValue::from_string(json.to_owned()).expect("it was written as JSON")
 }
 
+/// An event with its times written anew.
+fn rewritten(body: &str) -> Box<RawValue> {
+    let event: Option<Event> = serde_json::from_str(body).ok();
+    let text = event.and_then(|event| serde_json::to_string(&event).ok());
+    raw(text.as_deref().unwrap_or(body))
+}
+
 /// An event as it was taken.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct TakenEvent {
@@ -86,12 +94,16 @@ pub(crate) struct TakenEvent {
 }
 
 impl TakenEvent {
-    pub(super) fn of(stored: &StoredEvent) -> Self {
+    pub(super) fn of(stored: &StoredEvent, times: Times) -> Self {
+        let event = match times {
+            Times::Clock => raw(&stored.body),
+            Times::Iso => rewritten(&stored.body),
+        };
         Self {
             seq: stored.seq,
             at_ms: stored.at_ms,
             actor: stored.actor.clone(),
-            event: raw(&stored.body),
+            event,
             notices: raw(&stored.notices),
         }
     }
@@ -109,12 +121,15 @@ pub(crate) struct EventList {
 /// Which events are asked for.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
-pub(crate) struct After {
+pub(crate) struct Page {
     /// Events after this number.
     #[serde(default)]
     after: u64,
     /// Their number, at most 10,000.
     limit: Option<u32>,
+    /// How times are written in the answer.
+    #[serde(default)]
+    times: Times,
 }
 
 /// Takes an event in, or several, all or none. They are durable when the answer comes.
@@ -122,11 +137,7 @@ pub(crate) struct After {
     operation_id = "add_events", post, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path)),
     request_body = OneOrMore,
     responses(
-        (status = 201, body = Taken),
-        (status = 400, body = crate::problem::Problem),
-        (status = 404, body = crate::problem::Problem),
-        (status = 412, body = crate::problem::Problem, description = "the day has gone on"),
-        (status = 422, body = crate::problem::Problem, description = "the day cannot take it")
+        (status = 201, body = Taken)
     )
 )]
 pub(super) async fn append(
@@ -139,28 +150,30 @@ pub(super) async fn append(
         Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
         Write::New(writer) => writer,
     };
-    let events = OneOrMore::parse(&body)?.events();
+    let day = service.days.get(&day).await?;
+    let events = by_calendar(day.calendar(), || OneOrMore::parse(&body))?.events();
     if events.is_empty() || events.len() as u64 > MOST_EVENTS {
         return Err(Error::BadRequest {
             rule: format!("1 to {MOST_EVENTS} events are taken at once"),
         });
     }
-    let day = service.days.get(&day).await?;
     let taken = service.days.append(&day, writer, events, Taken::of).await?;
     Ok(at_event(StatusCode::CREATED, taken.seq, &taken))
 }
 
 /// Lists events.
-#[utoipa::path(operation_id = "list_events", get, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path), After), responses((status = 200, body = EventList)))]
+#[utoipa::path(operation_id = "list_events", get, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path), Page), responses((status = 200, body = EventList)))]
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Asked(After { after, limit }): Asked<After>,
+    Asked(Page { after, limit, times }): Asked<Page>,
 ) -> Result<Response, Error> {
     let limit = limit.unwrap_or(1_000).clamp(1, 10_000);
     let day = service.days.get(&day).await?;
     let stored = service.days.store().events(day.id(), after, limit).await?;
     let next = (stored.len() == limit as usize).then(|| stored[stored.len() - 1].seq);
-    let events = stored.iter().map(TakenEvent::of).collect();
-    Ok(json(StatusCode::OK, &EventList { events, next }))
+    times.of(&day, || {
+        let events = stored.iter().map(|event| TakenEvent::of(event, times)).collect();
+        Ok(json(StatusCode::OK, &EventList { events, next }))
+    })
 }

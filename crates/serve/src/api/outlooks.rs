@@ -10,9 +10,11 @@ use utoipa::IntoParams;
 
 use super::events::MOST_EVENTS;
 use super::extract::{Asked, Body, Named};
-use super::{at_event, json};
+use super::{Times, Written, at_event, json};
+use crate::days::DayCell;
 use crate::error::Error;
-use crate::outlook::{Comparison, Outlook, WhatIf};
+use crate::moment::by_calendar;
+use crate::outlook::{Comparison, NamedPolicy, Outlook, WhatIf};
 use crate::service::{Service, parse};
 
 /// Which outlook is asked for.
@@ -22,6 +24,9 @@ use crate::service::{Service, parse};
 pub(crate) struct By {
     /// The policy that decides from now on; without it, the day's.
     policy: Option<String>,
+    /// How times are written in the answer.
+    #[serde(default)]
+    times: Times,
 }
 
 /// The rest of the day as it is expected, if a policy takes every decision from now on.
@@ -32,33 +37,46 @@ pub(crate) struct By {
 pub(super) async fn outlook(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Asked(By { policy }): Asked<By>,
+    Asked(By { policy, times }): Asked<By>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let mut state = day.state().clone();
-    let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
+    let policy = named(&service, &day, policy).await?;
     let outlook = service.compute(move || Outlook::of(&mut state, &policy)).await?;
     day.stored_up_to(outlook.seq).await?;
-    Ok(at_event(StatusCode::OK, outlook.seq, &outlook))
+    times.of(&day, || Ok(at_event(StatusCode::OK, outlook.seq, &outlook)))
+}
+
+/// The policy with a name, or the day's.
+async fn named(
+    service: &Service,
+    day: &DayCell,
+    name: Option<String>,
+) -> Result<NamedPolicy, Error> {
+    let name = name.unwrap_or_else(|| day.stored().policy.clone());
+    let scenario = Arc::clone(day.state().live().scenario());
+    let resolved = service.policies.resolve(&name, &scenario).await?;
+    Ok(NamedPolicy { name, resolved })
 }
 
 /// Compares the outlook with what it would be after events that have not happened, with another policy, or with other
 /// stands or more aircraft. Nothing changes.
 #[utoipa::path(
-    operation_id = "what_if", post, path = "/v1/days/{day}/what-if", tag = "outlooks", params(("day" = String, Path)),
+    operation_id = "what_if", post, path = "/v1/days/{day}/what-if", tag = "outlooks", params(("day" = String, Path), Written),
     request_body = WhatIf,
-    responses((status = 200, body = Comparison), (status = 422, body = crate::problem::Problem))
+    responses((status = 200, body = Comparison))
 )]
 pub(super) async fn what_if(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
+    Asked(Written { times }): Asked<Written>,
     Body(body): Body,
 ) -> Result<Response, Error> {
-    let asked: WhatIf = parse(&body)?;
+    let day = service.days.get(&day).await?;
+    let asked: WhatIf = by_calendar(day.calendar(), || parse(&body))?;
     if asked.events.len() as u64 > MOST_EVENTS {
         return Err(Error::TooMuch { what: "events in a what-if", most: MOST_EVENTS });
     }
-    let day = service.days.get(&day).await?;
     let mut state = day.state().clone();
     day.stored_up_to(state.seq()).await?;
     let otherwise = if asked.begins_otherwise() {
@@ -68,7 +86,9 @@ pub(super) async fn what_if(
     } else {
         None
     };
-    let policy = day.stored().policy.clone();
-    let compared = service.compute(move || asked.compare(&mut state, otherwise, &policy)).await?;
-    Ok(json(StatusCode::OK, &compared))
+    let ours = named(&service, &day, None).await?;
+    let theirs = named(&service, &day, asked.policy.clone()).await?;
+    let compared =
+        service.compute(move || asked.compare(&mut state, otherwise, [&ours, &theirs])).await?;
+    times.of(&day, || Ok(json(StatusCode::OK, &compared)))
 }

@@ -15,6 +15,7 @@ use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::watch;
 use utoipa::IntoParams;
 
+use super::Times;
 use super::events::TakenEvent;
 use super::extract::{Asked, Named};
 use crate::days::DayCell;
@@ -148,8 +149,8 @@ impl Reader {
 
     fn shown(&mut self, event: &StoredEvent) -> sse::Event {
         self.after = event.seq;
-        let text =
-            serde_json::to_string(&TakenEvent::of(event)).expect("plain data can be written");
+        let text = serde_json::to_string(&TakenEvent::of(event, Times::Clock))
+            .expect("plain data can be written");
         sse::Event::default().id(event.seq.to_string()).data(text)
     }
 }

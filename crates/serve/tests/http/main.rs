@@ -1,6 +1,7 @@
 //! The service over HTTP, as its users meet it.
 
 mod api;
+mod days_of_ones_own;
 mod malformed;
 mod operated_days;
 #[cfg(unix)]

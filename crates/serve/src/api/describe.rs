@@ -1,0 +1,163 @@
+//! The description of the API (`OpenAPI` 3.1).
+
+use utoipa::openapi::header::HeaderBuilder;
+use utoipa::openapi::path::{Operation, ParameterBuilder, ParameterIn};
+use utoipa::openapi::schema::{KnownFormat, ObjectBuilder, SchemaFormat, Type};
+use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme};
+use utoipa::openapi::{ContentBuilder, Ref, RefOr, ResponseBuilder};
+use utoipa::{Modify, OpenApi, openapi as description};
+
+use super::{days, decisions, events, networks, outlooks, policies, stream};
+use crate::problem::Problem;
+
+/// The description of the API.
+#[derive(OpenApi)]
+#[openapi(
+    info(
+        title = "Vertifleet dispatch service",
+        description = "Live days of fleets of electric air taxis: events, decisions with reasons, outlooks.",
+        license(name = "MIT OR Apache-2.0")
+    ),
+    modifiers(&Everywhere),
+    components(schemas(Problem)),
+    paths(
+        healthz, readyz, metrics, openapi_json, days::list, days::create, days::read, days::archive, days::delete, days::state,
+        days::scenario, days::trace, events::list, events::append, decisions::propose, decisions::decide,
+        outlooks::outlook, outlooks::what_if, stream::stream, networks::list, networks::read,
+        networks::put, networks::delete, networks::validate, policies::list, policies::read,
+        policies::put, policies::delete, policies::validate
+    ),
+    tags(
+        (name = "service", description = "The service itself"),
+        (name = "days", description = "Days and their state"),
+        (name = "events", description = "What happens on a day"),
+        (name = "decisions", description = "Where an aircraft flies next, and why"),
+        (name = "outlooks", description = "How a day goes on, and what it would be otherwise"),
+        (name = "networks", description = "Networks from which days are made"),
+        (name = "policies", description = "Policies that decide")
+    )
+)]
+struct Api;
+
+/// The description of the API as indented JSON (`OpenAPI` 3.1).
+pub fn openapi() -> String {
+    Api::openapi().to_pretty_json().expect("plain data can be written") + "\n"
+}
+
+/// What holds for every path: errors are problem details, requests may need a token, writes may have a key.
+struct Everywhere;
+
+/// The paths that need no token.
+const OPEN: [&str; 2] = ["/healthz", "/readyz"];
+/// The writes that are carried out once for each key, and those of them that can be made for one state of the day.
+const KEYED: [&str; 3] = ["make_day", "add_events", "take_decision"];
+const MATCHED: [&str; 2] = ["add_events", "take_decision"];
+/// The answers that are about a day at an event.
+const TAGGED: [&str; 7] = [
+    "make_day",
+    "read_day",
+    "day_state",
+    "add_events",
+    "take_decision",
+    "propose_decision",
+    "day_outlook",
+];
+
+impl Modify for Everywhere {
+    fn modify(&self, api: &mut description::OpenApi) {
+        let components = api.components.get_or_insert_default();
+        let bearer = HttpBuilder::new().scheme(HttpAuthScheme::Bearer);
+        let bearer = bearer.description(Some("A token; not needed as long as none was made."));
+        components.add_security_scheme("token", SecurityScheme::Http(bearer.build()));
+        for (path, item) in &mut api.paths.paths {
+            let methods = [&mut item.get, &mut item.post, &mut item.put, &mut item.delete];
+            for operation in methods.into_iter().flatten() {
+                complete(operation);
+                if !OPEN.contains(&path.as_str()) {
+                    let none: [String; 0] = [];
+                    operation.security = Some(vec![
+                        SecurityRequirement::new("token", none),
+                        SecurityRequirement::default(),
+                    ]);
+                }
+            }
+        }
+    }
+}
+
+fn complete(operation: &mut Operation) {
+    let problem = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem"))).build();
+    let default = ResponseBuilder::new()
+        .description("What is wrong (RFC 9457)")
+        .content("application/problem+json", problem)
+        .build();
+    operation.responses.responses.insert("default".to_owned(), RefOr::T(default));
+    let id = operation.operation_id.clone().unwrap_or_default();
+    let is = |list: &[&str]| list.contains(&id.as_str());
+    let text = || ObjectBuilder::new().schema_type(Type::String);
+    if is(&KEYED) {
+        let about = "The request is carried out once for each key, however often it is sent.";
+        add_header(
+            operation,
+            "Idempotency-Key",
+            about,
+            text().min_length(Some(1)).max_length(Some(128)),
+        );
+    }
+    if is(&MATCHED) {
+        let about = "The number of the event that the day must be at (an `ETag`); if it has gone on, nothing happens (412).";
+        add_header(operation, "If-Match", about, text().pattern(Some(TAG)));
+    }
+    if id == "stream_events" {
+        let about = "The number of the event that the reader saw last; it goes before `after`.";
+        let number = ObjectBuilder::new()
+            .schema_type(Type::Integer)
+            .format(Some(SchemaFormat::KnownFormat(KnownFormat::Int64)))
+            .minimum(Some(0));
+        add_header(operation, "Last-Event-ID", about, number);
+    }
+    if is(&TAGGED) {
+        for (status, response) in &mut operation.responses.responses {
+            if let (true, RefOr::T(response)) = (status.starts_with('2'), response) {
+                let tag = HeaderBuilder::new()
+                    .schema(Some(text().pattern(Some(TAG)).build()))
+                    .description(Some("The number of the event that the day is at, in quotes"))
+                    .build();
+                response.headers.insert("ETag".to_owned(), tag.into());
+            }
+        }
+    }
+}
+
+/// What numbers of events look like in headers.
+const TAG: &str = "^\"?[0-9]+\"?$";
+
+fn add_header(operation: &mut Operation, name: &str, about: &str, schema: ObjectBuilder) {
+    let parameter = ParameterBuilder::new()
+        .name(name)
+        .parameter_in(ParameterIn::Header)
+        .description(Some(about))
+        .schema(Some(schema.build()))
+        .build();
+    operation.parameters.get_or_insert_default().push(parameter.into());
+}
+
+/// Whether the service runs. It needs no token.
+#[utoipa::path(operation_id = "healthz", get, path = "/healthz", tag = "service", responses((status = 200, content_type = "text/plain", body = String)))]
+#[expect(dead_code, reason = "it stands for a path that is answered where paths are routed")]
+fn healthz() {}
+
+/// Whether the store of the service answers. It needs no token.
+#[utoipa::path(operation_id = "readyz", get, path = "/readyz", tag = "service", responses((status = 200, content_type = "text/plain", body = String)))]
+#[expect(dead_code, reason = "it stands for a path that is answered where paths are routed")]
+fn readyz() {}
+
+/// What the service measures about itself, for Prometheus.
+#[utoipa::path(operation_id = "metrics", get, path = "/metrics", tag = "service", responses((status = 200, content_type = "application/openmetrics-text", body = String)))]
+#[expect(dead_code, reason = "it stands for a path that is answered where paths are routed")]
+fn metrics() {}
+
+/// This description.
+#[utoipa::path(operation_id = "openapi", get, path = "/openapi.json", tag = "service", responses((status = 200, body = Object)))]
+#[expect(dead_code, reason = "it stands for a path that is answered where paths are routed")]
+fn openapi_json() {}

@@ -1,0 +1,71 @@
+//! Policies: listed, read, uploaded, checked, removed.
+
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::http::StatusCode;
+use axum::response::Response;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::extract::{Body, Named, Sender};
+use super::json;
+use crate::days::now_ms;
+use crate::error::Error;
+use crate::policies::{self, PolicyInfo};
+use crate::service::Service;
+
+/// All policies.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct PolicyList {
+    /// Those that the program has, then those that were uploaded, by their names.
+    policies: Vec<PolicyInfo>,
+}
+
+/// Lists the policies that can decide.
+#[utoipa::path(operation_id = "list_policies", get, path = "/v1/policies", tag = "policies", responses((status = 200, body = PolicyList)))]
+pub(super) async fn list(State(service): State<Arc<Service>>) -> Result<Response, Error> {
+    Ok(json(StatusCode::OK, &PolicyList { policies: service.policies.list().await? }))
+}
+
+/// Reads what is known of a policy.
+#[utoipa::path(operation_id = "read_policy", get, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path)), responses((status = 200, body = PolicyInfo)))]
+pub(super) async fn read(
+    State(service): State<Arc<Service>>,
+    Named(name): Named<String>,
+) -> Result<Response, Error> {
+    Ok(json(StatusCode::OK, &service.policies.info(&name).await?))
+}
+
+/// Keeps the weights of a policy, the bytes of a weight file, under a name. The name means these weights for good.
+#[utoipa::path(operation_id = "put_policy", put, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path)), request_body(content = Vec<u8>, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
+pub(super) async fn put(
+    State(service): State<Arc<Service>>,
+    Named(name): Named<String>,
+    sender: Sender,
+    Body(weights): Body,
+) -> Result<Response, Error> {
+    let info = service.policies.put(&name, &weights, now_ms()).await?;
+    service.days.store().record(&sender.actor, "policy uploaded", &name, now_ms()).await?;
+    Ok(json(StatusCode::OK, &info))
+}
+
+/// Removes a policy that was uploaded. A day that it decides on goes on with it until the service starts again.
+#[utoipa::path(operation_id = "delete_policy", delete, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path)), responses((status = 204)))]
+pub(super) async fn delete(
+    State(service): State<Arc<Service>>,
+    Named(name): Named<String>,
+    sender: Sender,
+) -> Result<StatusCode, Error> {
+    if !service.days.store().delete_policy(&name).await? {
+        return Err(Error::not_found("uploaded policy", &name));
+    }
+    service.days.store().record(&sender.actor, "policy deleted", &name, now_ms()).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Checks a weight file without keeping it.
+#[utoipa::path(operation_id = "validate_policy", post, path = "/v1/policies/validate", tag = "policies", request_body(content = Vec<u8>, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
+pub(super) async fn validate(Body(weights): Body) -> Result<Response, Error> {
+    Ok(json(StatusCode::OK, &policies::validate("validated", &weights)?))
+}

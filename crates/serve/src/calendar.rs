@@ -1,0 +1,87 @@
+//! The calendar of a day: what its times are on the clocks of the world.
+
+use jiff::civil::Date;
+use jiff::tz::TimeZone;
+use jiff::{SignedDuration, Timestamp};
+use vertifleet_core::Time;
+
+use crate::error::Error;
+
+/// A date at a place. 00:00:00 of the day is twelve hours before noon of the date, which is midnight but for days on which
+/// the clocks change; so every day has its hours in order, as in timetables (GTFS).
+#[derive(Debug, Clone)]
+pub(crate) struct Calendar {
+    zone: TimeZone,
+    begin: Timestamp,
+}
+
+impl Calendar {
+    /// The calendar of a date (`2026-11-23`) in a time zone (`America/New_York`).
+    ///
+    /// # Errors
+    /// Returns [`Error::BadRequest`] if there is no such date or no such time zone.
+    pub(crate) fn new(date: &str, time_zone: &str) -> Result<Self, Error> {
+        let wrong = |rule: String| Error::BadRequest { rule };
+        let date: Date = date
+            .parse()
+            .map_err(|_| wrong(format!("{date:?} is no date: write it as 2026-11-23")))?;
+        let zone = TimeZone::get(time_zone).map_err(|_| {
+            wrong(format!("{time_zone:?} is no time zone: use a name such as America/New_York"))
+        })?;
+        let noon = date.at(12, 0, 0, 0).to_zoned(zone.clone());
+        let noon = noon.map_err(|error| wrong(error.to_string()))?.timestamp();
+        let begin = noon - SignedDuration::from_hours(12);
+        Ok(Self { zone, begin })
+    }
+
+    /// The time of the day at an instant in ISO 8601, with its offset (`2026-11-23T07:10:00-05:00`); whole seconds.
+    pub(crate) fn read(&self, text: &str) -> Option<Time> {
+        let instant: Timestamp = text.parse().ok()?;
+        let seconds = instant.duration_since(self.begin).as_secs();
+        u32::try_from(seconds).ok().map(Time::from_seconds)
+    }
+
+    /// A time of the day in ISO 8601, with the offset of the place.
+    pub(crate) fn write(&self, time: Time) -> String {
+        let instant = self.begin + SignedDuration::from_secs(time.seconds().into());
+        instant.to_zoned(self.zone.clone()).strftime("%Y-%m-%dT%H:%M:%S%:z").to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::Time;
+
+    use super::Calendar;
+
+    fn calendar(date: &str) -> Calendar {
+        Calendar::new(date, "America/New_York").expect("a date in a zone")
+    }
+
+    #[test]
+    fn times_read_as_they_are_written() {
+        let day = calendar("2026-11-23");
+        let time = Time::from_seconds(7 * 3600 + 600);
+        assert_eq!(day.write(time), "2026-11-23T07:10:00-05:00");
+        assert_eq!(day.read("2026-11-23T07:10:00-05:00"), Some(time));
+        assert_eq!(day.read("2026-11-23T12:10:00Z"), Some(time));
+        assert_eq!(day.write(Time::from_seconds(25 * 3600)), "2026-11-24T01:00:00-05:00");
+    }
+
+    #[test]
+    fn on_days_on_which_the_clocks_change_the_hours_of_operation_are_those_of_the_clocks() {
+        for date in ["2026-03-08", "2026-11-01"] {
+            let shown = calendar(date).write(Time::from_seconds(6 * 3600));
+            assert!(shown.contains("T06:00:00-"), "{shown}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_date_no_zone_or_before_the_day_is_refused() {
+        assert!(Calendar::new("23.11.2026", "America/New_York").is_err());
+        assert!(Calendar::new("2026-02-30", "America/New_York").is_err());
+        assert!(Calendar::new("2026-11-23", "Mars/Olympus").is_err());
+        assert_eq!(calendar("2026-11-23").read("2026-11-22T23:59:59-05:00"), None);
+        assert_eq!(calendar("2026-11-23").read("2026-11-23T07:10:00"), None);
+    }
+}

@@ -1,0 +1,166 @@
+//! The networks from which days can be made: those that the program ships, and those that were uploaded.
+
+use serde::Serialize;
+use utoipa::ToSchema;
+use vertifleet_core::{Matrix, Network, Vertiport};
+
+use crate::error::Error;
+use crate::moment::Moment;
+use crate::store::Store;
+
+/// The number of networks that can be uploaded.
+const MOST: usize = 1_000;
+
+/// A network.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct NetworkInfo {
+    /// Its name.
+    pub(crate) name: String,
+    /// Whether the program ships it; the others were uploaded.
+    pub(crate) is_shipped: bool,
+    /// The time zone of its clocks by its name in the IANA database, if it says so.
+    pub(crate) time_zone: Option<String>,
+    /// Its vertiports, in the order of its file.
+    pub(crate) vertiports: Vec<VertiportInfo>,
+    /// The types of its aircraft.
+    pub(crate) aircraft_types: Vec<String>,
+    /// Number of aircraft.
+    pub(crate) aircraft: usize,
+    /// When operations start.
+    pub(crate) start: Moment,
+    /// The last time at which an aircraft may decide.
+    pub(crate) end: Moment,
+    /// The start of each period of demand.
+    pub(crate) periods: Vec<Moment>,
+    /// Mean passengers of a day.
+    pub(crate) passengers: f64,
+    /// What is allowed but hardly meant.
+    pub(crate) warnings: Vec<String>,
+    /// The network file, where one network is asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) toml: Option<String>,
+}
+
+/// A vertiport of a network.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct VertiportInfo {
+    /// Its id.
+    id: String,
+    /// Position east, miles.
+    x_mi: f64,
+    /// Position north, miles.
+    y_mi: f64,
+    /// Latitude in degrees, if it is known.
+    latitude: Option<f64>,
+    /// Longitude in degrees, if it is known.
+    longitude: Option<f64>,
+    /// Its stands.
+    stands: u16,
+    /// Its chargers, where they are counted apart from stands.
+    chargers: Option<u16>,
+}
+
+impl VertiportInfo {
+    pub(crate) fn of(vertiport: &Vertiport) -> Self {
+        let degrees = vertiport.degrees;
+        Self {
+            id: vertiport.id.clone(),
+            x_mi: vertiport.x_mi,
+            y_mi: vertiport.y_mi,
+            latitude: degrees.map(|degrees| degrees.latitude),
+            longitude: degrees.map(|degrees| degrees.longitude),
+            stands: vertiport.stands,
+            chargers: vertiport.chargers,
+        }
+    }
+}
+
+impl NetworkInfo {
+    /// Describes a network.
+    pub(crate) fn of(network: &Network, is_shipped: bool) -> Self {
+        let mean = network.mean_demand();
+        let operations = network.operations();
+        Self {
+            name: network.name().to_owned(),
+            is_shipped,
+            time_zone: network.time_zone().map(str::to_owned),
+            vertiports: network.vertiports().iter().map(VertiportInfo::of).collect(),
+            aircraft_types: network.aircraft_types().iter().map(|kind| kind.id.clone()).collect(),
+            aircraft: network.fleet_size(),
+            start: operations.start.into(),
+            end: operations.end.into(),
+            periods: network.period_starts().iter().copied().map(Moment::from).collect(),
+            passengers: mean.iter().flat_map(Matrix::cells).sum(),
+            warnings: network.warnings().iter().map(ToString::to_string).collect(),
+            toml: None,
+        }
+    }
+}
+
+/// Checks the text of a network that somebody brings.
+///
+/// # Errors
+/// Returns an error of the network's format, or [`Error::BadRequest`] if there is no such time zone.
+pub(crate) fn check(toml: &str) -> Result<Network, Error> {
+    let network = Network::from_toml(toml, "the network")?;
+    if let Some(zone) = network.time_zone() {
+        crate::calendar::Calendar::new("2026-01-01", zone)?;
+    }
+    Ok(network)
+}
+
+/// The network with a name, and whether the program ships it.
+///
+/// # Errors
+/// Returns [`Error::NotFound`] if there is none.
+pub(crate) async fn find(store: &Store, name: &str) -> Result<(Network, bool), Error> {
+    if let Some(network) = Network::shipped(name) {
+        return Ok((network, true));
+    }
+    let stored = store.network(name).await?.ok_or_else(|| Error::not_found("network", name))?;
+    Ok((Network::from_toml(&stored.toml, name)?, false))
+}
+
+/// All networks: those that the program ships, then those that were uploaded.
+///
+/// # Errors
+/// Returns [`Error::Store`] if they cannot be read.
+pub(crate) async fn list(store: &Store) -> Result<Vec<NetworkInfo>, Error> {
+    let shipped = Network::shipped_names().filter_map(Network::shipped);
+    let mut networks: Vec<_> = shipped.map(|network| NetworkInfo::of(&network, true)).collect();
+    for stored in store.networks().await? {
+        let network = Network::from_toml(&stored.toml, &stored.name)?;
+        networks.push(NetworkInfo::of(&network, false));
+    }
+    Ok(networks)
+}
+
+/// Keeps a network under its name, in the place of one that was uploaded before. Days that were made stay as they are.
+///
+/// # Errors
+/// Returns the errors of [`check`], [`Error::BadRequest`] if the name is another one or that of a shipped network, and
+/// [`Error::TooMuch`].
+pub(crate) async fn put(
+    store: &Store,
+    name: &str,
+    toml: String,
+    now_ms: i64,
+) -> Result<NetworkInfo, Error> {
+    let network = check(&toml)?;
+    if network.name() != name {
+        let rule =
+            format!("the network is called {:?}, and the path says {name:?}", network.name());
+        return Err(Error::BadRequest { rule });
+    }
+    if Network::shipped(name).is_some() {
+        let rule = format!("{name:?} is the name of a network that the program ships");
+        return Err(Error::BadRequest { rule });
+    }
+    let known = store.networks().await?;
+    if known.len() >= MOST && !known.iter().any(|known| known.name == name) {
+        return Err(Error::TooMuch { what: "networks", most: MOST as u64 });
+    }
+    let stored = crate::store::StoredNetwork { name: name.to_owned(), toml, created_ms: now_ms };
+    store.put_network(&stored).await?;
+    Ok(NetworkInfo::of(&network, false))
+}
