@@ -64,8 +64,14 @@ pub(crate) struct ServeArguments {
     /// PostgreSQL database to keep the data in, instead of the folder
     #[arg(long, value_name = "URL", global = true)]
     pub(crate) database: Option<String>,
+    /// Speak TLS with the certificate in this PEM file, its chain included
+    #[arg(long, value_name = "FILE", requires = "key")]
+    pub(crate) certificate: Option<PathBuf>,
+    /// PEM file with the key of the certificate
+    #[arg(long, value_name = "FILE", requires = "certificate")]
+    pub(crate) key: Option<PathBuf>,
     /// A proxy that speaks TLS stands before the service, which may then listen on other addresses
-    #[arg(long)]
+    #[arg(long, conflicts_with = "certificate")]
     pub(crate) behind_proxy: bool,
     #[command(subcommand)]
     pub(crate) action: Option<ServeAction>,
@@ -88,6 +94,8 @@ pub(crate) enum ServeAction {
         /// The copy
         file: PathBuf,
     },
+    /// Print who did what beside the events of days, a JSON object a line
+    Audit,
     /// Print a day with all its events as JSON
     Export {
         /// The id of the day
@@ -131,6 +139,9 @@ pub(crate) struct OperateArguments {
     /// Seconds of the day that pass in a second, or max
     #[arg(long, default_value = "max", value_parser = parse_speed)]
     pub(crate) speed: Speed,
+    /// PEM file with certificates to trust, for a service whose certificate is its own
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trust: Option<PathBuf>,
     /// Print the day's numbers as JSON
     #[arg(long)]
     pub(crate) json: bool,

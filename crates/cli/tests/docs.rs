@@ -35,6 +35,7 @@ const SUBCOMMANDS: &[&str] = &[
     "serve backup",
     "serve restore",
     "serve export",
+    "serve audit",
 ];
 
 fn root() -> PathBuf {

@@ -110,4 +110,27 @@ fn tokens_are_made_listed_and_revoked() {
     let tokens = Tokens::open(&Location::Folder(folder.path().to_owned())).expect("a store");
     let [token] = &tokens.list().expect("a list")[..] else { panic!("one token") };
     assert_eq!((token.role, token.revoked_ms > 0), (Role::Dispatch, true));
+    let audit = printed(&serve(&["audit"], folder.path()).success());
+    let actions: Vec<&str> = audit
+        .lines()
+        .filter_map(|line| line.split("\"action\":\"").nth(1)?.split('"').next())
+        .collect();
+    assert_eq!(actions, ["token made", "token revoked"], "{audit}");
+}
+
+#[test]
+fn what_is_no_copy_of_a_service_is_not_put_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (copy, data) = (folder.path().join("copy.db"), folder.path().join("data"));
+    let copy_text = copy.display().to_string();
+    for bytes in [&b""[..], b"no database at all, but long enough for a header of one"] {
+        std::fs::write(&copy, bytes).expect("a file");
+        serve(&["restore", &copy_text], &data).failure();
+        assert!(!data.join("vertifleet.db").exists() && !data.join("restoring").exists());
+    }
+    serve(&["restore", &copy_text, "--database", "postgres://nowhere"], &data).code(2);
+    // A copy is never written over what is there.
+    serve(&["token", "make", "--name", "a", "--role", "read"], &data).success();
+    serve(&["backup", &copy_text], &data).failure();
+    assert!(std::fs::read(&copy).expect("it is there").starts_with(b"no database"));
 }

@@ -67,6 +67,7 @@ impl Load {
                 day: Arc::new(network.draw(seed)),
                 policy: self.policy.clone(),
                 token: None,
+                trusted: None,
                 speed: None,
             };
             let mut took_ms = Vec::new();

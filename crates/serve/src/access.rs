@@ -1,30 +1,37 @@
 //! Who may do what: bearer tokens with roles. As long as no token has been made, everybody on this machine may do
 //! everything, and the service listens on this machine alone.
 
-use std::sync::Arc;
+use std::num::NonZeroU32;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, Method, header};
 use axum::middleware::Next;
 use axum::response::Response;
+use governor::clock::DefaultClock;
+use governor::state::keyed::HashMapStateStore;
+use governor::{Quota, RateLimiter};
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 use subtle::ConstantTimeEq as _;
-use tokio::sync::Mutex;
+use utoipa::ToSchema;
 
 use crate::days::now_ms;
 use crate::error::Error;
 use crate::service::Service;
 use crate::store::{Location, Store};
 
-/// A token that is revoked is refused after this time at the latest.
+/// A token that is revoked is refused after this time at the latest, if the store answers.
 const FRESH: Duration = Duration::from_secs(2);
+/// While the store does not answer, tokens that are known hold for so long.
+const STALE: Duration = Duration::from_mins(1);
+const TWO: NonZeroU32 = NonZeroU32::new(2).unwrap();
 /// Every token begins like this, so that people and scanners know one when they see it.
 const PREFIX: &str = "vf_";
 
 /// What a token permits. Each role permits what those before it do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
     /// To read days, and to ask for proposals, outlooks and what-if.
@@ -86,29 +93,61 @@ pub struct StoredToken {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Actor(pub(crate) String);
 
+/// Tokens as they were read.
+#[derive(Debug, Clone)]
+struct Known {
+    tokens: Arc<[StoredToken]>,
+    read: Instant,
+    /// When the store was last asked for them.
+    asked: Instant,
+}
+
 /// Knows the tokens.
 #[derive(Debug)]
 pub(crate) struct Access {
     store: Store,
-    known: Mutex<Option<(Instant, Arc<[StoredToken]>)>>,
+    known: Mutex<Option<Known>>,
+    /// How often each token may ask, by its id; whoever has no token shares one turn with all others of that kind.
+    rates: RateLimiter<String, HashMapStateStore<String>, DefaultClock>,
+    most_per_s: u32,
 }
 
 impl Access {
-    pub(crate) fn new(store: Store) -> Self {
-        Self { store, known: Mutex::new(None) }
+    /// Access by the tokens of a store, each of which may ask so often in a second.
+    pub(crate) fn new(store: Store, most_per_s: u32) -> Self {
+        let rate = NonZeroU32::new(most_per_s).unwrap_or(NonZeroU32::MIN);
+        let quota = Quota::per_second(rate).allow_burst(rate.saturating_mul(TWO));
+        Self { store, known: Mutex::new(None), rates: RateLimiter::hashmap(quota), most_per_s }
     }
 
-    /// The tokens, at most [`FRESH`] old.
+    /// The tokens, at most [`FRESH`] old; older ones while the store does not answer, but not much older. One request asks
+    /// the store, and the others do not wait for it if they know any.
     async fn tokens(&self) -> Result<Arc<[StoredToken]>, Error> {
-        let mut known = self.known.lock().await;
-        if let Some((read, tokens)) = &*known
-            && read.elapsed() < FRESH
+        let known = self.known().clone();
+        let age = known.as_ref().map(|known| known.read.elapsed());
+        let is_turn = known.as_ref().is_none_or(|known| known.asked.elapsed() >= FRESH);
+        if let (Some(known), false) = (&known, is_turn)
+            && age.is_some_and(|age| age < STALE)
         {
-            return Ok(Arc::clone(tokens));
+            return Ok(Arc::clone(&known.tokens));
         }
-        let tokens: Arc<[StoredToken]> = self.store.tokens().await?.into();
-        *known = Some((Instant::now(), Arc::clone(&tokens)));
-        Ok(tokens)
+        if let Some(known) = &mut *self.known() {
+            known.asked = Instant::now();
+        }
+        let now = Instant::now();
+        match (self.store.tokens().await, known) {
+            (Ok(tokens), _) => {
+                let tokens: Arc<[StoredToken]> = tokens.into();
+                *self.known() = Some(Known { tokens: Arc::clone(&tokens), read: now, asked: now });
+                Ok(tokens)
+            }
+            (Err(_), Some(known)) if known.read.elapsed() < STALE => Ok(known.tokens),
+            (Err(error), _) => Err(error),
+        }
+    }
+
+    fn known(&self) -> MutexGuard<'_, Option<Known>> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Whether requests need a token.
@@ -118,10 +157,31 @@ impl Access {
 
     /// Lets a request in, or not.
     async fn admit(&self, headers: &HeaderMap, needed: Role) -> Result<Actor, Error> {
+        let token = self.may(headers, needed).await;
+        let (id, who) = match &token {
+            Ok(None) => return Ok(Actor::default()),
+            Ok(Some(token)) => (token.id.as_str(), token.name.as_str()),
+            Err(_) => ("", "those who have no token"),
+        };
+        if self.rates.check_key(&id.to_owned()).is_err() {
+            return Err(Error::TooOften { who: who.to_owned(), most: self.most_per_s });
+        }
+        Ok(Actor(token?.map(|token| token.name).unwrap_or_default()))
+    }
+
+    /// The token of a request that permits it; `None` if no token has ever been made.
+    ///
+    /// # Errors
+    /// Returns [`Error::NoToken`] or [`Error::NotPermitted`].
+    pub(crate) async fn may(
+        &self,
+        headers: &HeaderMap,
+        needed: Role,
+    ) -> Result<Option<StoredToken>, Error> {
         let tokens = self.tokens().await?;
         // Once there has been a token, revoking the last one does not open the door to everybody.
         if tokens.is_empty() {
-            return Ok(Actor::default());
+            return Ok(None);
         }
         let given = headers.get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
         let given = given.and_then(|text| text.strip_prefix("Bearer ")).ok_or(Error::NoToken)?;
@@ -129,7 +189,7 @@ impl Access {
         if token.role < needed {
             return Err(Error::NotPermitted { role: token.role.name(), needed: needed.name() });
         }
-        Ok(Actor(token.name.clone()))
+        Ok(Some(token.clone()))
     }
 }
 
@@ -176,6 +236,12 @@ fn random_digits(bytes: usize) -> Result<String, Error> {
 pub struct Tokens {
     runtime: tokio::runtime::Runtime,
     store: Store,
+}
+
+impl Drop for Tokens {
+    fn drop(&mut self) {
+        self.runtime.block_on(self.store.close());
+    }
 }
 
 impl Tokens {

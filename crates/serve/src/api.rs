@@ -1,5 +1,6 @@
 //! The paths of the service.
 
+mod answer;
 mod days;
 mod decisions;
 mod describe;
@@ -8,35 +9,26 @@ mod extract;
 mod networks;
 mod outlooks;
 mod policies;
+mod service;
 mod stream;
 
 use std::sync::Arc;
-use std::time::Duration;
 
 use axum::Router;
-use axum::extract::DefaultBodyLimit;
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::extract::{Request, State};
+use axum::http::{HeaderValue, header};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
-use serde::{Deserialize, Serialize};
 use tower_http::catch_panic::CatchPanicLayer;
-use utoipa::{IntoParams, ToSchema};
 
+pub(crate) use self::answer::Totals;
 pub use self::describe::openapi;
 pub(crate) use self::extract::Sender;
 use crate::access::admit;
-use crate::days::DayCell;
 use crate::error::Error;
-use crate::metrics::{measure, show};
-use crate::moment::by_calendar;
+use crate::metrics::measure;
 use crate::service::Service;
-
-/// The longest body of a request: a scenario with the demand of a large network.
-const LONGEST_BODY: usize = 64 << 20;
-
-/// No request takes longer.
-const LONGEST: Duration = Duration::from_secs(30);
 
 /// All paths.
 pub(crate) fn router(service: Arc<Service>) -> Router {
@@ -65,19 +57,19 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
             "/v1/policies/{policy}",
             get(policies::read).put(policies::put).delete(policies::delete),
         )
-        .route("/healthz", get(|| async { "ok\n" }))
-        .route("/readyz", get(ready))
-        .route("/metrics", get(show))
-        .route("/openapi.json", get(described))
+        .route("/v1", get(service::info))
+        .route("/healthz", get(service::healthz))
+        .route("/readyz", get(service::readyz))
+        .route("/metrics", get(service::metrics))
+        .route("/openapi.json", get(service::described))
         .fallback(|uri: axum::http::Uri| async move { Error::not_found("path", uri.path()) })
         .method_not_allowed_fallback(|method: axum::http::Method| async move {
             Error::NotAllowed { method: method.to_string() }
         })
-        .layer(DefaultBodyLimit::max(LONGEST_BODY))
         .layer(from_fn_with_state(Arc::clone(&service), admit))
         .layer(CatchPanicLayer::custom(panicked))
+        .layer(from_fn_with_state(Arc::clone(&service), in_time))
         .layer(from_fn_with_state(Arc::clone(&service), measure))
-        .layer(from_fn(in_time))
         .layer(from_fn(with_headers))
         .with_state(service)
 }
@@ -93,13 +85,18 @@ fn panicked(panic: Box<dyn std::any::Any + Send>) -> Response {
 }
 
 /// Ends a request that takes too long to be read or answered. Streams are answered at once, and go on.
-async fn in_time(request: axum::extract::Request, next: Next) -> Result<Response, Error> {
-    let answer = tokio::time::timeout(LONGEST, next.run(request)).await;
-    answer.map_err(|_| Error::TooSlow { limit_s: LONGEST.as_secs() })
+async fn in_time(
+    State(service): State<Arc<Service>>,
+    request: Request,
+    next: Next,
+) -> Result<Response, Error> {
+    let limit = service.limits.request;
+    let answer = tokio::time::timeout(limit, next.run(request)).await;
+    answer.map_err(|_| Error::TooSlow { limit_s: limit.as_secs() })
 }
 
 /// Adds the headers that keep browsers from guessing and from showing answers inside other pages.
-async fn with_headers(request: axum::extract::Request, next: Next) -> Response {
+async fn with_headers(request: Request, next: Next) -> Response {
     let mut answer = next.run(request).await;
     let headers = answer.headers_mut();
     for (name, value) in [
@@ -110,69 +107,4 @@ async fn with_headers(request: axum::extract::Request, next: Next) -> Response {
         headers.entry(name).or_insert(HeaderValue::from_static(value));
     }
     answer
-}
-
-async fn ready(
-    axum::extract::State(service): axum::extract::State<Arc<Service>>,
-) -> Result<&'static str, Error> {
-    service.days.store().check().await?;
-    Ok("ready\n")
-}
-
-async fn described() -> Response {
-    ([(header::CONTENT_TYPE, "application/json")], openapi()).into_response()
-}
-
-/// How times are written in an answer.
-#[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
-#[serde(rename_all = "lowercase")]
-enum Times {
-    /// As `HH:MM:SS` of the day.
-    #[default]
-    Clock,
-    /// In ISO 8601 with the offset of the place, for days that have a date.
-    Iso,
-}
-
-impl Times {
-    /// Writes an answer about a day.
-    fn of<T>(self, day: &DayCell, write: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
-        match (self, day.calendar()) {
-            (Self::Clock, _) => write(),
-            (Self::Iso, Some(calendar)) => by_calendar(Some(calendar), write),
-            (Self::Iso, None) => {
-                let rule = "times can be written in ISO 8601 for days that have a date".to_owned();
-                Err(Error::BadRequest { rule })
-            }
-        }
-    }
-}
-
-/// Which times are asked for.
-#[derive(Debug, Deserialize, IntoParams)]
-#[into_params(parameter_in = Query)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    /// How times are written in the answer.
-    #[serde(default)]
-    times: Times,
-}
-
-/// An answer in JSON.
-fn json(status: StatusCode, answer: &impl Serialize) -> Response {
-    let body = serde_json::to_string(answer).expect("plain data can be written");
-    written(status, body)
-}
-
-/// An answer that is JSON already.
-fn written(status: StatusCode, body: String) -> Response {
-    (status, [(header::CONTENT_TYPE, "application/json")], body).into_response()
-}
-
-/// An answer about a day at an event, whose number is the `ETag`.
-fn at_event(status: StatusCode, seq: u64, answer: &impl Serialize) -> Response {
-    let mut response = json(status, answer);
-    let tag = format!("\"{seq}\"").parse().expect("a number in quotes is a header");
-    response.headers_mut().insert(header::ETAG, tag);
-    response
 }

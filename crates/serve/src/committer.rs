@@ -2,11 +2,11 @@
 //! cost of one write to the disk, and answers each when its events are durable.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicI64, Ordering};
 
 use tokio::sync::{mpsc, oneshot};
 
-use crate::days::DayCell;
+use crate::days::{DayCell, now_ms};
 use crate::error::Error;
 use crate::keys::Busy;
 use crate::metrics::Metrics;
@@ -14,6 +14,9 @@ use crate::store::{Store, StoredAnswer, StoredEvent};
 
 /// At most this many requests are committed together.
 const MOST_TOGETHER: usize = 1_024;
+
+/// For so long a failure counts as one of a moment ago, milliseconds.
+const A_MOMENT_MS: i64 = 5_000;
 
 /// Events of a day that wait to be stored.
 pub(crate) struct Append {
@@ -28,14 +31,22 @@ pub(crate) struct Append {
 #[derive(Debug, Clone)]
 pub(crate) struct Committer {
     queue: mpsc::UnboundedSender<Append>,
+    /// When the store last refused events, milliseconds of the Unix clock.
+    failed_ms: Arc<AtomicI64>,
 }
 
 impl Committer {
     /// Starts the writer. It ends when the last committer is dropped.
     pub(crate) fn start(store: Store, metrics: Arc<Metrics>) -> Self {
         let (queue, waiting) = mpsc::unbounded_channel();
-        tokio::spawn(write_all(store, metrics, waiting));
-        Self { queue }
+        let failed_ms = Arc::new(AtomicI64::new(0));
+        tokio::spawn(write_all(store, metrics, Arc::clone(&failed_ms), waiting));
+        Self { queue, failed_ms }
+    }
+
+    /// Whether the store has refused events a moment ago.
+    pub(crate) fn has_failed(&self) -> bool {
+        now_ms() - self.failed_ms.load(Ordering::Relaxed) < A_MOMENT_MS
     }
 
     /// Puts events into the queue. Events of a day must come in their order, so the caller holds the day's lock.
@@ -50,18 +61,19 @@ impl Committer {
 async fn write_all(
     store: Store,
     metrics: Arc<Metrics>,
+    failed_ms: Arc<AtomicI64>,
     mut waiting: mpsc::UnboundedReceiver<Append>,
 ) {
     let mut batch = Vec::new();
     while waiting.recv_many(&mut batch, MOST_TOGETHER).await > 0 {
         metrics.commits.inc();
-        write(&store, &metrics, &mut batch).await;
+        write(&store, &metrics, &failed_ms, &mut batch).await;
     }
 }
 
 /// Stores a batch and answers everybody in it. If the batch cannot be stored, each of its requests is tried alone, so
 /// that one that conflicts does not fail the others.
-async fn write(store: &Store, metrics: &Metrics, batch: &mut Vec<Append>) {
+async fn write(store: &Store, metrics: &Metrics, failed_ms: &AtomicI64, batch: &mut Vec<Append>) {
     let one_by_one = batch.len() == 1 || store_together(store, batch).await.is_err();
     for append in batch.drain(..) {
         let outcome = if !one_by_one {
@@ -70,7 +82,7 @@ async fn write(store: &Store, metrics: &Metrics, batch: &mut Vec<Append>) {
             // An earlier event of the day could not be stored. The day is read again before this one is tried again.
             Err(Error::Conflict)
         } else {
-            store_together(store, std::slice::from_ref(&append)).await
+            store_alone(store, &append).await
         };
         match &outcome {
             Ok(()) => {
@@ -80,10 +92,22 @@ async fn write(store: &Store, metrics: &Metrics, batch: &mut Vec<Append>) {
             Err(error) => {
                 tracing::error!(day = append.day.id(), %error, "events could not be stored");
                 append.day.has_failed.store(true, Ordering::Release);
+                if matches!(error, Error::Store { .. }) {
+                    failed_ms.store(now_ms(), Ordering::Relaxed);
+                }
             }
         }
         // Whoever asked may have gone.
         let _ = append.done.send(outcome);
+    }
+}
+
+/// Stores what one request brought. If it is stored already, it was by a commit whose answer was lost.
+async fn store_alone(store: &Store, append: &Append) -> Result<(), Error> {
+    let outcome = store_together(store, std::slice::from_ref(append)).await;
+    match (&outcome, append.events.last()) {
+        (Err(Error::Conflict), Some(last)) if store.has(append.day.id(), last).await? => Ok(()),
+        _ => outcome,
     }
 }
 

@@ -132,6 +132,21 @@ impl DayCell {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Checks that an event has happened after which somebody wants to read on.
+    ///
+    /// # Errors
+    /// Returns [`Error::BadRequest`] if it has not: the day may have been put back from a copy.
+    pub(crate) fn check_begun(&self, after: u64) -> Result<(), Error> {
+        let seq = self.state().seq();
+        if after <= seq {
+            return Ok(());
+        }
+        let rule = format!(
+            "the day is at event {seq}, so nothing follows event {after}: read its state again"
+        );
+        Err(Error::BadRequest { rule })
+    }
+
     /// Whether memory can no longer be trusted: an event could not be stored, or somebody panicked over the state.
     pub(crate) fn is_spoilt(&self) -> bool {
         self.has_failed.load(Ordering::Acquire) || self.state.is_poisoned()
@@ -176,17 +191,30 @@ impl DayCell {
 #[derive(Debug)]
 pub(crate) struct Days {
     store: Store,
+    most_events: u64,
     metrics: Arc<Metrics>,
     committer: Committer,
     cells: Mutex<HashMap<String, Arc<OnceCell<Arc<DayCell>>>>>,
 }
 
 impl Days {
-    /// The days of a store. Each is read when it is first asked for.
-    pub(crate) fn new(store: Store) -> Self {
+    /// The days of a store, each with at most so many events. Each is read when it is first asked for.
+    pub(crate) fn new(store: Store, most_events: u64) -> Self {
         let metrics = Arc::new(Metrics::default());
         let committer = Committer::start(store.clone(), Arc::clone(&metrics));
-        Self { store, metrics, committer, cells: Mutex::new(HashMap::new()) }
+        Self { store, most_events, metrics, committer, cells: Mutex::new(HashMap::new()) }
+    }
+
+    /// Checks that the store takes what it is given.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if it does not, or has not a moment ago.
+    pub(crate) async fn check(&self) -> Result<(), Error> {
+        if self.committer.has_failed() {
+            let cause = "it refused events a moment ago; the log says why".to_owned();
+            return Err(Error::Store { cause });
+        }
+        self.store.check().await
     }
 
     /// What is measured.
@@ -246,6 +274,7 @@ impl Days {
             {
                 cells.remove(id);
             }
+            self.metrics.days.set(i64::try_from(cells.len()).unwrap_or(i64::MAX));
         }
         day.cloned()
     }
@@ -373,6 +402,9 @@ impl Days {
         let answer = {
             let mut state = day.state();
             writer.check(state.seq())?;
+            if state.seq() + events.len() as u64 > self.most_events {
+                return Err(Error::TooMuch { what: "events on a day", most: self.most_events });
+            }
             let stored = take_all(&mut state, events, &writer.actor)?;
             let appended = Appended { seq: state.seq(), events: stored };
             let answer = answer(&appended);

@@ -81,10 +81,26 @@ pub(crate) struct Alternative {
 /// Why an alternative is not possible.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct Impossible {
-    /// The rule: `out_of_range`, `no_corridor`, `closed` or `no_stand_free`.
+    /// The rule.
+    #[schema(value_type = RuleName)]
     pub(crate) rule: &'static str,
     /// The rule in words, with its numbers.
     pub(crate) reason: String,
+}
+
+/// A rule that forbids a flight.
+#[derive(ToSchema)]
+#[schema(rename_all = "snake_case")]
+#[expect(dead_code, reason = "it stands for the values of a text in the description")]
+pub(crate) enum RuleName {
+    /// A full battery does not last for the flight.
+    OutOfRange,
+    /// No corridor leads there.
+    NoCorridor,
+    /// The route is closed.
+    Closed,
+    /// Every stand there is taken or promised.
+    NoStandFree,
 }
 
 /// The policies that decide on a day, each with its memory of the day.

@@ -178,7 +178,8 @@ pub enum Error {
     },
 
     /// V619. An address that others can reach, without protection. Cause: `--listen` names an address beyond this
-    /// machine. Fix: let a proxy that speaks TLS stand before the service (`--behind-proxy`), and make a token.
+    /// machine. Fix: name a certificate (`--certificate`, `--key`) or let a proxy that speaks TLS stand before the service
+    /// (`--behind-proxy`), and make a token.
     #[error("{address} can be reached by others: {missing}")]
     Unprotected {
         /// The address.
@@ -193,6 +194,26 @@ pub enum Error {
     InUse {
         /// The folder.
         folder: PathBuf,
+    },
+
+    /// V623. A token sends more requests than it may. Cause: a client that asks again and again, or a token that many
+    /// clients use. Fix: wait a second, ask less often, and give each client a token of its own.
+    #[error("{who} sent more than {most} requests in a second")]
+    TooOften {
+        /// The token's name.
+        who: String,
+        /// The limit.
+        most: u32,
+    },
+
+    /// V624. A certificate or its key cannot be used. Cause: no such file, no PEM file, or a key of another certificate.
+    /// Fix: name the certificate with its chain and its own key, both as PEM files.
+    #[error("{}: {rule}", file.display())]
+    BadCertificate {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        rule: String,
     },
 
     /// V621. Another process wrote to the same day at the same time, again and again. Cause: several services share a
@@ -213,6 +234,20 @@ impl Error {
     /// A policy that failed, which none of ours does.
     pub(crate) fn of_policy(policy: &str, error: &PolicyError) -> Self {
         Self::Internal { cause: format!("policy {policy:?}: {error}") }
+    }
+
+    /// What went wrong when a store was opened.
+    pub(crate) fn of_opening(error: sqlx::Error) -> Self {
+        match &error {
+            sqlx::Error::Database(cause)
+                if ["malformed", "not a database"]
+                    .iter()
+                    .any(|rule| cause.message().contains(rule)) =>
+            {
+                Self::BadData { rule: cause.message().to_owned() }
+            }
+            _ => error.into(),
+        }
     }
 
     /// The same error with the day that it is about.
@@ -252,17 +287,25 @@ impl Error {
             | Self::Contradiction { .. }
             | Self::KeyReused { .. } => StatusCode::UNPROCESSABLE_ENTITY,
             Self::Moved { .. } => StatusCode::PRECONDITION_FAILED,
-            Self::Archived { .. } | Self::KeyInUse { .. } => StatusCode::CONFLICT,
-            Self::Store { .. } | Self::Conflict => StatusCode::SERVICE_UNAVAILABLE,
+            Self::TooMuch { what, .. } if what.starts_with("bytes") => {
+                StatusCode::PAYLOAD_TOO_LARGE
+            }
+            Self::TooMuch { what: "streams", .. } | Self::Store { .. } | Self::Conflict => {
+                StatusCode::SERVICE_UNAVAILABLE
+            }
+            Self::Archived { .. } | Self::KeyInUse { .. } | Self::TooMuch { .. } => {
+                StatusCode::CONFLICT
+            }
             Self::TooSlow { .. } => StatusCode::REQUEST_TIMEOUT,
             Self::NoToken => StatusCode::UNAUTHORIZED,
             Self::NotPermitted { .. } => StatusCode::FORBIDDEN,
-            Self::TooMuch { .. } => StatusCode::PAYLOAD_TOO_LARGE,
+            Self::TooOften { .. } => StatusCode::TOO_MANY_REQUESTS,
             Self::NotAllowed { .. } => StatusCode::METHOD_NOT_ALLOWED,
             Self::BadData { .. }
             | Self::Internal { .. }
             | Self::Unprotected { .. }
             | Self::InUse { .. }
+            | Self::BadCertificate { .. }
             | Self::CannotListen { .. }
             | Self::NoAnswer { .. } => StatusCode::INTERNAL_SERVER_ERROR,
         }
@@ -306,6 +349,8 @@ impl Coded for Error {
             Self::InUse { .. } => 620,
             Self::Conflict => 621,
             Self::TooSlow { .. } => 622,
+            Self::TooOften { .. } => 623,
+            Self::BadCertificate { .. } => 624,
         })
     }
 
@@ -315,11 +360,17 @@ impl Coded for Error {
             Self::Study(error) => error.hint(),
             Self::InList { cause, .. } => cause.hint(),
             Self::Moved { .. } => Some("read the day again, and decide anew"),
+            Self::NotFound { what: "policy", .. } => Some(
+                "GET /v1/policies lists them; PUT /v1/policies/NAME keeps weights under a name",
+            ),
+            Self::NotFound { what: "network", .. } => {
+                Some("GET /v1/networks lists them; PUT /v1/networks/NAME keeps a network file")
+            }
             Self::KeyReused { .. } => Some("use a new Idempotency-Key for each request"),
             Self::BadData { .. } => Some("`vertifleet serve verify` names what is damaged"),
             Self::NoToken => Some("send it as `Authorization: Bearer vf_...`"),
             Self::Unprotected { .. } => Some(
-                "listen on 127.0.0.1, or stand behind a proxy that speaks TLS (--behind-proxy) and make a token",
+                "listen on 127.0.0.1, or name a certificate (--certificate, --key) or stand behind a proxy that speaks TLS (--behind-proxy), and make a token",
             ),
             _ => None,
         }

@@ -10,7 +10,7 @@ use vertifleet_core::Scenario;
 
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
-use crate::store::{DATABASE, Location, PAGE, Store, StoredDay, StoredEvent};
+use crate::store::{AuditRecord, DATABASE, Location, PAGE, Store, StoredDay, StoredEvent};
 
 /// The data of a service, which may run meanwhile.
 #[derive(Debug)]
@@ -66,22 +66,21 @@ struct ExportedEvent {
 /// Name and version of the format of days that are written out.
 const FORMAT: &str = "vertifleet-live-day/1";
 
+impl Drop for Keeper {
+    fn drop(&mut self) {
+        self.runtime.block_on(self.store.close());
+    }
+}
+
 impl Keeper {
     /// Opens the data of a service, which must be there.
     ///
     /// # Errors
     /// Returns [`Error::Store`] or [`Error::BadData`] if it is not there or cannot be opened.
     pub fn open(location: &Location) -> Result<Self, Error> {
-        if let Location::Folder(folder) = location
-            && !folder.join(DATABASE).exists()
-        {
-            let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.clone());
-            let cause = format!("there is no data of a service in {}", folder.display());
-            return Err(Error::Store { cause });
-        }
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|cause| Error::Internal { cause: cause.to_string() })?;
-        let store = runtime.block_on(Store::open(location))?;
+        let store = runtime.block_on(Store::open_existing(location))?;
         Ok(Self { runtime, store })
     }
 
@@ -111,8 +110,7 @@ impl Keeper {
         };
         match self.store.replay(id, &mut state, u64::MAX).await {
             Ok(()) => Ok(check(state.seq(), None)),
-            Err(damage @ Error::BadData { .. }) => Ok(check(state.seq(), Some(damage.to_string()))),
-            Err(error) => Err(error),
+            Err(damage) => Ok(check(state.seq(), Some(damage.to_string()))),
         }
     }
 
@@ -126,7 +124,34 @@ impl Keeper {
             let cause = "a PostgreSQL database is copied by pg_dump".to_owned();
             return Err(Error::Store { cause });
         }
-        self.runtime.block_on(self.store.copy_to(&file.display().to_string()))
+        if file.exists() {
+            return Err(Error::Store { cause: format!("{} is there already", file.display()) });
+        }
+        // Under another name until it is whole, so that half a copy never looks like one.
+        let mut unfinished = file.as_os_str().to_owned();
+        unfinished.push(".unfinished");
+        let unfinished = PathBuf::from(unfinished);
+        let failed = |error: std::io::Error| Error::Store {
+            cause: format!("{}: {error}", unfinished.display()),
+        };
+        let written = self.runtime.block_on(self.store.copy_to(&unfinished.display().to_string()));
+        let named = written.and_then(|()| {
+            std::fs::File::open(&unfinished).and_then(|copy| copy.sync_all()).map_err(failed)?;
+            std::fs::rename(&unfinished, file).map_err(failed)
+        });
+        if named.is_err() {
+            // It may never have been made.
+            let _ = std::fs::remove_file(&unfinished);
+        }
+        named
+    }
+
+    /// Who did what beside the events of days, in its order.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if it cannot be read.
+    pub fn audit(&self) -> Result<Vec<AuditRecord>, Error> {
+        self.runtime.block_on(self.store.audit())
     }
 
     /// A day with its scenario and all events, as JSON.
@@ -204,8 +229,8 @@ pub fn restore(copy: &Path, folder: &Path) -> Result<Contents, Error> {
     // It is checked in a place of its own, so that a damaged copy never looks like the data of a service.
     let trial: PathBuf = folder.join("restoring");
     vertifleet_core::create_folder(&trial)?;
-    vertifleet_core::write_atomically(&trial.join(DATABASE), &bytes)?;
-    let checked = check_copy(&trial);
+    let written = vertifleet_core::write_atomically(&trial.join(DATABASE), &bytes);
+    let checked = written.map_err(Error::from).and_then(|()| check_copy(&trial));
     let removed = std::fs::remove_dir_all(&trial);
     let contents = checked?;
     removed.map_err(|error| failed(format!("{}: {error}", trial.display())))?;
@@ -221,7 +246,7 @@ fn check_copy(folder: &Path) -> Result<Contents, Error> {
         contents.days += 1;
         contents.events += check.events;
         if let Some(rule) = check.finding {
-            finding.get_or_insert(format!("day {}: {rule}", check.day));
+            finding.get_or_insert(rule);
         }
     })?;
     match finding {

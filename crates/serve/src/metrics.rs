@@ -4,17 +4,19 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use axum::extract::{MatchedPath, Request, State};
-use axum::http::{Method, header};
+use axum::http::Method;
 use axum::middleware::Next;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use prometheus_client::encoding::EncodeLabelSet;
 use prometheus_client::encoding::text::encode;
 use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::family::Family;
 use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::metrics::histogram::{Histogram, exponential_buckets};
+use prometheus_client::metrics::info::Info;
 use prometheus_client::registry::Registry;
 
+use crate::days::now_ms;
 use crate::service::Service;
 
 /// A path with a method, as it stands in the description of the API.
@@ -79,6 +81,12 @@ impl Default for Metrics {
 impl Metrics {
     fn registered(mut self) -> Self {
         let registry = &mut self.registry;
+        let version = ("version", env!("CARGO_PKG_VERSION"));
+        registry.register("build", "The program", Info::new(vec![version]));
+        let started: Gauge = Gauge::default();
+        started.set(now_ms() / 1_000);
+        let help = "When the service started, seconds of the Unix clock";
+        registry.register("start_time_seconds", help, started);
         registry.register("requests", "Requests that were answered", self.requests.clone());
         let help = "Time from a request to its answer";
         registry.register("request_seconds", help, self.request_seconds.clone());
@@ -105,12 +113,6 @@ impl Metrics {
     }
 }
 
-/// Answers with the numbers.
-pub(crate) async fn show(State(service): State<Arc<Service>>) -> Response {
-    let kind = "application/openmetrics-text; version=1.0.0; charset=utf-8";
-    ([(header::CONTENT_TYPE, kind)], service.days.metrics().text()).into_response()
-}
-
 /// Measures a request.
 pub(crate) async fn measure(
     State(service): State<Arc<Service>>,
@@ -131,5 +133,7 @@ pub(crate) async fn measure(
     metrics.request_seconds.get_or_create(&of_path).observe(begun.elapsed().as_secs_f64());
     let answered = Answered { method, path, status: answer.status().as_u16() };
     metrics.requests.get_or_create(&answered).inc();
+    let Answered { method, path, status } = answered;
+    tracing::info!(method, path, status, took_us = begun.elapsed().as_micros(), "a request");
     answer
 }

@@ -1,6 +1,7 @@
 //! The simulated operator: plays a whole day through the public API, as the people and systems of an operator would. It
 //! is the demonstration, the load, and the test from end to end.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -8,6 +9,7 @@ use std::time::{Duration, Instant};
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use ureq::tls::{Certificate, PemItem, RootCerts, TlsConfig, parse_pem};
 use vertifleet_core::{Scenario, Stop, Stopped, Time, VertiportIx};
 use vertifleet_sim::live::Reporter;
 use vertifleet_sim::{DayTotals, Decision};
@@ -29,6 +31,8 @@ pub struct Operation {
     pub policy: String,
     /// The token of the operator, if the service asks for one.
     pub token: Option<String>,
+    /// A PEM file with certificates to trust, in place of those of the world.
+    pub trusted: Option<PathBuf>,
     /// Seconds of the day that pass in a second; `None` to go as fast as it goes.
     pub speed: Option<f64>,
 }
@@ -60,7 +64,7 @@ pub fn operate(
     stop: &Stop,
     mut watch: impl FnMut(Time, Duration),
 ) -> Result<Option<OperationReport>, Error> {
-    let mut client = Client::new(operation);
+    let mut client = Client::new(operation)?;
     let made: Made = client.post("/v1/days", &new_day(operation))?;
     let mut reporter = Reporter::new(&operation.day);
     let begun = Instant::now();
@@ -134,6 +138,23 @@ struct State {
     totals: DayTotals,
 }
 
+/// The certificates in a PEM file.
+fn trusted(file: &Path) -> Result<Vec<Certificate<'static>>, Error> {
+    let bad = |rule: String| Error::BadCertificate { file: file.to_owned(), rule };
+    let bytes = std::fs::read(file).map_err(|error| bad(error.to_string()))?;
+    let items: Result<Vec<PemItem<'static>>, _> = parse_pem(&bytes).collect();
+    let items = items.map_err(|error| bad(error.to_string()))?;
+    let certificate = |item| match item {
+        PemItem::Certificate(certificate) => Some(certificate),
+        _ => None,
+    };
+    let certificates: Vec<_> = items.into_iter().filter_map(certificate).collect();
+    if certificates.is_empty() {
+        return Err(bad("there is no certificate in it".to_owned()));
+    }
+    Ok(certificates)
+}
+
 /// Sends requests, each write with a key of its own, so that it can be sent again.
 struct Client {
     url: String,
@@ -147,20 +168,25 @@ struct Client {
 }
 
 impl Client {
-    fn new(operation: &Operation) -> Self {
+    fn new(operation: &Operation) -> Result<Self, Error> {
+        let mut tls = TlsConfig::builder();
+        if let Some(file) = &operation.trusted {
+            tls = tls.root_certs(RootCerts::new_with_certs(&trusted(file)?));
+        }
         let config = ureq::Agent::config_builder()
+            .tls_config(tls.build())
             .http_status_as_error(false)
             .timeout_global(Some(Duration::from_mins(1)))
             .build();
         let run = std::hash::BuildHasher::hash_one(&std::hash::RandomState::new(), 0_u8);
-        Self {
+        Ok(Self {
             url: operation.url.trim_end_matches('/').to_owned(),
             agent: config.into(),
             run: format!("operate-{run:016x}"),
             sent: 0,
             sent_again: 0,
             bearer: operation.token.as_ref().map(|token| format!("Bearer {token}")),
-        }
+        })
     }
 
     /// Sends everything that becomes known up to a time.

@@ -8,6 +8,7 @@ use vertifleet_core::{Aircraft, Scenario, TypeIx, VertiportIx};
 use vertifleet_sim::{DayTotals, TraceRow};
 use vertifleet_study::ResolvedPolicy;
 
+use crate::api::Totals;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::event::Ids;
@@ -25,7 +26,7 @@ pub(crate) struct Outlook {
     /// Profit so far, dollars: of the flights that have been sent off, less what the fleet costs all day.
     pub(crate) profit_so_far_usd: f64,
     /// The numbers of the whole day as it is expected to end.
-    #[schema(value_type = Object)]
+    #[schema(value_type = Totals)]
     pub(crate) totals: DayTotals,
     /// Every flight and hold of the day, in the order of decisions: those that were taken, then those that are expected.
     pub(crate) legs: Vec<Leg>,

@@ -31,7 +31,7 @@ pub(crate) struct PolicyInfo {
     pub(crate) weights_sha256: Option<String>,
     /// The network on whose days uploaded weights were trained.
     pub(crate) trained_on: Option<String>,
-    /// Number of vertiports that uploaded weights fit; absent if any number.
+    /// Number of vertiports that uploaded weights fit; null if any number.
     pub(crate) vertiports: Option<usize>,
 }
 
@@ -88,7 +88,12 @@ impl Policies {
         if spec.replayed().is_some() {
             return Err(Error::not_found("policy", name));
         }
-        let model = if spec.is_own() { self.model(name).await? } else { None };
+        let model = if spec.is_own() {
+            let found = self.model(name).await?;
+            Some(found.ok_or_else(|| Error::not_found("policy", name))?)
+        } else {
+            None
+        };
         let source = model.map(PolicySource::Model);
         let resolved = spec.resolve(source.as_ref(), ResolveFor::Day(day), day.seed)?;
         resolved.check_fits(day)?;
@@ -156,7 +161,8 @@ impl Policies {
     ) -> Result<PolicyInfo, Error> {
         check_name(name)?;
         let info = validate(name, weights)?;
-        if self.store.policies().await?.len() >= MOST {
+        let known = self.store.policies().await?;
+        if known.len() >= MOST && !known.iter().any(|known| known.name == name) {
             return Err(Error::TooMuch { what: "policies", most: MOST as u64 });
         }
         let sha256 = info.weights_sha256.clone().unwrap_or_default();

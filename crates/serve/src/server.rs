@@ -2,16 +2,18 @@
 
 use std::fs::{File, TryLockError};
 use std::net::SocketAddr;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use tokio::net::TcpListener;
 use tokio::sync::watch;
 use vertifleet_core::Stop;
 
 use crate::api::router;
+use crate::connections::{acceptor, listen, take};
 use crate::days::Days;
 use crate::error::Error;
+use crate::limits::Limits;
 use crate::service::Service;
 use crate::store::{Location, Store};
 
@@ -27,15 +29,34 @@ pub struct Settings {
     pub listen: SocketAddr,
     /// Where its data lies.
     pub location: Location,
-    /// Whether a proxy that speaks TLS stands before it.
-    pub behind_proxy: bool,
+    /// What keeps others from listening in.
+    pub protection: Protection,
+    /// What it takes at most.
+    pub limits: Limits,
+}
+
+/// What keeps others from listening in on what is said.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Protection {
+    /// Nothing, which will do on this machine alone.
+    None,
+    /// A proxy that speaks TLS stands before the service.
+    Proxy,
+    /// The service speaks TLS itself.
+    Tls {
+        /// The certificate with its chain, a PEM file.
+        certificate: PathBuf,
+        /// The key, a PEM file.
+        key: PathBuf,
+    },
 }
 
 /// Runs the service until it is asked to stop. `ready` is called with the address once it listens. Requests that are
 /// being carried out are finished first.
 ///
 /// # Errors
-/// Returns [`Error::CannotListen`] if the address cannot be used, and the errors of the store.
+/// Returns [`Error::CannotListen`] if the address cannot be used, [`Error::Unprotected`] if others can reach it and
+/// nothing protects it, [`Error::BadCertificate`], and the errors of the store.
 pub fn serve(
     settings: &Settings,
     ready: impl FnOnce(SocketAddr),
@@ -46,27 +67,36 @@ pub fn serve(
         .build()
         .map_err(|cause| Error::Store { cause: cause.to_string() })?;
     let outcome = runtime.block_on(async {
+        let tls = match &settings.protection {
+            Protection::Tls { certificate, key } => Some(acceptor(certificate, key)?),
+            Protection::None | Protection::Proxy => None,
+        };
         let store = Store::open(&settings.location).await?;
+        let closing = store.clone();
         // Held until the service stops. The operating system lets go of it even if the service is killed.
         let _lock = lock(&settings.location)?;
-        let service = Arc::new(Service::new(Days::new(store)).await?);
+        let service = Arc::new(
+            Service::new(Days::new(store, settings.limits.events), settings.limits).await?,
+        );
         check_protection(settings, &service).await?;
         let cannot = |cause| Error::CannotListen { address: settings.listen.to_string(), cause };
-        let listener = TcpListener::bind(settings.listen).await.map_err(cannot)?;
+        let listener = listen(settings.listen).map_err(cannot)?;
         ready(listener.local_addr().map_err(cannot)?);
         let stopping = service.stopping.clone();
         tokio::spawn(pass_on(stop.clone(), stopping.clone()));
-        let mut heard = stopping.subscribe();
-        let stopped = async move { drop(heard.wait_for(|&stops| stops).await) };
-        let serving = axum::serve(listener, router(service)).with_graceful_shutdown(stopped);
+        let router = router(service);
+        let serving = take(listener, router, tls, settings.limits, stopping.subscribe());
         let mut heard = stopping.subscribe();
         tokio::select! {
-            ended = serving.into_future() => ended.map_err(cannot),
+            () = serving => {}
             () = async {
                 drop(heard.wait_for(|&stops| stops).await);
                 tokio::time::sleep(PATIENCE).await;
-            } => Ok(()),
+            } => {}
         }
+        // Nobody may be answered any more, and what waits to be stored has been or never will be.
+        let _ = tokio::time::timeout(PATIENCE, closing.close()).await;
+        Ok(())
     });
     // A policy that still thinks is not waited for.
     runtime.shutdown_timeout(LOOK);
@@ -85,14 +115,14 @@ fn lock(location: &Location) -> Result<Option<File>, Error> {
     }
 }
 
-/// Refuses an address that others can reach, unless a proxy encrypts what they say and tokens tell who they are.
+/// Refuses an address that others can reach, unless what they say is encrypted and tokens tell who they are.
 async fn check_protection(settings: &Settings, service: &Service) -> Result<(), Error> {
     if settings.listen.ip().is_loopback() {
         return Ok(());
     }
     let unprotected =
         |missing| Error::Unprotected { address: settings.listen.to_string(), missing };
-    if !settings.behind_proxy {
+    if settings.protection == Protection::None {
         return Err(unprotected("what is said there is not encrypted"));
     }
     if !service.access.is_guarded().await? {

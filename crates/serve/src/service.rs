@@ -11,8 +11,13 @@ use crate::api::Sender;
 use crate::days::{Days, Idempotency, Writer};
 use crate::error::Error;
 use crate::keys::Keys;
+use crate::limits::Limits;
 use crate::policies::Policies;
 
+/// The longest message about a body that cannot be read.
+const LONGEST_RULE: usize = 400;
+/// Large bodies that are read at once.
+const UPLOADS: usize = 4;
 /// The longest key of a request.
 const LONGEST_KEY: usize = 128;
 
@@ -27,6 +32,10 @@ pub(crate) struct Service {
     pub(crate) access: Access,
     /// Whether the service is about to stop, so that streams end.
     pub(crate) stopping: watch::Sender<bool>,
+    /// What it takes at most.
+    pub(crate) limits: Limits,
+    /// Turns for large bodies, which take memory while they are read.
+    pub(crate) uploads: Semaphore,
     keys: Arc<Keys>,
     /// Turns for long computations.
     turns: Arc<Semaphore>,
@@ -45,15 +54,16 @@ impl Service {
     ///
     /// # Errors
     /// Returns [`Error::Store`] if the store cannot be read.
-    pub(crate) async fn new(days: Days) -> Result<Self, Error> {
+    pub(crate) async fn new(days: Days, limits: Limits) -> Result<Self, Error> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let stopping = watch::Sender::new(false);
-        let access = Access::new(days.store().clone());
+        let access = Access::new(days.store().clone(), limits.requests_per_s);
         let policies = Policies::new(days.store().clone());
         let used = days.store().keys().await?;
         let keys = Keys::new(used.as_deref());
         let turns = Arc::new(Semaphore::new(cores));
-        Ok(Self { days, policies, access, stopping, keys, turns })
+        let uploads = Semaphore::new(UPLOADS);
+        Ok(Self { days, policies, access, stopping, limits, uploads, keys, turns })
     }
 
     /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.
@@ -68,15 +78,17 @@ impl Service {
             let rule = format!("Idempotency-Key must have 1 to {LONGEST_KEY} characters");
             return Err(Error::BadRequest { rule });
         }
-        let (busy, may_be_known) = self.keys.take(key)?;
+        // Each token has keys of its own.
+        let own = if actor.is_empty() { key.to_owned() } else { format!("{key} of {actor}") };
+        let (busy, may_be_known) = self.keys.take(&own)?;
         let request = sum(path, body);
-        if may_be_known && let Some(known) = self.days.store().answer(key).await? {
+        if may_be_known && let Some(known) = self.days.store().answer(&own).await? {
             if known.request != request {
                 return Err(Error::KeyReused { key: key.to_owned() });
             }
             return Ok(Write::Done(known.answer));
         }
-        writer.idempotency = Some(Idempotency { key: key.to_owned(), request });
+        writer.idempotency = Some(Idempotency { key: own, request });
         writer.busy = Some(Arc::new(busy));
         Ok(Write::New(writer))
     }
@@ -127,7 +139,13 @@ fn sum(path: &str, body: &[u8]) -> String {
 /// Reads the JSON of a request. No body at all is the empty object.
 pub(crate) fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, Error> {
     let body = if body.is_empty() { b"{}".as_slice() } else { body };
-    // What a format calls a field is a member here.
-    let rule = |error: serde_json::Error| error.to_string().replace(" field ", " member ");
-    serde_json::from_slice(body).map_err(|error| Error::BadRequest { rule: rule(error) })
+    serde_json::from_slice(body).map_err(|error| {
+        // What a format calls a field is a member here. A message may quote what was sent, which may be long.
+        let text = error.to_string().replace(" field ", " member ");
+        let mut rule: String = text.chars().take(LONGEST_RULE).collect();
+        if rule.len() < text.len() {
+            rule.push_str("...");
+        }
+        Error::BadRequest { rule }
+    })
 }

@@ -8,13 +8,18 @@ mod tokens;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 use sqlx::any::{AnyPoolOptions, AnyRow, install_default_drivers};
-use sqlx::{AnyPool, AssertSqlSafe, Executor as _, Row as _, query, query_scalar};
+use sqlx::{
+    AnyConnection, AnyPool, AssertSqlSafe, Connection as _, Executor as _, Row as _, query,
+    query_scalar,
+};
+use tokio::time::sleep;
 
 pub(crate) use self::library::{StoredNetwork, StoredPolicy};
+pub use self::tokens::AuditRecord;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 
@@ -22,6 +27,8 @@ use crate::error::Error;
 pub(crate) const DATABASE: &str = "vertifleet.db";
 /// A store that does not answer for so long has failed.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// Between two tries to reach a server.
+const PAUSE: Duration = Duration::from_millis(100);
 /// Rows that are read at once.
 pub(crate) const PAGE: u32 = 10_000;
 /// The version of the tables. A store of a newer version is refused.
@@ -50,6 +57,9 @@ const TABLES: [&str; 8] = [
     "CREATE TABLE IF NOT EXISTS policies (
         name TEXT PRIMARY KEY, weights BYTEA NOT NULL, sha256 TEXT NOT NULL, created_ms BIGINT NOT NULL)",
 ];
+
+/// The lock of PostgreSQL under which tables are made: the letters of `fleet`.
+const LOCK: i64 = 0x66_6c65_6574;
 
 /// What a store of version 1 lacks.
 const SINCE_1: [&str; 2] = [
@@ -140,6 +150,33 @@ const SQLITE: &str =
     "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA busy_timeout = 5000;
     PRAGMA foreign_keys = ON";
 
+/// A first connection, which says what is wrong; a pool would try again and again, and only say that it took too long. A
+/// server may be about to start, so it has a while.
+async fn connect(url: &str, is_shared: bool) -> Result<AnyConnection, sqlx::Error> {
+    let begun = Instant::now();
+    loop {
+        match AnyConnection::connect(url).await {
+            Err(_) if is_shared && begun.elapsed() < PATIENCE => sleep(PAUSE).await,
+            outcome => return outcome,
+        }
+    }
+}
+
+/// Makes the tables, if there are none. Services that begin at the same time with an empty database wait for each other.
+async fn make_tables(database: &mut AnyConnection, is_shared: bool) -> Result<(), sqlx::Error> {
+    let mut transaction = database.begin().await?;
+    if is_shared {
+        query("SELECT 1 FROM (SELECT pg_advisory_xact_lock($1)) AS held")
+            .bind(LOCK)
+            .execute(&mut *transaction)
+            .await?;
+    }
+    for statement in TABLES {
+        query(statement).execute(&mut *transaction).await?;
+    }
+    transaction.commit().await
+}
+
 impl Store {
     /// Opens a store, and makes its tables if there are none.
     ///
@@ -147,10 +184,18 @@ impl Store {
     /// Returns [`Error::Store`] if the database cannot be reached, and [`Error::BadData`] if a newer program wrote it.
     pub(crate) async fn open(location: &Location) -> Result<Self, Error> {
         install_default_drivers();
-        let mut options = AnyPoolOptions::new().max_connections(8).acquire_timeout(PATIENCE);
+        // What fails in a transaction may leave a connection in a state that nobody wants: when a disk is full, SQLite ends
+        // the transaction by itself, and all that came after would be part of one that is never committed.
+        let mut options = AnyPoolOptions::new()
+            .max_connections(8)
+            .acquire_timeout(PATIENCE)
+            .before_acquire(|connection, _| {
+                let is_free = !connection.is_in_transaction();
+                Box::pin(async move { Ok(is_free) })
+            });
         let url = match location {
             Location::Folder(folder) => {
-                std::fs::create_dir_all(folder).map_err(|cause| Error::Store {
+                make_folder(folder).map_err(|cause| Error::Store {
                     cause: format!("{}: {cause}", folder.display()),
                 })?;
                 options = options.after_connect(|connection, _| {
@@ -161,12 +206,48 @@ impl Store {
             Location::Postgres(url) => url.clone(),
         };
         let is_shared = matches!(location, Location::Postgres(_));
-        let store = Self { pool: options.connect(&url).await?, is_shared };
-        for statement in TABLES {
-            store.pool.execute(statement).await?;
+        let mut first = connect(&url, is_shared).await.map_err(Error::of_opening)?;
+        if !is_shared {
+            first.execute(SQLITE).await.map_err(Error::of_opening)?;
         }
+        make_tables(&mut first, is_shared).await.map_err(Error::of_opening)?;
+        first.close().await?;
+        let store = Self { pool: options.connect(&url).await?, is_shared };
         store.check_version().await?;
         Ok(store)
+    }
+
+    /// Opens a store that must be there.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if it is not, and the errors of [`open`](Self::open).
+    pub(crate) async fn open_existing(location: &Location) -> Result<Self, Error> {
+        if let Location::Folder(folder) = location {
+            let file = folder.join(DATABASE);
+            let missing = || {
+                let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.clone());
+                let cause = format!("there is no data of a service in {}", folder.display());
+                Error::Store { cause }
+            };
+            if !file.exists() {
+                return Err(missing());
+            }
+            install_default_drivers();
+            let mut database =
+                AnyConnection::connect(&sqlite_url(&file)).await.map_err(Error::of_opening)?;
+            let select = "SELECT name FROM sqlite_master WHERE name = 'meta'";
+            let found = query(select).fetch_optional(&mut database).await;
+            database.close().await?;
+            if found.map_err(Error::of_opening)?.is_none() {
+                return Err(missing());
+            }
+        }
+        Self::open(location).await
+    }
+
+    /// Closes all connections. `SQLite` then moves its log into the database.
+    pub(crate) async fn close(&self) {
+        self.pool.close().await;
     }
 
     /// Whether other processes may use it too.
@@ -264,6 +345,12 @@ impl Store {
         .fetch_optional(&self.pool)
         .await?;
         row.map(|row| Ok((stored_day(&row)?, row.try_get("scenario")?))).transpose()
+    }
+
+    /// The number of days.
+    pub(crate) async fn number_of_days(&self) -> Result<u64, Error> {
+        let count: i64 = query_scalar("SELECT COUNT(*) FROM days").fetch_one(&self.pool).await?;
+        Ok(u64::try_from(count).unwrap_or_default())
     }
 
     /// Closes a day to writes.
@@ -370,6 +457,12 @@ impl Store {
         row.map(answer).transpose()
     }
 
+    /// Whether an event is stored just as it is here: what became of a commit that got no answer.
+    pub(crate) async fn has(&self, day: &str, event: &StoredEvent) -> Result<bool, Error> {
+        let found = self.events(day, event.seq - 1, 1).await?;
+        Ok(found.first() == Some(event))
+    }
+
     /// All keys that requests have used; `None` if other processes may use keys too.
     pub(crate) async fn keys(&self) -> Result<Option<Vec<String>>, Error> {
         if self.is_shared {
@@ -385,9 +478,15 @@ impl Store {
         Ok(())
     }
 
-    /// Asks the store for a sign of life.
+    /// Writes a trifle, to see whether the store takes what it is given.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if it does not.
     pub(crate) async fn check(&self) -> Result<(), Error> {
-        query("SELECT 1").execute(&self.pool).await?;
+        query("UPDATE meta SET value = $1 WHERE name = 'version'")
+            .bind(VERSION)
+            .execute(&self.pool)
+            .await?;
         Ok(())
     }
 }
@@ -435,6 +534,14 @@ fn rows(rows: usize, columns: usize) -> String {
         format!("({})", places.join(", "))
     };
     (0..rows).map(row).collect::<Vec<_>>().join(", ")
+}
+
+/// Makes a folder that its owner alone can read, unless it is there.
+fn make_folder(folder: &Path) -> std::io::Result<()> {
+    let mut builder = std::fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.recursive(true).create(folder)
 }
 
 fn sqlite_url(path: &Path) -> String {

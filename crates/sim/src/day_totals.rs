@@ -6,7 +6,7 @@ use crate::Ledger;
 
 /// The numbers of a finished day. `simulate --json`, the rows of `days.csv` and the columns in Python use the same
 /// names.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct DayTotals {
     /// Revenue less all costs (Eq. 5), dollars.
     pub profit_usd: f64,

@@ -5,7 +5,9 @@ use std::process::ExitCode;
 use anstream::eprintln;
 use tracing_subscriber::EnvFilter;
 use tracing_subscriber::filter::LevelFilter;
-use vertifleet_serve::{Contents, DayCheck, Keeper, Location, Settings, Tokens, restore, serve};
+use vertifleet_serve::{
+    Contents, DayCheck, Keeper, Limits, Location, Protection, Settings, Tokens, restore, serve,
+};
 
 use crate::args::{ServeAction, ServeArguments, TokenAction};
 use crate::failure::Failure;
@@ -29,22 +31,52 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
             eprintln!("copied {} to {}", place(arguments), file.display());
         }
         Some(ServeAction::Restore { file }) => {
+            if arguments.database.is_some() {
+                return Err(Failure::usage(
+                    "`restore` puts a copy back into a folder".to_owned(),
+                    "a PostgreSQL database is restored by its own programs, psql or pg_restore",
+                ));
+            }
             let Contents { days, events } = restore(file, &arguments.data)?;
             eprintln!("put {days} days with {events} events back into {}", place(arguments));
+        }
+        Some(ServeAction::Audit) => {
+            for record in Keeper::open(&location)?.audit()? {
+                print(&serde_json::to_string(&record).expect("plain data can be written"))?;
+            }
         }
         Some(ServeAction::Export { day }) => print(&Keeper::open(&location)?.export(day)?)?,
         None => {
             let stop = stop_on_interrupt()?;
             log_to_stderr();
-            let ServeArguments { listen, behind_proxy, .. } = *arguments;
-            let settings = Settings { listen, location, behind_proxy };
+            let protection = protection(arguments);
+            let scheme = match protection {
+                Protection::Tls { .. } => "https",
+                Protection::None | Protection::Proxy => "http",
+            };
+            let (listen, limits) = (arguments.listen, Limits::default());
+            let settings = Settings { listen, location, protection, limits };
             let listens = |address| {
-                eprintln!("listening on http://{address}, with the data in {}", place(arguments));
+                eprintln!(
+                    "listening on {scheme}://{address}, with the data in {}",
+                    place(arguments)
+                );
             };
             serve(&settings, listens, &stop)?;
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// What keeps others from listening in.
+fn protection(arguments: &ServeArguments) -> Protection {
+    match (&arguments.certificate, &arguments.key) {
+        (Some(certificate), Some(key)) => {
+            Protection::Tls { certificate: certificate.clone(), key: key.clone() }
+        }
+        _ if arguments.behind_proxy => Protection::Proxy,
+        _ => Protection::None,
+    }
 }
 
 /// Where the data lies, for people.
@@ -58,13 +90,16 @@ fn place(arguments: &ServeArguments) -> String {
 /// Prints what is found about each day. The exit code is 1 if something is damaged.
 fn verify(keeper: &Keeper) -> Result<ExitCode, Failure> {
     let mut is_sound = true;
-    let mut lines = Vec::new();
+    let mut printed = Ok(());
     keeper.verify(|DayCheck { day, events, finding }| {
         is_sound &= finding.is_none();
         let finding = finding.unwrap_or_else(|| "sound".to_owned());
-        lines.push(format!("{day}: {events} events, {finding}"));
+        let line = print(&format!("{day}: {events} events, {finding}"));
+        if printed.is_ok() {
+            printed = line;
+        }
     })?;
-    print(&lines.join("\n"))?;
+    printed?;
     Ok(if is_sound { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use axum::extract::State;
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
@@ -13,8 +13,9 @@ use vertifleet_core::{DaySeed, Matrix, Scenario, VertiportIx};
 use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::{LiveDay, Phase};
 
-use super::extract::{Asked, Body, Named, Sender};
-use super::{Times, at_event, json, written};
+use super::answer::{Times, again, at_event, json, written};
+use super::extract::{Asked, Named, Sender, Upload};
+use crate::api::Totals;
 use crate::calendar::Calendar;
 use crate::days::{DayCell, now_ms};
 use crate::dispatch_day::DispatchDay;
@@ -26,7 +27,7 @@ use crate::service::{Service, Write, parse};
 use crate::store::StoredDay;
 
 /// The policy that decides on a day if none is named.
-const DEFAULT_POLICY: &str = "gcaps-x";
+pub(super) const DEFAULT_POLICY: &str = "gcaps-x";
 
 /// A day to be made: from a network, or from a scenario.
 #[derive(Debug, Deserialize, ToSchema)]
@@ -130,7 +131,7 @@ pub(crate) struct DayState {
     /// Every vertiport.
     vertiports: Vec<VertiportState>,
     /// The account so far.
-    #[schema(value_type = Object)]
+    #[schema(value_type = Totals)]
     totals: DayTotals,
     /// What people should look at.
     notices: Vec<NoticeState>,
@@ -142,6 +143,7 @@ pub(crate) struct AircraftState {
     /// Its id.
     id: String,
     /// `standing`, `sent_off` or `in_the_air`.
+    #[schema(value_type = PhaseName)]
     phase: &'static str,
     /// The vertiport where it stands or will land.
     place: String,
@@ -157,6 +159,19 @@ pub(crate) struct AircraftState {
     out_until: Option<Moment>,
     /// The flight that it has been sent off on, until it has landed.
     flight: Option<FlightState>,
+}
+
+/// What an aircraft does.
+#[derive(ToSchema)]
+#[schema(rename_all = "snake_case")]
+#[expect(dead_code, reason = "it stands for the values of a text in the description")]
+pub(crate) enum PhaseName {
+    /// It stands at its vertiport and charges, is ready or holds.
+    Standing,
+    /// It has been sent off and has not departed.
+    SentOff,
+    /// It is in the air.
+    InTheAir,
 }
 
 /// A flight that has not landed.
@@ -197,7 +212,7 @@ pub(crate) struct VertiportState {
 /// Something that people should look at.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct NoticeState {
-    /// The event that it came with; absent if it holds now, whatever it came from.
+    /// The event that it came with; null if it holds now, whatever it came from.
     seq: Option<u64>,
     /// What it is.
     text: String,
@@ -233,10 +248,10 @@ pub(super) async fn list(
 pub(super) async fn create(
     State(service): State<Arc<Service>>,
     sender: Sender,
-    Body(body): Body,
+    Upload(body): Upload,
 ) -> Result<Response, Error> {
     let writer = match service.write(&sender, &body).await? {
-        Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
+        Write::Done(answer) => return Ok(again(answer)),
         Write::New(writer) => writer,
     };
     let asked: NewDay = parse(&body)?;
@@ -254,11 +269,19 @@ pub(super) async fn create(
         time_zone,
     };
     let info = DayInfo::of(&stored, Some(0));
+    let most = service.limits.days;
+    if service.days.store().number_of_days().await? >= most {
+        return Err(Error::TooMuch { what: "days", most });
+    }
     let (actor, id, _busy) = (writer.actor, stored.id.clone(), writer.busy);
     let answer = writer.idempotency.map(|asked| asked.answered_with(&info));
     service.days.add(stored, scenario, answer.as_ref()).await?;
     service.days.store().record(&actor, "day made", &id, now_ms()).await?;
-    Ok(at_event(StatusCode::CREATED, 0, &info))
+    let mut answer = at_event(StatusCode::CREATED, 0, &info);
+    let place = format!("/v1/days/{id}");
+    let place = HeaderValue::from_str(&place).expect("an id has digits and letters");
+    answer.headers_mut().insert(header::LOCATION, place);
+    Ok(answer)
 }
 
 /// The longest name of a day.

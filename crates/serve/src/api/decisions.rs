@@ -9,8 +9,8 @@ use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
+use super::answer::{Times, again, at_event};
 use super::extract::{Asked, Body, Named, Sender};
-use super::{Times, at_event, written};
 use crate::days::{DayCell, Writer};
 use crate::decide::Proposal;
 use crate::error::Error;
@@ -75,7 +75,7 @@ pub(crate) struct TakenDecision {
     seq: u64,
     /// Where the aircraft flies; its own vertiport means hold.
     to: String,
-    /// What the policy proposed, with its reasons; absent if a person chose without asking one.
+    /// What the policy proposed, with its reasons; null if a person chose.
     proposal: Option<Proposal>,
 }
 
@@ -116,7 +116,7 @@ pub(super) async fn decide(
     Body(body): Body,
 ) -> Result<Response, Error> {
     let writer = match service.write(&sender, &body).await? {
-        Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
+        Write::Done(answer) => return Ok(again(answer)),
         Write::New(writer) => writer,
     };
     let day = service.days.get(&day).await?;

@@ -7,7 +7,8 @@ use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement
 use utoipa::openapi::{ContentBuilder, Ref, RefOr, ResponseBuilder};
 use utoipa::{Modify, OpenApi, openapi as description};
 
-use super::{days, decisions, events, networks, outlooks, policies, stream};
+use super::answer::Times;
+use super::{days, decisions, events, networks, outlooks, policies, service, stream};
 use crate::problem::Problem;
 
 /// The description of the API.
@@ -19,9 +20,9 @@ use crate::problem::Problem;
         license(name = "MIT OR Apache-2.0")
     ),
     modifiers(&Everywhere),
-    components(schemas(Problem)),
+    components(schemas(Problem, Times)),
     paths(
-        healthz, readyz, metrics, openapi_json, days::list, days::create, days::read, days::archive, days::delete, days::state,
+        service::info, service::healthz, service::readyz, service::metrics, service::described, days::list, days::create, days::read, days::archive, days::delete, days::state,
         days::scenario, days::trace, events::list, events::append, decisions::propose, decisions::decide,
         outlooks::outlook, outlooks::what_if, stream::stream, networks::list, networks::read,
         networks::put, networks::delete, networks::validate, policies::list, policies::read,
@@ -92,6 +93,13 @@ fn complete(operation: &mut Operation) {
         .content("application/problem+json", problem)
         .build();
     operation.responses.responses.insert("default".to_owned(), RefOr::T(default));
+    for response in operation.responses.responses.values_mut() {
+        if let RefOr::T(response) = response
+            && response.description.is_empty()
+        {
+            "As it was asked".clone_into(&mut response.description);
+        }
+    }
     let id = operation.operation_id.clone().unwrap_or_default();
     let is = |list: &[&str]| list.contains(&id.as_str());
     let text = || ObjectBuilder::new().schema_type(Type::String);
@@ -141,23 +149,3 @@ fn add_header(operation: &mut Operation, name: &str, about: &str, schema: Object
         .build();
     operation.parameters.get_or_insert_default().push(parameter.into());
 }
-
-/// Whether the service runs. It needs no token.
-#[utoipa::path(operation_id = "healthz", get, path = "/healthz", tag = "service", responses((status = 200, content_type = "text/plain", body = String)))]
-#[expect(dead_code, reason = "it stands for a path that is answered where paths are routed")]
-fn healthz() {}
-
-/// Whether the store of the service answers. It needs no token.
-#[utoipa::path(operation_id = "readyz", get, path = "/readyz", tag = "service", responses((status = 200, content_type = "text/plain", body = String)))]
-#[expect(dead_code, reason = "it stands for a path that is answered where paths are routed")]
-fn readyz() {}
-
-/// What the service measures about itself, for Prometheus.
-#[utoipa::path(operation_id = "metrics", get, path = "/metrics", tag = "service", responses((status = 200, content_type = "application/openmetrics-text", body = String)))]
-#[expect(dead_code, reason = "it stands for a path that is answered where paths are routed")]
-fn metrics() {}
-
-/// This description.
-#[utoipa::path(operation_id = "openapi", get, path = "/openapi.json", tag = "service", responses((status = 200, body = Object)))]
-#[expect(dead_code, reason = "it stands for a path that is answered where paths are routed")]
-fn openapi_json() {}

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 
+use super::answer::{Times, again, at_event, json};
 use super::extract::{Asked, Body, Named, Sender};
-use super::{Times, at_event, json, written};
 use crate::days::Appended;
 use crate::error::Error;
 use crate::event::Event;
@@ -35,9 +35,22 @@ impl OneOrMore {
     /// Reads a body. Which of the two it is shows in its first character, so that a message names what is wrong inside.
     fn parse(body: &[u8]) -> Result<Self, Error> {
         match body.iter().find(|byte| !byte.is_ascii_whitespace()) {
-            Some(b'[') => parse(body).map(Self::More),
+            Some(b'[') => Self::several(body).map(Self::More),
             _ => parse(body).map(Self::One),
         }
+    }
+
+    fn several(body: &[u8]) -> Result<Vec<Event>, Error> {
+        let raw: Vec<Box<RawValue>> = parse(body)?;
+        let of = raw.len();
+        if of as u64 > MOST_EVENTS {
+            return Err(too_many());
+        }
+        let read = |(at, event): (usize, Box<RawValue>)| {
+            let event = parse(event.get().as_bytes());
+            event.map_err(|cause| Error::InList { number: at + 1, of, cause: Box::new(cause) })
+        };
+        raw.into_iter().enumerate().map(read).collect()
     }
 
     fn events(self) -> Vec<Event> {
@@ -46,6 +59,10 @@ impl OneOrMore {
             Self::One(event) => vec![event],
         }
     }
+}
+
+fn too_many() -> Error {
+    Error::BadRequest { rule: format!("1 to {MOST_EVENTS} events are taken at once") }
 }
 
 /// What came of events.
@@ -147,15 +164,13 @@ pub(super) async fn append(
     Body(body): Body,
 ) -> Result<Response, Error> {
     let writer = match service.write(&sender, &body).await? {
-        Write::Done(answer) => return Ok(written(StatusCode::CREATED, answer)),
+        Write::Done(answer) => return Ok(again(answer)),
         Write::New(writer) => writer,
     };
     let day = service.days.get(&day).await?;
     let events = by_calendar(day.calendar(), || OneOrMore::parse(&body))?.events();
-    if events.is_empty() || events.len() as u64 > MOST_EVENTS {
-        return Err(Error::BadRequest {
-            rule: format!("1 to {MOST_EVENTS} events are taken at once"),
-        });
+    if events.is_empty() {
+        return Err(too_many());
     }
     let taken = service.days.append(&day, writer, events, Taken::of).await?;
     Ok(at_event(StatusCode::CREATED, taken.seq, &taken))
@@ -170,6 +185,7 @@ pub(super) async fn list(
 ) -> Result<Response, Error> {
     let limit = limit.unwrap_or(1_000).clamp(1, 10_000);
     let day = service.days.get(&day).await?;
+    day.check_begun(after)?;
     let stored = service.days.store().events(day.id(), after, limit).await?;
     let next = (stored.len() == limit as usize).then(|| stored[stored.len() - 1].seq);
     times.of(&day, || {

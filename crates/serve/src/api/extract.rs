@@ -1,16 +1,19 @@
 //! The parts of a request, with the service's own errors where they cannot be read.
 
 use std::convert::Infallible;
+use std::sync::Arc;
 
-use axum::body::Bytes;
-use axum::extract::rejection::{BytesRejection, PathRejection, QueryRejection};
+use axum::body::{Bytes, HttpBody as _};
+use axum::extract::rejection::{PathRejection, QueryRejection};
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
+use axum::http::HeaderMap;
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, StatusCode};
+use http_body_util::{BodyExt as _, LengthLimitError, Limited};
 use serde::de::DeserializeOwned;
 
 use crate::access::Actor;
 use crate::error::Error;
+use crate::service::Service;
 
 /// What stands after the question mark.
 pub(super) struct Asked<T>(pub(super) T);
@@ -56,19 +59,49 @@ impl<S: Send + Sync> FromRequestParts<S> for Sender {
     }
 }
 
+/// The longest body of most requests.
+const LONGEST_BODY: usize = 4 << 20;
+/// The longest body of a request that brings a scenario, a network or weights.
+const LONGEST_UPLOAD: usize = 64 << 20;
+
 /// The body.
 pub(super) struct Body(pub(super) Bytes);
+
+/// A body that may be large: a scenario, a network or weights. Few of them are read at once.
+pub(super) struct Upload(pub(super) Bytes);
 
 impl<S: Send + Sync> FromRequest<S> for Body {
     type Rejection = Error;
 
-    async fn from_request(request: Request, state: &S) -> Result<Self, Error> {
-        let wrong = |error: BytesRejection| match error.status() {
-            StatusCode::PAYLOAD_TOO_LARGE => {
-                Error::TooMuch { what: "bytes in a body", most: super::LONGEST_BODY as u64 }
-            }
-            _ => Error::BadRequest { rule: error.body_text() },
-        };
-        Bytes::from_request(request, state).await.map(Self).map_err(wrong)
+    async fn from_request(request: Request, _: &S) -> Result<Self, Error> {
+        read(request, LONGEST_BODY).await.map(Self)
     }
+}
+
+impl FromRequest<Arc<Service>> for Upload {
+    type Rejection = Error;
+
+    async fn from_request(request: Request, service: &Arc<Service>) -> Result<Self, Error> {
+        let _turn = match request.body().size_hint().upper() {
+            Some(bytes) if bytes <= LONGEST_BODY as u64 => None,
+            _ => Some(service.uploads.acquire().await.expect("it is never closed")),
+        };
+        read(request, LONGEST_UPLOAD).await.map(Self)
+    }
+}
+
+async fn read(request: Request, most: usize) -> Result<Bytes, Error> {
+    let too_long = || Error::TooMuch { what: "bytes in such a body", most: most as u64 };
+    if request.body().size_hint().lower() > most as u64 {
+        return Err(too_long());
+    }
+    let body = Limited::new(request.into_body(), most).collect().await;
+    let wrong = |error: Box<dyn std::error::Error + Send + Sync>| {
+        if error.is::<LengthLimitError>() {
+            too_long()
+        } else {
+            Error::BadRequest { rule: format!("its body cannot be read: {error}") }
+        }
+    };
+    Ok(body.map_err(wrong)?.to_bytes())
 }

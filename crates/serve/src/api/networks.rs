@@ -8,8 +8,8 @@ use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::extract::{Body, Named, Sender};
-use super::json;
+use super::answer::json;
+use super::extract::{Named, Sender, Upload};
 use crate::days::now_ms;
 use crate::error::Error;
 use crate::networks::{self, NetworkInfo};
@@ -54,7 +54,7 @@ pub(super) async fn put(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
     sender: Sender,
-    Body(body): Body,
+    Upload(body): Upload,
 ) -> Result<Response, Error> {
     let NewNetwork { toml } = parse(&body)?;
     let info = networks::put(service.days.store(), &name, toml, now_ms()).await?;
@@ -78,7 +78,7 @@ pub(super) async fn delete(
 
 /// Checks a network without keeping it.
 #[utoipa::path(operation_id = "validate_network", post, path = "/v1/networks/validate", tag = "networks", request_body = NewNetwork, responses((status = 200, body = NetworkInfo)))]
-pub(super) async fn validate(Body(body): Body) -> Result<Response, Error> {
+pub(super) async fn validate(Upload(body): Upload) -> Result<Response, Error> {
     let NewNetwork { toml } = parse(&body)?;
     Ok(json(StatusCode::OK, &NetworkInfo::of(&networks::check(&toml)?, false)))
 }

@@ -8,9 +8,9 @@ use axum::response::Response;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
+use super::answer::{Times, Written, at_event, json};
 use super::events::MOST_EVENTS;
 use super::extract::{Asked, Body, Named};
-use super::{Times, Written, at_event, json};
 use crate::days::DayCell;
 use crate::error::Error;
 use crate::moment::by_calendar;

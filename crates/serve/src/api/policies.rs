@@ -8,12 +8,18 @@ use axum::response::Response;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::extract::{Body, Named, Sender};
-use super::json;
+use super::answer::json;
+use super::extract::{Named, Sender, Upload};
 use crate::days::now_ms;
 use crate::error::Error;
 use crate::policies::{self, PolicyInfo};
 use crate::service::Service;
+
+/// The bytes of a weight file.
+#[derive(ToSchema)]
+#[schema(value_type = String, format = Binary)]
+#[expect(dead_code, reason = "it stands for a body in the description")]
+pub(crate) struct Weights(Vec<u8>);
 
 /// All policies.
 #[derive(Debug, Serialize, ToSchema)]
@@ -38,12 +44,12 @@ pub(super) async fn read(
 }
 
 /// Keeps the weights of a policy, the bytes of a weight file, under a name. The name means these weights for good.
-#[utoipa::path(operation_id = "put_policy", put, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path)), request_body(content = Vec<u8>, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
+#[utoipa::path(operation_id = "put_policy", put, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path)), request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
 pub(super) async fn put(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
     sender: Sender,
-    Body(weights): Body,
+    Upload(weights): Upload,
 ) -> Result<Response, Error> {
     let info = service.policies.put(&name, &weights, now_ms()).await?;
     service.days.store().record(&sender.actor, "policy uploaded", &name, now_ms()).await?;
@@ -65,7 +71,7 @@ pub(super) async fn delete(
 }
 
 /// Checks a weight file without keeping it.
-#[utoipa::path(operation_id = "validate_policy", post, path = "/v1/policies/validate", tag = "policies", request_body(content = Vec<u8>, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
-pub(super) async fn validate(Body(weights): Body) -> Result<Response, Error> {
+#[utoipa::path(operation_id = "validate_policy", post, path = "/v1/policies/validate", tag = "policies", request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
+pub(super) async fn validate(Upload(weights): Upload) -> Result<Response, Error> {
     Ok(json(StatusCode::OK, &policies::validate("validated", &weights)?))
 }

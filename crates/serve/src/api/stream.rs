@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use axum::extract::State;
 use axum::http::HeaderMap;
@@ -15,9 +15,10 @@ use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::watch;
 use utoipa::IntoParams;
 
-use super::Times;
+use super::answer::Times;
 use super::events::TakenEvent;
 use super::extract::{Asked, Named};
+use crate::access::Role;
 use crate::days::DayCell;
 use crate::error::Error;
 use crate::service::Service;
@@ -35,6 +36,9 @@ const LOOK: Duration = Duration::from_millis(250);
 pub(crate) struct From {
     /// Events after this number; `Last-Event-ID` goes before it.
     after: Option<u64>,
+    /// How times are written in the events.
+    #[serde(default)]
+    times: Times,
 }
 
 /// A reader of a day's events. It reads from the store what was there before it came and what it missed because it was
@@ -48,6 +52,10 @@ struct Reader {
     is_behind: bool,
     stopping: watch::Receiver<bool>,
     service: Arc<Service>,
+    /// What the reader came with, to see whether its token is still in force.
+    headers: HeaderMap,
+    looked: Instant,
+    times: Times,
 }
 
 /// The number of the event that a reader saw last.
@@ -65,7 +73,8 @@ impl Drop for Reader {
     }
 }
 
-/// Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on.
+/// Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on. A message of the type
+/// `behind` says in words that the reader was too slow; what it missed follows.
 #[utoipa::path(
     operation_id = "stream_events", get, path = "/v1/days/{day}/stream", tag = "events", params(("day" = String, Path), From),
     responses((status = 200, content_type = "text/event-stream", body = TakenEvent))
@@ -73,24 +82,36 @@ impl Drop for Reader {
 pub(super) async fn stream(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Asked(From { after }): Asked<From>,
+    Asked(From { after, times }): Asked<From>,
     headers: HeaderMap,
 ) -> Result<Response, Error> {
+    let most = service.limits.streams;
+    if service.days.metrics().streams.get() >= i64::try_from(most).unwrap_or(i64::MAX) {
+        return Err(Error::TooMuch { what: "streams", most: most as u64 });
+    }
     let day = service.days.get(&day).await?;
     let fresh = day.subscribe();
     let after = last_event(&headers)?.or(after).unwrap_or(0);
-    let seq = day.state().seq();
-    if after > seq {
-        let rule = format!(
-            "the day is at event {seq}, so nothing follows event {after}: read its state again"
-        );
-        return Err(Error::BadRequest { rule });
-    }
+    day.check_begun(after)?;
+    times.check(&day)?;
     let store = service.days.store().clone();
     let stopping = service.stopping.subscribe();
     let read = VecDeque::new();
     service.days.metrics().streams.inc();
-    let reader = Reader { day, store, fresh, after, read, is_behind: true, stopping, service };
+    let looked = Instant::now();
+    let reader = Reader {
+        day,
+        store,
+        fresh,
+        after,
+        read,
+        is_behind: true,
+        stopping,
+        service,
+        headers,
+        looked,
+        times,
+    };
     let events = futures_util::stream::unfold(reader, |mut reader| async {
         let event = reader.next().await?;
         Some((Ok::<_, Infallible>(event), reader))
@@ -102,6 +123,9 @@ impl Reader {
     /// The next event; `None` if the day can no longer be read.
     async fn next(&mut self) -> Option<sse::Event> {
         loop {
+            if self.looked.elapsed() >= LOOK {
+                self.look_around().await?;
+            }
             if let Some(event) = self.read.pop_front() {
                 return Some(self.shown(&event));
             }
@@ -116,10 +140,7 @@ impl Reader {
                 () = tokio::time::sleep(LOOK) => None,
                 _ = self.stopping.wait_for(|&stops| stops) => return None,
             };
-            let Some(fresh) = fresh else {
-                self.look_around().await?;
-                continue;
-            };
+            let Some(fresh) = fresh else { continue };
             match fresh {
                 Ok(event) if event.seq <= self.after => {}
                 Ok(event) if event.seq == self.after + 1 => return Some(self.shown(&event)),
@@ -135,9 +156,11 @@ impl Reader {
         }
     }
 
-    /// Reads what other services wrote. If the day in memory was thrown away, goes on with the one that took its place;
+    /// Sees whether the reader may still read, and whether other services wrote. If the day in memory was thrown away, goes on with the one that took its place;
     /// `None` if there is none.
     async fn look_around(&mut self) -> Option<()> {
+        self.looked = Instant::now();
+        self.service.access.may(&self.headers, Role::Read).await.ok()?;
         if self.day.is_spoilt() {
             self.day = self.service.days.get(self.day.id()).await.ok()?;
             self.fresh = self.day.subscribe();
@@ -149,8 +172,9 @@ impl Reader {
 
     fn shown(&mut self, event: &StoredEvent) -> sse::Event {
         self.after = event.seq;
-        let text = serde_json::to_string(&TakenEvent::of(event, Times::Clock))
-            .expect("plain data can be written");
+        let taken = || Ok(TakenEvent::of(event, self.times));
+        let taken = self.times.of(&self.day, taken).expect("times were checked");
+        let text = serde_json::to_string(&taken).expect("plain data can be written");
         sse::Event::default().id(event.seq.to_string()).data(text)
     }
 }

@@ -1,11 +1,25 @@
 //! Tokens in the store, as hashes, and the record of who did what beside the events of days.
 
+use serde::Serialize;
 use sqlx::any::AnyRow;
 use sqlx::{Row as _, query};
 
 use super::Store;
 use crate::access::{Role, StoredToken};
 use crate::error::Error;
+
+/// Something that was done beside the events of days.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct AuditRecord {
+    /// When, milliseconds of the Unix clock.
+    pub at_ms: i64,
+    /// The name of the token that it was done with; empty without tokens, and for what was done at the machine.
+    pub actor: String,
+    /// What was done, for example `day deleted`.
+    pub action: String,
+    /// The id or the name of what it was done to.
+    pub target: String,
+}
 
 impl Store {
     /// Adds a token.
@@ -29,6 +43,13 @@ impl Store {
         let select = "SELECT id, name, role, hash, created_ms, revoked_ms FROM tokens ORDER BY created_ms, id";
         let rows = query(select).fetch_all(self.pool()).await?;
         rows.iter().map(stored_token).collect()
+    }
+
+    /// Who did what beside the events of days, in its order.
+    pub(crate) async fn audit(&self) -> Result<Vec<AuditRecord>, Error> {
+        let select = "SELECT at_ms, actor, action, target FROM audit ORDER BY at_ms";
+        let rows = query(select).fetch_all(self.pool()).await?;
+        rows.iter().map(audit_record).collect()
     }
 
     /// Revokes a token. Returns whether there was such a token in force.
@@ -55,6 +76,15 @@ impl Store {
             .await?;
         Ok(())
     }
+}
+
+fn audit_record(row: &AnyRow) -> Result<AuditRecord, Error> {
+    Ok(AuditRecord {
+        at_ms: row.try_get("at_ms")?,
+        actor: row.try_get("actor")?,
+        action: row.try_get("action")?,
+        target: row.try_get("target")?,
+    })
 }
 
 fn stored_token(row: &AnyRow) -> Result<StoredToken, Error> {

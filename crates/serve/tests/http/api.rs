@@ -5,7 +5,7 @@ use std::io::{BufRead as _, BufReader};
 use serde_json::{Value, json};
 
 use vertifleet_core::{Coded as _, Stop};
-use vertifleet_serve::{Location, Role, Settings, Tokens};
+use vertifleet_serve::{Limits, Location, Protection, Role, Settings, Tokens};
 
 use crate::running::Running;
 
@@ -274,7 +274,7 @@ fn wrong_requests_are_answered_with_a_code() {
             "V601",
         ),
         ("POST", format!("{day}/events"), r#"{"type": "ready", "aircraft": "X"}"#, 422, "V603"),
-        ("GET", format!("{day}/aircraft/A01/decision?policy=none"), "", 400, "V307"),
+        ("GET", format!("{day}/aircraft/A01/decision?policy=none"), "", 404, "V602"),
         ("GET", format!("{day}/aircraft/A01/decision?deadline=1"), "", 400, "V601"),
         ("PUT", day.clone(), "", 405, "V616"),
     ];
@@ -357,18 +357,20 @@ fn a_folder_belongs_to_one_service() {
     let (folder, _service) = service();
     let listen = std::net::SocketAddr::from((std::net::Ipv4Addr::LOCALHOST, 0));
     let location = Location::Folder(folder.path().to_owned());
-    let settings = Settings { listen, location, behind_proxy: false };
+    let settings =
+        Settings { listen, location, protection: Protection::None, limits: Limits::default() };
     let second = vertifleet_serve::serve(&settings, |_| (), &Stop::default());
     assert_eq!(second.expect_err("the first one runs").code().to_string(), "V620");
 }
 
 #[test]
-fn an_address_of_others_needs_a_proxy_and_a_token() {
+fn an_address_of_others_needs_protection_and_a_token() {
     let folder = tempfile::tempdir().expect("a folder");
     let listen = std::net::SocketAddr::from((std::net::Ipv4Addr::UNSPECIFIED, 0));
     let location = Location::Folder(folder.path().to_owned());
-    for behind_proxy in [false, true] {
-        let settings = Settings { listen, location: location.clone(), behind_proxy };
+    for protection in [Protection::None, Protection::Proxy] {
+        let (location, limits) = (location.clone(), Limits::default());
+        let settings = Settings { listen, location, protection, limits };
         let refused = vertifleet_serve::serve(&settings, |_| (), &Stop::default());
         assert_eq!(refused.expect_err("there is no token").code().to_string(), "V619");
     }
@@ -428,5 +430,67 @@ fn a_stream_cannot_begin_after_what_there_is() {
     for id in ["7", "abc"] {
         let refused = service.send("GET", &format!("{day}/stream"), &[("last-event-id", id)], b"");
         assert_eq!((refused.status, text(&refused.json, "code")), (400, "V601"), "{id}");
+    }
+}
+
+#[test]
+fn an_answer_that_comes_again_has_its_headers_again() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let key = [("idempotency-key", "one")];
+    let body = br#"{"aircraft": "A01"}"#;
+    let path = format!("{day}/decisions");
+    let first = service.send("POST", &path, &key, body);
+    let again = service.send("POST", &path, &key, body);
+    assert_eq!((first.tag.as_str(), &first.json), ("\"1\"", &again.json));
+    assert_eq!(again.tag, first.tag);
+}
+
+#[test]
+fn each_token_has_keys_of_its_own_and_is_told_what_it_may_do() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = Location::Folder(folder.path().to_owned());
+    let tokens = Tokens::open(&location).expect("a store");
+    let token = |name: &str, role| format!("Bearer {}", tokens.make(name, role).expect("a token"));
+    let (one, two) = (token("one", Role::Dispatch), token("two", Role::Admin));
+    let service = Running::start_at(location);
+    let info = |bearer: &str| service.send("GET", "/v1", &[("authorization", bearer)], b"").json;
+    assert_eq!((text(&info(&one), "token"), text(&info(&one), "role")), ("one", "dispatch"));
+    assert_eq!(text(&info(&two), "role"), "admin");
+    let make = |bearer: &str, seed: u64| {
+        let body = json!({"network": "paper", "seed": seed}).to_string();
+        let headers = [("authorization", bearer), ("idempotency-key", "1")];
+        service.send("POST", "/v1/days", &headers, body.as_bytes())
+    };
+    assert_eq!((make(&one, 1).status, make(&two, 2).status), (201, 201));
+    assert_eq!(text(&make(&one, 2).json, "code"), "V609");
+}
+
+#[test]
+fn who_reads_on_after_an_event_that_was_not_is_told() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let beyond = service.get(&format!("{day}/events?after=1"));
+    assert_eq!((beyond.status, text(&beyond.json, "code")), (400, "V601"));
+    assert_eq!(service.get(&format!("{day}/events?after=0")).status, 200);
+}
+
+#[test]
+fn the_dashboard_and_the_alerts_ask_for_what_is_measured() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"}));
+    let measured = service.get("/metrics").json;
+    let measured = measured.as_str().expect("a text");
+    for file in ["grafana.json", "alerts.yml"] {
+        let path = format!("{}/../../packaging/service/{file}", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).expect("it is in the tree");
+        let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        let names: std::collections::BTreeSet<&str> =
+            words.filter(|word| word.starts_with("vertifleet_")).collect();
+        assert!(names.len() >= 2, "{file} asks for {names:?}");
+        for name in names {
+            assert!(measured.contains(name), "{file} asks for {name}, which is not measured");
+        }
     }
 }

@@ -206,7 +206,7 @@ fn a_policy_of_ones_own_decides() {
     assert_eq!(outlook["policy"], "ours-2026");
     assert_eq!(service.get("/v1/policies/ours-2026").json["vertiports"], Value::Null);
     assert_eq!(service.send("DELETE", "/v1/policies/ours-2026", &[], b"").status, 204);
-    assert_eq!(service.get(&format!("{day}/outlook")).status, 400);
+    assert_eq!(service.get(&format!("{day}/outlook")).status, 404);
 }
 
 #[test]

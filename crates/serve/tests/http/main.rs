@@ -6,4 +6,5 @@ mod malformed;
 mod operated_days;
 #[cfg(unix)]
 mod postgres;
+mod protected;
 mod running;

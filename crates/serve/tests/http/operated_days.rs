@@ -25,7 +25,8 @@ pub(crate) fn simulated(day: &Arc<Scenario>, policy: &str) -> DayTotals {
 
 pub(crate) fn operated(service: &Running, day: &Arc<Scenario>, policy: &str) -> OperationReport {
     let (url, policy) = (service.url.clone(), policy.to_owned());
-    let operation = Operation { url, day: Arc::clone(day), policy, token: None, speed: None };
+    let day = Arc::clone(day);
+    let operation = Operation { url, day, policy, token: None, trusted: None, speed: None };
     let report = operate(&operation, &Stop::default(), |_, _| ()).expect("the service answers");
     report.expect("nobody stops it")
 }

@@ -1,9 +1,11 @@
 //! Two services that share a `PostgreSQL` database, which Debian's packages bring (`scripts/database`).
 
+use std::collections::BTreeSet;
 use std::net::TcpListener;
 use std::os::unix::fs::{PermissionsExt as _, chown};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -16,6 +18,7 @@ use crate::running::Running;
 /// A database server of its own, on a port of its own.
 struct Postgres {
     folder: tempfile::TempDir,
+    port: u16,
     server: Child,
     location: Location,
 }
@@ -71,33 +74,78 @@ impl Postgres {
             .and_then(|socket| socket.local_addr())
             .expect("a port")
             .port();
-        let server = command("postgres")
-            .arg("-D")
-            .arg(folder.path())
-            .arg("-k")
-            .arg(folder.path())
-            .args(["-p", &port.to_string(), "-c", "listen_addresses=127.0.0.1"])
-            .current_dir("/")
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("it starts");
         let url = format!("postgres://postgres@127.0.0.1:{port}/postgres");
-        let begun = Instant::now();
-        while std::net::TcpStream::connect(("127.0.0.1", port)).is_err() {
-            assert!(begun.elapsed() < Duration::from_secs(20), "PostgreSQL starts");
-            thread::sleep(Duration::from_millis(50));
-        }
-        Self { folder, server, location: Location::Postgres(url) }
+        let server = serve(folder.path(), port);
+        Self { folder, port, server, location: Location::Postgres(url) }
     }
+
+    /// Ends the server as a crash would: what was not committed is lost.
+    fn crash(&mut self) {
+        self.signal("-QUIT");
+        let _ = self.server.wait();
+    }
+
+    /// Starts the server again.
+    fn resume(&mut self) {
+        self.server = serve(self.folder.path(), self.port);
+    }
+
+    /// The first line of the file is the process that the server runs in, which is not the one that was started if another
+    /// user runs it.
+    fn signal(&self, signal: &str) {
+        let pid = std::fs::read_to_string(self.folder.path().join("postmaster.pid"));
+        let pid = pid.unwrap_or_default().lines().next().unwrap_or_default().to_owned();
+        let _ = Command::new("kill").args([signal, &pid]).status();
+    }
+}
+
+/// Runs the server on a port, and returns when it listens.
+fn serve(folder: &Path, port: u16) -> Child {
+    let server = command("postgres")
+        .arg("-D")
+        .arg(folder)
+        .arg("-k")
+        .arg(folder)
+        .args(["-p", &port.to_string(), "-c", "listen_addresses=127.0.0.1"])
+        .current_dir("/")
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("it starts");
+    let begun = Instant::now();
+    while std::net::TcpStream::connect(("127.0.0.1", port)).is_err() {
+        assert!(begun.elapsed() < Duration::from_secs(20), "PostgreSQL starts");
+        thread::sleep(Duration::from_millis(50));
+    }
+    server
+}
+
+/// Sends an event with a mark, as its key too, until it is acknowledged.
+fn write(service: &Running, path: &str, mark: &str) {
+    let body = json!({"type": "out_of_service", "aircraft": "A40", "reason": mark}).to_string();
+    let begun = Instant::now();
+    loop {
+        let headers = [("idempotency-key", mark)];
+        let answer = service.send("POST", &format!("{path}/events"), &headers, body.as_bytes());
+        if answer.status == 201 {
+            return;
+        }
+        let is_early = begun.elapsed() < Duration::from_secs(30);
+        assert!(matches!(answer.status, 409 | 503) && is_early, "{answer:?}");
+        thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// The marks of all events of a day, in order.
+fn marks(service: &Running, path: &str) -> Vec<String> {
+    let events = service.get(&format!("{path}/events?limit=10000")).json;
+    let events = events["events"].as_array().expect("a list");
+    events.iter().filter_map(|one| one["event"]["reason"].as_str().map(str::to_owned)).collect()
 }
 
 impl Drop for Postgres {
     fn drop(&mut self) {
-        // Not SIGKILL, which would leave its children and the memory that they share. The first line of this file is the
-        // process that the server runs in, which is not the one that was started if another user runs it.
-        let pid = std::fs::read_to_string(self.folder.path().join("postmaster.pid"));
-        let pid = pid.unwrap_or_default().lines().next().unwrap_or_default().to_owned();
-        let _ = Command::new("kill").args(["-INT", &pid]).status();
+        // Not SIGKILL, which would leave its children and the memory that they share.
+        self.signal("-INT");
         let _ = self.server.wait();
     }
 }
@@ -126,36 +174,66 @@ fn two_services_share_a_database() {
             let path = &path;
             scope.spawn(move || {
                 for event in 0..25 {
-                    let key = format!("{number}-{event}");
-                    let body = json!({"type": "out_of_service", "aircraft": "A40", "reason": key})
-                        .to_string();
-                    let begun = Instant::now();
-                    loop {
-                        let headers = [("idempotency-key", key.as_str())];
-                        let answer = service.send(
-                            "POST",
-                            &format!("{path}/events"),
-                            &headers,
-                            body.as_bytes(),
-                        );
-                        if answer.status == 201 {
-                            break;
-                        }
-                        assert!(
-                            answer.status == 503 && begun.elapsed() < Duration::from_secs(20),
-                            "{answer:?}"
-                        );
-                    }
+                    write(service, path, &format!("{number}-{event}"));
                 }
             });
         }
     });
-    let events = two.get(&format!("{path}/events?limit=1000")).json;
-    let marks: std::collections::BTreeSet<&str> = events["events"]
-        .as_array()
-        .expect("a list")
-        .iter()
-        .filter_map(|event| event["event"]["reason"].as_str())
-        .collect();
+    let marks: BTreeSet<String> = marks(&two, &path).into_iter().collect();
     assert_eq!((marks.len(), one.get(&path).json["seq"].as_u64()), (100, Some(102)));
+}
+
+#[test]
+fn services_that_start_together_make_the_tables_once() {
+    let database = Postgres::start();
+    thread::scope(|scope| {
+        let start = || Running::start_at(database.location.clone());
+        let services: Vec<_> = (0..4).map(|_| scope.spawn(start)).collect();
+        for service in services {
+            let service = service.join().expect("it starts");
+            assert_eq!(service.get("/readyz").status, 200);
+        }
+    });
+}
+
+#[test]
+fn a_database_that_crashes_loses_nothing_that_was_acknowledged() {
+    let mut database = Postgres::start();
+    let services = [(); 2].map(|()| Running::start_at(database.location.clone()));
+    let path = services[0].new_day("greedy");
+    let stop = AtomicBool::new(false);
+    let acknowledged: Vec<Vec<String>> = thread::scope(|scope| {
+        let clients: Vec<_> = (0..4)
+            .map(|client| {
+                let (service, path, stop) = (&services[client % 2], &path, &stop);
+                scope.spawn(move || {
+                    let mut sent = Vec::new();
+                    while !stop.load(Ordering::Relaxed) {
+                        let mark = format!("{client}-{}", sent.len());
+                        write(service, path, &mark);
+                        sent.push(mark);
+                    }
+                    sent
+                })
+            })
+            .collect();
+        for _ in 0..3 {
+            thread::sleep(Duration::from_millis(500));
+            database.crash();
+            thread::sleep(Duration::from_millis(200));
+            database.resume();
+        }
+        thread::sleep(Duration::from_millis(500));
+        stop.store(true, Ordering::Relaxed);
+        clients.into_iter().map(|client| client.join().expect("it writes")).collect()
+    });
+    let stored = marks(&services[0], &path);
+    for (client, acknowledged) in acknowledged.iter().enumerate() {
+        let prefix = format!("{client}-");
+        let of_client: Vec<&String> =
+            stored.iter().filter(|mark| mark.starts_with(&prefix)).collect();
+        assert!(!acknowledged.is_empty(), "client {client} never got through");
+        assert!(of_client.into_iter().eq(acknowledged), "client {client}: once, and in order");
+    }
+    assert_eq!(marks(&services[1], &path), stored);
 }

@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 
 use serde_json::{Value, json};
 use vertifleet_core::Stop;
-use vertifleet_serve::{Error, Location, Settings, serve};
+use vertifleet_serve::{Error, Limits, Location, Protection, Settings, serve};
 
 /// A running service. It stops when it is dropped.
 pub(crate) struct Running {
@@ -24,8 +24,13 @@ impl Running {
 
     /// Starts a service with its data somewhere.
     pub(crate) fn start_at(location: Location) -> Self {
+        Self::start_with(location, Limits::default())
+    }
+
+    /// Starts a service with its data somewhere and with limits of its own.
+    pub(crate) fn start_with(location: Location, limits: Limits) -> Self {
         let listen = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
-        let settings = Settings { listen, location, behind_proxy: false };
+        let settings = Settings { listen, location, protection: Protection::None, limits };
         let stop = Stop::default();
         let heard = stop.clone();
         let (listens, address) = mpsc::channel();

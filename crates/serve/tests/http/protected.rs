@@ -1,0 +1,214 @@
+//! What keeps others out, and what keeps anybody from taking all there is.
+
+use std::io::{Read as _, Write as _};
+use std::net::{Ipv4Addr, SocketAddr, TcpStream};
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde_json::json;
+use vertifleet_core::{Coded as _, DaySeed, Network, Stop};
+use vertifleet_serve::{
+    Limits, Location, Operation, Protection, Role, Settings, Tokens, operate, serve,
+};
+
+use crate::running::Running;
+
+fn limited(limits: Limits) -> (tempfile::TempDir, Running) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let service = Running::start_with(Location::Folder(folder.path().to_owned()), limits);
+    (folder, service)
+}
+
+fn connect(service: &Running) -> TcpStream {
+    let address = service.url.strip_prefix("http://").expect("an address");
+    let socket = TcpStream::connect(address).expect("it listens");
+    socket.set_read_timeout(Some(Duration::from_mins(1))).expect("a timeout");
+    socket
+}
+
+#[test]
+fn it_speaks_tls_with_a_certificate_of_ones_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let made = rcgen::generate_simple_self_signed(["localhost".to_owned()]).expect("a certificate");
+    let (certificate, key) = (folder.path().join("tls.pem"), folder.path().join("tls.key"));
+    std::fs::write(&certificate, made.cert.pem()).expect("a file");
+    std::fs::write(&key, made.signing_key.serialize_pem()).expect("a file");
+
+    let settings = |key: &std::path::Path| Settings {
+        listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
+        location: Location::Folder(folder.path().join("data")),
+        protection: Protection::Tls { certificate: certificate.clone(), key: key.to_owned() },
+        limits: Limits::default(),
+    };
+    let refused = serve(&settings(&certificate), |_| (), &Stop::default());
+    assert_eq!(refused.expect_err("it is no key").code().to_string(), "V624");
+
+    let stop = Stop::default();
+    let heard = stop.clone();
+    let settings = settings(&key);
+    let (listens, address) = std::sync::mpsc::channel();
+    let running = std::thread::spawn(move || {
+        serve(&settings, |address| listens.send(address).expect("the test waits"), &heard)
+    });
+    let port = address.recv().expect("it starts").port();
+    let network = Network::shipped("paper").expect("it is shipped");
+    let operation = |trusted| Operation {
+        url: format!("https://localhost:{port}"),
+        day: Arc::new(network.draw(DaySeed::comparison(1).expect("a seed"))),
+        policy: "greedy".to_owned(),
+        token: None,
+        trusted,
+        speed: None,
+    };
+    let report = operate(&operation(Some(certificate.clone())), &Stop::default(), |_, _| ());
+    let report = report.expect("the service answers").expect("nobody stopped it");
+    assert!(report.totals.profit_usd > 0.0);
+    // Speaking without TLS leads nowhere, and does no harm.
+    let mut plain = TcpStream::connect((Ipv4Addr::LOCALHOST, port)).expect("it listens");
+    plain.write_all(b"GET /healthz HTTP/1.1\r\n\r\n").expect("it is sent");
+    let mut said = Vec::new();
+    let _ = plain.read_to_end(&mut said);
+    assert!(!said.starts_with(b"HTTP"), "{said:?}");
+    stop.request();
+    running.join().expect("no panic").expect("no error");
+}
+
+#[test]
+fn a_certificate_that_nobody_vouches_for_is_not_trusted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let other =
+        rcgen::generate_simple_self_signed(["localhost".to_owned()]).expect("a certificate");
+    let file = folder.path().join("other.pem");
+    std::fs::write(&file, other.cert.pem()).expect("a file");
+    let network = Network::shipped("paper").expect("it is shipped");
+    let operation = Operation {
+        url: "https://localhost:1".to_owned(),
+        day: Arc::new(network.draw(DaySeed::comparison(1).expect("a seed"))),
+        policy: "greedy".to_owned(),
+        token: None,
+        trusted: Some(folder.path().join("none.pem")),
+        speed: None,
+    };
+    let refused = operate(&operation, &Stop::default(), |_, _| ());
+    assert_eq!(refused.expect_err("no such file").code().to_string(), "V624");
+}
+
+#[test]
+fn connections_that_say_nothing_are_closed() {
+    let (_folder, service) =
+        limited(Limits { head: Duration::from_millis(200), ..Limits::default() });
+    let mut silent = connect(&service);
+    let mut slow = connect(&service);
+    slow.write_all(b"GET /healthz HT").expect("it is sent");
+    for socket in [&mut silent, &mut slow] {
+        let mut said = Vec::new();
+        socket.read_to_end(&mut said).expect("it is closed");
+        assert!(!String::from_utf8_lossy(&said).contains("200 OK"), "{said:?}");
+    }
+    assert_eq!(service.get("/healthz").status, 200);
+}
+
+#[test]
+fn a_body_that_does_not_come_ends_the_request() {
+    let (_folder, service) =
+        limited(Limits { request: Duration::from_millis(200), ..Limits::default() });
+    let mut slow = connect(&service);
+    let head = "POST /v1/days HTTP/1.1\r\nhost: here\r\ncontent-length: 100\r\n\r\n{";
+    slow.write_all(head.as_bytes()).expect("it is sent");
+    let mut said = [0; 12];
+    slow.read_exact(&mut said).expect("an answer");
+    assert_eq!(&said, b"HTTP/1.1 408");
+}
+
+#[test]
+fn further_connections_wait_until_others_end() {
+    let limits = Limits { connections: 2, head: Duration::from_millis(300), ..Limits::default() };
+    let (_folder, service) = limited(limits);
+    let _silent = [connect(&service), connect(&service), connect(&service)];
+    assert_eq!(service.get("/healthz").status, 200);
+}
+
+#[test]
+fn streams_days_and_events_have_limits() {
+    let limits = Limits { streams: 2, days: 2, events: 3, ..Limits::default() };
+    let (_folder, service) = limited(limits);
+    let day = service.new_day("greedy");
+    let readers = [connect(&service), connect(&service)];
+    for mut reader in &readers {
+        write!(reader, "GET {day}/stream HTTP/1.1\r\nhost: here\r\n\r\n").expect("it is sent");
+        let mut said = [0; 15];
+        reader.read_exact(&mut said).expect("an answer");
+        assert_eq!(&said, b"HTTP/1.1 200 OK");
+    }
+    let third = service.get(&format!("{day}/stream"));
+    assert_eq!((third.status, &third.json["code"]), (503, &json!("V612")));
+    drop(readers);
+
+    service.new_day("greedy");
+    let third = service.post("/v1/days", &json!({"network": "paper"}));
+    assert_eq!((third.status, &third.json["code"]), (409, &json!("V612")));
+
+    let clock = json!({"type": "clock"});
+    let two = service.post(&format!("{day}/events"), &json!([clock, clock]));
+    assert_eq!(two.status, 201);
+    let four = service.post(&format!("{day}/events"), &json!([clock, clock]));
+    assert_eq!((four.status, &four.json["code"]), (409, &json!("V612")));
+}
+
+#[test]
+fn a_body_of_most_requests_is_short() {
+    let (_folder, service) = limited(Limits::default());
+    let day = service.new_day("greedy");
+    let mut long = connect(&service);
+    write!(long, "POST {day}/events HTTP/1.1\r\nhost: here\r\ncontent-length: 5000000\r\n\r\n[")
+        .expect("it is sent");
+    let mut said = [0; 12];
+    long.read_exact(&mut said).expect("an answer");
+    assert_eq!(&said, b"HTTP/1.1 413");
+}
+
+#[test]
+fn a_token_that_asks_too_often_waits_and_others_do_not() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = Location::Folder(folder.path().to_owned());
+    let tokens = Tokens::open(&location).expect("a store");
+    let token = |name: &str| {
+        let token = tokens.make(name, Role::Read).expect("a token");
+        format!("Bearer {token}")
+    };
+    let (busy, calm) = (token("busy"), token("calm"));
+    let limits = Limits { requests_per_s: 2, ..Limits::default() };
+    let service = Running::start_with(location, limits);
+    let ask = |bearer: &str| service.send("GET", "/v1/days", &[("authorization", bearer)], b"");
+    let answers: Vec<u16> = (0..40).map(|_| ask(&busy).status).collect();
+    assert!(answers.starts_with(&[200, 200, 200, 200]), "{answers:?}");
+    assert!(answers.contains(&429), "{answers:?}");
+    assert_eq!(ask(&calm).status, 200);
+    let wrong: Vec<u16> = (0..40).map(|_| ask("Bearer vf_1_guess").status).collect();
+    assert!(wrong.contains(&401) && wrong.contains(&429), "{wrong:?}");
+    assert_eq!(ask(&calm).status, 200);
+}
+
+#[test]
+fn the_stream_of_a_token_ends_when_it_is_revoked() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = Location::Folder(folder.path().to_owned());
+    let tokens = Tokens::open(&location).expect("a store");
+    let token = tokens.make("screen", Role::Dispatch).expect("a token");
+    let service = Running::start_at(location);
+    let bearer = format!("Bearer {token}");
+    let headers = [("authorization", bearer.as_str())];
+    let body = br#"{"network": "paper", "policy": "greedy"}"#;
+    let made = service.send("POST", "/v1/days", &headers, body);
+    let id = made.json["id"].as_str().expect("an id");
+    let mut reader = connect(&service);
+    let head = format!(
+        "GET /v1/days/{id}/stream HTTP/1.1\r\nhost: here\r\nconnection: close\r\nauthorization: {bearer}\r\n\r\n"
+    );
+    reader.write_all(head.as_bytes()).expect("it is sent");
+    let token_id = &tokens.list().expect("tokens")[0].id;
+    tokens.revoke(token_id).expect("it was in force");
+    let mut said = Vec::new();
+    reader.read_to_end(&mut said).expect("the stream ends");
+    assert!(said.starts_with(b"HTTP/1.1 200"), "{}", String::from_utf8_lossy(&said));
+}

@@ -1,0 +1,119 @@
+"""Requests of the API as plain values, made once and sent as often as it takes."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import ssl
+import uuid
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from urllib.parse import quote, urlsplit
+
+from vertifleet._errors import Error
+
+FIRST_PAUSE_S = 0.1
+"""A request without an answer is sent again after this time, then after twice as long, and so on."""
+
+LONGEST_PAUSE_S = 5.0
+"""No pause between two sendings is longer."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """A request. Sent again, it is the same to the last byte, so that the service knows it by its key."""
+
+    method: str
+    path: str
+    query: Mapping[str, str] = field(default_factory=dict)
+    headers: Mapping[str, str] = field(default_factory=dict)
+    body: bytes | None = None
+
+
+def path_of(*segments: str) -> str:
+    """The path of these segments, each of which may be any text."""
+    return "/v1/" + "/".join(quote(segment, safe="") for segment in segments)
+
+
+def reading(*path: str, **query: int | str | None) -> Request:
+    """A request that reads, with those parameters that are given."""
+    return Request("GET", path_of(*path), {name: str(value) for name, value in given(query).items()})
+
+
+def asking(*path: str, body: object, **query: str | None) -> Request:
+    """A request that asks about what it brings, and changes nothing."""
+    asked = reading(*path, **query)
+    return replace(asked, method="POST", headers=header_of(body), body=written(body))
+
+
+def keeping(*path: str, body: object) -> Request:
+    """A request that puts something under a name, which is the same however often it happens."""
+    return Request("PUT", path_of(*path), headers=header_of(body), body=written(body))
+
+
+def writing(
+    *path: str, body: object, if_match: int | None = None, idempotency_key: str | None = None
+) -> Request:
+    """A request that writes, with a key by which the service knows it again."""
+    headers = {**header_of(body), "Idempotency-Key": idempotency_key or str(uuid.uuid4())}
+    if if_match is not None:
+        headers["If-Match"] = f'"{if_match}"'
+    return Request("POST", path_of(*path), headers=headers, body=written(body))
+
+
+def given(members: Mapping[str, object]) -> dict[str, object]:
+    """The members that are given."""
+    return {name: value for name, value in members.items() if value is not None}
+
+
+def header_of(body: object) -> dict[str, str]:
+    """What kind of body it is."""
+    return {"Content-Type": "application/octet-stream" if isinstance(body, bytes) else "application/json"}
+
+
+def written(body: object) -> bytes:
+    """A body as bytes: as it is, or else as JSON."""
+    if isinstance(body, bytes):
+        return body
+    # Mappings need not be dicts.
+    return json.dumps(body, separators=(",", ":"), default=dict).encode()
+
+
+def pauses(retries: int) -> Iterator[float]:
+    """Seconds to wait before a request is sent again: each time about twice as long, and as often as this.
+
+    They are drawn at random, so that clients that lost their service together do not all come back at once.
+    """
+    for attempt in range(retries):
+        yield min(FIRST_PAUSE_S * 2**attempt, LONGEST_PAUSE_S) * random.uniform(0.5, 1.0)
+
+
+def checked_url(url: str) -> str:
+    """An address of a service.
+
+    Raises:
+        Error: V451 if it is none.
+    """
+    try:
+        parts = urlsplit(url)
+        is_address = parts.scheme in ("http", "https") and parts.hostname and parts.port != 0
+    except ValueError:
+        is_address = False
+    if not is_address:
+        raise Error("V451", f"url must be http:// or https:// and a host, found {url!r}")
+    return url.rstrip("/")
+
+
+def trust_of(verify: bool | str | os.PathLike[str] | ssl.SSLContext) -> bool | ssl.SSLContext:
+    """How certificates are verified; a path is that of a file with certificates of authorities.
+
+    Raises:
+        Error: V624 if the file cannot be used as such.
+    """
+    if isinstance(verify, (bool, ssl.SSLContext)):
+        return verify
+    try:
+        return ssl.create_default_context(cafile=verify)
+    except OSError as error:
+        raise Error("V624", f"{os.fspath(verify)}: {error}", "name a PEM file with certificates") from error

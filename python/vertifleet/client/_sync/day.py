@@ -1,0 +1,276 @@
+# Written from ../_async/day.py by python/tools/client_sync.py: do not edit.
+"""A live day: what is known of it, what happens on it, what is decided, and how it may go on."""
+
+from __future__ import annotations
+
+import json
+import time as clock
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import replace
+
+from vertifleet._native import Scenario
+from vertifleet.client._errors import ServiceError
+from vertifleet.client._requests import Request, asking, given, path_of, reading, writing
+from vertifleet.client._sync.connection import Connection
+from vertifleet.client.types import (
+    Comparison,
+    DayInfo,
+    DayState,
+    Event,
+    EventList,
+    Moment,
+    MoreAircraft,
+    Outlook,
+    Proposal,
+    Taken,
+    TakenDecision,
+    TakenEvent,
+    Times,
+)
+
+
+class Day:
+    """A day of a service. `Client.make_day`, `Client.day` and `Client.days` give days.
+
+    Times of the day are texts as "07:10:00", which may pass "24:00:00", or seconds since midnight. A day with
+    a date also takes them in ISO 8601 with an offset ("2026-11-23T07:10:00-05:00"), and answers so where a
+    method is given ``times="iso"``.
+
+    All methods raise `ServiceError` V602 if the day was deleted, and `NoAnswerError` if the service does not
+    answer.
+    """
+
+    def __init__(self, connection: Connection, info: DayInfo) -> None:
+        self._connection = connection
+        self.info = info
+        """What the day is called, when it was made and so on, as it was last read."""
+
+    @property
+    def id(self) -> str:
+        """The id of the day."""
+        return self.info["id"]
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.id!r}, {self.info['name']!r})"
+
+    def refresh(self) -> DayInfo:
+        """Reads again what `info` has, and the number of the latest event (``seq``)."""
+        self.info = self._connection.object(DayInfo, reading("days", self.id))
+        return self.info
+
+    def state(self, seq: int | None = None, *, times: Times | None = None) -> DayState:
+        """What is known of the day: every aircraft, every vertiport, the account and the notices.
+
+        Args:
+            seq: the number of an event; what was known after it is told, in place of what is known now.
+            times: how times are written.
+
+        Raises:
+            ServiceError: V602 if there is no such event.
+        """
+        asked = reading("days", self.id, "state", seq=seq, times=times)
+        return self._connection.object(DayState, asked)
+
+    def scenario(self) -> Scenario:
+        """The scenario that the day began with: to be played with other policies, for example.
+
+        Raises:
+            Error: with the code of what this version of the package does not know in it.
+        """
+        answer = self._connection.answer(reading("days", self.id, "scenario"))
+        return Scenario.from_json(answer.text, self.id)
+
+    def trace_csv(self) -> str:
+        """The decisions so far as a trace, which is the text of a CSV file."""
+        answer = self._connection.answer(reading("days", self.id, "trace.csv"))
+        return answer.text
+
+    def events(
+        self, after: int = 0, *, times: Times | None = None, page_size: int = 1_000
+    ) -> Generator[TakenEvent, None, None]:
+        """All events so far, in order.
+
+        Args:
+            after: only events after the one with this number.
+            times: how times are written.
+            page_size: how many events are asked for at once, at most 10,000.
+        """
+        number: int | None = after
+        while number is not None:
+            asked = reading("days", self.id, "events", after=number, limit=page_size, times=times)
+            page = self._connection.object(EventList, asked)
+            for event in page["events"]:
+                yield event
+            number = page.get("next")
+
+    def report(
+        self, *events: Event, if_match: int | None = None, idempotency_key: str | None = None
+    ) -> Taken:
+        """Reports what happened. Several events are taken all or none. They are on the disk afterwards.
+
+        ``notices`` of the answer has, for each event, what people should look at.
+
+        Args:
+            events: one event or more, at most 1,000, for example ``{"type": "departed", "aircraft": "A01",
+                "time": "06:02:00"}``; `vertifleet.client.types.Event` has all kinds.
+            if_match: the number of the latest event that you know of. If there is a later one, nothing is
+                taken.
+            idempotency_key: a key of your own, at most 128 characters that no other request to the service
+                has. Sent again with the same key, the same events are taken once.
+
+        Raises:
+            ServiceError: V601 if an event is not understood, V603 for an unknown aircraft or vertiport, V604
+                if it contradicts what has happened, V605 if the day has gone on, V608 if it is archived.
+        """
+        body = events[0] if len(events) == 1 else list(events)
+        path = ("days", self.id, "events")
+        asked = writing(*path, body=body, if_match=if_match, idempotency_key=idempotency_key)
+        return self._connection.object(Taken, asked)
+
+    def stream(
+        self, after: int | None = None, *, times: Times | None = None
+    ) -> Generator[TakenEvent, None, None]:
+        """All events, and then those to come, as they come. It ends only with an error.
+
+        After a lost connection it goes on by itself where it was, so that every event comes once. Nothing is
+        lost either if events come faster than they are read.
+
+        Args:
+            after: only events after the one with this number; those to come are after ``refresh()["seq"]``.
+            times: how times are written in the events.
+
+        Raises:
+            ServiceError: V601 if the day has no such event, perhaps because it was restored from a copy: then
+                read its state again. V602 if it has been deleted.
+            NoAnswerError: if the service does not come back.
+        """
+        pauses = self._connection.pauses()
+        last: int | None = None
+        while True:
+            asked = reading("days", self.id, "stream", after=after, times=times)
+            if last is not None:
+                asked = replace(asked, headers={"Last-Event-ID": str(last)})
+            try:
+                with closing(self._connection.messages(asked)) as messages:
+                    for message in messages:
+                        pauses = self._connection.pauses()
+                        # Other kinds are signs of life, and `behind`: what was missed follows by itself.
+                        if message.kind == "message":
+                            last = int(message.id)
+                            event: TakenEvent = json.loads(message.text)
+                            yield event
+            except ServiceError as error:
+                pause_s = next(pauses, None)
+                if pause_s is None or not error.is_transient:
+                    raise
+                clock.sleep(pause_s)
+
+    def propose(
+        self,
+        aircraft: str,
+        policy: str | None = None,
+        *,
+        time: Moment | None = None,
+        deadline_ms: int | None = None,
+        times: Times | None = None,
+    ) -> Proposal:
+        """Where a policy would send an aircraft that is ready, and what every vertiport would bring.
+
+        Nothing changes.
+
+        Args:
+            aircraft: the id of the aircraft.
+            policy: the policy that is asked; without it, the day's.
+            time: the time of the decision; without it, or before what has happened, now.
+            deadline_ms: milliseconds within which an answer is needed. If the policy is not ready then, a
+                faster one answers, and ``too_late`` names the one that was asked.
+            times: how times are written.
+
+        Raises:
+            ServiceError: V603 for an unknown aircraft, V604 if it is not ready, V602 for an unknown policy.
+        """
+        path = ("days", self.id, "aircraft", aircraft, "decision")
+        asked = reading(*path, policy=policy, time=time, deadline_ms=deadline_ms, times=times)
+        return self._connection.object(Proposal, asked)
+
+    def decide(
+        self,
+        aircraft: str,
+        to: str | None = None,
+        reason: str | None = None,
+        *,
+        policy: str | None = None,
+        time: Moment | None = None,
+        deadline_ms: int | None = None,
+        if_match: int | None = None,
+        idempotency_key: str | None = None,
+    ) -> TakenDecision:
+        """Takes a decision: the policy's, or with ``to`` a person's. It is on the disk afterwards.
+
+        Args:
+            aircraft: the id of the aircraft, which must be ready.
+            to: the vertiport that a person chooses; the aircraft's own means hold.
+            reason: why.
+            policy: the policy that chooses; without it, the day's.
+            time: the time of the decision; without it, or before what has happened, now.
+            deadline_ms: milliseconds within which the policy must answer; if it does not, a faster one
+                decides.
+            if_match: the number of the latest event that you know of, for example ``seq`` of a proposal. If
+                there is a later one, nothing is decided.
+            idempotency_key: a key of your own, at most 128 characters that no other request to the service
+                has. Sent again with the same key, the same decision is taken once.
+
+        Raises:
+            ServiceError: V603 for an unknown aircraft or vertiport, V604 if the decision breaks a rule, V605
+                if the day has gone on, V608 if it is archived, V602 for an unknown policy.
+        """
+        chosen = given({"aircraft": aircraft, "to": to, "reason": reason})
+        how = given({"policy": policy, "time": time, "deadline_ms": deadline_ms})
+        path = ("days", self.id, "decisions")
+        asked = writing(*path, body=chosen | how, if_match=if_match, idempotency_key=idempotency_key)
+        return self._connection.object(TakenDecision, asked)
+
+    def outlook(self, policy: str | None = None, *, times: Times | None = None) -> Outlook:
+        """How the day is expected to go on, flight by flight, if a policy takes every decision from now on.
+
+        Args:
+            policy: the policy; without it, the day's.
+            times: how times are written.
+        """
+        asked = reading("days", self.id, "outlook", policy=policy, times=times)
+        return self._connection.object(Outlook, asked)
+
+    def what_if(
+        self,
+        *events: Event,
+        policy: str | None = None,
+        stands: Mapping[str, int] | None = None,
+        aircraft: Sequence[MoreAircraft] = (),
+        times: Times | None = None,
+    ) -> Comparison:
+        """Compares the outlook with what it would be if things were otherwise. Nothing changes.
+
+        Args:
+            events: events that might happen now, in their order.
+            policy: the policy that would decide; without it, the day's.
+            stands: stands that vertiports would have had since the morning, by their ids: chargers where they
+                are counted apart.
+            aircraft: aircraft that the fleet would have had since the morning, for example ``{"id": "B01",
+                "at": "V1"}``.
+            times: how times are written.
+
+        Raises:
+            ServiceError: V603 and V604 as for `report`, V617 if what has happened could not have happened.
+        """
+        members = {"events": events, "aircraft": aircraft, "policy": policy, "stands": stands}
+        asked = asking("days", self.id, "what-if", body=given(members), times=times)
+        return self._connection.object(Comparison, asked)
+
+    def archive(self) -> None:
+        """Closes the day to writes. It can still be read."""
+        self._connection.answer(Request("POST", path_of("days", self.id, "archive")))
+
+    def delete(self) -> None:
+        """Removes the day with its events."""
+        self._connection.remove("days", self.id)
