@@ -21,7 +21,7 @@ mod slices;
 mod step;
 mod time_expanded_day;
 
-use vertifleet_core::{Scenario, Stop, VertiportIx};
+use vertifleet_core::{Scenario, Stop, Time, VertiportIx};
 
 use crate::Error;
 use descent::Found;
@@ -67,7 +67,22 @@ pub fn upper_bound_unless(
     scenario: &Scenario,
     step: Step,
 ) -> Result<Option<Bound>, Error> {
-    let bound = search(scenario, step, &Unless { stopped })?;
+    upper_bound_of_rest(stopped, scenario, &[], step)
+}
+
+/// Does the same for what is left of a day ([`WhatIsLeft`](vertifleet_sim::live::WhatIsLeft)), in which each aircraft takes
+/// a stand from the start of operations on, but decides first when it is `ready`. Aircraft past the end of `ready` are
+/// ready from the start.
+///
+/// # Errors
+/// The errors of [`upper_bound`].
+pub fn upper_bound_of_rest(
+    stopped: &Stop,
+    scenario: &Scenario,
+    ready: &[Time],
+    step: Step,
+) -> Result<Option<Bound>, Error> {
+    let bound = search(scenario, ready, step, &Unless { stopped })?;
     Ok(bound.filter(|_| !stopped.is_requested()))
 }
 

@@ -40,7 +40,9 @@ mod proof;
 mod proven_plan;
 mod rolling;
 
-pub use bound::{Bound, Step, gap, kept_upper_bound, upper_bound, upper_bound_unless};
+pub use bound::{
+    Bound, Step, gap, kept_upper_bound, upper_bound, upper_bound_of_rest, upper_bound_unless,
+};
 pub use error::Error;
 pub use plan::{
     Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, can_plan, plan,

@@ -159,7 +159,7 @@ pub(crate) const POLL_INTERVAL: Duration = Duration::from_millis(10);
 /// for all.
 fn prove(scenario: &Scenario, watch: &Shared) {
     let Some(step) = finest_step(scenario) else { return };
-    if let Ok(Some(bound)) = search(scenario, step, watch) {
+    if let Ok(Some(bound)) = search(scenario, &[], step, watch) {
         watch.has_found(&bound);
     }
 }

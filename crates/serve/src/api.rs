@@ -12,14 +12,19 @@ mod policies;
 mod service;
 mod stream;
 
+use std::pin::Pin;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::task::{Context, Poll};
 
 use axum::Router;
+use axum::body::{Body, Bytes, HttpBody};
 use axum::extract::{Request, State};
 use axum::http::{HeaderValue, header};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
+use hyper::body::{Frame, SizeHint};
 use tower_http::catch_panic::CatchPanicLayer;
 
 pub(crate) use self::answer::Totals;
@@ -71,6 +76,7 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
         .layer(from_fn_with_state(Arc::clone(&service), in_time))
         .layer(from_fn_with_state(Arc::clone(&service), measure))
         .layer(from_fn(with_headers))
+        .layer(from_fn(with_whole_body))
         .with_state(service)
 }
 
@@ -93,6 +99,49 @@ async fn in_time(
     let limit = service.limits.request;
     let answer = tokio::time::timeout(limit, next.run(request)).await;
     answer.map_err(|_| Error::TooSlow { limit_s: limit.as_secs() })
+}
+
+/// Closes the connection after an answer to a request whose body was not read, and says so: otherwise the next request on
+/// it would be lost.
+async fn with_whole_body(request: Request, next: Next) -> Response {
+    let (parts, body) = request.into_parts();
+    let has_ended = Arc::new(AtomicBool::new(body.is_end_stream()));
+    let body = Watched { body, has_ended: Arc::clone(&has_ended) };
+    let mut answer = next.run(Request::from_parts(parts, Body::new(body))).await;
+    if !has_ended.load(Ordering::Acquire) {
+        answer.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
+    }
+    answer
+}
+
+/// A body that says when it has been read to its end.
+struct Watched {
+    body: Body,
+    has_ended: Arc<AtomicBool>,
+}
+
+impl HttpBody for Watched {
+    type Data = Bytes;
+    type Error = axum::Error;
+
+    fn poll_frame(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+    ) -> Poll<Option<Result<Frame<Bytes>, axum::Error>>> {
+        let frame = Pin::new(&mut self.body).poll_frame(context);
+        if matches!(frame, Poll::Ready(None)) || self.body.is_end_stream() {
+            self.has_ended.store(true, Ordering::Release);
+        }
+        frame
+    }
+
+    fn is_end_stream(&self) -> bool {
+        self.body.is_end_stream()
+    }
+
+    fn size_hint(&self) -> SizeHint {
+        self.body.size_hint()
+    }
 }
 
 /// Adds the headers that keep browsers from guessing and from showing answers inside other pages.

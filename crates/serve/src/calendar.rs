@@ -7,6 +7,9 @@ use vertifleet_core::Time;
 
 use crate::error::Error;
 
+/// The years of days. Time zones are of our time.
+const YEARS: std::ops::RangeInclusive<i16> = 1970..=2199;
+
 /// A date at a place. 00:00:00 of the day is twelve hours before noon of the date, which is midnight but for days on which
 /// the clocks change; so every day has its hours in order, as in timetables (GTFS).
 #[derive(Debug, Clone)]
@@ -22,9 +25,11 @@ impl Calendar {
     /// Returns [`Error::BadRequest`] if there is no such date or no such time zone.
     pub(crate) fn new(date: &str, time_zone: &str) -> Result<Self, Error> {
         let wrong = |rule: String| Error::BadRequest { rule };
-        let date: Date = date
-            .parse()
-            .map_err(|_| wrong(format!("{date:?} is no date: write it as 2026-11-23")))?;
+        let no_date = || wrong(format!("{date:?} is no date: write it as 2026-11-23"));
+        let is_plain = date.len() == 10 && !date.starts_with(['-', '+']);
+        let read =
+            date.parse::<Date>().ok().filter(|read| is_plain && YEARS.contains(&read.year()));
+        let date = read.ok_or_else(no_date)?;
         let zone = TimeZone::get(time_zone).map_err(|_| {
             wrong(format!("{time_zone:?} is no time zone: use a name such as America/New_York"))
         })?;
@@ -80,6 +85,9 @@ mod tests {
     fn what_is_no_date_no_zone_or_before_the_day_is_refused() {
         assert!(Calendar::new("23.11.2026", "America/New_York").is_err());
         assert!(Calendar::new("2026-02-30", "America/New_York").is_err());
+        for date in ["9999-12-30", "1969-12-31", "2026-11-23T07:00", "-009999-01-02", "20261123"] {
+            assert!(Calendar::new(date, "America/New_York").is_err(), "{date}");
+        }
         assert!(Calendar::new("2026-11-23", "Mars/Olympus").is_err());
         assert_eq!(calendar("2026-11-23").read("2026-11-22T23:59:59-05:00"), None);
         assert_eq!(calendar("2026-11-23").read("2026-11-23T07:10:00"), None);

@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use axum::body::Bytes;
 use serde::Serialize;
 use tokio::sync::{OnceCell, broadcast, oneshot, watch};
 use vertifleet_core::Scenario;
@@ -34,7 +35,7 @@ pub(crate) struct DayCell {
     state: Mutex<DispatchDay>,
     /// The number of the latest event that is stored.
     durable: watch::Sender<u64>,
-    readers: broadcast::Sender<Arc<StoredEvent>>,
+    readers: broadcast::Sender<Arc<Told>>,
     /// Whether an event could not be stored, so that memory is ahead of the store and must be thrown away.
     pub(crate) has_failed: AtomicBool,
     pub(crate) deciders: Deciders,
@@ -44,6 +45,15 @@ impl fmt::Debug for DayCell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("DayCell").field("stored", &self.stored).finish_non_exhaustive()
     }
+}
+
+/// An event that readers are told.
+#[derive(Debug)]
+pub(crate) struct Told {
+    /// The event.
+    pub(crate) event: StoredEvent,
+    /// As a message of the stream, made once for all readers.
+    pub(crate) shown: OnceLock<Bytes>,
 }
 
 /// What a write led to.
@@ -153,7 +163,7 @@ impl DayCell {
     }
 
     /// The events as they are stored from now on.
-    pub(crate) fn subscribe(&self) -> broadcast::Receiver<Arc<StoredEvent>> {
+    pub(crate) fn subscribe(&self) -> broadcast::Receiver<Arc<Told>> {
         self.readers.subscribe()
     }
 
@@ -169,7 +179,7 @@ impl DayCell {
         }
         for event in events {
             // There may be nobody who reads.
-            let _ = self.readers.send(Arc::new(event));
+            let _ = self.readers.send(Arc::new(Told { event, shown: OnceLock::new() }));
         }
     }
 

@@ -27,6 +27,11 @@ impl<'de> Deserialize<'de> for Event {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut members = Map::deserialize(deserializer)?;
         let time = members.remove("time").map(Option::<Moment>::deserialize);
+        // A variant without members would let any pass.
+        let is_clock = members.get("type").is_some_and(|kind| kind == "clock");
+        if let Some(unknown) = members.keys().find(|&name| is_clock && name != "type") {
+            return Err(de::Error::custom(format!("unknown member `{unknown}` of a clock")));
+        }
         let what = What::deserialize(Value::Object(members)).map_err(de::Error::custom)?;
         Ok(Self { time: time.transpose().map_err(de::Error::custom)?.flatten(), what })
     }
@@ -167,13 +172,18 @@ pub(crate) enum What {
         /// The vertiport.
         vertiport: String,
         /// The number.
+        #[schema(maximum = 65535)]
         stands: u16,
     },
 }
 
 /// Routes that close and open together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(untagged, deny_unknown_fields)]
+#[serde(
+    untagged,
+    expecting = "a route, as `from` and `to`, or all of a `vertiport`",
+    deny_unknown_fields
+)]
 pub(crate) enum RouteNames {
     /// From one vertiport to another.
     Way {

@@ -32,6 +32,9 @@ pub(crate) fn by_calendar<T>(calendar: Option<&Calendar>, work: impl FnOnce() ->
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Moment(Time);
 
+/// What the texts of times look like.
+const PATTERN: &str =
+    "^([0-9]{1,2}:[0-5][0-9]:[0-5][0-9]|[0-9]{1,6}|[0-9]{4}-[0-9]{2}-[0-9]{2}T.*[0-9].*)$";
 /// No day lasts longer, seconds.
 const LATEST_S: u32 = 100 * 3600;
 
@@ -113,6 +116,9 @@ impl PartialSchema for Moment {
                 openapi::Type::String,
                 openapi::Type::Integer,
             ]))
+            .pattern(Some(PATTERN))
+            .minimum(Some(0))
+            .maximum(Some(LATEST_S - 1))
             .description(Some(
                 "A time of the day, as HH:MM:SS or as seconds since midnight, before 100:00:00; or in ISO 8601 with an offset, if the day has a date.",
             ))

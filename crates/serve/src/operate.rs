@@ -176,7 +176,11 @@ impl Client {
         let config = ureq::Agent::config_builder()
             .tls_config(tls.build())
             .http_status_as_error(false)
-            .timeout_global(Some(Duration::from_mins(1)))
+            // Not for the whole request: that would take a thread for looking the address up each time.
+            .timeout_connect(Some(PATIENCE))
+            .timeout_send_body(Some(PATIENCE))
+            .timeout_recv_response(Some(Duration::from_mins(1)))
+            .timeout_recv_body(Some(PATIENCE))
             .build();
         let run = std::hash::BuildHasher::hash_one(&std::hash::RandomState::new(), 0_u8);
         Ok(Self {

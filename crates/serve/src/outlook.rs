@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
-use vertifleet_core::{Aircraft, Scenario, TypeIx, VertiportIx};
+use vertifleet_core::{Aircraft, Scenario, Stop, TypeIx, VertiportIx};
+use vertifleet_optimize::{Step, upper_bound_of_rest};
+use vertifleet_sim::live::{LiveDay, WhatIsLeft};
 use vertifleet_sim::{DayTotals, TraceRow};
 use vertifleet_study::ResolvedPolicy;
 
@@ -28,6 +30,10 @@ pub(crate) struct Outlook {
     /// The numbers of the whole day as it is expected to end.
     #[schema(value_type = Totals)]
     pub(crate) totals: DayTotals,
+    /// No way to go on lets the whole day earn more than this, as far as it is known what will happen; dollars. Proven, not
+    /// estimated; absent if the rest of the day is too large to be bounded quickly.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) upper_bound_usd: Option<f64>,
     /// Every flight and hold of the day, in the order of decisions: those that were taken, then those that are expected.
     pub(crate) legs: Vec<Leg>,
 }
@@ -120,6 +126,7 @@ impl Outlook {
         let profit_so_far_usd = live.totals().profit_usd;
         let taken = live.trace().rows;
         let mut legs: Vec<Leg> = taken.iter().map(|row| Leg::of(row, &scenario, true)).collect();
+        let upper_bound_usd = upper_bound_usd(live)?;
         let mut rest = live.rest();
         while let Some(decision) = rest.next_decision() {
             let choice = decider.choose(&decision, &rest.view());
@@ -133,9 +140,30 @@ impl Outlook {
             policy: policy.name.clone(),
             profit_so_far_usd,
             totals: rest.totals(),
+            upper_bound_usd,
             legs,
         })
     }
+}
+
+/// The slices of the bound, minutes, for days up to a size: vertiports times vertiports times aircraft types times hours
+/// left. A bound then takes half a second at most; the rest of a larger day has none.
+const STEPS: [(usize, u32); 2] = [(1_000, 15), (4_000, 60)];
+
+/// What the whole day can earn at most from now on.
+fn upper_bound_usd(live: &mut LiveDay) -> Result<Option<f64>, Error> {
+    let so_far = live.totals().profit_usd;
+    let scenario = live.scenario();
+    let hours = scenario.operations.end.since(live.now()).div_ceil(3_600) as usize;
+    let size = scenario.vertiports.len().pow(2) * scenario.aircraft_types.len() * hours;
+    let Some(&(_, minutes)) = STEPS.iter().find(|(most, _)| size <= *most) else {
+        return Ok(None);
+    };
+    let Some(WhatIsLeft { day, ready }) = live.what_is_left()? else { return Ok(Some(so_far)) };
+    let internal = |error: vertifleet_optimize::Error| Error::Internal { cause: error.to_string() };
+    let step = Step::from_minutes(minutes).map_err(internal)?;
+    let bound = upper_bound_of_rest(&Stop::default(), &day, &ready, step).map_err(internal)?;
+    Ok(bound.map(|bound| so_far + bound.upper_bound_usd()))
 }
 
 impl Leg {

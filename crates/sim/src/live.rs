@@ -8,6 +8,7 @@
 mod report;
 mod reporter;
 mod take;
+mod what_is_left;
 
 use std::sync::Arc;
 
@@ -17,6 +18,7 @@ use crate::{DayTotals, Decision, Imagined, Simulation, Trace, TraceRow, View};
 
 pub use report::{Booking, Notice, Report, Routes, Unfit};
 pub use reporter::Reporter;
+pub use what_is_left::WhatIsLeft;
 
 /// An aircraft that should have departed or landed so long ago is overdue, seconds.
 const LATE_S: u32 = 300;

@@ -103,7 +103,7 @@ class NewDay(TypedDict):
     where the network or the scenario has them.
     """
     date: NotRequired[str | None]
-    """Its date, for example `2026-11-23`. Times may then be written in ISO 8601."""
+    """Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601."""
     forecast: NotRequired[list[ForecastRow] | None]
     """The passengers who are expected, in place of those of the network or the scenario. Nobody flies where
     no row is.
@@ -619,6 +619,10 @@ class Outlook(TypedDict):
     legs: list[Leg]
     """Every flight and hold of the day, in the order of decisions: those that were taken, then those that are
     expected.
+    """
+    upper_bound_usd: NotRequired[float | None]
+    """No way to go on lets the whole day earn more than this, as far as it is known what will happen;
+    dollars. Proven, not estimated; absent if the rest of the day is too large to be bounded quickly.
     """
 
 

@@ -4,7 +4,7 @@
 use super::certificate::{Certificate, earnings};
 use super::itinerary::Itinerary;
 use super::prices::Prices;
-use super::time_expanded_day::{Flight, TimeExpandedDay};
+use super::time_expanded_day::{Flight, Start, TimeExpandedDay};
 
 /// A day at the prices that its certificate was evaluated with last.
 pub(super) struct BestItineraries<'a> {
@@ -14,22 +14,21 @@ pub(super) struct BestItineraries<'a> {
 }
 
 impl BestItineraries<'_> {
-    /// The best itinerary of each group, which is the aircraft of one layer that start at the same vertiport, and their
-    /// number.
+    /// The best itinerary of each group, which is the aircraft of one layer that start alike, and their number.
     pub(super) fn of_groups(&self) -> Vec<(u32, Itinerary)> {
         let layers = self.day.layers.iter().enumerate();
-        let groups = layers.flat_map(|(layer, kind)| {
-            kind.starts.iter().enumerate().map(move |(at, &count)| (layer, at, count))
-        });
-        let taken = groups.filter(|&(.., count)| count > 0);
-        taken.map(|(layer, at, count)| (count, self.itinerary(layer, at))).collect()
+        let groups =
+            layers.flat_map(|(layer, kind)| kind.starts.iter().map(move |start| (layer, start)));
+        groups.map(|(layer, start)| (start.count, self.itinerary(layer, start))).collect()
     }
 
-    fn itinerary(&self, layer: usize, mut at: usize) -> Itinerary {
+    fn itinerary(&self, layer: usize, start: &Start) -> Itinerary {
         let slices = &self.day.slices;
         let day_s = slices.day_s();
         let mut itinerary = Itinerary { earnings: 0.0, stays: Vec::new(), flights: Vec::new() };
-        let (mut second, mut slice) = (0, 0);
+        let (mut at, mut second) = (start.at, start.ready_s);
+        let mut slice = slices.containing(slices.start_s(0) + second.min(day_s));
+        itinerary.stay(at, 0..slice);
         while slice < slices.len() {
             let leaves = self.waits_until(layer, at, second);
             if leaves > second {

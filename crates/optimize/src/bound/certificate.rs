@@ -10,7 +10,7 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::prices::Prices;
-use super::time_expanded_day::{Flight, TimeExpandedDay};
+use super::time_expanded_day::{Flight, Start, TimeExpandedDay};
 use vertifleet_core::Stop;
 
 /// Seconds that are computed side by side, so that their worths so far stay in the fastest memory.
@@ -98,9 +98,15 @@ impl Certificate {
 
     /// The most that the whole fleet earns after payments. Nothing has been paid when the day begins.
     fn fleet(&self, day: &TimeExpandedDay) -> i128 {
-        let starts = day.layers.iter().flat_map(|layer| &layer.starts);
-        let worths = self.worth_less_paid.iter().step_by(self.stride);
-        starts.zip(worths).map(|(&count, &worth)| i128::from(count) * i128::from(worth)).sum()
+        let layers = day.layers.iter().enumerate();
+        let starts =
+            layers.flat_map(|(layer, kind)| kind.starts.iter().map(move |one| (layer, one)));
+        let earned = |(layer, start): (usize, &Start)| {
+            // The price of the stand until they are ready has been deducted.
+            let worth = self.worth_less_paid(day, layer, start.at, start.ready_s as usize);
+            i128::from(start.count) * i128::from(worth)
+        };
+        starts.map(earned).sum()
     }
 }
 

@@ -62,7 +62,7 @@ fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound
     let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
     let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
     let Ok(step) = Step::from_minutes(kept.minutes) else { return Ok(None) };
-    let day = TimeExpandedDay::of(scenario, step.seconds())?;
+    let day = TimeExpandedDay::of(scenario, &[], step.seconds())?;
     let Some(prices) = Prices::checked(&day, kept.stand, kept.demand) else { return Ok(None) };
     let proven = Certificate::new(&day).evaluate(&day, &prices, stopped);
     Ok(proven.map(|micro_usd| {

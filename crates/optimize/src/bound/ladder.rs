@@ -5,7 +5,7 @@
 //! bound. In each cut, prices are first searched for on a clock that ticks once a minute, where a step takes a fraction
 //! of the time and proves nothing, and then to the second, where every step proves a bound.
 
-use vertifleet_core::{Scenario, Stop};
+use vertifleet_core::{Scenario, Stop, Time};
 
 use super::Bound;
 use super::descent::Descent;
@@ -68,19 +68,20 @@ pub(crate) trait Watch: Sync {
 }
 
 /// The best bound that is proven on the path to slices of `step`, or until `watch` stops the search; `None` if that is
-/// before the first bound.
+/// before the first bound. Aircraft decide first when they are `ready`; those past its end are ready from the start.
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step.
 pub(crate) fn search(
     scenario: &Scenario,
+    ready: &[Time],
     step: Step,
     watch: &dyn Watch,
 ) -> Result<Option<Bound>, Error> {
     TimeExpandedDay::fits(scenario, step.seconds())?;
     let cuts = || CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes);
     let in_all = cuts().map(|cut| cut.work(scenario)).sum();
-    let mut search = Search { scenario, watch, best: None, done: 0.0, in_all };
+    let mut search = Search { scenario, ready, watch, best: None, done: 0.0, in_all };
     let mut before = None;
     for cut in cuts() {
         before = search.rise(cut, before)?;
@@ -115,6 +116,7 @@ fn comparisons(slices: &Slices, tick_s: u32) -> f64 {
 /// A search in progress.
 struct Search<'a> {
     scenario: &'a Scenario,
+    ready: &'a [Time],
     watch: &'a dyn Watch,
     best: Option<Bound>,
     /// Work done, and all work of the search.
@@ -131,7 +133,7 @@ impl Search<'_> {
         before: Option<(Slices, Prices)>,
     ) -> Result<Option<(Slices, Prices)>, Error> {
         let slices = Slices::of(self.scenario, cut.step.seconds());
-        let day = || TimeExpandedDay::of(self.scenario, cut.step.seconds());
+        let day = || TimeExpandedDay::of(self.scenario, self.ready, cut.step.seconds());
         let size = self.scenario.vertiports.len();
         let start = if let Some((coarser, prices)) = before {
             Some(prices.in_slices(&coarser, &slices, size))

@@ -5,6 +5,8 @@
 //! of their own, in which outages are dropped and waiting is free. The profit of a flight depends on the slice in which
 //! it begins, never on the second within it.
 
+use std::collections::BTreeMap;
+
 use vertifleet_core::{ClosedTimes, Matrix, Scenario, Time, TypeIx, Vertiport, VertiportIx};
 use vertifleet_sim::Legs;
 
@@ -41,8 +43,19 @@ pub(super) struct Layer {
     /// any time can do everything that an aircraft kept on the ground by an outage does.
     pub(super) waits_freely: bool,
     pub(super) seats: u32,
-    /// Number of aircraft that start at each vertiport.
-    pub(super) starts: Vec<u32>,
+    /// Where and when its aircraft start, those alike together, by vertiport and time.
+    pub(super) starts: Vec<Start>,
+}
+
+/// Aircraft that start alike.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Start {
+    /// Position of the vertiport where they stand, and take a stand, from the start of the day on.
+    pub(super) at: usize,
+    /// Seconds from the first take-off time until they are ready for their first decision.
+    pub(super) ready_s: u32,
+    /// Their number.
+    pub(super) count: u32,
 }
 
 /// A day, laid out in time.
@@ -72,14 +85,15 @@ pub(super) struct TimeExpandedDay {
 }
 
 impl TimeExpandedDay {
-    /// Lays out a day in slices of at most `step_s` seconds.
+    /// Lays out a day in slices of at most `step_s` seconds. Aircraft decide first when they are `ready`; those past its
+    /// end are ready from the start.
     ///
     /// # Errors
     /// [`Error::TooManyFlights`].
-    pub(super) fn of(scenario: &Scenario, step_s: u32) -> Result<Self, Error> {
+    pub(super) fn of(scenario: &Scenario, ready: &[Time], step_s: u32) -> Result<Self, Error> {
         Self::fits(scenario, step_s)?;
         let legs = Legs::of(scenario);
-        let layers = layers(scenario);
+        let layers = layers(scenario, ready);
         let slices = Slices::of(scenario, step_s);
         let mut day = Self {
             stands: scenario.vertiports.iter().map(room).collect(),
@@ -103,7 +117,7 @@ impl TimeExpandedDay {
     /// # Errors
     /// [`Error::TooManyFlights`] if the day is too large.
     pub(super) fn fits(scenario: &Scenario, step_s: u32) -> Result<(), Error> {
-        let layers = layers(scenario);
+        let layers = layers(scenario, &[]);
         let slices = Slices::of(scenario, step_s);
         let size = scenario.vertiports.len();
         let flights = slices.len() * pairs(&Legs::of(scenario), &layers, size);
@@ -128,6 +142,9 @@ impl TimeExpandedDay {
         self.shortest_s = nearest(self.shortest_s);
         for flight in &mut self.flights {
             flight.block_s = nearest(flight.block_s);
+        }
+        for start in self.layers.iter_mut().flat_map(|layer| &mut layer.starts) {
+            start.ready_s = (start.ready_s + tick_s / 2) / tick_s;
         }
         self.slices = self.slices.on_coarse_clock(tick_s);
         self
@@ -200,7 +217,7 @@ fn room(vertiport: &Vertiport) -> u32 {
 }
 
 /// The layers of the fleet, by aircraft type in file order; of each type, the aircraft without outages come first.
-fn layers(scenario: &Scenario) -> Vec<Layer> {
+fn layers(scenario: &Scenario, ready: &[Time]) -> Vec<Layer> {
     let mut has_outage = vec![false; scenario.aircraft.len()];
     for outage in &scenario.disturbances.outages {
         has_outage[outage.aircraft.at()] = true;
@@ -208,13 +225,18 @@ fn layers(scenario: &Scenario) -> Vec<Layer> {
     let mut layers = Vec::new();
     for kind in TypeIx::all(scenario.aircraft_types.len()) {
         for waits_freely in [false, true] {
-            let mut starts = vec![0; scenario.vertiports.len()];
-            for (aircraft, &has_outage) in scenario.aircraft.iter().zip(&has_outage) {
-                starts[aircraft.at.at()] +=
-                    u32::from(aircraft.kind == kind && has_outage == waits_freely);
+            let mut alike: BTreeMap<(usize, u32), u32> = BTreeMap::new();
+            for (position, aircraft) in scenario.aircraft.iter().enumerate() {
+                if aircraft.kind == kind && has_outage[position] == waits_freely {
+                    let ready = ready.get(position);
+                    let ready_s = ready.map_or(0, |ready| ready.since(scenario.operations.start));
+                    *alike.entry((aircraft.at.at(), ready_s)).or_default() += 1;
+                }
             }
+            let start = |((at, ready_s), count)| Start { at, ready_s, count };
+            let starts: Vec<Start> = alike.into_iter().map(start).collect();
             let seats = scenario.aircraft_types[kind.at()].seats.into();
-            if starts.iter().any(|&count| count > 0) {
+            if !starts.is_empty() {
                 layers.push(Layer { kind, waits_freely, seats, starts });
             }
         }

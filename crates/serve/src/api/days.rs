@@ -47,9 +47,11 @@ pub(crate) struct NewDay {
     /// network or the scenario has them.
     #[serde(default)]
     aircraft: BTreeMap<String, String>,
+    #[schema(min_length = 1, max_length = 80)]
     /// What people call the day; without it, the name of its scenario, or of its network with the date.
     name: Option<String>,
-    /// Its date, for example `2026-11-23`. Times may then be written in ISO 8601.
+    /// Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601.
+    #[schema(pattern = "^(19[7-9][0-9]|2[01][0-9]{2})-[0-9]{2}-[0-9]{2}$")]
     date: Option<String>,
     /// The time zone of its clock by its name in the IANA database; without it, that of the network.
     time_zone: Option<String>,

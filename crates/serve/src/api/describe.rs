@@ -138,7 +138,7 @@ fn complete(operation: &mut Operation) {
 }
 
 /// What numbers of events look like in headers.
-const TAG: &str = "^\"?[0-9]+\"?$";
+const TAG: &str = "^\"?[0-9]{1,19}\"?$";
 
 fn add_header(operation: &mut Operation, name: &str, about: &str, schema: ObjectBuilder) {
     let parameter = ParameterBuilder::new()

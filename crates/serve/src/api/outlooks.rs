@@ -63,7 +63,7 @@ async fn named(
 /// stands or more aircraft. Nothing changes.
 #[utoipa::path(
     operation_id = "what_if", post, path = "/v1/days/{day}/what-if", tag = "outlooks", params(("day" = String, Path), Written),
-    request_body = WhatIf,
+    request_body = Option<WhatIf>,
     responses((status = 200, body = Comparison))
 )]
 pub(super) async fn what_if(
@@ -73,7 +73,8 @@ pub(super) async fn what_if(
     Body(body): Body,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
-    let asked: WhatIf = by_calendar(day.calendar(), || parse(&body))?;
+    let asked: Option<WhatIf> = by_calendar(day.calendar(), || parse(&body))?;
+    let asked = asked.unwrap_or_default();
     if asked.events.len() as u64 > MOST_EVENTS {
         return Err(Error::TooMuch { what: "events in a what-if", most: MOST_EVENTS });
     }

@@ -1,14 +1,14 @@
 //! The stream of a day's events (server-sent events).
 
-use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use axum::body::Bytes;
 use axum::extract::State;
-use axum::http::HeaderMap;
-use axum::response::sse::{self, KeepAlive, Sse};
+use axum::http::{HeaderMap, HeaderValue, header};
 use axum::response::{IntoResponse, Response};
+use bytes::BytesMut;
 use serde::Deserialize;
 use tokio::sync::broadcast::Receiver;
 use tokio::sync::broadcast::error::RecvError;
@@ -19,7 +19,7 @@ use super::answer::Times;
 use super::events::TakenEvent;
 use super::extract::{Asked, Named};
 use crate::access::Role;
-use crate::days::DayCell;
+use crate::days::{DayCell, Told};
 use crate::error::Error;
 use crate::service::Service;
 use crate::store::{Store, StoredEvent};
@@ -29,6 +29,9 @@ const PAGE: u32 = 1_000;
 
 /// How often a reader looks for what nobody tells it.
 const LOOK: Duration = Duration::from_millis(250);
+
+/// After so long without an event a reader is sent an empty line, which keeps proxies from ending the stream.
+const SIGN_OF_LIFE: Duration = Duration::from_secs(15);
 
 /// Where the stream begins.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -46,15 +49,16 @@ pub(crate) struct From {
 struct Reader {
     day: Arc<DayCell>,
     store: Store,
-    fresh: Receiver<Arc<StoredEvent>>,
+    fresh: Receiver<Arc<Told>>,
     after: u64,
-    read: VecDeque<StoredEvent>,
     is_behind: bool,
     stopping: watch::Receiver<bool>,
     service: Arc<Service>,
     /// What the reader came with, to see whether its token is still in force.
     headers: HeaderMap,
     looked: Instant,
+    /// When something was sent last.
+    said: Instant,
     times: Times,
 }
 
@@ -96,7 +100,6 @@ pub(super) async fn stream(
     times.check(&day)?;
     let store = service.days.store().clone();
     let stopping = service.stopping.subscribe();
-    let read = VecDeque::new();
     service.days.metrics().streams.inc();
     let looked = Instant::now();
     let reader = Reader {
@@ -104,60 +107,92 @@ pub(super) async fn stream(
         store,
         fresh,
         after,
-        read,
         is_behind: true,
         stopping,
         service,
         headers,
         looked,
+        said: looked,
         times,
     };
-    let events = futures_util::stream::unfold(reader, |mut reader| async {
-        let event = reader.next().await?;
-        Some((Ok::<_, Infallible>(event), reader))
+    let text = futures_util::stream::unfold(reader, |mut reader| async {
+        let text = reader.next().await?;
+        Some((Ok::<_, Infallible>(text), reader))
     });
-    Ok(Sse::new(events).keep_alive(KeepAlive::default()).into_response())
+    let kind = HeaderValue::from_static("text/event-stream");
+    Ok(([(header::CONTENT_TYPE, kind)], axum::body::Body::from_stream(text)).into_response())
 }
 
 impl Reader {
-    /// The next event; `None` if the day can no longer be read.
-    async fn next(&mut self) -> Option<sse::Event> {
+    /// The next events as text, all that are there; `None` if the day can no longer be read.
+    async fn next(&mut self) -> Option<Bytes> {
         loop {
             if self.looked.elapsed() >= LOOK {
                 self.look_around().await?;
             }
-            if let Some(event) = self.read.pop_front() {
-                return Some(self.shown(&event));
-            }
+            let mut text = BytesMut::new();
             if self.is_behind {
                 let events = self.store.events(self.day.id(), self.after, PAGE).await.ok()?;
                 self.is_behind = events.len() == PAGE as usize;
-                self.read = events.into();
-                continue;
-            }
-            let fresh = tokio::select! {
-                fresh = self.fresh.recv() => Some(fresh),
-                () = tokio::time::sleep(LOOK) => None,
-                _ = self.stopping.wait_for(|&stops| stops) => return None,
-            };
-            let Some(fresh) = fresh else { continue };
-            match fresh {
-                Ok(event) if event.seq <= self.after => {}
-                Ok(event) if event.seq == self.after + 1 => return Some(self.shown(&event)),
-                Ok(_) => self.is_behind = true,
-                Err(RecvError::Lagged(missed)) => {
-                    self.is_behind = true;
-                    let text =
-                        format!("{missed} events came faster than they were read; they follow");
-                    return Some(sse::Event::default().event("behind").data(text));
+                for event in &events {
+                    self.after = event.seq;
+                    text.extend_from_slice(&self.message(event));
                 }
-                Err(RecvError::Closed) => return None,
+            } else {
+                let fresh = tokio::select! {
+                    fresh = self.fresh.recv() => Some(fresh),
+                    () = tokio::time::sleep(LOOK) => None,
+                    _ = self.stopping.wait_for(|&stops| stops) => return None,
+                };
+                if let Some(fresh) = fresh {
+                    self.take(fresh, &mut text)?;
+                }
+                // What has come meanwhile goes out together: where many read, a write for each event would cost most.
+                while !self.is_behind
+                    && let Ok(event) = self.fresh.try_recv()
+                {
+                    self.take(Ok(event), &mut text)?;
+                }
+            }
+            if text.is_empty() && self.said.elapsed() >= SIGN_OF_LIFE {
+                text.extend_from_slice(b":\n\n");
+            }
+            if !text.is_empty() {
+                self.said = Instant::now();
+                return Some(text.freeze());
             }
         }
     }
 
-    /// Sees whether the reader may still read, and whether other services wrote. If the day in memory was thrown away, goes on with the one that took its place;
-    /// `None` if there is none.
+    /// Takes what the day tells its readers; `None` if it tells them nothing any more.
+    fn take(&mut self, fresh: Result<Arc<Told>, RecvError>, text: &mut BytesMut) -> Option<()> {
+        match fresh {
+            Ok(told) if told.event.seq <= self.after => {}
+            Ok(told) if told.event.seq == self.after + 1 => {
+                self.after += 1;
+                match self.times {
+                    Times::Clock => {
+                        let shown = told.shown.get_or_init(|| self.message(&told.event));
+                        text.extend_from_slice(shown);
+                    }
+                    Times::Iso => text.extend_from_slice(&self.message(&told.event)),
+                }
+            }
+            Ok(_) => self.is_behind = true,
+            Err(RecvError::Lagged(missed)) => {
+                self.is_behind = true;
+                let said = format!(
+                    "event: behind\ndata: {missed} events came faster than they were read; they follow\n\n"
+                );
+                text.extend_from_slice(said.as_bytes());
+            }
+            Err(RecvError::Closed) => return None,
+        }
+        Some(())
+    }
+
+    /// Sees whether the reader may still read, and whether other services wrote. If the day in memory was thrown away,
+    /// goes on with the one that took its place; `None` if there is none.
     async fn look_around(&mut self) -> Option<()> {
         self.looked = Instant::now();
         self.service.access.may(&self.headers, Role::Read).await.ok()?;
@@ -170,11 +205,11 @@ impl Reader {
         Some(())
     }
 
-    fn shown(&mut self, event: &StoredEvent) -> sse::Event {
-        self.after = event.seq;
+    /// An event as a message of the stream.
+    fn message(&self, event: &StoredEvent) -> Bytes {
         let taken = || Ok(TakenEvent::of(event, self.times));
         let taken = self.times.of(&self.day, taken).expect("times were checked");
-        let text = serde_json::to_string(&taken).expect("plain data can be written");
-        sse::Event::default().id(event.seq.to_string()).data(text)
+        let data = serde_json::to_string(&taken).expect("plain data can be written");
+        format!("id: {}\ndata: {data}\n\n", event.seq).into()
     }
 }

@@ -3,8 +3,11 @@
 //!     cargo run --release -p vertifleet-serve --example load -- http://127.0.0.1:8080 decisions 32 20
 //!
 //! `decisions` operates days of `paper`, each client its own, one after the other, with `gcaps-x` (or with the policy
-//! that follows the seconds); `events` books passengers, each client on its own day, one at a time. The last two numbers
-//! are the clients and the seconds. Only addresses of this machine are loaded.
+//! that follows the seconds); `events` books passengers, each client on its own day, one at a time; `streams` sends 500
+//! events a second to one day, which so many clients read, and measures the time from sending an event to each reader.
+//! The last two numbers are the clients and the seconds. Only addresses of this machine are loaded.
+
+mod streams;
 
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -28,13 +31,18 @@ struct Load {
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [url, kind, clients, seconds, rest @ ..] = &arguments[..] else {
-        eprintln!("usage: load URL decisions|events CLIENTS SECONDS [POLICY]");
+        eprintln!("usage: load URL decisions|events|streams CLIENTS SECONDS [POLICY]");
         std::process::exit(2);
     };
     assert!(url.starts_with("http://127.0.0.1:"), "only this machine is loaded");
     let clients: u64 = clients.parse().expect("a number of clients");
     let seconds: u64 = seconds.parse().expect("a number of seconds");
-    assert!(clients <= 256 && seconds <= 300, "at most 256 clients for 300 seconds");
+    assert!(clients <= 4_000 && seconds <= 300, "at most 4,000 clients for 300 seconds");
+    if kind == "streams" {
+        println!("{:#}", streams::load(url, clients, Duration::from_secs(seconds)));
+        return;
+    }
+    assert!(clients <= 256, "at most 256 clients write");
     let policy = rest.first().cloned().unwrap_or_else(|| "gcaps-x".to_owned());
     let begun = Instant::now();
     let load = Load {
