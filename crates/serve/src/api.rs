@@ -7,6 +7,7 @@ mod describe;
 mod events;
 mod extract;
 mod networks;
+mod new_day;
 mod outlooks;
 mod policies;
 mod service;

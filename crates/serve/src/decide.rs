@@ -82,16 +82,14 @@ pub(crate) struct Alternative {
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct Impossible {
     /// The rule.
-    #[schema(value_type = RuleName)]
-    pub(crate) rule: &'static str,
+    pub(crate) rule: RuleName,
     /// The rule in words, with its numbers.
     pub(crate) reason: String,
 }
 
 /// A rule that forbids a flight.
-#[derive(ToSchema)]
-#[schema(rename_all = "snake_case")]
-#[expect(dead_code, reason = "it stands for the values of a text in the description")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum RuleName {
     /// A full battery does not last for the flight.
     OutOfRange,
@@ -274,23 +272,23 @@ fn refusals(view: View<'_>, decision: &Decision) -> Vec<Option<Impossible>> {
     let reason = |to| {
         let refusal = view.refusal(decision, to)?;
         let rule = match refusal {
-            Refusal::OutOfRange { .. } => "out_of_range",
-            Refusal::NoCorridor { .. } => "no_corridor",
-            Refusal::Closed { .. } => "closed",
-            Refusal::NoStandFree { .. } => "no_stand_free",
+            Refusal::OutOfRange { .. } => RuleName::OutOfRange,
+            Refusal::NoCorridor { .. } => RuleName::NoCorridor,
+            Refusal::Closed { .. } => RuleName::Closed,
+            Refusal::NoStandFree { .. } => RuleName::NoStandFree,
             Refusal::DayOver | Refusal::NoSuchVertiport { .. } => return None,
         };
         let kind = view.kind(decision.aircraft);
         let numbers = match rule {
-            "out_of_range" => format!(
+            RuleName::OutOfRange => format!(
                 " ({:.1} kWh of {:.1} kWh)",
                 view.leg(kind, decision.at, to).energy_kwh,
                 view.aircraft_type(kind).battery_kwh
             ),
-            "no_stand_free" => {
+            RuleName::NoStandFree => {
                 format!(" ({} of {})", view.stands_taken()[to.at()], view.stands(to))
             }
-            _ => String::new(),
+            RuleName::NoCorridor | RuleName::Closed => String::new(),
         };
         Some(Impossible { rule, reason: format!("{refusal}{numbers}") })
     };

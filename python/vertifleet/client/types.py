@@ -651,7 +651,7 @@ class AircraftState(TypedDict):
     id: str
     """Its id."""
     phase: PhaseName
-    """`standing`, `sent_off` or `in_the_air`."""
+    """What it does."""
     place: str
     """The vertiport where it stands or will land."""
     arrival: Moment

@@ -1,77 +1,29 @@
 //! Days: made, listed, read, archived, deleted.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use axum::extract::State;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
-use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
-use vertifleet_core::{DaySeed, Matrix, Scenario, VertiportIx};
+use vertifleet_core::VertiportIx;
 use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::{LiveDay, Phase};
 
 use super::answer::{Times, again, at_event, json, written};
 use super::extract::{Asked, Named, Sender, Upload};
+use super::new_day::NewDay;
 use crate::api::Totals;
-use crate::calendar::Calendar;
 use crate::days::{DayCell, now_ms};
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
-use crate::event::Ids;
 use crate::moment::Moment;
-use crate::networks;
 use crate::service::{Service, Write, parse};
 use crate::store::StoredDay;
 
 /// The policy that decides on a day if none is named.
 pub(super) const DEFAULT_POLICY: &str = "gcaps-x";
-
-/// A day to be made: from a network, or from a scenario.
-#[derive(Debug, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct NewDay {
-    /// A network that the program ships, or that was uploaded.
-    network: Option<String>,
-    /// The seed with which the day is drawn from the network: its forecast and where aircraft stand in the morning, unless
-    /// they are given. 1 if it is absent.
-    seed: Option<u64>,
-    /// A whole scenario, as a scenario file has it.
-    #[schema(value_type = Option<Object>)]
-    scenario: Option<Box<RawValue>>,
-    /// The passengers who are expected, in place of those of the network or the scenario. Nobody flies where no row is.
-    forecast: Option<Vec<ForecastRow>>,
-    /// Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The others stand where the
-    /// network or the scenario has them.
-    #[serde(default)]
-    aircraft: BTreeMap<String, String>,
-    #[schema(min_length = 1, max_length = 80)]
-    /// What people call the day; without it, the name of its scenario, or of its network with the date.
-    name: Option<String>,
-    /// Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601.
-    #[schema(pattern = "^(19[7-9][0-9]|2[01][0-9]{2})-[0-9]{2}-[0-9]{2}$")]
-    date: Option<String>,
-    /// The time zone of its clock by its name in the IANA database; without it, that of the network.
-    time_zone: Option<String>,
-    /// The policy that decides when none is asked for.
-    policy: Option<String>,
-}
-
-/// Passengers who are expected to fly from one vertiport to another in one period.
-#[derive(Debug, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ForecastRow {
-    /// A time within the period, without a date.
-    period: Moment,
-    /// Where they leave.
-    from: String,
-    /// Where they fly to.
-    to: String,
-    /// Their number.
-    passengers: u32,
-}
 
 /// A day.
 #[derive(Debug, Serialize, ToSchema)]
@@ -144,9 +96,8 @@ pub(crate) struct DayState {
 pub(crate) struct AircraftState {
     /// Its id.
     id: String,
-    /// `standing`, `sent_off` or `in_the_air`.
-    #[schema(value_type = PhaseName)]
-    phase: &'static str,
+    /// What it does.
+    phase: PhaseName,
     /// The vertiport where it stands or will land.
     place: String,
     /// When it landed there or is expected to.
@@ -164,9 +115,8 @@ pub(crate) struct AircraftState {
 }
 
 /// What an aircraft does.
-#[derive(ToSchema)]
-#[schema(rename_all = "snake_case")]
-#[expect(dead_code, reason = "it stands for the values of a text in the description")]
+#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum PhaseName {
     /// It stands at its vertiport and charges, is ready or holds.
     Standing,
@@ -286,89 +236,6 @@ pub(super) async fn create(
     Ok(answer)
 }
 
-/// The longest name of a day.
-const LONGEST_NAME: usize = 80;
-
-impl NewDay {
-    /// The day as it is expected before it begins, and the time zone of its network.
-    async fn scenario(&self, service: &Service) -> Result<(Scenario, Option<String>), Error> {
-        let (scenario, zone) = match (&self.network, &self.scenario) {
-            (Some(network), None) => {
-                let (network, _) = networks::find(service.days.store(), network).await?;
-                let seed = DaySeed::comparison(self.seed.unwrap_or(1))?;
-                (network.draw(seed), network.time_zone().map(str::to_owned))
-            }
-            (None, Some(_)) if self.seed.is_some() => {
-                let rule = "`seed` goes with `network`: a scenario is drawn already".to_owned();
-                return Err(Error::BadRequest { rule });
-            }
-            (None, Some(scenario)) => {
-                (Scenario::from_json(scenario.get().as_bytes(), "scenario")?, None)
-            }
-            _ => {
-                let rule = "name a `network` or give a `scenario`".to_owned();
-                return Err(Error::BadRequest { rule });
-            }
-        };
-        Ok((self.changed(scenario.expected())?, zone))
-    }
-
-    /// The day with the forecast and the places of aircraft that were given.
-    fn changed(&self, scenario: Scenario) -> Result<Scenario, Error> {
-        if self.forecast.is_none() && self.aircraft.is_empty() {
-            return Ok(scenario);
-        }
-        let ids = Ids::of(&scenario);
-        let mut day = scenario.into_day();
-        if let Some(rows) = &self.forecast {
-            for table in &mut day.demand {
-                *table = Matrix::from_fn(table.size(), |_, _| 0);
-            }
-            for ForecastRow { period, from, to, passengers } in rows {
-                let period = ids.period(period.time())?;
-                let pair = (ids.vertiport(from)?, ids.vertiport(to)?);
-                let cell = &mut day.demand[period][pair];
-                *cell = cell.saturating_add(*passengers);
-            }
-        }
-        for (aircraft, vertiport) in &self.aircraft {
-            day.aircraft[ids.aircraft(aircraft)?.at()].at = ids.vertiport(vertiport)?;
-        }
-        Ok(day.check("the day")?)
-    }
-
-    /// Its date and its time zone, both empty if it has no date.
-    fn calendar(&self, of_network: Option<String>) -> Result<(String, String), Error> {
-        let wrong = |rule: &str| Error::BadRequest { rule: rule.to_owned() };
-        let Some(date) = &self.date else {
-            return match self.time_zone {
-                None => Ok(Default::default()),
-                Some(_) => Err(wrong("`time_zone` goes with `date`")),
-            };
-        };
-        let zone = self.time_zone.clone().or(of_network);
-        let zone = zone.ok_or_else(|| {
-            wrong("a day with a `date` needs a `time_zone`: its network has none")
-        })?;
-        Calendar::new(date, &zone)?;
-        Ok((date.clone(), zone))
-    }
-
-    fn name_of(&self, scenario: &Scenario) -> Result<String, Error> {
-        let Some(name) = &self.name else {
-            let dated = self.network.as_ref().zip(self.date.as_ref());
-            let dated = dated.map(|(network, date)| format!("{network} {date}"));
-            return Ok(dated.unwrap_or_else(|| scenario.name.clone()));
-        };
-        let length = name.chars().count();
-        if length == 0 || length > LONGEST_NAME || name.contains(char::is_control) {
-            let rule = format!("the `name` of a day has 1 to {LONGEST_NAME} characters");
-            return Err(Error::BadRequest { rule });
-        }
-        Ok(name.clone())
-    }
-}
-
 /// An id that sorts by the time at which it was made.
 fn new_id() -> String {
     let random = std::hash::BuildHasher::hash_one(&std::hash::RandomState::new(), now_ms());
@@ -459,9 +326,9 @@ impl DayState {
             .map(|now| AircraftState {
                 id: scenario.aircraft[now.aircraft.at()].id.clone(),
                 phase: match now.phase {
-                    Phase::Standing => "standing",
-                    Phase::SentOff { .. } => "sent_off",
-                    Phase::InTheAir { .. } => "in_the_air",
+                    Phase::Standing => PhaseName::Standing,
+                    Phase::SentOff { .. } => PhaseName::SentOff,
+                    Phase::InTheAir { .. } => PhaseName::InTheAir,
                 },
                 place: id(now.place),
                 arrival: now.arrival.into(),

@@ -1,0 +1,195 @@
+//! A store is opened: reached, its tables made or brought up to date, its version checked.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use sqlx::any::{AnyPoolOptions, install_default_drivers};
+use sqlx::{AnyConnection, Connection as _, Executor as _, query, query_scalar};
+use tokio::time::sleep;
+
+use super::{DATABASE, Location, PATIENCE, Store, VERSION};
+use crate::error::Error;
+
+/// Between two tries to reach a server.
+const PAUSE: Duration = Duration::from_millis(100);
+/// The statements that make the tables.
+const TABLES: [&str; 8] = [
+    "CREATE TABLE IF NOT EXISTS meta (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS days (
+        id TEXT PRIMARY KEY, name TEXT NOT NULL, created_ms BIGINT NOT NULL, archived BIGINT NOT NULL,
+        policy TEXT NOT NULL, scenario TEXT NOT NULL, date TEXT NOT NULL DEFAULT '',
+        time_zone TEXT NOT NULL DEFAULT '')",
+    "CREATE TABLE IF NOT EXISTS events (
+        day TEXT NOT NULL, seq BIGINT NOT NULL, at_ms BIGINT NOT NULL, actor TEXT NOT NULL,
+        body TEXT NOT NULL, notices TEXT NOT NULL, chain BIGINT NOT NULL, PRIMARY KEY (day, seq))",
+    "CREATE TABLE IF NOT EXISTS answers (
+        idempotency_key TEXT PRIMARY KEY, request TEXT NOT NULL, answer TEXT NOT NULL,
+        at_ms BIGINT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS tokens (
+        id TEXT PRIMARY KEY, name TEXT NOT NULL, role TEXT NOT NULL, hash TEXT NOT NULL,
+        created_ms BIGINT NOT NULL, revoked_ms BIGINT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS audit (
+        at_ms BIGINT NOT NULL, actor TEXT NOT NULL, action TEXT NOT NULL, target TEXT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS networks (
+        name TEXT PRIMARY KEY, toml TEXT NOT NULL, created_ms BIGINT NOT NULL)",
+    "CREATE TABLE IF NOT EXISTS policies (
+        name TEXT PRIMARY KEY, weights BYTEA NOT NULL, sha256 TEXT NOT NULL, created_ms BIGINT NOT NULL)",
+];
+
+/// The lock of PostgreSQL under which tables are made: the letters of `fleet`.
+const LOCK: i64 = 0x66_6c65_6574;
+
+/// What a store of version 1 lacks.
+const SINCE_1: [&str; 2] = [
+    "ALTER TABLE days ADD COLUMN date TEXT NOT NULL DEFAULT ''",
+    "ALTER TABLE days ADD COLUMN time_zone TEXT NOT NULL DEFAULT ''",
+];
+
+/// The settings of each connection to `SQLite`: a log that readers do not wait for, written to the disk before a commit
+/// is answered.
+const SQLITE: &str =
+    "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA busy_timeout = 5000;
+    PRAGMA foreign_keys = ON";
+
+/// A first connection, which says what is wrong; a pool would try again and again, and only say that it took too long. A
+/// server may be about to start, so it has a while.
+async fn connect(url: &str, is_shared: bool) -> Result<AnyConnection, sqlx::Error> {
+    let begun = Instant::now();
+    loop {
+        match AnyConnection::connect(url).await {
+            Err(_) if is_shared && begun.elapsed() < PATIENCE => sleep(PAUSE).await,
+            outcome => return outcome,
+        }
+    }
+}
+
+/// Makes the tables, if there are none. Services that begin at the same time with an empty database wait for each other.
+async fn make_tables(database: &mut AnyConnection, is_shared: bool) -> Result<(), sqlx::Error> {
+    let mut transaction = database.begin().await?;
+    if is_shared {
+        query("SELECT 1 FROM (SELECT pg_advisory_xact_lock($1)) AS held")
+            .bind(LOCK)
+            .execute(&mut *transaction)
+            .await?;
+    }
+    for statement in TABLES {
+        query(statement).execute(&mut *transaction).await?;
+    }
+    transaction.commit().await
+}
+
+impl Store {
+    /// Opens a store, and makes its tables if there are none.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if the database cannot be reached, and [`Error::BadData`] if a newer program wrote it.
+    pub(crate) async fn open(location: &Location) -> Result<Self, Error> {
+        install_default_drivers();
+        // What fails in a transaction may leave a connection in a state that nobody wants: when a disk is full, SQLite ends
+        // the transaction by itself, and all that came after would be part of one that is never committed.
+        let mut options = AnyPoolOptions::new()
+            .max_connections(8)
+            .acquire_timeout(PATIENCE)
+            .before_acquire(|connection, _| {
+                let is_free = !connection.is_in_transaction();
+                Box::pin(async move { Ok(is_free) })
+            });
+        let url = match location {
+            Location::Folder(folder) => {
+                make_folder(folder).map_err(|cause| Error::Store {
+                    cause: format!("{}: {cause}", folder.display()),
+                })?;
+                options = options.after_connect(|connection, _| {
+                    Box::pin(async move { connection.execute(SQLITE).await.map(drop) })
+                });
+                sqlite_url(&folder.join(DATABASE))
+            }
+            Location::Postgres(url) => url.clone(),
+        };
+        let is_shared = matches!(location, Location::Postgres(_));
+        let mut first = connect(&url, is_shared).await.map_err(Error::of_opening)?;
+        if !is_shared {
+            first.execute(SQLITE).await.map_err(Error::of_opening)?;
+        }
+        make_tables(&mut first, is_shared).await.map_err(Error::of_opening)?;
+        first.close().await?;
+        let store = Self { pool: options.connect(&url).await?, is_shared };
+        store.check_version().await?;
+        Ok(store)
+    }
+
+    /// Opens a store that must be there.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] if it is not, and the errors of [`open`](Self::open).
+    pub(crate) async fn open_existing(location: &Location) -> Result<Self, Error> {
+        if let Location::Folder(folder) = location {
+            let file = folder.join(DATABASE);
+            let missing = || {
+                let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.clone());
+                let cause = format!("there is no data of a service in {}", folder.display());
+                Error::Store { cause }
+            };
+            if !file.exists() {
+                return Err(missing());
+            }
+            install_default_drivers();
+            let mut database =
+                AnyConnection::connect(&sqlite_url(&file)).await.map_err(Error::of_opening)?;
+            let select = "SELECT name FROM sqlite_master WHERE name = 'meta'";
+            let found = query(select).fetch_optional(&mut database).await;
+            database.close().await?;
+            if found.map_err(Error::of_opening)?.is_none() {
+                return Err(missing());
+            }
+        }
+        Self::open(location).await
+    }
+
+    async fn check_version(&self) -> Result<(), Error> {
+        query(
+            "INSERT INTO meta (name, value) VALUES ('version', $1) ON CONFLICT (name) DO NOTHING",
+        )
+        .bind(VERSION)
+        .execute(&self.pool)
+        .await?;
+        let found: String = query_scalar("SELECT value FROM meta WHERE name = 'version'")
+            .fetch_one(&self.pool)
+            .await?;
+        if found == "1" {
+            return self.bring_up_to_date().await;
+        }
+        if found != VERSION {
+            let rule =
+                format!("it is of version {found:?}, and this program reads version {VERSION:?}");
+            return Err(Error::BadData { rule });
+        }
+        Ok(())
+    }
+
+    /// Adds to a store of version 1 what it lacks.
+    async fn bring_up_to_date(&self) -> Result<(), Error> {
+        let mut transaction = self.pool.begin().await?;
+        let update = "UPDATE meta SET value = $1 WHERE name = 'version' AND value = '1'";
+        let updated = query(update).bind(VERSION).execute(&mut *transaction).await?;
+        // Another service may have done it in the meantime.
+        if updated.rows_affected() > 0 {
+            for statement in SINCE_1 {
+                query(statement).execute(&mut *transaction).await?;
+            }
+        }
+        Ok(transaction.commit().await?)
+    }
+}
+
+/// Makes a folder that its owner alone can read, unless it is there.
+fn make_folder(folder: &Path) -> std::io::Result<()> {
+    let mut builder = std::fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.recursive(true).create(folder)
+}
+
+fn sqlite_url(path: &Path) -> String {
+    format!("sqlite://{}?mode=rwc", path.display())
+}
