@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo check test soak database lint deny bench train suites notebooks python python-light python-test wheel sdist prepare tools
+.PHONY: demo check test soak database console lint deny bench train suites notebooks python python-light python-test wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network.
 demo: prepare
@@ -41,8 +41,13 @@ python-light: prepare
 database:
 	@scripts/database
 
-# How often the service survives: 1,000 kills while clients write.
-soak: prepare
+# Builds the console from web/ into web/dist, which is in the tree: only those who change it need Node.
+console:
+	@scripts/console build
+	cd web && npm run build
+
+# How often the service survives: 1,000 kills while clients write, with each kind of store, and where writes fail too.
+soak: prepare database
 	VERTIFLEET_KILLS=1000 cargo test --release --locked -p vertifleet-cli --test serve_killed -- --nocapture
 
 # What the lints need beside Rust and Python.

@@ -137,15 +137,16 @@ fn recorded(
         let scene = day.scene();
         let stuck =
             |error| Error::of_play(name, &kept.day, vertifleet_policy::PlayError::from(error));
-        if values {
+        let (decision, view) = (scene.decision(), scene.view());
+        let choice = if values {
             let begin = kept.values.len();
             kept.values.resize(begin + vertiports, f64::NAN);
-            let real = begin..begin + scene.view().vertiports();
-            policy
-                .values(scene.decision(), &scene.view(), &mut kept.values[real])
-                .map_err(stuck)?;
-        }
-        let choice = policy.choose(scene.decision(), &scene.view()).map_err(stuck)?;
+            let real = begin..begin + view.vertiports();
+            policy.choose_with_values(decision, &view, &mut kept.values[real])
+        } else {
+            policy.choose(decision, &view)
+        };
+        let choice = choice.map_err(stuck)?;
         let outcome = day.step(choice.0.into(), world.reward);
         kept.actions.push(outcome.row.to.0.into());
         kept.rewards.push(outcome.reward);

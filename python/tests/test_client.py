@@ -284,6 +284,19 @@ def test_errors_have_codes_details_and_hints(client: Client) -> None:
         client.make_day("nowhere")
 
 
+def test_the_demand_of_a_day_is_known_by_period(client: Client) -> None:
+    day = client.make_day(
+        "paper", forecast=[{"period": "07:00:00", "from": "V1", "to": "V2", "passengers": 3}]
+    )
+    day.report({"type": "booked", "period": "07:00:00", "from": "V1", "to": "V2", "passengers": 2})
+    later = day.demand("07:00:00")
+    assert (later["seq"], later["has_begun"]) == (1, False)
+    assert later["pairs"] == [{"from": "V1", "to": "V2", "passengers": 5}]
+    assert day.demand()["pairs"] == []
+    with pytest.raises(ServiceError, match="V603"):
+        day.demand("05:00:00")
+
+
 def test_an_archived_day_takes_nothing_more(client: Client) -> None:
     day = client.make_day("paper")
     day.archive()
@@ -291,6 +304,22 @@ def test_an_archived_day_takes_nothing_more(client: Client) -> None:
     assert day.refresh()["archived"]
     with pytest.raises(ServiceError, match="V608"):
         day.report(clock("06:10:00"))
+    day.unarchive()
+    assert day.report(clock("06:10:00"))["seq"] == 1
+    assert not day.refresh()["archived"]
+
+
+def test_a_day_that_has_gone_on_is_not_closed(client: Client) -> None:
+    day = client.make_day("paper")
+    day.report(clock("06:10:00"))
+    for change in (day.archive, day.unarchive, day.delete):
+        with pytest.raises(ServiceError, match="V605"):
+            change(if_match=0)
+    day.archive(if_match=1)
+    day.unarchive(if_match=1)
+    day.delete(if_match=1)
+    with pytest.raises(ServiceError, match="V602"):
+        day.refresh()
 
 
 def test_all_pages_of_a_list_are_read(client: Client) -> None:
@@ -319,7 +348,7 @@ def test_a_stream_goes_on_after_a_lost_connection(client: Client, relay: Relay) 
 def test_a_stream_ends_with_the_error_that_ends_it(client: Client) -> None:
     day = client.make_day("paper")
     day.report(clock("06:01:00"))
-    with pytest.raises(ServiceError, match="V601"):
+    with pytest.raises(ServiceError, match="V602: there is no event 7"):
         next(day.stream(after=7))
     stream = day.stream()
     next(stream)

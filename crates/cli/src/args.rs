@@ -73,6 +73,12 @@ pub(crate) struct ServeArguments {
     /// A proxy that speaks TLS stands before the service, which may then listen on other addresses
     #[arg(long, conflicts_with = "certificate")]
     pub(crate) behind_proxy: bool,
+    /// Send spans of requests to this collector of OpenTelemetry [default: OTEL_EXPORTER_OTLP_ENDPOINT, or to none]
+    #[arg(long, value_name = "URL")]
+    pub(crate) otlp: Option<String>,
+    /// Show simulated, disturbed days of New York at 60 times their speed, one after the other, and keep nothing
+    #[arg(long, conflicts_with_all = ["data", "database", "certificate", "behind_proxy"])]
+    pub(crate) demo: bool,
     #[command(subcommand)]
     pub(crate) action: Option<ServeAction>,
 }
@@ -139,6 +145,9 @@ pub(crate) struct OperateArguments {
     /// Seconds of the day that pass in a second, or max
     #[arg(long, default_value = "max", value_parser = parse_speed)]
     pub(crate) speed: Speed,
+    /// Leave the decisions to others, such as people at the console, and wait for each
+    #[arg(long)]
+    pub(crate) by_hand: bool,
     /// PEM file with certificates to trust, for a service whose certificate is its own
     #[arg(long, value_name = "FILE")]
     pub(crate) trust: Option<PathBuf>,
@@ -181,6 +190,9 @@ pub(crate) struct SimulateArguments {
     /// Write every decision to this CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
+    /// Write a page that replays the day to this HTML file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
     /// Replace a file that this program did not write or that is read-only; never what the command reads
     #[arg(long)]
     pub(crate) force: bool,

@@ -6,6 +6,7 @@
 mod args;
 mod commands;
 mod failure;
+mod file_limit;
 mod interrupt;
 mod mean_shadow_prices;
 mod output;
@@ -20,7 +21,9 @@ use crate::args::{Arguments, Command};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let outcome = limit_threads(arguments.threads).and_then(|()| run(arguments.command));
+    let outcome = file_limit::survive()
+        .and_then(|()| limit_threads(arguments.threads))
+        .and_then(|()| run(arguments.command));
     match outcome {
         Ok(code) => code,
         Err(failure) => failure.report(),

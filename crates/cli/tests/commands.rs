@@ -220,15 +220,85 @@ fn a_report_is_a_folder_with_a_page_figures_and_tables() {
         folder.path(),
         "compare --network paper --policies random,greedy,gcaps --days 4 --seed 9 --report out",
     );
-    for name in ["report.html", "days.csv", "summary.json"] {
+    for name in ["report.html", "replay.html", "days.csv", "summary.json"] {
         assert!(folder.path().join("out").join(name).exists(), "{name}");
     }
+    let page = fs::read_to_string(folder.path().join("out/report.html")).expect("a page");
+    assert!(page.contains(r#"<a href="replay.html">Watch the first 3 days</a>"#), "{page}");
     for figure in ["figure-3-learning-curves", "figure-4-reward", "figure-5-profit"] {
         for kind in ["svg", "png"] {
             let name = format!("{figure}.{kind}");
             assert!(folder.path().join("out").join(&name).exists(), "{name}");
         }
     }
+}
+
+/// The days that a replay page carries.
+fn replayed(page: &Path) -> Vec<Value> {
+    let page = fs::read_to_string(page).expect("a page");
+    let (_, data) = page.split_once(r#"id="vertifleet-data">"#).expect("a place for the days");
+    let (data, _) = data.split_once("</script>").expect("its end");
+    let data: Value = serde_json::from_str(data).expect("JSON");
+    data["days"].as_array().expect("days").clone()
+}
+
+#[test]
+fn a_page_replays_the_day_that_was_simulated() {
+    let folder = folder();
+    let at = folder.path();
+    stdout(at, "scenario new-york --seed 3 -o day.json");
+    let printed =
+        stdout(at, "simulate day.json --policy prices --trace day.csv --report day.html --json");
+    let printed: Value = serde_json::from_str(&printed).expect("JSON");
+    let [day] = &replayed(&at.join("day.html"))[..] else { panic!("one day was simulated") };
+    let scenario = fs::read(at.join("day.json")).expect("a day");
+    let scenario: Value = serde_json::from_slice(&scenario).expect("JSON");
+    assert!(day["scenario"] == scenario, "the page carries the whole scenario");
+    assert_eq!((&day["name"], &day["plays"][0]["policy"]), (&scenario["name"], &"prices".into()));
+    assert_eq!(day["plays"][0]["profit_usd"], printed["profit_usd"]);
+
+    // The trace of the page is that of the file, rounded to the cent, and still a schedule that the checker takes.
+    let (text, exact) =
+        (day["plays"][0]["trace"].as_str().expect("text"), fs::read_to_string(at.join("day.csv")));
+    let choices = |text: &str| -> Vec<String> {
+        let columns = |line: &str| line.splitn(6, ',').take(5).collect::<Vec<_>>().join(",");
+        text.lines().map(columns).collect()
+    };
+    assert_eq!(choices(text), choices(&exact.expect("a trace")));
+
+    // A page of this program is replaced, also by that of another day.
+    stdout(at, "simulate day.json --policy greedy --report day.html");
+    assert_eq!(replayed(&at.join("day.html"))[0]["plays"][0]["policy"], "greedy");
+}
+
+#[test]
+fn a_report_replays_its_first_days_as_every_policy_played_them() {
+    let folder = folder();
+    let at = folder.path();
+    stdout(at, "compare --network paper --policies random,greedy --days 4 --seed 9 --report out");
+    let days = replayed(&at.join("out/replay.html"));
+    let names: Vec<&Value> = days.iter().map(|day| &day["name"]).collect();
+    assert_eq!(names, ["paper-9", "paper-10", "paper-11"]);
+    let table = fs::read_to_string(at.join("out/days.csv")).expect("a table");
+    for day in &days {
+        let plays = day["plays"].as_array().expect("plays");
+        assert_eq!(plays.len(), 2);
+        for play in plays {
+            let (policy, name) = (&play["policy"], &day["name"]);
+            let row =
+                format!("{},{},", policy.as_str().expect("text"), name.as_str().expect("text"));
+            let row =
+                table.lines().find(|line| line.starts_with(&row)).expect("a row of the table");
+            let profit_usd = play["profit_usd"].to_string();
+            assert!(row.split(',').any(|field| field == profit_usd), "{row} has no {profit_usd}");
+        }
+    }
+    stdout(at, "compare --network paper --policies greedy --days 1 --seed 9 --report out");
+    assert_eq!(
+        replayed(&at.join("out/replay.html")).len(),
+        1,
+        "the report was replaced as a whole"
+    );
 }
 
 #[test]

@@ -1,8 +1,11 @@
 //! The data of the service: checked, copied, put back, and refused when it is damaged.
 
+mod service;
+
 use std::path::Path;
 
 use assert_cmd::Command;
+use service::Service;
 use vertifleet_serve::{Location, Role, Tokens};
 
 fn serve(arguments: &[&str], data: &Path) -> assert_cmd::assert::Assert {
@@ -16,32 +19,18 @@ fn printed(outcome: &assert_cmd::assert::Assert) -> String {
 
 /// Data with one day of two events, made by a service that was killed.
 fn data(folder: &Path) -> String {
-    let listening =
-        std::net::TcpListener::bind("127.0.0.1:0").and_then(|socket| socket.local_addr());
-    let port = listening.expect("a port").port();
-    let mut service = std::process::Command::new(assert_cmd::cargo::cargo_bin!("vertifleet"))
-        .args(["serve", "--listen", &format!("127.0.0.1:{port}"), "--data"])
-        .arg(folder)
-        .spawn()
-        .expect("the program starts");
+    let mut serve = Service::command("127.0.0.1:0");
+    let service = Service::start(serve.arg("--data").arg(folder)).expect("it starts");
     let send = |path: &str, body: &str| {
-        for _ in 0..200 {
-            if let Ok(mut answer) =
-                ureq::post(format!("http://127.0.0.1:{port}/v1/days{path}")).send(body)
-            {
-                let text = answer.body_mut().read_to_string().expect("a body");
-                return serde_json::from_str::<serde_json::Value>(&text).expect("JSON");
-            }
-            std::thread::sleep(std::time::Duration::from_millis(20));
-        }
-        panic!("the service does not answer");
+        let url = format!("http://{}/v1/days{path}", service.address);
+        let mut answer = ureq::post(url).send(body).expect("it answers");
+        let text = answer.body_mut().read_to_string().expect("a body");
+        serde_json::from_str::<serde_json::Value>(&text).expect("JSON")
     };
     let made = send("", r#"{"network": "paper", "policy": "greedy"}"#);
     let id = made["id"].as_str().expect("an id").to_owned();
     send(&format!("/{id}/decisions"), r#"{"aircraft": "A01"}"#);
     send(&format!("/{id}/decisions"), r#"{"aircraft": "A02"}"#);
-    service.kill().expect("kill");
-    service.wait().expect("it is dead");
     id
 }
 

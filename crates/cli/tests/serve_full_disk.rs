@@ -5,66 +5,67 @@
 
 #![cfg(target_os = "linux")]
 
-use std::io::{BufRead as _, BufReader, Write as _};
+mod service;
+
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::Command;
 use std::time::Duration;
 
 use serde_json::{Value, json};
+use service::Service;
 
 /// Writes before the disk is full, while it is, and after it has room again.
 const WRITES: usize = 60;
 
-const SCRIPT: &str = r#"mount -t tmpfs -o size=8m tmpfs "$1" || exit 9
-"$2" serve --listen 127.0.0.1:0 --data "$1/data"
-sleep 600"#;
+/// Mounts the disk and runs a command. The disk is there as long as this shell is.
+const SCRIPT: &str = r#"mount -t tmpfs -o size=8m tmpfs "$0" || exit 9
+"$@"
+exec sleep 600"#;
 
 /// A shell with a small disk of its own, on which the service runs.
 struct SmallDisk {
-    shell: Child,
-    url: String,
+    shell: Service,
     folder: PathBuf,
 }
 
 impl Drop for SmallDisk {
     fn drop(&mut self) {
         self.kill_service();
-        let _ = self.shell.kill();
-        let _ = self.shell.wait();
     }
 }
 
 impl SmallDisk {
     /// Starts the service; `None` if the operating system permits no mount.
     fn start(place: &Path) -> Option<Self> {
-        let program = assert_cmd::cargo::cargo_bin!("vertifleet");
-        let mut shell = Command::new("unshare")
-            .args(["--user", "--map-root-user", "--mount", "sh", "-c", SCRIPT, "sh"])
-            .args([place, program])
-            .stderr(Stdio::piped())
-            .spawn()
-            .ok()?;
-        let mut lines = BufReader::new(shell.stderr.take().expect("a pipe")).lines();
-        let first = lines.next().and_then(Result::ok).unwrap_or_default();
-        let Some(rest) = first.strip_prefix("listening on ") else {
-            eprintln!("skipped: {first}");
-            let _ = shell.kill();
-            let _ = shell.wait();
-            return None;
-        };
-        let url = rest.split(',').next().expect("an address").to_owned();
-        std::thread::spawn(move || lines.for_each(drop));
-        // The disk as processes outside of the namespace see it.
-        let seen = format!("/proc/{}/root{}", shell.id(), place.display());
-        Some(Self { shell, url, folder: seen.into() })
+        let mut serve = Service::command("127.0.0.1:0");
+        serve.arg("--data").arg(place.join("data"));
+        let mut shell = Command::new("unshare");
+        shell.args(["--user", "--map-root-user", "--mount", "sh", "-c", SCRIPT]).arg(place);
+        shell.arg(serve.get_program()).args(serve.get_args());
+        match Service::start(&mut shell) {
+            Ok(shell) => {
+                // The disk as processes outside of the namespace see it.
+                let seen = format!("/proc/{}/root{}", shell.child.id(), place.display());
+                Some(Self { shell, folder: seen.into() })
+            }
+            Err(said) => {
+                eprintln!("skipped: {said}");
+                None
+            }
+        }
     }
 
     fn kill_service(&self) {
-        let children = format!("/proc/{0}/task/{0}/children", self.shell.id());
+        let children = format!("/proc/{0}/task/{0}/children", self.shell.child.id());
         let children = std::fs::read_to_string(children).unwrap_or_default();
         for child in children.split_whitespace() {
             let _ = Command::new("kill").args(["-9", child]).status();
         }
+    }
+
+    fn url(&self, path: &str) -> String {
+        format!("http://{}{path}", self.shell.address)
     }
 
     fn post(&self, path: &str, key: &str, body: &Value) -> (u16, Value) {
@@ -73,14 +74,14 @@ impl SmallDisk {
             .timeout_global(Some(Duration::from_secs(30)))
             .build()
             .into();
-        let request = agent.post(format!("{}{path}", self.url)).header("idempotency-key", key);
+        let request = agent.post(self.url(path)).header("idempotency-key", key);
         let mut answer = request.send(body.to_string().as_bytes()).expect("the service answers");
         let text = answer.body_mut().read_to_vec().expect("a body");
         (answer.status().as_u16(), serde_json::from_slice(&text).expect("JSON"))
     }
 
     fn is_ready(&self) -> bool {
-        let answer = ureq::get(format!("{}/readyz", self.url)).call();
+        let answer = ureq::get(self.url("/readyz")).call();
         answer.is_ok_and(|answer| answer.status() == 200)
     }
 

@@ -3,13 +3,15 @@
 
 #![cfg(unix)]
 
+mod service;
+
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use serde_json::{Value, json};
+use service::Service;
 
 /// Connections that say nothing; fewer where the operating system permits fewer files.
 const SILENT: u64 = 10_000;
@@ -18,34 +20,11 @@ const READERS: usize = 1_000;
 /// Events that they get.
 const EVENTS: usize = 20;
 
-/// A running service. It is killed when it is dropped.
-struct Running {
-    child: Child,
-    address: String,
+fn start(data: &Path) -> Service {
+    Service::start(Service::command("127.0.0.1:0").arg("--data").arg(data)).expect("it starts")
 }
 
-impl Drop for Running {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-impl Running {
-    fn start(data: &Path) -> Self {
-        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("vertifleet"))
-            .args(["serve", "--listen", "127.0.0.1:0", "--data"])
-            .arg(data)
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("the program starts");
-        let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines();
-        let first = lines.next().expect("a line").expect("text");
-        let address = first.split(['/', ',']).nth(2).expect("an address").to_owned();
-        std::thread::spawn(move || lines.for_each(drop));
-        Self { child, address }
-    }
-
+impl Service {
     fn connect(&self) -> TcpStream {
         let socket = TcpStream::connect(&self.address).expect("it listens");
         socket.set_read_timeout(Some(Duration::from_mins(2))).expect("a timeout");
@@ -78,7 +57,7 @@ impl Running {
 #[test]
 fn others_are_served_beside_thousands_of_silent_connections() {
     let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let service = start(folder.path());
     let files = rlimit::increase_nofile_limit(u64::MAX).expect("a limit");
     let number = SILENT.min(files.saturating_sub(1_000));
     let silent: Vec<TcpStream> = (0..number).map(|_| service.connect()).collect();
@@ -95,7 +74,7 @@ fn others_are_served_beside_thousands_of_silent_connections() {
 #[test]
 fn a_thousand_readers_get_every_event() {
     let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let service = start(folder.path());
     let day = service.new_day();
     let mut readers: Vec<TcpStream> = (0..READERS).map(|_| service.connect()).collect();
     for reader in &mut readers {
@@ -118,7 +97,7 @@ fn a_thousand_readers_get_every_event() {
 #[test]
 fn nonsense_is_answered_with_a_code() {
     let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let service = start(folder.path());
     let day = service.new_day();
     let deep = "[".repeat(100_000);
     let wide = format!("[{}1]", "1,".repeat(1_000_000));

@@ -1,44 +1,106 @@
 //! The service is killed again and again while clients write. Every event that it acknowledged is there afterwards, once
-//! and in its order.
+//! and in its order: with the data in a folder, with the data in `PostgreSQL`, and in a folder where writing fails at
+//! random moments too.
 //!
-//! `VERTIFLEET_KILLS` sets the number of kills, for long runs (`make soak`).
+//! `VERTIFLEET_KILLS` sets the number of kills of each test, for long runs (`make soak`).
 
 #![cfg(unix)]
 
+mod service;
+
 use std::collections::BTreeMap;
-use std::io::{BufRead as _, BufReader};
-use std::net::TcpListener;
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::process::Command;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::thread;
 use std::time::Duration;
 
 use serde_json::{Value, json};
+use service::Service;
+use vertifleet_testkit::{Postgres, draw};
 
 /// Clients that write at the same time, each its own events.
 const CLIENTS: usize = 4;
 /// Days that they write to by turns.
 const DAYS: usize = 2;
+/// After so many kills all events are looked at, and new days begin: reading long days again after each kill would take
+/// most of the time.
+const KILLS_OF_A_ROUND: u32 = 50;
 
 fn kills() -> u32 {
     std::env::var("VERTIFLEET_KILLS").ok().and_then(|kills| kills.parse().ok()).unwrap_or(8)
 }
 
-/// Starts the service and waits until it listens.
-fn start(data: &Path, port: u16) -> Child {
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("vertifleet"))
-        .args(["serve", "--listen", &format!("127.0.0.1:{port}"), "--data"])
-        .arg(data)
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines();
-    let first = lines.next().expect("a line").expect("text");
-    assert!(first.starts_with("listening on"), "{first}");
-    // What it says later must not fill the pipe.
-    thread::spawn(move || lines.for_each(drop));
-    child
+fn milliseconds(number: usize) -> Duration {
+    Duration::from_millis(number as u64)
+}
+
+/// A service that is killed again and again.
+struct Trial<'a> {
+    /// What people call it.
+    name: &'static str,
+    /// Where its data lies, as the program is told it.
+    data: [&'a str; 2],
+    /// What becomes of the service in the time between two kills.
+    meanwhile: fn(&Service, kill: u32, Duration),
+}
+
+/// What clients have met.
+#[derive(Debug, Default)]
+struct Outcome {
+    acknowledged: usize,
+    /// Requests that were answered 503.
+    refused: AtomicU32,
+}
+
+/// A request with a key, sent again until it is acknowledged, as a client should. `None` if it was told to stop before.
+struct Client<'a> {
+    agent: ureq::Agent,
+    stop: &'a AtomicBool,
+    refused: &'a AtomicU32,
+}
+
+/// An event that was acknowledged: its day, its number, and its mark.
+type Acknowledged = (usize, u64, String);
+
+impl Client<'_> {
+    fn post(&self, url: &str, key: &str, body: &Value) -> Option<Value> {
+        while !self.stop.load(Ordering::Relaxed) {
+            if let Some(answer) = self.try_once(url, key, body) {
+                return Some(answer);
+            }
+            thread::sleep(Duration::from_millis(5));
+        }
+        None
+    }
+
+    fn try_once(&self, url: &str, key: &str, body: &Value) -> Option<Value> {
+        let request = self.agent.post(url).header("idempotency-key", key);
+        let mut answer = request.send(body.to_string().as_bytes()).ok()?;
+        let text = answer.body_mut().read_to_vec().ok()?;
+        match answer.status().as_u16() {
+            201 => return Some(serde_json::from_slice(&text).expect("JSON")),
+            409 => {}
+            503 => drop(self.refused.fetch_add(1, Ordering::Relaxed)),
+            status => panic!("{status} {}", String::from_utf8_lossy(&text)),
+        }
+        None
+    }
+
+    /// Writes events, each with a mark of its own, until it is told to stop.
+    fn write(&self, client: usize, days: &[String]) -> Vec<Acknowledged> {
+        let mut acknowledged = Vec::new();
+        for number in 0.. {
+            let (at, mark) = (number % days.len(), format!("{client}-{number}"));
+            let aircraft = format!("A{:02}", client + 1);
+            let body = json!({"type": "out_of_service", "aircraft": aircraft, "reason": mark});
+            let key = format!("{mark} of {}", days[0]);
+            let Some(answer) = self.post(&format!("{}/events", days[at]), &key, &body) else {
+                break;
+            };
+            acknowledged.push((at, answer["seq"].as_u64().expect("a number"), mark));
+        }
+        acknowledged
+    }
 }
 
 fn agent() -> ureq::Agent {
@@ -47,43 +109,6 @@ fn agent() -> ureq::Agent {
         .timeout_global(Some(Duration::from_secs(5)))
         .build();
     config.into()
-}
-
-fn post(agent: &ureq::Agent, url: &str, key: &str, body: &Value) -> Option<Value> {
-    let request = agent.post(url).header("idempotency-key", key);
-    let mut answer = request.send(body.to_string().as_bytes()).ok()?;
-    let text = answer.body_mut().read_to_vec().ok()?;
-    let status = answer.status().as_u16();
-    assert!(
-        status == 201 || status == 409 || status == 503,
-        "{status} {}",
-        String::from_utf8_lossy(&text)
-    );
-    (status == 201).then(|| serde_json::from_slice(&text).expect("JSON"))
-}
-
-/// Writes events, each with a mark of its own, until it is told to stop. A request without an answer is sent again with
-/// its key, as a client should. Returns the number that each mark was acknowledged with.
-fn write(client: usize, days: &[String], stop: &AtomicBool) -> Vec<(usize, u64, String)> {
-    let agent = agent();
-    let mut acknowledged = Vec::new();
-    for number in 0.. {
-        let (day, mark) = (number % days.len(), format!("{client}-{number}"));
-        let aircraft = format!("A{:02}", client + 1);
-        let body = json!({"type": "out_of_service", "aircraft": aircraft, "reason": mark});
-        loop {
-            if stop.load(Ordering::Relaxed) {
-                return acknowledged;
-            }
-            if let Some(answer) = post(&agent, &format!("{}/events", days[day]), &mark, &body) {
-                let seq = answer["seq"].as_u64().expect("a number");
-                acknowledged.push((day, seq, mark));
-                break;
-            }
-            thread::sleep(Duration::from_millis(5));
-        }
-    }
-    acknowledged
 }
 
 /// The marks of all events of a day, by their numbers.
@@ -106,53 +131,92 @@ fn marks(agent: &ureq::Agent, day: &str) -> BTreeMap<u64, String> {
     }
 }
 
-#[test]
-fn no_acknowledged_event_is_lost_when_the_service_is_killed() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let port = TcpListener::bind("127.0.0.1:0")
-        .and_then(|socket| socket.local_addr())
-        .expect("a port")
-        .port();
-    let url = format!("http://127.0.0.1:{port}/v1/days");
-    let mut service = start(folder.path(), port);
-    let agent = agent();
-    let new_day = |number: usize| {
-        let made = post(
-            &agent,
-            &url,
-            &format!("day {number}"),
-            &json!({"network": "paper", "policy": "greedy"}),
-        );
-        format!("{url}/{}", made.expect("a day")["id"].as_str().expect("an id"))
-    };
-    let days: Vec<String> = (0..DAYS).map(new_day).collect();
-    let stop = AtomicBool::new(false);
-    let acknowledged: Vec<Vec<(usize, u64, String)>> = thread::scope(|scope| {
-        let clients: Vec<_> = (0..CLIENTS)
-            .map(|client| {
-                scope.spawn({
-                    let (days, stop) = (&days, &stop);
-                    move || write(client, days, stop)
-                })
-            })
-            .collect();
-        for kill in 0..kills() {
-            thread::sleep(Duration::from_millis(u64::from(50 + kill * 37 % 200)));
-            service.kill().expect("kill -9");
-            service.wait().expect("it is dead");
-            service = start(folder.path(), port);
+impl Trial<'_> {
+    fn start(&self, listen: &str) -> Result<Service, String> {
+        Service::start(Service::command(listen).args(self.data))
+    }
+
+    /// Kills the service so often, and starts it again at the same address.
+    ///
+    /// # Errors
+    /// Returns what went wrong if it ended by itself or does not start.
+    fn kill(&self, service: &mut Service, kills: std::ops::Range<u32>) -> Result<(), String> {
+        for kill in kills {
+            (self.meanwhile)(service, kill, milliseconds(50 + draw(kill, 0) % 200));
+            if let Some(status) = service.child.try_wait().expect("a child") {
+                return Err(format!("before kill {kill} it ended by itself: {status}"));
+            }
+            service.child.kill().expect("kill -9");
+            service.child.wait().expect("it is dead");
+            *service = self.start(&service.address)?;
         }
         thread::sleep(Duration::from_millis(200));
-        stop.store(true, Ordering::Relaxed);
-        clients.into_iter().map(|client| client.join().expect("a client")).collect()
-    });
-    let stored: Vec<BTreeMap<u64, String>> = days.iter().map(|day| marks(&agent, day)).collect();
-    let count: usize = acknowledged.iter().map(Vec::len).sum();
-    assert!(count > 100, "{count} events were acknowledged");
+        Ok(())
+    }
+
+    /// Kills a service while clients write to days of their own.
+    fn round(&self, service: &mut Service, kills: std::ops::Range<u32>, outcome: &mut Outcome) {
+        let url = format!("http://{}/v1/days", service.address);
+        let (stop, refused) = (AtomicBool::new(false), &outcome.refused);
+        let client = || Client { agent: agent(), stop: &stop, refused };
+        let new_day = |number: usize| {
+            let body = json!({"network": "paper", "policy": "greedy"});
+            let key = format!("day {number} of kill {}", kills.start);
+            let made = client().post(&url, &key, &body).expect("nobody says stop");
+            format!("{url}/{}", made["id"].as_str().expect("an id"))
+        };
+        let days: Vec<String> = (0..DAYS).map(new_day).collect();
+        let acknowledged: Vec<Vec<Acknowledged>> = thread::scope(|scope| {
+            let write = |number| {
+                let (client, days) = (client(), &days);
+                scope.spawn(move || client.write(number, days))
+            };
+            let clients: Vec<_> = (0..CLIENTS).map(write).collect();
+            let killed = self.kill(service, kills);
+            // Before anything can panic, or the clients would go on for ever.
+            stop.store(true, Ordering::Relaxed);
+            killed.expect("it lives until it is killed, and starts again");
+            clients.into_iter().map(|client| client.join().expect("a client")).collect()
+        });
+        let agent = agent();
+        let stored: Vec<_> = days.iter().map(|day| marks(&agent, day)).collect();
+        check(&stored, &acknowledged);
+        outcome.acknowledged += acknowledged.iter().map(Vec::len).sum::<usize>();
+    }
+
+    /// Kills a service as often as this test is to, and checks that nothing was lost.
+    fn run(&self) -> Outcome {
+        let mut outcome = Outcome::default();
+        let mut service = self.start("127.0.0.1:0").expect("it starts");
+        let mut killed = 0;
+        while killed < kills() {
+            let next = kills().min(killed + KILLS_OF_A_ROUND);
+            self.round(&mut service, killed..next, &mut outcome);
+            killed = next;
+        }
+        drop(service);
+        let verified = Command::new(assert_cmd::cargo::cargo_bin!("vertifleet"))
+            .args(["serve", "verify"])
+            .args(self.data)
+            .output()
+            .expect("the program runs");
+        assert!(verified.status.success(), "{}", String::from_utf8_lossy(&verified.stdout));
+        let (name, acknowledged) = (self.name, outcome.acknowledged);
+        assert!(acknowledged > 100, "{acknowledged} events were acknowledged");
+        let refused = outcome.refused.load(Ordering::Relaxed);
+        eprintln!(
+            "{name}: {killed} kills, {acknowledged} events acknowledged, none lost; {refused} requests refused"
+        );
+        outcome
+    }
+}
+
+/// Checks the events of each day against those that were acknowledged to each client.
+fn check(stored: &[BTreeMap<u64, String>], acknowledged: &[Vec<Acknowledged>]) {
     for (day, seq, mark) in acknowledged.iter().flatten() {
         assert_eq!(stored[*day].get(seq), Some(mark), "event {seq} of day {day}");
     }
-    for marks in &stored {
+    for marks in stored {
         assert!(marks.keys().copied().eq(1..=marks.len() as u64), "no number is missing");
         for client in 0..CLIENTS {
             let numbers: Vec<u32> = marks
@@ -167,9 +231,59 @@ fn no_acknowledged_event_is_lost_when_the_service_is_killed() {
         }
     }
     // Beside what was acknowledged there is at most the last request of each client.
+    let count: usize = acknowledged.iter().map(Vec::len).sum();
     let extra = stored.iter().map(BTreeMap::len).sum::<usize>() - count;
     assert!(extra <= CLIENTS, "{extra} events were stored and never acknowledged");
-    service.kill().expect("kill -9");
-    service.wait().expect("it is dead");
-    eprintln!("{} kills, {count} events acknowledged, none lost", kills());
+}
+
+/// A folder, and its path as text.
+fn folder() -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().to_str().expect("text").to_owned();
+    (folder, path)
+}
+
+#[test]
+fn no_acknowledged_event_is_lost_when_the_service_is_killed() {
+    let (_folder, path) = folder();
+    let meanwhile = |_: &Service, _, time| thread::sleep(time);
+    Trial { name: "SQLite", data: ["--data", &path], meanwhile }.run();
+}
+
+#[test]
+fn no_acknowledged_event_is_lost_when_a_service_with_a_database_is_killed() {
+    let database = Postgres::start();
+    let url = database.url();
+    let meanwhile = |_: &Service, _, time| thread::sleep(time);
+    Trial { name: "PostgreSQL", data: ["--database", &url], meanwhile }.run();
+}
+
+/// Lets writing fail now and then: a file may not grow beyond a length that is drawn each time, so that a write ends at
+/// any byte. The service may be killed before files may grow again.
+#[cfg(target_os = "linux")]
+fn let_writes_fail(service: &Service, kill: u32, time: Duration) {
+    const LONGEST: usize = 1 << 22;
+    let pid = i32::try_from(service.child.id()).expect("a process of ours");
+    let (_, hard) = rlimit::Resource::FSIZE.get().expect("a limit");
+    let begun = std::time::Instant::now();
+    for step in 0.. {
+        let drawn = |number: u32| draw(kill, 1 + 4 * step + number);
+        let length = (drawn(0) % LONGEST) >> (drawn(1) % 22);
+        let length = if step % 2 == 0 { hard.min(length as u64) } else { hard };
+        rlimit::prlimit(pid, rlimit::Resource::FSIZE, Some((length, hard)), None)
+            .expect("a process of ours");
+        thread::sleep(milliseconds(5 + drawn(2) % 40));
+        if begun.elapsed() >= time {
+            return;
+        }
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn no_acknowledged_event_is_lost_when_writes_fail_and_the_service_is_killed() {
+    let (_folder, path) = folder();
+    let name = "SQLite with writes that fail";
+    let outcome = Trial { name, data: ["--data", &path], meanwhile: let_writes_fail }.run();
+    assert!(outcome.refused.into_inner() > 0, "no write has failed");
 }

@@ -61,7 +61,16 @@ impl Policy for Learned {
         view: &View<'_>,
         values: &mut [f64],
     ) -> Result<(), PolicyError> {
-        self.choose(decision, view)?;
+        self.choose_with_values(decision, view, values).map(|_| ())
+    }
+
+    fn choose_with_values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<VertiportIx, PolicyError> {
+        let choice = self.choose(decision, view)?;
         values.fill(f64::NAN);
         let feasible = view.feasible(decision);
         for (at, &logit) in self.workspace.logits()[..values.len()].iter().enumerate() {
@@ -69,7 +78,7 @@ impl Policy for Learned {
                 values[at] = f64::from(logit);
             }
         }
-        Ok(())
+        Ok(choice)
     }
 
     fn choose_batch(

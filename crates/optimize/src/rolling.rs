@@ -48,14 +48,23 @@ impl Policy for Rolling {
         view: &View<'_>,
         values: &mut [f64],
     ) -> Result<(), PolicyError> {
+        self.choose_with_values(decision, view, values).map(|_| ())
+    }
+
+    fn choose_with_values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<VertiportIx, PolicyError> {
         let prices = self.prices.at(*view, decision);
         let listed = self.shortlist.rank_with_repositioning(prices, *view, decision);
+        let (best, found) = self.evaluator.best_choice_with_values(prices, *view, decision, listed);
         values.fill(f64::NAN);
-        let found = self.evaluator.values_usd(prices, *view, decision, listed);
         for (choice, &value_usd) in listed.iter().zip(found) {
             values[choice.to.at()] = value_usd;
         }
-        Ok(())
+        Ok(best)
     }
 
     fn prices(&mut self, decision: &Decision, view: &View<'_>) -> Option<&DayPrices> {

@@ -38,6 +38,24 @@ pub trait Policy: Send {
         Ok(())
     }
 
+    /// Chooses, and writes what the choices were compared by, as [`values`](Self::values) does. Policies for which both
+    /// are one computation carry it out once.
+    ///
+    /// # Errors
+    /// The errors of [`choose`](Self::choose).
+    ///
+    /// # Panics
+    /// May panic unless there is a number for each vertiport.
+    fn choose_with_values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<VertiportIx, PolicyError> {
+        self.values(decision, view, values)?;
+        self.choose(decision, view)
+    }
+
     /// The bid prices that it decides by, refreshed for this decision; `None` for a policy that has none, as by default.
     fn prices(&mut self, _decision: &Decision, _view: &View<'_>) -> Option<&DayPrices> {
         None

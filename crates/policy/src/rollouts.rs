@@ -79,6 +79,21 @@ impl RolloutEvaluator {
         &self.values_usd
     }
 
+    /// The choice of [`best_choice`](Self::best_choice) and the [`values_usd`](Self::values_usd), from the same
+    /// roll-outs.
+    pub fn best_choice_with_values(
+        &mut self,
+        prices: &DayPrices,
+        view: View<'_>,
+        decision: &Decision,
+        listed: &[PricedChoice],
+    ) -> (VertiportIx, &[f64]) {
+        self.values_usd(prices, view, decision, listed);
+        let rollouts = self.rollouts_usd.len() / listed.len();
+        let best = self.best_of_rollouts(prices, view, decision, listed, rollouts);
+        (best, &self.values_usd)
+    }
+
     /// The best choice of a list whose first is the best at the prices. It is the first, unless another is better
     /// beyond doubt. A flight without passengers must also earn more than the first choice when the whole rest of the
     /// day is played out, since it costs money now for a worth that prices only promise for later.
@@ -89,11 +104,23 @@ impl RolloutEvaluator {
         decision: &Decision,
         listed: &[PricedChoice],
     ) -> VertiportIx {
-        let PricedChoice { worth_usd: first_usd, to: first } = listed[0];
-        if listed.len() == 1 {
-            return first;
+        if let [only] = listed {
+            return only.to;
         }
         let rollouts = self.roll_out(prices, view, decision, listed);
+        self.best_of_rollouts(prices, view, decision, listed, rollouts)
+    }
+
+    /// The best choice of a list by the latest [`roll_out`](Self::roll_out).
+    fn best_of_rollouts(
+        &mut self,
+        prices: &DayPrices,
+        view: View<'_>,
+        decision: &Decision,
+        listed: &[PricedChoice],
+        rollouts: usize,
+    ) -> VertiportIx {
+        let PricedChoice { worth_usd: first_usd, to: first } = listed[0];
         let (first_rollouts_usd, others_usd) = self.rollouts_usd.split_at(rollouts);
         self.better.clear();
         for (&PricedChoice { worth_usd: priced_usd, to }, rollouts_usd) in

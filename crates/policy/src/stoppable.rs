@@ -30,4 +30,16 @@ impl<P: Policy + ?Sized> Policy for Stoppable<'_, P> {
     ) -> Result<(), PolicyError> {
         self.policy.values(decision, view, values)
     }
+
+    fn choose_with_values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<VertiportIx, PolicyError> {
+        if self.stop.is_requested() {
+            return Err(PolicyError::Stopped);
+        }
+        self.policy.choose_with_values(decision, view, values)
+    }
 }

@@ -17,6 +17,7 @@ use sha2::{Digest as _, Sha256};
 use subtle::ConstantTimeEq as _;
 use utoipa::ToSchema;
 
+use crate::console;
 use crate::days::now_ms;
 use crate::error::Error;
 use crate::service::Service;
@@ -36,9 +37,9 @@ const PREFIX: &str = "vf_";
 pub enum Role {
     /// To read days, and to ask for proposals, outlooks and what-if.
     Read,
-    /// To report events and to take decisions, and to make days.
+    /// To report events and to take decisions, and to make days and studies.
     Dispatch,
-    /// To archive and delete days, and to upload networks and policies.
+    /// To archive days, open them again and delete them, and to upload networks and policies.
     Admin,
 }
 
@@ -65,7 +66,11 @@ impl Role {
         match *method {
             Method::GET | Method::HEAD | Method::OPTIONS => Self::Read,
             Method::POST if path.ends_with("/what-if") || path.ends_with("/validate") => Self::Read,
-            Method::POST if !path.ends_with("/archive") => Self::Dispatch,
+            Method::POST if !["/archive", "/unarchive"].iter().any(|end| path.ends_with(end)) => {
+                Self::Dispatch
+            }
+            // Whoever may begin a study may end it.
+            Method::DELETE if path.starts_with("/v1/studies/") => Self::Dispatch,
             _ => Self::Admin,
         }
     }
@@ -155,18 +160,23 @@ impl Access {
         Ok(self.tokens().await?.iter().any(|token| token.revoked_ms == 0))
     }
 
-    /// Lets a request in, or not.
+    /// Lets a request in, or not. Whatever a token asks for counts as asked with it; what cannot be checked because the store
+    /// does not answer counts as nobody's.
     async fn admit(&self, headers: &HeaderMap, needed: Role) -> Result<Actor, Error> {
-        let token = self.may(headers, needed).await;
-        let (id, who) = match &token {
-            Ok(None) => return Ok(Actor::default()),
-            Ok(Some(token)) => (token.id.as_str(), token.name.as_str()),
-            Err(_) => ("", "those who have no token"),
-        };
+        let tokens = self.tokens().await?;
+        // Once there has been a token, revoking the last one does not open the door to everybody.
+        if tokens.is_empty() {
+            return Ok(Actor::default());
+        }
+        let token = sent(&tokens, headers);
+        let nobody = ("", "those who have no token");
+        let (id, who) = token.map_or(nobody, |token| (&token.id, &token.name));
         if self.rates.check_key(&id.to_owned()).is_err() {
             return Err(Error::TooOften { who: who.to_owned(), most: self.most_per_s });
         }
-        Ok(Actor(token?.map(|token| token.name).unwrap_or_default()))
+        let token = token.ok_or(Error::NoToken)?;
+        token.check(needed)?;
+        Ok(Actor(token.name.clone()))
     }
 
     /// The token of a request that permits it; `None` if no token has ever been made.
@@ -179,18 +189,29 @@ impl Access {
         needed: Role,
     ) -> Result<Option<StoredToken>, Error> {
         let tokens = self.tokens().await?;
-        // Once there has been a token, revoking the last one does not open the door to everybody.
         if tokens.is_empty() {
             return Ok(None);
         }
-        let given = headers.get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
-        let given = given.and_then(|text| text.strip_prefix("Bearer ")).ok_or(Error::NoToken)?;
-        let token = matching(&tokens, given).ok_or(Error::NoToken)?;
-        if token.role < needed {
-            return Err(Error::NotPermitted { role: token.role.name(), needed: needed.name() });
-        }
+        let token = sent(&tokens, headers).ok_or(Error::NoToken)?;
+        token.check(needed)?;
         Ok(Some(token.clone()))
     }
+}
+
+impl StoredToken {
+    /// Checks that it permits what needs a role.
+    fn check(&self, needed: Role) -> Result<(), Error> {
+        if self.role < needed {
+            return Err(Error::NotPermitted { role: self.role.name(), needed: needed.name() });
+        }
+        Ok(())
+    }
+}
+
+/// The token in force that a request came with.
+fn sent<'a>(tokens: &'a [StoredToken], headers: &HeaderMap) -> Option<&'a StoredToken> {
+    let given = headers.get(header::AUTHORIZATION)?.to_str().ok()?;
+    matching(tokens, given.strip_prefix("Bearer ")?)
 }
 
 /// The token in force that a text is.
@@ -208,7 +229,7 @@ pub(crate) async fn admit(
     next: Next,
 ) -> Result<Response, Error> {
     let path = request.uri().path();
-    if !matches!(path, "/healthz" | "/readyz") {
+    if !matches!(path, "/healthz" | "/readyz") && !console::is_open(path) {
         let needed = Role::needed(request.method(), path);
         let actor = service.access.admit(request.headers(), needed).await?;
         request.extensions_mut().insert(actor);
@@ -301,18 +322,45 @@ impl Tokens {
 
 #[cfg(test)]
 mod tests {
-    use super::{Role, StoredToken, hash, matching};
+    use std::time::Instant;
 
-    #[test]
-    fn a_token_matches_by_its_whole_secret_and_only_while_it_is_in_force() {
-        let token = |revoked_ms| StoredToken {
+    use axum::http::HeaderMap;
+
+    use super::{Access, Known, Role, StoredToken, hash, matching};
+    use crate::error::Error;
+    use crate::store::{Location, Store};
+
+    fn token(revoked_ms: i64) -> StoredToken {
+        StoredToken {
             id: "1f".to_owned(),
             name: "console".to_owned(),
             role: Role::Dispatch,
             hash: hash("secret"),
             created_ms: 1,
             revoked_ms,
-        };
+        }
+    }
+
+    #[tokio::test]
+    async fn requests_that_cannot_be_checked_are_not_counted() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let location = Location::Folder(folder.path().to_owned());
+        let store = Store::open(&location).await.expect("a store");
+        store.close().await;
+        let access = Access::new(store, 1);
+        let ask = async || access.admit(&HeaderMap::new(), Role::Read).await.map(|_| ());
+        for _ in 0..20 {
+            let refused = ask().await;
+            assert!(matches!(refused, Err(Error::Store { .. })), "{refused:?}");
+        }
+        let now = Instant::now();
+        *access.known() = Some(Known { tokens: [token(0)].into(), read: now, asked: now });
+        let refused = ask().await;
+        assert!(matches!(refused, Err(Error::NoToken)), "{refused:?}");
+    }
+
+    #[test]
+    fn a_token_matches_by_its_whole_secret_and_only_while_it_is_in_force() {
         let (good, revoked) = ([token(0)], [token(5)]);
         assert_eq!(matching(&good, "vf_1f_secret"), Some(&good[0]));
         for wrong in ["vf_1f_secre", "vf_1f_secret2", "vf_1e_secret", "1f_secret", "vf_1f", ""] {

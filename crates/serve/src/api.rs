@@ -3,6 +3,7 @@
 mod answer;
 mod days;
 mod decisions;
+mod demand;
 mod describe;
 mod events;
 mod extract;
@@ -12,6 +13,7 @@ mod outlooks;
 mod policies;
 mod service;
 mod stream;
+mod studies;
 
 use std::pin::Pin;
 use std::sync::Arc;
@@ -32,6 +34,7 @@ pub(crate) use self::answer::Totals;
 pub use self::describe::openapi;
 pub(crate) use self::extract::Sender;
 use crate::access::admit;
+use crate::console;
 use crate::error::Error;
 use crate::metrics::measure;
 use crate::service::Service;
@@ -42,7 +45,9 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
         .route("/v1/days", get(days::list).post(days::create))
         .route("/v1/days/{day}", get(days::read).delete(days::delete))
         .route("/v1/days/{day}/archive", post(days::archive))
+        .route("/v1/days/{day}/unarchive", post(days::unarchive))
         .route("/v1/days/{day}/state", get(days::state))
+        .route("/v1/days/{day}/demand", get(demand::demand))
         .route("/v1/days/{day}/scenario", get(days::scenario))
         .route("/v1/days/{day}/trace.csv", get(days::trace))
         .route("/v1/days/{day}/events", get(events::list).post(events::append))
@@ -63,11 +68,15 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
             "/v1/policies/{policy}",
             get(policies::read).put(policies::put).delete(policies::delete),
         )
+        .route("/v1/studies", get(studies::list).post(studies::create))
+        .route("/v1/studies/{study}", get(studies::read).delete(studies::delete))
+        .route("/v1/studies/{study}/report", get(studies::report))
         .route("/v1", get(service::info))
         .route("/healthz", get(service::healthz))
         .route("/readyz", get(service::readyz))
         .route("/metrics", get(service::metrics))
         .route("/openapi.json", get(service::described))
+        .merge(console::router())
         .fallback(|uri: axum::http::Uri| async move { Error::not_found("path", uri.path()) })
         .method_not_allowed_fallback(|method: axum::http::Method| async move {
             Error::NotAllowed { method: method.to_string() }

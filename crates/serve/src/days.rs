@@ -1,5 +1,7 @@
 //! The days that the service holds in memory, each with its lock, its readers and its policies.
 
+mod archived;
+
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -145,16 +147,10 @@ impl DayCell {
     /// Checks that an event has happened after which somebody wants to read on.
     ///
     /// # Errors
-    /// Returns [`Error::BadRequest`] if it has not: the day may have been put back from a copy.
+    /// Returns [`Error::NoSuchEvent`] if it has not: the day may have been put back from a copy.
     pub(crate) fn check_begun(&self, after: u64) -> Result<(), Error> {
-        let seq = self.state().seq();
-        if after <= seq {
-            return Ok(());
-        }
-        let rule = format!(
-            "the day is at event {seq}, so nothing follows event {after}: read its state again"
-        );
-        Err(Error::BadRequest { rule })
+        let last = self.state().seq();
+        if after <= last { Ok(()) } else { Err(Error::NoSuchEvent { asked: after, last }) }
     }
 
     /// Whether memory can no longer be trusted: an event could not be stored, or somebody panicked over the state.
@@ -290,8 +286,11 @@ impl Days {
     }
 
     /// Takes in what other services have added to a day. Returns false if memory does not go on as the store does,
-    /// because an event of ours waits to be stored under a number that has been taken.
+    /// because an event of ours waits to be stored under a number that has been taken, or the day is not archived any more.
     async fn catch_up(&self, day: &DayCell) -> Result<bool, Error> {
+        if day.stored.archived && !self.store.is_archived(day.id()).await? {
+            return Ok(false);
+        }
         loop {
             let known = day.state().seq();
             let events = self.store.events(day.id(), known, PAGE).await?;
@@ -324,15 +323,10 @@ impl Days {
     /// A day as it was after an event.
     ///
     /// # Errors
-    /// Returns [`Error::NotFound`] if the day has no such event, and the errors of [`get`](Self::get).
+    /// Returns [`Error::NoSuchEvent`] if the day has no such event, and the errors of [`get`](Self::get).
     pub(crate) async fn at(&self, day: &DayCell, seq: u64) -> Result<DispatchDay, Error> {
-        let scenario = {
-            let now = day.state();
-            if seq > now.seq() {
-                return Err(Error::not_found("event", &seq.to_string()));
-            }
-            Arc::clone(now.live().scenario())
-        };
+        day.check_begun(seq)?;
+        let scenario = Arc::clone(day.state().live().scenario());
         self.replayed(day, scenario, seq).await
     }
 
@@ -349,7 +343,7 @@ impl Days {
         let mut state = DispatchDay::new(scenario);
         self.store.replay(day.id(), &mut state, seq).await?;
         if state.seq() < seq {
-            return Err(Error::not_found("event", &(state.seq() + 1).to_string()));
+            return Err(Error::NoSuchEvent { asked: seq, last: state.seq() });
         }
         Ok(state)
     }
@@ -427,28 +421,6 @@ impl Days {
         let stopped = || Error::Store { cause: "the service is stopping".to_owned() };
         outcome.await.map_err(|_| stopped())??;
         Ok(answer)
-    }
-
-    /// Closes a day to writes.
-    ///
-    /// # Errors
-    /// Returns [`Error::NotFound`] or [`Error::Store`].
-    pub(crate) async fn archive(&self, id: &str) -> Result<(), Error> {
-        self.get(id).await?;
-        self.store.archive(id).await?;
-        self.forget(id);
-        Ok(())
-    }
-
-    /// Removes a day.
-    ///
-    /// # Errors
-    /// Returns [`Error::NotFound`] or [`Error::Store`].
-    pub(crate) async fn delete(&self, id: &str) -> Result<(), Error> {
-        self.get(id).await?.has_failed.store(true, Ordering::Release);
-        self.store.delete(id).await?;
-        self.forget(id);
-        Ok(())
     }
 }
 

@@ -101,9 +101,12 @@ pub(crate) enum RuleName {
     NoStandFree,
 }
 
+/// A policy that decides on a day, which answers one after the other.
+type Shared = Arc<tokio::sync::Mutex<Decider>>;
+
 /// The policies that decide on a day, each with its memory of the day.
 #[derive(Debug, Default)]
-pub(crate) struct Deciders(Mutex<HashMap<String, Arc<Mutex<Decider>>>>);
+pub(crate) struct Deciders(Mutex<HashMap<String, Shared>>);
 
 /// A policy with its memory.
 pub(crate) struct Decider {
@@ -132,7 +135,7 @@ impl Deciders {
         name: &str,
         day: &Scenario,
         policies: &Policies,
-    ) -> Result<Arc<Mutex<Decider>>, Error> {
+    ) -> Result<Shared, Error> {
         if let Some(decider) = self.lock().get(name) {
             return Ok(Arc::clone(decider));
         }
@@ -151,11 +154,12 @@ impl Deciders {
             values: vec![f64::NAN; day.vertiports.len()],
         };
         // Somebody else may have asked for it at the same time.
-        let decider = deciders.entry(name.to_owned()).or_insert(Arc::new(Mutex::new(decider)));
+        let decider =
+            deciders.entry(name.to_owned()).or_insert_with(|| Shared::new(decider.into()));
         Ok(Arc::clone(decider))
     }
 
-    fn lock(&self) -> MutexGuard<'_, HashMap<String, Arc<Mutex<Decider>>>> {
+    fn lock(&self) -> MutexGuard<'_, HashMap<String, Shared>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -185,10 +189,8 @@ impl Decider {
         };
         let day = self.room.as_ref().expect("the view was written into it");
         let (view, scenario) = (day.view(), Arc::clone(day.scenario()));
-        let to = self.policy.choose(&decision, &view);
+        let to = self.policy.choose_with_values(&decision, &view, &mut self.values);
         let to = to.map_err(|error| Error::of_policy(policy, &error))?;
-        self.values.fill(f64::NAN);
-        let _ = self.policy.values(&decision, &view, &mut self.values);
         let prices = self.policy.prices(&decision, &view);
         let weighed = Weighed { view, decision: &decision, prices, values: &self.values };
         let every = VertiportIx::all(view.vertiports()).zip(refusals);

@@ -37,6 +37,16 @@ pub enum Error {
         id: String,
     },
 
+    /// V602. There is no such event yet. Cause: a wrong number, or the day was put back from a copy that is older than what
+    /// the client has seen. Fix: read the state of the day again.
+    #[error("there is no event {asked}: the day is at event {last}")]
+    NoSuchEvent {
+        /// The number that was asked for.
+        asked: u64,
+        /// The number of the latest event.
+        last: u64,
+    },
+
     /// V603. The day has no such aircraft or vertiport. Cause: a wrong id. Fix: use the ids of the day's scenario.
     #[error("the day has no {what} {id:?}")]
     UnknownId {
@@ -88,7 +98,7 @@ pub enum Error {
         rule: String,
     },
 
-    /// V608. The day is closed to writes. Cause: it was archived. Fix: none; make a new day.
+    /// V608. The day is closed to writes. Cause: it was archived. Fix: open it again, or make a new day.
     #[error("day {id:?} is archived")]
     Archived {
         /// The day.
@@ -216,6 +226,17 @@ pub enum Error {
         rule: String,
     },
 
+    /// V625. Spans cannot be sent to the collector that is named. Cause: `--otlp` or `OTEL_EXPORTER_OTLP_ENDPOINT` is no
+    /// address of HTTP, or the environment asks for what this program does not have. Fix: name the collector as
+    /// `http://127.0.0.1:4318`.
+    #[error("spans cannot be sent to {address:?}: {rule}")]
+    BadCollector {
+        /// The address.
+        address: String,
+        /// What is wrong.
+        rule: String,
+    },
+
     /// V621. Another process wrote to the same day at the same time, again and again. Cause: several services share a
     /// database, and many clients write to one day through all of them. Fix: send the request again.
     #[error("another service wrote to the day at the same time")]
@@ -281,7 +302,7 @@ impl Error {
         match self {
             Self::Core(_) | Self::Study(_) | Self::BadRequest { .. } => StatusCode::BAD_REQUEST,
             Self::InList { cause, .. } => cause.status(),
-            Self::NotFound { .. } => StatusCode::NOT_FOUND,
+            Self::NotFound { .. } | Self::NoSuchEvent { .. } => StatusCode::NOT_FOUND,
             Self::UnknownId { .. }
             | Self::Unfit(_)
             | Self::Contradiction { .. }
@@ -306,6 +327,7 @@ impl Error {
             | Self::Unprotected { .. }
             | Self::InUse { .. }
             | Self::BadCertificate { .. }
+            | Self::BadCollector { .. }
             | Self::CannotListen { .. }
             | Self::NoAnswer { .. } => StatusCode::INTERNAL_SERVER_ERROR,
         }
@@ -328,7 +350,7 @@ impl Coded for Error {
             Self::Study(error) => return error.code(),
             Self::InList { cause, .. } => return cause.code(),
             Self::BadRequest { .. } => 601,
-            Self::NotFound { .. } => 602,
+            Self::NotFound { .. } | Self::NoSuchEvent { .. } => 602,
             Self::UnknownId { .. } => 603,
             Self::Unfit(_) => 604,
             Self::Moved { .. } => 605,
@@ -351,6 +373,7 @@ impl Coded for Error {
             Self::TooSlow { .. } => 622,
             Self::TooOften { .. } => 623,
             Self::BadCertificate { .. } => 624,
+            Self::BadCollector { .. } => 625,
         })
     }
 
@@ -360,12 +383,16 @@ impl Coded for Error {
             Self::Study(error) => error.hint(),
             Self::InList { cause, .. } => cause.hint(),
             Self::Moved { .. } => Some("read the day again, and decide anew"),
+            Self::NoSuchEvent { .. } => {
+                Some("the day may have been put back from a copy: read its state again")
+            }
             Self::NotFound { what: "policy", .. } => Some(
                 "GET /v1/policies lists them; PUT /v1/policies/NAME keeps weights under a name",
             ),
             Self::NotFound { what: "network", .. } => {
                 Some("GET /v1/networks lists them; PUT /v1/networks/NAME keeps a network file")
             }
+            Self::Archived { .. } => Some("POST /v1/days/DAY/unarchive opens it again"),
             Self::KeyReused { .. } => Some("use a new Idempotency-Key for each request"),
             Self::BadData { .. } => Some("`vertifleet serve verify` names what is damaged"),
             Self::NoToken => Some("send it as `Authorization: Bearer vf_...`"),

@@ -76,6 +76,7 @@ pub(crate) enum What {
         to: Option<String>,
         /// Passengers on board, if not as many as expected.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schema(maximum = 65_535)]
         passengers: Option<u16>,
     },
     /// An aircraft is on the ground.
@@ -154,6 +155,7 @@ pub(crate) enum What {
         /// Where they want to go.
         to: String,
         /// Their number.
+        #[schema(format = Int64, maximum = 4_294_967_295u32)]
         passengers: u32,
     },
     /// Passengers do not want to fly any more.
@@ -165,6 +167,7 @@ pub(crate) enum What {
         /// Where they wanted to go.
         to: String,
         /// Their number.
+        #[schema(format = Int64, maximum = 4_294_967_295u32)]
         passengers: u32,
     },
     /// A vertiport has another number of stands, or of chargers where they are counted apart.
@@ -208,6 +211,7 @@ pub(crate) struct PairDemand {
     /// Where they want to go.
     pub(crate) to: String,
     /// How many of them still want to fly.
+    #[schema(format = Int64, maximum = 4_294_967_295u32)]
     pub(crate) passengers: u32,
 }
 

@@ -9,11 +9,14 @@ mod api;
 mod calendar;
 mod committer;
 mod connections;
+mod console;
 mod days;
 mod decide;
 mod dispatch_day;
 mod error;
 mod event;
+#[cfg(any(test, feature = "fuzz"))]
+mod fuzz;
 mod keep;
 mod keys;
 mod limits;
@@ -26,11 +29,15 @@ mod policies;
 mod problem;
 mod server;
 mod service;
+mod spans;
 mod store;
+mod studies;
 
 pub use access::{Role, StoredToken, Tokens};
 pub use api::openapi;
 pub use error::Error;
+#[cfg(any(test, feature = "fuzz"))]
+pub use fuzz::AnyRequest;
 pub use keep::{Contents, DayCheck, Keeper, restore};
 pub use limits::Limits;
 pub use operate::{Operation, OperationReport, operate};

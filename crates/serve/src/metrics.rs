@@ -15,6 +15,7 @@ use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::metrics::histogram::{Histogram, exponential_buckets};
 use prometheus_client::metrics::info::Info;
 use prometheus_client::registry::Registry;
+use vertifleet_core::Code;
 
 use crate::days::now_ms;
 use crate::service::Service;
@@ -113,7 +114,7 @@ impl Metrics {
     }
 }
 
-/// Measures a request.
+/// Measures a request. This is the one place where requests are counted, logged, and told to a collector.
 pub(crate) async fn measure(
     State(service): State<Arc<Service>>,
     request: Request,
@@ -122,18 +123,30 @@ pub(crate) async fn measure(
     let known = [Method::GET, Method::POST, Method::PUT, Method::DELETE, Method::HEAD];
     // Whoever makes up methods must not make up series.
     let method = request.method();
-    let method = if known.contains(method) { method.as_str() } else { "other" }.to_owned();
+    let is_known = known.contains(method);
+    let method = if is_known { method.as_str() } else { "other" }.to_owned();
     // Paths as they are described, since each id would be a series of its own.
-    let path = request.extensions().get::<MatchedPath>();
-    let path = path.map_or("unknown", MatchedPath::as_str).to_owned();
+    let path = request.extensions().get::<MatchedPath>().cloned();
+    let path = path.as_ref().map(MatchedPath::as_str);
+    let span = service.spans.as_ref().map(|spans| {
+        let method = if is_known { &method } else { "_OTHER" };
+        spans.begin(method, path, request.headers())
+    });
+    let path = path.unwrap_or("unknown").to_owned();
     let begun = Instant::now();
     let answer = next.run(request).await;
+    let took = begun.elapsed();
     let metrics = service.days.metrics();
     let of_path = Path { method: method.clone(), path: path.clone() };
-    metrics.request_seconds.get_or_create(&of_path).observe(begun.elapsed().as_secs_f64());
+    metrics.request_seconds.get_or_create(&of_path).observe(took.as_secs_f64());
     let answered = Answered { method, path, status: answer.status().as_u16() };
     metrics.requests.get_or_create(&answered).inc();
     let Answered { method, path, status } = answered;
-    tracing::info!(method, path, status, took_us = begun.elapsed().as_micros(), "a request");
+    let code = answer.extensions().get::<Code>().map(Code::to_string);
+    let trace = span.as_ref().map(|span| span.trace().to_string());
+    tracing::info!(method, path, status, code, trace, took_us = took.as_micros(), "a request");
+    if let Some(span) = span {
+        span.end(answer.status(), code);
+    }
     answer
 }

@@ -32,9 +32,9 @@ pub(crate) fn by_calendar<T>(calendar: Option<&Calendar>, work: impl FnOnce() ->
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Moment(Time);
 
-/// What the texts of times look like.
+/// What the texts of times look like. What follows from the latest time that is taken may lie after 100:00:00.
 const PATTERN: &str =
-    "^([0-9]{1,2}:[0-5][0-9]:[0-5][0-9]|[0-9]{1,6}|[0-9]{4}-[0-9]{2}-[0-9]{2}T.*[0-9].*)$";
+    "^([0-9]{1,4}:[0-5][0-9]:[0-5][0-9]|[0-9]{1,6}|[0-9]{4}-[0-9]{2}-[0-9]{2}T.*[0-9].*)$";
 /// No day lasts longer, seconds.
 const LATEST_S: u32 = 100 * 3600;
 

@@ -1,18 +1,18 @@
 //! The networks from which days can be made: those that the program ships, and those that were uploaded.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use vertifleet_core::{Matrix, Network, Vertiport};
 
 use crate::error::Error;
 use crate::moment::Moment;
-use crate::store::Store;
+use crate::store::{Kind, Store, StoredNetwork, Uploaded};
 
 /// The number of networks that can be uploaded.
 const MOST: usize = 1_000;
 
 /// A network.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub(crate) struct NetworkInfo {
     /// Its name.
     pub(crate) name: String,
@@ -42,7 +42,7 @@ pub(crate) struct NetworkInfo {
 }
 
 /// A vertiport of a network.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub(crate) struct VertiportInfo {
     /// Its id.
     id: String,
@@ -128,11 +128,26 @@ pub(crate) async fn find(store: &Store, name: &str) -> Result<(Network, bool), E
 pub(crate) async fn list(store: &Store) -> Result<Vec<NetworkInfo>, Error> {
     let shipped = Network::shipped_names().filter_map(Network::shipped);
     let mut networks: Vec<_> = shipped.map(|network| NetworkInfo::of(&network, true)).collect();
-    for stored in store.networks().await? {
-        let network = Network::from_toml(&stored.toml, &stored.name)?;
-        networks.push(NetworkInfo::of(&network, false));
+    for Uploaded { name, created_ms, description } in store.uploaded(Kind::Network).await? {
+        let known = match description {
+            Some(known) => Some(known),
+            None => described(store, &name, created_ms).await?,
+        };
+        networks.extend(known);
     }
     Ok(networks)
+}
+
+/// Reads a network that was uploaded to say what it is, and keeps that for the next time. `None` if it is gone.
+async fn described(
+    store: &Store,
+    name: &str,
+    created_ms: i64,
+) -> Result<Option<NetworkInfo>, Error> {
+    let Some(stored) = store.network(name).await? else { return Ok(None) };
+    let info = NetworkInfo::of(&Network::from_toml(&stored.toml, name)?, false);
+    store.describe(Kind::Network, name, created_ms, &info).await?;
+    Ok(Some(info))
 }
 
 /// Keeps a network under its name, in the place of one that was uploaded before. Days that were made stay as they are.
@@ -156,11 +171,52 @@ pub(crate) async fn put(
         let rule = format!("{name:?} is the name of a network that the program ships");
         return Err(Error::BadRequest { rule });
     }
-    let known = store.networks().await?;
-    if known.len() >= MOST && !known.iter().any(|known| known.name == name) {
+    if store.number_of_others(Kind::Network, name).await? >= MOST {
         return Err(Error::TooMuch { what: "networks", most: MOST as u64 });
     }
-    let stored = crate::store::StoredNetwork { name: name.to_owned(), toml, created_ms: now_ms };
-    store.put_network(&stored).await?;
-    Ok(NetworkInfo::of(&network, false))
+    let info = NetworkInfo::of(&network, false);
+    let stored = StoredNetwork { name: name.to_owned(), toml, created_ms: now_ms };
+    store.put_network(&stored, &info).await?;
+    Ok(info)
+}
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::Network;
+
+    use super::{list, put};
+    use crate::store::{Kind, Location, Store, Uploaded};
+
+    #[tokio::test]
+    async fn a_network_is_listed_as_it_was_uploaded_last() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let location = Location::Folder(folder.path().to_owned());
+        let store = Store::open(&location).await.expect("a store");
+        let paper = Network::shipped("paper").expect("it is shipped").toml().to_owned();
+        let ours = paper.replace("\"paper\"", "\"ours\"");
+        let kept = put(&store, "ours", ours.clone(), 1).await.expect("it is kept");
+        let listed = async || {
+            let list = list(&store).await.expect("networks");
+            list.into_iter().next_back().expect("ours is the last one")
+        };
+        assert_eq!(listed().await, kept);
+        let described = async || {
+            let uploaded: Vec<Uploaded<super::NetworkInfo>> =
+                store.uploaded(Kind::Network).await.expect("networks");
+            uploaded.into_iter().next().and_then(|ours| ours.description)
+        };
+        assert_eq!(described().await.as_ref(), Some(&kept), "to the last digit");
+        // As a program that keeps no descriptions would put it.
+        let other = ours.replace("count = 40", "count = 39");
+        let stored =
+            crate::store::StoredNetwork { name: "ours".to_owned(), toml: other, created_ms: 2 };
+        store.put_network(&stored, &()).await.expect("it is kept");
+        assert_eq!(described().await, None);
+        assert_eq!((kept.aircraft, listed().await.aircraft), (40, 39));
+        assert_eq!(
+            described().await.map(|info| info.aircraft),
+            Some(39),
+            "it is kept for next time"
+        );
+    }
 }

@@ -1,5 +1,6 @@
 //! The outlook of a day: how it is expected to go on, and what it would be if things were otherwise.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -67,16 +68,24 @@ pub(crate) struct Leg {
 pub(crate) struct WhatIf {
     /// Events that might happen now, in their order.
     #[serde(default)]
+    #[schema(max_items = 1_000)]
     pub(crate) events: Vec<crate::event::Event>,
     /// The policy that would decide; without it, the day's.
     pub(crate) policy: Option<String>,
     /// Stands (or chargers where they are counted apart) that vertiports would have had since the morning.
     #[serde(default)]
-    pub(crate) stands: std::collections::BTreeMap<String, u16>,
+    #[schema(value_type = BTreeMap<String, StandCount>)]
+    pub(crate) stands: BTreeMap<String, u16>,
     /// Aircraft that the fleet would have had since the morning.
     #[serde(default)]
     pub(crate) aircraft: Vec<MoreAircraft>,
 }
+
+/// A number of stands, or of chargers where they are counted apart.
+#[derive(ToSchema)]
+#[schema(maximum = 65_535)]
+#[expect(dead_code, reason = "it stands for a number in the description")]
+pub(crate) struct StandCount(u16);
 
 /// An aircraft that the fleet might have.
 #[derive(Debug, Clone, Deserialize, ToSchema)]

@@ -3,14 +3,14 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use vertifleet_core::Scenario;
 use vertifleet_learn::Model;
 use vertifleet_study::{PolicySource, PolicySpec, ResolveFor, ResolvedPolicy};
 
 use crate::error::Error;
-use crate::store::{Store, StoredPolicy};
+use crate::store::{Kind, Store, StoredPolicy, Uploaded};
 
 /// The number of policies that can be uploaded.
 const MOST: usize = 1_000;
@@ -35,6 +35,19 @@ pub(crate) struct PolicyInfo {
     pub(crate) vertiports: Option<usize>,
 }
 
+/// What a weight file is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub(crate) struct WeightsInfo {
+    /// What decides by the weights: `gcaps-x`, `gcaps` or `mlp`.
+    pub(crate) kind: String,
+    /// SHA-256 of the file.
+    pub(crate) weights_sha256: String,
+    /// The network on whose days the weights were trained.
+    pub(crate) trained_on: String,
+    /// Number of vertiports that the weights fit; null if any number.
+    pub(crate) vertiports: Option<usize>,
+}
+
 /// Finds policies. Weights that several days use are in memory once.
 #[derive(Debug)]
 pub(crate) struct Policies {
@@ -55,14 +68,26 @@ impl PolicyInfo {
         }
     }
 
-    fn of(name: &str, model: &Model) -> Self {
-        let header = model.header();
+    fn of(name: &str, weights: WeightsInfo) -> Self {
+        let WeightsInfo { kind, weights_sha256, trained_on, vertiports } = weights;
         Self {
             name: name.to_owned(),
             is_shipped: false,
-            kind: Some(model.kind().to_owned()),
-            weights_sha256: Some(model.sha256()),
-            trained_on: Some(header.network.clone()),
+            kind: Some(kind),
+            weights_sha256: Some(weights_sha256),
+            trained_on: Some(trained_on),
+            vertiports,
+        }
+    }
+}
+
+impl WeightsInfo {
+    fn of(model: &Model) -> Self {
+        let header = model.header();
+        Self {
+            kind: model.kind().to_owned(),
+            weights_sha256: model.sha256(),
+            trained_on: header.network.clone(),
             vertiports: header.shape.vertiports,
         }
     }
@@ -100,6 +125,15 @@ impl Policies {
         Ok(resolved)
     }
 
+    /// The weights that were uploaded under a name, for a study.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there are none.
+    pub(crate) async fn source(&self, name: &str) -> Result<PolicySource, Error> {
+        let found = self.model(name).await?;
+        found.map(PolicySource::Model).ok_or_else(|| Error::not_found("policy", name))
+    }
+
     /// The weights that were uploaded under a name.
     async fn model(&self, name: &str) -> Result<Option<Arc<Model>>, Error> {
         let Some(StoredPolicy { sha256, .. }) = self.store.policy(name).await? else {
@@ -127,12 +161,22 @@ impl Policies {
     /// Returns [`Error::Store`] if they cannot be read.
     pub(crate) async fn list(&self) -> Result<Vec<PolicyInfo>, Error> {
         let mut policies: Vec<PolicyInfo> = OURS.into_iter().map(PolicyInfo::ours).collect();
-        for StoredPolicy { name, .. } in self.store.policies().await? {
-            if let Some(model) = self.model(&name).await? {
-                policies.push(PolicyInfo::of(&name, &model));
-            }
+        for Uploaded { name, created_ms, description } in self.store.uploaded(Kind::Policy).await? {
+            let known = match description {
+                Some(known) => Some(known),
+                None => self.described(&name, created_ms).await?,
+            };
+            policies.extend(known.map(|known| PolicyInfo::of(&name, known)));
         }
         Ok(policies)
+    }
+
+    /// Reads the weights under a name to say what they are, and keeps it for the next time. `None` if they are gone.
+    async fn described(&self, name: &str, created_ms: i64) -> Result<Option<WeightsInfo>, Error> {
+        let Some(model) = self.model(name).await? else { return Ok(None) };
+        let info = WeightsInfo::of(&model);
+        self.store.describe(Kind::Policy, name, created_ms, &info).await?;
+        Ok(Some(info))
     }
 
     /// Describes a policy.
@@ -144,7 +188,7 @@ impl Policies {
             return Ok(PolicyInfo::ours(name));
         }
         let model = self.model(name).await?.ok_or_else(|| Error::not_found("policy", name))?;
-        Ok(PolicyInfo::of(name, &model))
+        Ok(PolicyInfo::of(name, WeightsInfo::of(&model)))
     }
 
     /// Keeps weights under a name, which means these weights for good: whoever reads the name in the log of a day knows
@@ -160,19 +204,19 @@ impl Policies {
         now_ms: i64,
     ) -> Result<PolicyInfo, Error> {
         check_name(name)?;
-        let info = validate(name, weights)?;
-        let known = self.store.policies().await?;
-        if known.len() >= MOST && !known.iter().any(|known| known.name == name) {
+        let info = validate(weights)?;
+        if self.store.number_of_others(Kind::Policy, name).await? >= MOST {
             return Err(Error::TooMuch { what: "policies", most: MOST as u64 });
         }
-        let sha256 = info.weights_sha256.clone().unwrap_or_default();
+        let sha256 = info.weights_sha256.clone();
         let stored = StoredPolicy { name: name.to_owned(), sha256, created_ms: now_ms };
         let there = self.store.add_policy(&stored, weights).await?;
         if there.sha256 != stored.sha256 {
             let rule = format!("policy {name:?} has other weights already: use a new name");
             return Err(Error::BadRequest { rule });
         }
-        Ok(info)
+        self.store.describe(Kind::Policy, name, there.created_ms, &info).await?;
+        Ok(PolicyInfo::of(name, info))
     }
 }
 
@@ -180,26 +224,67 @@ impl Policies {
 ///
 /// # Errors
 /// Returns an error if the bytes are no weight file.
-pub(crate) fn validate(name: &str, weights: &[u8]) -> Result<PolicyInfo, Error> {
-    Ok(PolicyInfo::of(name, &read(weights, "the weights")?))
+pub(crate) fn validate(weights: &[u8]) -> Result<WeightsInfo, Error> {
+    Ok(WeightsInfo::of(&read(weights, "the weights")?))
 }
 
 fn read(weights: &[u8], origin: &str) -> Result<Model, Error> {
     Model::from_bytes(weights, origin).map_err(|error| vertifleet_study::Error::from(error).into())
 }
 
-/// Checks that a name can be one of the user's own.
+/// Checks that a name can be one of the user's own. The description has the same as a pattern.
 fn check_name(name: &str) -> Result<(), Error> {
     let plain =
         |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || matches!(c, '.' | '-' | '_');
     let wrong = |rule: &str| Err(Error::BadRequest { rule: rule.to_owned() });
-    if !(1..=40).contains(&name.len()) || !name.chars().all(plain) {
+    // A path of dots alone would lead elsewhere.
+    let begins = name.starts_with(|c| plain(c) && c != '.');
+    if !begins || name.len() > 40 || !name.chars().all(plain) {
         return wrong(
-            "a policy is called by 1 to 40 letters a-z, digits, dots, dashes and underscores",
+            "a policy is called by 1 to 40 letters a-z, digits, dots, dashes and underscores, and a dot is not the first",
         );
     }
     if !PolicySpec::parse(name)?.is_own() {
         return wrong("this is the name of a policy that the program has: use another one");
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use sqlx::{AnyPool, query};
+
+    use super::{Policies, PolicyInfo};
+    use crate::store::{DATABASE, Location, Store};
+
+    const WEIGHTS: &str =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/any/gcaps-x.safetensors");
+
+    #[tokio::test]
+    async fn weights_are_read_once_to_be_listed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let location = Location::Folder(folder.path().to_owned());
+        let policies = Policies::new(Store::open(&location).await.expect("a store"));
+        let weights = std::fs::read(WEIGHTS).expect("the shipped weights");
+        let put = policies.put("ours", &weights, 1).await.expect("they are taken");
+        let url = format!("sqlite://{}", folder.path().join(DATABASE).display());
+        let database = AnyPool::connect(&url).await.expect("the database");
+        let run = async |sql: &'static str| {
+            query(sql).execute(&database).await.expect("a statement").rows_affected()
+        };
+        let listed = async || policies.list().await.map(|list| list.into_iter().last());
+        let same = |found: Option<PolicyInfo>| {
+            let found = found.expect("it is listed");
+            (found.name, found.weights_sha256) == ("ours".to_owned(), put.weights_sha256.clone())
+        };
+        // An older program kept no description, and one of an older upload says nothing of this one.
+        for spoilt in ["DELETE FROM descriptions", "UPDATE descriptions SET created_ms = 0"] {
+            assert_eq!(run(spoilt).await, 1, "putting or listing described them");
+            assert!(same(listed().await.expect("the weights are there")));
+        }
+        assert_eq!(run("UPDATE policies SET weights = x'00'").await, 1);
+        assert!(same(listed().await.expect("the weights are not read")));
+        run("DELETE FROM descriptions").await;
+        listed().await.expect_err("the weights are read, and are none");
+    }
 }

@@ -1,5 +1,6 @@
 //! Errors as answers: problem details (RFC 9457) with the project's codes.
 
+use axum::Extension;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
@@ -9,7 +10,7 @@ use vertifleet_core::Coded;
 use crate::error::Error;
 
 /// An error as the service answers it (RFC 9457).
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct Problem {
     /// Names the kind of error: `urn:vertifleet:` and the code.
     #[serde(rename = "type")]
@@ -49,6 +50,8 @@ impl IntoResponse for Error {
             tracing::error!(error = %self, "a request failed");
         }
         let body = serde_json::to_string(&Problem::of(&self)).expect("plain data can be written");
-        (self.status(), [(header::CONTENT_TYPE, "application/problem+json")], body).into_response()
+        let kind = [(header::CONTENT_TYPE, "application/problem+json")];
+        // The code is there for whoever measures requests.
+        (self.status(), Extension(self.code()), kind, body).into_response()
     }
 }

@@ -15,6 +15,7 @@ use crate::days::Days;
 use crate::error::Error;
 use crate::limits::Limits;
 use crate::service::Service;
+use crate::spans::Spans;
 use crate::store::{Location, Store};
 
 /// How often the request to stop is looked for.
@@ -33,6 +34,8 @@ pub struct Settings {
     pub protection: Protection,
     /// What it takes at most.
     pub limits: Limits,
+    /// The collector of OpenTelemetry that spans of requests are sent to, for example `http://127.0.0.1:4318`.
+    pub collector: Option<String>,
 }
 
 /// What keeps others from listening in on what is said.
@@ -56,12 +59,13 @@ pub enum Protection {
 ///
 /// # Errors
 /// Returns [`Error::CannotListen`] if the address cannot be used, [`Error::Unprotected`] if others can reach it and
-/// nothing protects it, [`Error::BadCertificate`], and the errors of the store.
+/// nothing protects it, [`Error::BadCertificate`], [`Error::BadCollector`], and the errors of the store.
 pub fn serve(
     settings: &Settings,
     ready: impl FnOnce(SocketAddr),
     stop: &Stop,
 ) -> Result<(), Error> {
+    let spans = settings.collector.as_deref().map(Spans::to).transpose()?.map(Arc::new);
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()
@@ -75,9 +79,10 @@ pub fn serve(
         let closing = store.clone();
         // Held until the service stops. The operating system lets go of it even if the service is killed.
         let _lock = lock(&settings.location)?;
-        let service = Arc::new(
-            Service::new(Days::new(store, settings.limits.events), settings.limits).await?,
-        );
+        let days = Days::new(store, settings.limits.events);
+        let mut service = Service::new(days, settings.limits).await?;
+        service.spans.clone_from(&spans);
+        let service = Arc::new(service);
         check_protection(settings, &service).await?;
         let cannot = |cause| Error::CannotListen { address: settings.listen.to_string(), cause };
         let listener = listen(settings.listen).map_err(cannot)?;
@@ -100,6 +105,9 @@ pub fn serve(
     });
     // A policy that still thinks is not waited for.
     runtime.shutdown_timeout(LOOK);
+    if let Some(spans) = spans {
+        spans.flush();
+    }
     outcome
 }
 

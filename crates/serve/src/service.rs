@@ -13,6 +13,8 @@ use crate::error::Error;
 use crate::keys::Keys;
 use crate::limits::Limits;
 use crate::policies::Policies;
+use crate::spans::Spans;
+use crate::studies::Studies;
 
 /// The longest message about a body that cannot be read.
 const LONGEST_RULE: usize = 400;
@@ -36,9 +38,24 @@ pub(crate) struct Service {
     pub(crate) limits: Limits,
     /// Turns for large bodies, which take memory while they are read.
     pub(crate) uploads: Semaphore,
+    /// Makes the spans of requests, if a collector wants them.
+    pub(crate) spans: Option<Arc<Spans>>,
     keys: Arc<Keys>,
-    /// Turns for long computations.
-    turns: Arc<Semaphore>,
+    /// What is played in the background.
+    pub(crate) studies: Studies,
+    /// Turns for computations.
+    pub(crate) turns: Turns,
+}
+
+/// Turns for computations, of each kind as many as there are cores: more at once would only make all of them late.
+#[derive(Debug)]
+pub(crate) struct Turns {
+    /// For outlooks and what-ifs, which take long.
+    pub(crate) outlooks: Arc<Semaphore>,
+    /// For decisions.
+    pub(crate) decisions: Arc<Semaphore>,
+    /// For the policy that answers when others are late, so that it never waits for them.
+    pub(crate) quick_decisions: Arc<Semaphore>,
 }
 
 /// A write as its headers describe it.
@@ -61,16 +78,18 @@ impl Service {
         let policies = Policies::new(days.store().clone());
         let used = days.store().keys().await?;
         let keys = Keys::new(used.as_deref());
-        let turns = Arc::new(Semaphore::new(cores));
+        let turns = || Arc::new(Semaphore::new(cores));
+        let turns = Turns { outlooks: turns(), decisions: turns(), quick_decisions: turns() };
         let uploads = Semaphore::new(UPLOADS);
-        Ok(Self { days, policies, access, stopping, limits, uploads, keys, turns })
+        let studies = Studies::default();
+        let spans = None;
+        Ok(Self { days, policies, access, stopping, limits, uploads, spans, keys, studies, turns })
     }
 
     /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.
     pub(crate) async fn write(&self, sender: &Sender, body: &[u8]) -> Result<Write, Error> {
         let Sender { actor, headers, path } = sender;
-        let if_match = if_match(headers)?;
-        let mut writer = Writer { actor: actor.clone(), if_match, idempotency: None, busy: None };
+        let mut writer = sender.writer()?;
         let Some(key) = text(headers, "idempotency-key")? else {
             return Ok(Write::New(writer));
         };
@@ -92,21 +111,29 @@ impl Service {
         writer.busy = Some(Arc::new(busy));
         Ok(Write::New(writer))
     }
+}
 
-    /// Computes something that takes a while, on a thread of its own, and no more at once than there are cores.
-    pub(crate) async fn compute<T: Send + 'static>(
-        &self,
-        work: impl FnOnce() -> Result<T, Error> + Send + 'static,
-    ) -> Result<T, Error> {
-        let turn = Arc::clone(&self.turns).acquire_owned().await.expect("it is never closed");
-        let died = |error| Error::Internal { cause: format!("{error}") };
-        // The turn lasts as long as the work, even if the client goes away before.
-        let work = move || {
-            let outcome = work();
-            drop(turn);
-            outcome
-        };
-        tokio::task::spawn_blocking(work).await.map_err(died)?
+/// Works on a thread of its own when its turn has come.
+pub(crate) async fn in_turn<T: Send + 'static>(
+    turns: &Arc<Semaphore>,
+    work: impl FnOnce() -> Result<T, Error> + Send + 'static,
+) -> Result<T, Error> {
+    let turn = Arc::clone(turns).acquire_owned().await.expect("it is never closed");
+    let died = |error| Error::Internal { cause: format!("{error}") };
+    // The turn lasts as long as the work, even if the client goes away before.
+    let work = move || {
+        let outcome = work();
+        drop(turn);
+        outcome
+    };
+    tokio::task::spawn_blocking(work).await.map_err(died)?
+}
+
+impl Sender {
+    /// Whoever sent a request as somebody who writes, with `If-Match`.
+    pub(crate) fn writer(&self) -> Result<Writer, Error> {
+        let if_match = if_match(&self.headers)?;
+        Ok(Writer { actor: self.actor.clone(), if_match, idempotency: None, busy: None })
     }
 }
 

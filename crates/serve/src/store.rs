@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use sqlx::any::AnyRow;
 use sqlx::{AnyPool, AssertSqlSafe, Row as _, query, query_scalar};
 
-pub(crate) use self::library::{StoredNetwork, StoredPolicy};
+pub(crate) use self::library::{Kind, StoredNetwork, StoredPolicy, Uploaded};
 pub use self::tokens::AuditRecord;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
@@ -180,18 +180,42 @@ impl Store {
         Ok(u64::try_from(count).unwrap_or_default())
     }
 
-    /// Closes a day to writes.
-    pub(crate) async fn archive(&self, id: &str) -> Result<(), Error> {
-        query("UPDATE days SET archived = 1 WHERE id = $1").bind(id).execute(&self.pool).await?;
-        Ok(())
+    /// Closes a day to writes or opens it again, if it is at the event that is expected.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Moved`] if it is at another event.
+    pub(crate) async fn set_archived(
+        &self,
+        id: &str,
+        archived: bool,
+        expected: Option<u64>,
+    ) -> Result<(), Error> {
+        let update = "UPDATE days SET archived = $2 WHERE id = $1";
+        let mut transaction = self.pool.begin().await?;
+        let update = query(update).bind(id).bind(i64::from(archived));
+        let updated = update.execute(&mut *transaction).await?;
+        check_at(&mut transaction, id, updated.rows_affected(), expected).await?;
+        Ok(transaction.commit().await?)
     }
 
-    /// Removes a day with its events.
-    pub(crate) async fn delete(&self, id: &str) -> Result<(), Error> {
+    /// Removes a day with its events, if it is at the event that is expected.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Moved`] if it is at another event.
+    pub(crate) async fn delete(&self, id: &str, expected: Option<u64>) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
+        let delete = query("DELETE FROM days WHERE id = $1").bind(id);
+        let deleted = delete.execute(&mut *transaction).await?;
+        check_at(&mut transaction, id, deleted.rows_affected(), expected).await?;
         query("DELETE FROM events WHERE day = $1").bind(id).execute(&mut *transaction).await?;
-        query("DELETE FROM days WHERE id = $1").bind(id).execute(&mut *transaction).await?;
         Ok(transaction.commit().await?)
+    }
+
+    /// Whether a day is closed to writes, or is not there any more.
+    pub(crate) async fn is_archived(&self, id: &str) -> Result<bool, Error> {
+        let select = query_scalar("SELECT archived FROM days WHERE id = $1").bind(id);
+        let found: Option<i64> = select.fetch_optional(&self.pool).await?;
+        Ok(found != Some(0))
     }
 
     /// The events of a day after number `after`, at most `limit`.
@@ -243,9 +267,6 @@ impl Store {
         answers: &[&StoredAnswer],
     ) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
-        if self.is_shared {
-            check_days(&mut transaction, events).await?;
-        }
         // A statement has at most 32,766 parameters in SQLite.
         for events in events.chunks(4_000) {
             let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain) VALUES ";
@@ -263,9 +284,35 @@ impl Store {
             }
             insert.execute(&mut *transaction).await?;
         }
+        self.check_days(&mut transaction, events).await?;
         let at_ms = events.first().map_or(0, |(_, event)| event.at_ms);
         insert_answers(&mut transaction, answers, at_ms).await?;
         Ok(transaction.commit().await?)
+    }
+
+    /// Checks that nobody has archived or deleted the days of events that have just been added, and keeps everybody from it
+    /// until the transaction ends. `SQLite` has one writer at a time, which suffices for that.
+    async fn check_days(
+        &self,
+        transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
+        events: &[(&str, &StoredEvent)],
+    ) -> Result<(), Error> {
+        let select = if self.is_shared {
+            "SELECT archived FROM days WHERE id = $1 FOR SHARE"
+        } else {
+            "SELECT archived FROM days WHERE id = $1"
+        };
+        let days: BTreeSet<&str> = events.iter().map(|(day, _)| *day).collect();
+        for day in days {
+            let found: Option<i64> =
+                query_scalar(select).bind(day).fetch_optional(&mut **transaction).await?;
+            match found {
+                Some(0) => {}
+                Some(_) => return Err(Error::Archived { id: day.to_owned() }),
+                None => return Err(Error::not_found("day", day)),
+            }
+        }
+        Ok(())
     }
 
     /// The answer that was given to a request with this key.
@@ -318,22 +365,22 @@ impl Store {
     }
 }
 
-/// Checks that no other service has archived or deleted a day, and keeps them from it until the events are stored.
-async fn check_days(
+/// Checks that a day was there, in a transaction that has just changed it, and that it is at the event that is expected.
+/// The change came first, so nobody can add an event until the transaction ends.
+async fn check_at(
     transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
-    events: &[(&str, &StoredEvent)],
+    day: &str,
+    changed: u64,
+    expected: Option<u64>,
 ) -> Result<(), Error> {
-    let days: BTreeSet<&str> = events.iter().map(|(day, _)| *day).collect();
-    for day in days {
-        let found = query("SELECT id FROM days WHERE id = $1 AND archived = 0 FOR SHARE")
-            .bind(day)
-            .fetch_optional(&mut **transaction)
-            .await?;
-        if found.is_none() {
-            return Err(Error::Archived { id: day.to_owned() });
-        }
+    if changed == 0 {
+        return Err(Error::not_found("day", day));
     }
-    Ok(())
+    let Some(expected) = expected else { return Ok(()) };
+    let latest = query_scalar("SELECT COALESCE(MAX(seq), 0) FROM events WHERE day = $1").bind(day);
+    let latest: i64 = latest.fetch_one(&mut **transaction).await?;
+    let found = u64::try_from(latest).unwrap_or_default();
+    if expected == found { Ok(()) } else { Err(Error::Moved { expected, found }) }
 }
 
 async fn insert_answers(
@@ -396,7 +443,7 @@ fn stored_event(row: &AnyRow) -> Result<StoredEvent, Error> {
 mod tests {
     use sqlx::Executor as _;
 
-    use super::{Location, Store, StoredDay};
+    use super::{Kind, Location, Store, StoredDay};
 
     #[tokio::test]
     async fn a_store_of_the_version_before_is_brought_up_to_date() {
@@ -418,6 +465,7 @@ mod tests {
             "ALTER TABLE days DROP COLUMN time_zone",
             "DROP TABLE networks",
             "DROP TABLE policies",
+            "DROP TABLE descriptions",
             "UPDATE meta SET value = '1' WHERE name = 'version'",
         ] {
             store.pool.execute(statement).await.expect("a store as it was");
@@ -426,7 +474,8 @@ mod tests {
         for _ in 0..2 {
             let store = Store::open(&location).await.expect("it is brought up to date");
             assert_eq!(store.days("", 10).await.expect("days"), std::slice::from_ref(&day));
-            assert_eq!(store.networks().await.expect("a table"), []);
+            let networks = store.uploaded::<()>(Kind::Network).await;
+            assert_eq!(networks.expect("a table"), []);
         }
     }
 }

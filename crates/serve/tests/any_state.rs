@@ -69,6 +69,11 @@ fn ask_all(live: &mut LiveDay, policies: &mut [(&str, Box<dyn Policy>)]) -> u32 
             assert!(view.feasible(&decision).contains(choice), "{name} chooses {choice:?}");
             let mut values = vec![0.0; view.vertiports()];
             policy.values(&decision, &view, &mut values).expect("policies have values");
+            let mut together = vec![0.0; view.vertiports()];
+            let at_once = policy.choose_with_values(&decision, &view, &mut together);
+            assert_eq!(at_once.expect("policies have an answer"), choice, "{name}");
+            let bits = |values: &[f64]| values.iter().map(|usd| usd.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&together), bits(&values), "{name}");
             asked += 1;
         }
     }

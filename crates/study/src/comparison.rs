@@ -19,12 +19,17 @@ use crate::figure;
 use crate::origin::NetworkOrigin;
 use crate::own_days::OwnDays;
 use crate::record::ComparisonRecords;
+use crate::replay;
 use crate::report::{File, Records, pictures};
+use crate::run::Kept;
 use crate::study::{Bounds, Study, Watch};
 
 pub use summary::{
     BoundSummary, ComparisonReport, FORMAT, PairedDifference, PolicySummary, TrainingSummary,
 };
+
+/// What the report replays.
+const KEPT: Kept = Kept::ChoicesOfFirst(replay::MOST_DAYS);
 
 /// Some days of a network and the competitors that will play them. Everything that can be checked beforehand has been
 /// checked.
@@ -94,7 +99,7 @@ impl Comparison {
     ) -> Result<Self, Error> {
         let competitors = selection.resolve(network.name())?;
         let scenarios = drawn.draw(network, stop)?;
-        let study = Study::new(competitors, scenarios, bound_step)?;
+        let study = Study { kept: KEPT, ..Study::new(competitors, scenarios, bound_step)? };
         Ok(Self {
             network: network.name().to_owned(),
             origin: NetworkOrigin::of_all(network.name(), &study.scenarios),
@@ -116,7 +121,7 @@ impl Comparison {
     ) -> Result<Self, Error> {
         let competitors = selection.resolve(days.network())?;
         let (network, origin) = (days.network().to_owned(), days.origin());
-        let study = Study::new(competitors, days.scenarios, bound_step)?;
+        let study = Study { kept: KEPT, ..Study::new(competitors, days.scenarios, bound_step)? };
         Ok(Self { network, origin, study, drawn: None, days_from: Some(days.from) })
     }
 
@@ -145,7 +150,8 @@ impl Comparison {
         watch: &impl Watch,
     ) -> Result<ComparisonRecords, Error> {
         let Self { network, origin, study, drawn, days_from } = self;
-        let policies = study.play(stop, watch)?;
+        let mut policies = study.play(stop, watch)?;
+        let replayed = replay::replayed(&study.scenarios, &mut policies);
         // The learning curve of a policy trained on another network says nothing about these days, and no policy was
         // trained on the user's own days.
         let is_at_home =
@@ -166,6 +172,7 @@ impl Comparison {
             },
             command,
             policies,
+            replayed,
         })
     }
 }
@@ -186,8 +193,14 @@ impl Records for ComparisonRecords {
         files.extend([
             ("days.csv".to_owned(), days_csv::text(self).into_bytes()),
             ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
-            ("report.html".to_owned(), page::text(&summary, &figures).into_bytes()),
+            (
+                "report.html".to_owned(),
+                page::text(&summary, &figures, Some(self.replayed.len())).into_bytes(),
+            ),
         ]);
+        if !self.replayed.is_empty() {
+            files.push(("replay.html".to_owned(), replay::page(&self.replayed).into_bytes()));
+        }
         Ok(files)
     }
 }

@@ -65,6 +65,7 @@ fn study(names: &[&str], days: u32) -> ComparisonRecords {
             .collect(),
         curves: curves.collect(),
         policies: policies.collect(),
+        replayed: Vec::new(),
     }
 }
 

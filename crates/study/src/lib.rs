@@ -41,6 +41,7 @@ mod page;
 mod policy_spec;
 pub mod published;
 pub mod record;
+pub mod replay;
 pub mod report;
 mod resolved_policy;
 pub mod run;

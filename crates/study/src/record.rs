@@ -9,6 +9,7 @@ use vertifleet_sim::{DayNumber, DayTotals};
 
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
+use crate::replay::ReplayedDay;
 use crate::sees::Sees;
 
 /// One policy's result on one day.
@@ -121,6 +122,10 @@ pub struct ComparisonRecords {
     pub curves: Vec<LearningCurve>,
     /// The learning curves on the validation days of the policies that were trained; may be empty.
     pub trainings: Vec<ValidationCurves>,
+    /// The first days and what every policy did on them, for the report; they do not go into files and to other
+    /// processes.
+    #[serde(skip)]
+    pub replayed: Vec<ReplayedDay>,
 }
 
 /// Checks that the records are those of policies on the same days, with finite results.

@@ -62,7 +62,8 @@ pub(crate) const FOLDER: FolderKind = FolderKind {
         let end = Path::new(name).extension();
         let picture = end.is_some_and(|end| end == "svg" || end == "png");
         (picture && name.starts_with("figure-"))
-            || ["report.html", "summary.json", "days.csv", "networks.csv"].contains(&name)
+            || ["report.html", "replay.html", "summary.json", "days.csv", "networks.csv"]
+                .contains(&name)
     },
 };
 

@@ -9,7 +9,7 @@ mod batches;
 use std::sync::Arc;
 use std::time::Instant;
 
-use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
+use rayon::prelude::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use vertifleet_core::{Scenario, Stop, VertiportIx};
 use vertifleet_policy::{Policy, PolicyError, Replay, Stoppable, play};
 use vertifleet_sim::{Decision, Simulation, TraceRow, View};
@@ -46,8 +46,21 @@ impl BoundedDay {
 pub enum Kept {
     /// Its totals.
     Totals,
-    /// Every choice too.
+    /// Every choice of every day too.
     Choices,
+    /// Every choice of the first days too; of the others, their totals.
+    ChoicesOfFirst(usize),
+}
+
+impl Kept {
+    /// Whether the choices of the day at this position are kept.
+    fn has_choices(self, position: usize) -> bool {
+        match self {
+            Self::Totals => false,
+            Self::Choices => true,
+            Self::ChoicesOfFirst(days) => position < days,
+        }
+    }
 }
 
 /// Plays all days with every competitor, one competitor after the other. `begin` is called with the name of the
@@ -100,15 +113,18 @@ fn play_policy(
     if policy.plays_in_batches() {
         return batches::play(name, policy, days, kept, stop, played);
     }
-    let play = |policy: &mut Box<dyn Policy>, day: &BoundedDay| {
+    let play = |policy: &mut Box<dyn Policy>, (position, day): (usize, &BoundedDay)| {
         let policy = Stoppable { policy: policy.as_mut(), stop };
         let mut timed = Timed { policy, nanoseconds: Vec::new() };
-        let record = play_day(name, &mut timed, day, kept)?;
+        let record = play_day(name, &mut timed, day, kept.has_choices(position))?;
         played();
         Ok((record, timed.nanoseconds))
     };
-    let results: Vec<(DayRecord, Vec<u64>)> =
-        days.par_iter().map_init(|| policy.build(), play).collect::<Result<_, Error>>()?;
+    let results: Vec<(DayRecord, Vec<u64>)> = days
+        .par_iter()
+        .enumerate()
+        .map_init(|| policy.build(), play)
+        .collect::<Result<_, Error>>()?;
     let (records, nanoseconds): (Vec<DayRecord>, Vec<Vec<u64>>) = results.into_iter().unzip();
     Ok((records, latency(nanoseconds.concat())))
 }
@@ -122,28 +138,28 @@ fn play_plans(
     stop: &Stop,
     played: &(impl Fn() + Sync),
 ) -> Result<Vec<DayRecord>, Error> {
-    let play = |day: &BoundedDay| {
+    let play = |(position, day): (usize, &BoundedDay)| {
         let mut replay = Replay::new(Arc::new(planner.plan(&day.scenario, stop)));
         if stop.is_requested() {
             return Err(Error::Stopped);
         }
-        let record = play_day(name, &mut replay, day, kept)?;
+        let record = play_day(name, &mut replay, day, kept.has_choices(position))?;
         played();
         Ok(record)
     };
-    days.par_iter().map(play).collect()
+    days.par_iter().enumerate().map(play).collect()
 }
 
 fn play_day(
     name: &str,
     policy: &mut dyn Policy,
     day: &BoundedDay,
-    kept: Kept,
+    keeps_choices: bool,
 ) -> Result<DayRecord, Error> {
     let mut simulation = Simulation::new(Arc::clone(&day.scenario));
     let mut choices = Vec::new();
     let keep = |row: &TraceRow| {
-        if kept == Kept::Choices {
+        if keeps_choices {
             choices.push(row.to);
         }
     };
@@ -257,6 +273,7 @@ mod tests {
             policies: played_on(2),
             curves: Vec::new(),
             trainings: Vec::new(),
+            replayed: Vec::new(),
         };
         let summary = ComparisonReport::of(&study).expect("records of one run");
         assert_eq!(summary.day_seeds, Some((11, 13)));

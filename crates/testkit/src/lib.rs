@@ -1,5 +1,5 @@
-//! Days for the tests of the other crates: strategies for property tests, days drawn from a number, and days of
-//! `paper`.
+//! What tests of several crates share. First of all these are days: strategies for property tests, days drawn from a
+//! number, and days of `paper`. For the tests of the service there are a database server and texts that are spoilt.
 //!
 //! This crate builds on `vertifleet-core` alone and is a dependency of tests only.
 //!
@@ -13,6 +13,9 @@
 mod any_extended_day;
 mod any_small_day;
 mod numbered_days;
+#[cfg(unix)]
+mod postgres;
+mod spoilt;
 
 use std::sync::Arc;
 
@@ -21,6 +24,9 @@ use vertifleet_core::{DaySeed, Network, Scenario};
 pub use any_extended_day::extended_day;
 pub use any_small_day::small_day;
 pub use numbered_days::{Size, any_day, any_extended_day};
+#[cfg(unix)]
+pub use postgres::Postgres;
+pub use spoilt::{draw, spoilt};
 
 /// A validation day of the network `paper`.
 ///

@@ -56,10 +56,19 @@ def writing(
     *path: str, body: object, if_match: int | None = None, idempotency_key: str | None = None
 ) -> Request:
     """A request that writes, with a key by which the service knows it again."""
-    headers = {**header_of(body), "Idempotency-Key": idempotency_key or str(uuid.uuid4())}
-    if if_match is not None:
-        headers["If-Match"] = f'"{if_match}"'
+    key = {"Idempotency-Key": idempotency_key or str(uuid.uuid4())}
+    headers = {**header_of(body), **key, **matching(if_match)}
     return Request("POST", path_of(*path), headers=headers, body=written(body))
+
+
+def changing(method: str, *path: str, if_match: int | None = None) -> Request:
+    """A request that changes what its path names, to the same however often it happens."""
+    return Request(method, path_of(*path), headers=matching(if_match))
+
+
+def matching(if_match: int | None) -> dict[str, str]:
+    """The header that makes a request fail if the day has gone on since an event."""
+    return {} if if_match is None else {"If-Match": f'"{if_match}"'}
 
 
 def given(members: Mapping[str, object]) -> dict[str, object]:

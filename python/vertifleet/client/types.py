@@ -228,6 +228,35 @@ class TakenDecision(TypedDict):
     """What the policy proposed, with its reasons; null if a person chose."""
 
 
+PairDemand = TypedDict(
+    "PairDemand",
+    {
+        # Where they are.
+        "from": str,
+        # Where they want to go.
+        "to": str,
+        # How many of them still want to fly.
+        "passengers": int,
+    },
+)
+"""Passengers of a pair."""
+
+
+class PeriodDemand(TypedDict):
+    """The passengers of a demand period who still want to fly: those who wait if the period has begun, and
+    those who are expected if it has not.
+    """
+
+    seq: int
+    """The number of the latest event."""
+    period: Moment
+    """The beginning of the period."""
+    has_begun: bool
+    """Whether the period has begun."""
+    pairs: list[PairDemand]
+    """The pairs with such passengers, in the order of the day's vertiports."""
+
+
 class ClockEvent(TypedDict):
     """The day is at this time; nothing else is known. Other events may not lie more than four hours after the
     latest.
@@ -281,11 +310,11 @@ class DepartedEvent(TypedDict):
     """The aircraft."""
     passengers: NotRequired[int | None]
     """Passengers on board, if not as many as expected."""
-    to: NotRequired[str | None]
-    """Where it flies to, if that is not what was decided."""
     time: NotRequired[Moment | None]
     """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
     """
+    to: NotRequired[str | None]
+    """Where it flies to, if that is not what was decided."""
 
 
 class LandedEvent(TypedDict):
@@ -348,11 +377,11 @@ class OutOfServiceEvent(TypedDict):
     """The aircraft."""
     reason: NotRequired[str | None]
     """Why."""
-    until: NotRequired[Moment | None]
-    """Until when, if that is known."""
     time: NotRequired[Moment | None]
     """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
     """
+    until: NotRequired[Moment | None]
+    """Until when, if that is known."""
 
 
 class BackInServiceEvent(TypedDict):
@@ -399,11 +428,11 @@ class ClosedEvent(TypedDict):
     """The routes."""
     reason: NotRequired[str | None]
     """Why."""
-    until: NotRequired[Moment | None]
-    """First instant at which they are open again, if it is known."""
     time: NotRequired[Moment | None]
     """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
     """
+    until: NotRequired[Moment | None]
+    """First instant at which they are open again, if it is known."""
 
 
 class ReopenedEvent(TypedDict):
@@ -415,20 +444,6 @@ class ReopenedEvent(TypedDict):
     time: NotRequired[Moment | None]
     """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
     """
-
-
-PairDemand = TypedDict(
-    "PairDemand",
-    {
-        # Where they are.
-        "from": str,
-        # Where they want to go.
-        "to": str,
-        # How many of them still want to fly.
-        "passengers": int,
-    },
-)
-"""Passengers of a pair."""
 
 
 class DemandEvent(TypedDict):
@@ -727,6 +742,10 @@ class MoreAircraft(TypedDict):
     """Its type; without it, the first of the day."""
 
 
+StandCount: TypeAlias = int
+"""A number of stands, or of chargers where they are counted apart."""
+
+
 class WhatIf(TypedDict):
     """A day as it might be."""
 
@@ -736,7 +755,7 @@ class WhatIf(TypedDict):
     """Events that might happen now, in their order."""
     policy: NotRequired[str | None]
     """The policy that would decide; without it, the day's."""
-    stands: NotRequired[Mapping[str, int]]
+    stands: NotRequired[Mapping[str, StandCount]]
     """Stands (or chargers where they are counted apart) that vertiports would have had since the morning."""
 
 
@@ -841,3 +860,187 @@ class PolicyList(TypedDict):
 
 Weights: TypeAlias = str
 """The bytes of a weight file."""
+
+
+class WeightsInfo(TypedDict):
+    """What a weight file is."""
+
+    kind: str
+    """What decides by the weights: `gcaps-x`, `gcaps` or `mlp`."""
+    weights_sha256: str
+    """SHA-256 of the file."""
+    trained_on: str
+    """The network on whose days the weights were trained."""
+    vertiports: NotRequired[int | None]
+    """Number of vertiports that the weights fit; null if any number."""
+
+
+Split: TypeAlias = Literal["comparison", "validation"]
+"""Whose days are played. No day belongs to both."""
+
+StudyState: TypeAlias = Literal["waiting", "playing", "finished", "failed"]
+"""How far a study is."""
+
+
+class StudyProgress(TypedDict):
+    """How far a study has come."""
+
+    share: float
+    """The share of all that is to be played that has been, 0 to 1; every policy counts the same."""
+    doing: NotRequired[str | None]
+    """The policy that plays, or `bounds` while days are bounded; absent while days are drawn."""
+    left_s: NotRequired[float | None]
+    """How much longer it is likely to play, seconds: the rest of this policy as quick as its days so far, the
+    others as quick as those before them on the mean. Absent until a day has been played.
+    """
+
+
+class Estimate(TypedDict):
+    """A mean with its interval."""
+
+    mean: float
+    """The mean."""
+    half_width_95: NotRequired[float | None]
+    """Half the width of the 95 % interval of the mean (Student's t); null with one day."""
+    standard_deviation: NotRequired[float | None]
+    """The sample standard deviation between days; null with one day."""
+
+
+class Difference(TypedDict):
+    """A difference of two policies, day by day: their daily profit, dollars, with the paired t-test of
+    whether its mean is 0.
+    """
+
+    profit_usd: Estimate
+    """The difference."""
+    days_ahead: int
+    """Days on which it earned more."""
+    days_behind: int
+    """Days on which it earned less."""
+    p_value: NotRequired[float | None]
+    """The chance of a difference as large as this if there were none (two-sided); null with one day."""
+
+
+class PolicyResult(TypedDict):
+    """What came out for one policy. Amounts and counts are means a day."""
+
+    name: str
+    """Its name."""
+    description: str
+    """What it does."""
+    sees: str
+    """What it looks at: `present`, `forecast` or `whole-day`."""
+    profit_usd: Estimate
+    """Profit, dollars."""
+    revenue_usd: float
+    """Fares, dollars."""
+    passenger_cost_usd: float
+    """What carrying passengers costs, dollars."""
+    energy_cost_usd: float
+    """What energy costs, dollars."""
+    flight_cost_usd: float
+    """What flights cost with or without passengers, dollars."""
+    aircraft_cost_usd: float
+    """What the fleet costs whatever it does, dollars."""
+    passengers: float
+    """Passengers who were carried."""
+    spilled_passengers: float
+    """Passengers who were not."""
+    load_factor: float
+    """Passenger-miles over seat-miles, 0 to 1."""
+    flights: float
+    """Flights, with and without passengers."""
+    repositioning_flights: float
+    """Flights without passengers."""
+    holds: float
+    """Decisions to hold."""
+    daily_profit_usd: list[float]
+    """The profit of each day, dollars, in the order of the days' seeds."""
+    bound_share: NotRequired[Estimate | None]
+    """Profit as a share of the day's upper bound, if bounds were asked for."""
+    minus_first: NotRequired[Difference | None]
+    """By how much it earns more than the first policy; absent for the first."""
+
+
+class StudyResult(TypedDict):
+    """What came out of a study. Amounts and counts are means a day."""
+
+    program_version: str
+    """The version of the program that played it."""
+    first_seed: int
+    """The seed of the first day; the others follow one by one."""
+    policies: list[PolicyResult]
+    """Every policy, in the order in which they were asked for."""
+    upper_bound_usd: NotRequired[Estimate | None]
+    """Upper bound of a day's profit, dollars, if bounds were asked for. No schedule earns more; proven, not
+    estimated.
+    """
+
+
+class StudyInfo(TypedDict):
+    """A study: what it was asked for, how far it is, and what came out."""
+
+    id: str
+    """Its id."""
+    network: str
+    """The name of its network."""
+    network_origin: str
+    """Whether that is a shipped network (`shipped`), a network with such a name that draws other days
+    (`changed`), or neither (`own`).
+    """
+    policies: list[str]
+    """Its policies. The others are measured against the first."""
+    days: int
+    """Its number of days."""
+    seed: int
+    """The seed of its first day, or its number among the validation days."""
+    split: Split
+    """Whose days they are."""
+    bounds: bool
+    """Whether every day gets an upper bound."""
+    command: str
+    """The command that plays the same study without the service."""
+    created_ms: int
+    """When it was asked for, milliseconds of the Unix clock."""
+    warnings: list[str]
+    """What is allowed but hardly meant."""
+    state: StudyState
+    """How far it is."""
+    problem: NotRequired[Problem | None]
+    """Why it failed."""
+    progress: NotRequired[StudyProgress | None]
+    """How far it has come, while it plays."""
+    result: NotRequired[StudyResult | None]
+    """What came out, where one study that has finished is asked for."""
+    took_s: NotRequired[float | None]
+    """How long it played, seconds, once it has finished."""
+
+
+class StudyList(TypedDict):
+    """All studies."""
+
+    studies: list[StudyInfo]
+    """The latest first, without results."""
+
+
+class NewStudy(TypedDict):
+    """A study to be made."""
+
+    policies: list[str]
+    """The policies that play the days. The others are measured against the first. `plan` is the planner,
+    which knows the days: a reference, not a policy.
+    """
+    days: int
+    """How many days are played."""
+    bounds: NotRequired[bool]
+    """Whether every day gets an upper bound, which takes long on large networks."""
+    network: NotRequired[str | None]
+    """A network that the program ships, or that was uploaded."""
+    seed: NotRequired[int | None]
+    """The seed of the first day, which is that of `random` and `plan` too; with validation days, the number
+    of the first. 1 if it is absent.
+    """
+    split: NotRequired[Split]
+    """Whose days are played."""
+    toml: NotRequired[str | None]
+    """The text of a network file in place of a name. It is not kept."""

@@ -26,7 +26,8 @@ pub(crate) fn run(arguments: &OperateArguments) -> Result<ExitCode, Failure> {
     let (url, policy) = (arguments.url.clone(), arguments.policy.clone());
     let trusted = arguments.trust.clone();
     let token = std::env::var("VERTIFLEET_TOKEN").ok();
-    let operation = Operation { url, day, policy, token, trusted, speed };
+    let by_hand = arguments.by_hand;
+    let operation = Operation { url, day, policy, token, trusted, speed, by_hand };
     let bar = Bar::new(u64::from(end.since(start) / 60), "minutes of the day");
     let mut shown = 0;
     let report = operate(&operation, &stop, |now, _| {

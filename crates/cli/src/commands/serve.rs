@@ -1,5 +1,7 @@
 //! `vertifleet serve`: runs the dispatch service, and keeps its tokens.
 
+mod demo;
+
 use std::process::ExitCode;
 
 use anstream::eprintln;
@@ -46,16 +48,14 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
             }
         }
         Some(ServeAction::Export { day }) => print(&Keeper::open(&location)?.export(day)?)?,
+        None if arguments.demo => demo::run(arguments)?,
         None => {
             let stop = stop_on_interrupt()?;
-            log_to_stderr();
-            let protection = protection(arguments);
-            let scheme = match protection {
+            let settings = settings(arguments, location);
+            let scheme = match settings.protection {
                 Protection::Tls { .. } => "https",
                 Protection::None | Protection::Proxy => "http",
             };
-            let (listen, limits) = (arguments.listen, Limits::default());
-            let settings = Settings { listen, location, protection, limits };
             let listens = |address| {
                 eprintln!(
                     "listening on {scheme}://{address}, with the data in {}",
@@ -68,6 +68,18 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// How the service runs. From now on it logs.
+fn settings(arguments: &ServeArguments, location: Location) -> Settings {
+    log_to_stderr();
+    Settings {
+        listen: arguments.listen,
+        location,
+        protection: protection(arguments),
+        limits: Limits::default(),
+        collector: collector(arguments),
+    }
+}
+
 /// What keeps others from listening in.
 fn protection(arguments: &ServeArguments) -> Protection {
     match (&arguments.certificate, &arguments.key) {
@@ -77,6 +89,13 @@ fn protection(arguments: &ServeArguments) -> Protection {
         _ if arguments.behind_proxy => Protection::Proxy,
         _ => Protection::None,
     }
+}
+
+/// The collector that spans are sent to: the one of the command line, or else that of the variable by which every program
+/// with OpenTelemetry is told.
+fn collector(arguments: &ServeArguments) -> Option<String> {
+    let told = || std::env::var("OTEL_EXPORTER_OTLP_ENDPOINT").ok().filter(|url| !url.is_empty());
+    arguments.otlp.clone().or_else(told)
 }
 
 /// Where the data lies, for people.

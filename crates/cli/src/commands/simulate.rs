@@ -1,11 +1,11 @@
 //! `vertifleet simulate`: plays a day with one policy.
 
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use vertifleet_core::{Code, Outputs, Scenario, Stop};
+use vertifleet_core::{Code, Outputs, Scenario, Stop, write_atomically};
 use vertifleet_sim::{DayTotals, Trace};
+use vertifleet_study::replay::{self, Play, ReplayedDay};
 use vertifleet_study::{PolicySpec, ResolveFor};
 
 use crate::args::SimulateArguments;
@@ -21,9 +21,7 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     let days = ResolveFor::Day(&scenario);
     let policy = spec.resolve(arguments.model.as_ref(), days, arguments.seed)?;
     policy.check_fits(&scenario)?;
-    if let Some(trace) = &arguments.trace {
-        claim(trace, arguments, &spec)?;
-    }
+    claim(arguments, &spec)?;
     if let Some(warning) = policy.warning_for(spec.name(), &scenario) {
         warn(Code(310), &warning);
     }
@@ -31,6 +29,11 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     let (trace, totals) = policy.play(spec.name(), &scenario, &Stop::default())?;
     if let Some(path) = &arguments.trace {
         trace.write(&scenario, path)?;
+    }
+    if let Some(path) = &arguments.report {
+        let play = Play { policy: spec.name().to_owned(), trace, profit_usd: totals.profit_usd };
+        let day = ReplayedDay { scenario: Arc::clone(&scenario), plays: vec![play] };
+        write_atomically(path, replay::page(&[day]).as_bytes())?;
     }
     if arguments.json {
         print(&serde_json::to_string_pretty(&totals).expect("numbers are plain data"))?;
@@ -40,8 +43,8 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Checks that the trace would not replace a file that is read.
-fn claim(trace: &Path, arguments: &SimulateArguments, spec: &PolicySpec) -> Result<(), Failure> {
+/// Checks that neither the trace nor the page would replace a file that is read, or one of others.
+fn claim(arguments: &SimulateArguments, spec: &PolicySpec) -> Result<(), Failure> {
     let mut outputs = Outputs::new(arguments.force);
     outputs.reads(&arguments.scenario);
     reads_models(&arguments.model, &mut outputs);
@@ -49,7 +52,13 @@ fn claim(trace: &Path, arguments: &SimulateArguments, spec: &PolicySpec) -> Resu
         outputs.reads(replayed);
     }
     outputs.prints();
-    Ok(outputs.writes(trace, &Trace::FILE)?)
+    if let Some(trace) = &arguments.trace {
+        outputs.writes(trace, &Trace::FILE)?;
+    }
+    if let Some(page) = &arguments.report {
+        outputs.writes(page, &replay::PAGE)?;
+    }
+    Ok(())
 }
 
 fn text(totals: &DayTotals, scenario: &Scenario, policy: &str) -> String {

@@ -52,6 +52,26 @@ impl GcapsX {
             rollouts: (most > 1).then(|| (most, RolloutPlayer::default())),
         }
     }
+
+    /// Writes the worth of each choice of the shortlist by prices and network, and returns the list, ranked by the
+    /// prices.
+    fn score_shortlist(
+        &mut self,
+        decision: &Decision,
+        view: View<'_>,
+        values: &mut [f64],
+    ) -> &[PricedChoice] {
+        let prices = self.prices.at(view, decision);
+        let listed = self.shortlist.rank(prices, view, decision);
+        let scorer = sized(&mut self.scorer, &self.architecture, &self.weights, view.vertiports());
+        let scene = Scene::of(view, decision, prices);
+        scorer.score(scene, listed);
+        values.fill(f64::NAN);
+        for &choice in listed {
+            values[choice.to.at()] = scorer.worth_usd(0, scene.addition_usd(), choice);
+        }
+        listed
+    }
 }
 
 impl Policy for GcapsX {
@@ -79,6 +99,23 @@ impl Policy for GcapsX {
         Ok(rollouts.best(scorer, prices, *view, decision, &self.scored))
     }
 
+    fn choose_with_values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<VertiportIx, PolicyError> {
+        let rolls_out = self.rollouts.is_some();
+        let listed = self.score_shortlist(decision, *view, values);
+        if rolls_out {
+            return self.choose(decision, view);
+        }
+        let better = |best: VertiportIx, choice: &PricedChoice| {
+            if values[choice.to.at()] > values[best.at()] { choice.to } else { best }
+        };
+        Ok(listed.iter().fold(listed[0].to, better))
+    }
+
     /// Worth of each choice of the shortlist by prices and network, dollars, before any roll-outs.
     fn values(
         &mut self,
@@ -86,15 +123,7 @@ impl Policy for GcapsX {
         view: &View<'_>,
         values: &mut [f64],
     ) -> Result<(), PolicyError> {
-        let prices = self.prices.at(*view, decision);
-        let listed = self.shortlist.rank(prices, *view, decision);
-        let scorer = sized(&mut self.scorer, &self.architecture, &self.weights, view.vertiports());
-        let scene = Scene::of(*view, decision, prices);
-        scorer.score(scene, listed);
-        values.fill(f64::NAN);
-        for &choice in listed {
-            values[choice.to.at()] = scorer.worth_usd(0, scene.addition_usd(), choice);
-        }
+        self.score_shortlist(decision, *view, values);
         Ok(())
     }
 

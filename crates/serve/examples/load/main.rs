@@ -77,6 +77,7 @@ impl Load {
                 token: None,
                 trusted: None,
                 speed: None,
+                by_hand: false,
             };
             let mut took_ms = Vec::new();
             let report = operate(&operation, &stop, |_, took| {

@@ -1,4 +1,4 @@
-//! Days: made, listed, read, archived, deleted.
+//! Days: made, listed, read, archived and opened again, deleted.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::{LiveDay, Phase};
 
 use super::answer::{Times, again, at_event, json, written};
-use super::extract::{Asked, Named, Sender, Upload};
+use super::extract::{Asked, EventNumber, Named, PageSize, Sender, Upload};
 use super::new_day::NewDay;
 use crate::api::Totals;
 use crate::days::{DayCell, now_ms};
@@ -65,12 +65,9 @@ pub(crate) struct Page {
     /// The cursor that an earlier page ended with.
     #[serde(default)]
     after: String,
-    /// The number of entries, at most 1,000.
-    limit: Option<u32>,
-}
-
-impl Page {
-    const MOST: u32 = 1_000;
+    /// The number of entries, at most 1,000; without it, 100.
+    #[param(inline)]
+    limit: Option<PageSize<1_000>>,
 }
 
 /// What is known of a day.
@@ -185,7 +182,7 @@ pub(super) async fn list(
     State(service): State<Arc<Service>>,
     Asked(page): Asked<Page>,
 ) -> Result<Response, Error> {
-    let limit = page.limit.unwrap_or(100).clamp(1, Page::MOST);
+    let PageSize(limit) = page.limit.unwrap_or(PageSize(100));
     let days = service.days.store().days(&page.after, limit).await?;
     let next = (days.len() == limit as usize).then(|| days[days.len() - 1].id.clone());
     let days = days.iter().map(|day| DayInfo::of(day, None)).collect();
@@ -237,7 +234,7 @@ pub(super) async fn create(
 }
 
 /// An id that sorts by the time at which it was made.
-fn new_id() -> String {
+pub(super) fn new_id() -> String {
     let random = std::hash::BuildHasher::hash_one(&std::hash::RandomState::new(), now_ms());
     format!("{:011x}{:08x}", now_ms(), random >> 32)
 }
@@ -254,15 +251,27 @@ pub(super) async fn read(
     Ok(at_event(StatusCode::OK, seq, &DayInfo::of(day.stored(), Some(seq))))
 }
 
-/// Closes a day to writes.
+/// Closes a day to writes. It can still be read, and be opened again.
 #[utoipa::path(operation_id = "archive_day", post, path = "/v1/days/{day}/archive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn archive(
     State(service): State<Arc<Service>>,
     sender: Sender,
     Named(day): Named<String>,
 ) -> Result<StatusCode, Error> {
-    service.days.archive(&day).await?;
+    service.days.archive(&day, &sender.writer()?).await?;
     service.days.store().record(&sender.actor, "day archived", &day, now_ms()).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Opens a day again that was archived.
+#[utoipa::path(operation_id = "unarchive_day", post, path = "/v1/days/{day}/unarchive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
+pub(super) async fn unarchive(
+    State(service): State<Arc<Service>>,
+    sender: Sender,
+    Named(day): Named<String>,
+) -> Result<StatusCode, Error> {
+    service.days.unarchive(&day, &sender.writer()?).await?;
+    service.days.store().record(&sender.actor, "day unarchived", &day, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -273,7 +282,7 @@ pub(super) async fn delete(
     sender: Sender,
     Named(day): Named<String>,
 ) -> Result<StatusCode, Error> {
-    service.days.delete(&day).await?;
+    service.days.delete(&day, &sender.writer()?).await?;
     service.days.store().record(&sender.actor, "day deleted", &day, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
@@ -282,8 +291,10 @@ pub(super) async fn delete(
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct At {
-    /// The number of the event after which the state is asked for; without it, the latest.
-    seq: Option<u64>,
+    /// The number of the event after which the state is asked for; without it, the latest. If the day has no such event,
+    /// that is answered by 404 (V602).
+    #[param(inline)]
+    seq: Option<EventNumber>,
     /// How times are written in the answer.
     #[serde(default)]
     times: Times,
@@ -299,7 +310,7 @@ pub(super) async fn state(
     let day = service.days.get(&day).await?;
     let state = match at.seq {
         None => DayState::of(&mut day.state()),
-        Some(seq) => DayState::of(&mut service.days.at(&day, seq).await?),
+        Some(EventNumber(seq)) => DayState::of(&mut service.days.at(&day, seq).await?),
     };
     day.stored_up_to(state.seq).await?;
     at.times.of(&day, || Ok(at_event(StatusCode::OK, state.seq, &state)))

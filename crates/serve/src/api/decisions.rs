@@ -1,6 +1,6 @@
 //! Decisions: proposed, and taken.
 
-use std::sync::{Arc, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 
 use axum::extract::State;
@@ -16,7 +16,7 @@ use crate::decide::Proposal;
 use crate::error::Error;
 use crate::event::{Event, What};
 use crate::moment::{Moment, by_calendar};
-use crate::service::{Service, Write, parse};
+use crate::service::{Service, Write, in_turn, parse};
 
 /// A policy is asked so often when events come in between.
 const TRIES: u32 = 5;
@@ -35,7 +35,8 @@ pub(crate) struct HowAsked {
     /// The time of the decision; without it, or before what has happened, now.
     time: Option<String>,
     /// Milliseconds within which an answer is needed. If the policy is not ready then, a faster one answers.
-    deadline_ms: Option<u64>,
+    #[param(format = Int64, maximum = 4_294_967_295u32)]
+    deadline_ms: Option<u32>,
     /// How times are written in the answer.
     #[serde(default)]
     times: Times,
@@ -47,7 +48,7 @@ struct Question {
     aircraft: String,
     policy: Option<String>,
     time: Option<Moment>,
-    deadline_ms: Option<u64>,
+    deadline_ms: Option<u32>,
 }
 
 /// A decision to be taken.
@@ -65,7 +66,8 @@ pub(crate) struct NewDecision {
     /// The time of the decision; without it, or before what has happened, now.
     time: Option<Moment>,
     /// Milliseconds within which the policy must answer; if it does not, a faster one decides.
-    deadline_ms: Option<u64>,
+    #[schema(format = Int64, maximum = 4_294_967_295u32)]
+    deadline_ms: Option<u32>,
 }
 
 /// A decision that was taken.
@@ -140,7 +142,8 @@ async fn by_hand(
 ) -> Result<TakenDecision, Error> {
     let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
     // For the record only, so it must not hold a person up, and whatever goes wrong shows when the event is taken.
-    let deadline = deadline_ms.map_or(PATIENCE_WITH_OVERRULED, Duration::from_millis);
+    let deadline =
+        deadline_ms.map_or(PATIENCE_WITH_OVERRULED, |ms| Duration::from_millis(ms.into()));
     let overruled = ask(service, day, aircraft.clone(), policy, time);
     let overruled = tokio::time::timeout(deadline, overruled).await;
     let instead_of = overruled.ok().and_then(Result::ok).map(|proposal| proposal.to);
@@ -211,7 +214,7 @@ async fn proposed(
     let in_time = match deadline_ms {
         None => Some(answer.await?),
         Some(deadline_ms) => {
-            let deadline = Duration::from_millis(deadline_ms);
+            let deadline = Duration::from_millis(deadline_ms.into());
             tokio::time::timeout(deadline, answer).await.ok().transpose()?
         }
     };
@@ -226,7 +229,8 @@ async fn proposed(
     Ok(proposal)
 }
 
-/// Asks a policy on a thread of its own, since it may take a while.
+/// Asks a policy on a thread of its own, since it may take a while. Nothing takes a thread while it waits for its turn, so
+/// that whoever gives up waiting leaves no work behind that has not begun.
 async fn ask(
     service: &Service,
     day: &Arc<DayCell>,
@@ -236,11 +240,10 @@ async fn ask(
 ) -> Result<Proposal, Error> {
     let scenario = Arc::clone(day.state().live().scenario());
     let decider = day.deciders.get(&policy, &scenario, &service.policies).await?;
+    let mut decider = decider.lock_owned().await;
+    let is_quick = policy == QUICK_POLICY;
+    let turns = if is_quick { &service.turns.quick_decisions } else { &service.turns.decisions };
     let day = Arc::clone(day);
-    let ask = move || {
-        let mut decider = decider.lock().unwrap_or_else(PoisonError::into_inner);
-        decider.propose(&day, &aircraft, time.map(Moment::time), &policy)
-    };
-    let died = |error| Error::Internal { cause: format!("{error}") };
-    tokio::task::spawn_blocking(ask).await.map_err(died)?
+    let ask = move || decider.propose(&day, &aircraft, time.map(Moment::time), &policy);
+    in_turn(turns, ask).await
 }

@@ -1,14 +1,21 @@
 //! The description of the API (`OpenAPI` 3.1).
 
+use std::collections::BTreeMap;
+
 use utoipa::openapi::header::HeaderBuilder;
 use utoipa::openapi::path::{Operation, ParameterBuilder, ParameterIn};
-use utoipa::openapi::schema::{KnownFormat, ObjectBuilder, SchemaFormat, Type};
+use utoipa::openapi::schema::{
+    AdditionalProperties, KnownFormat, Object, ObjectBuilder, OneOf, SchemaFormat, Type,
+};
 use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme};
-use utoipa::openapi::{ContentBuilder, Ref, RefOr, ResponseBuilder};
+use utoipa::openapi::{ContentBuilder, Ref, RefOr, ResponseBuilder, Schema};
 use utoipa::{Modify, OpenApi, openapi as description};
 
 use super::answer::Times;
-use super::{days, decisions, events, networks, outlooks, policies, service, stream};
+use super::events::MOST_EVENTS;
+use super::{
+    days, decisions, demand, events, networks, outlooks, policies, service, stream, studies,
+};
 use crate::problem::Problem;
 
 /// The description of the API.
@@ -22,11 +29,12 @@ use crate::problem::Problem;
     modifiers(&Everywhere),
     components(schemas(Problem, Times)),
     paths(
-        service::info, service::healthz, service::readyz, service::metrics, service::described, days::list, days::create, days::read, days::archive, days::delete, days::state,
-        days::scenario, days::trace, events::list, events::append, decisions::propose, decisions::decide,
+        service::info, service::healthz, service::readyz, service::metrics, service::described, days::list, days::create, days::read, days::archive, days::unarchive, days::delete, days::state,
+        days::scenario, days::trace, demand::demand, events::list, events::append, decisions::propose, decisions::decide,
         outlooks::outlook, outlooks::what_if, stream::stream, networks::list, networks::read,
         networks::put, networks::delete, networks::validate, policies::list, policies::read,
-        policies::put, policies::delete, policies::validate
+        policies::put, policies::delete, policies::validate, studies::list, studies::create, studies::read, studies::report,
+        studies::delete
     ),
     tags(
         (name = "service", description = "The service itself"),
@@ -35,7 +43,8 @@ use crate::problem::Problem;
         (name = "decisions", description = "Where an aircraft flies next, and why"),
         (name = "outlooks", description = "How a day goes on, and what it would be otherwise"),
         (name = "networks", description = "Networks from which days are made"),
-        (name = "policies", description = "Policies that decide")
+        (name = "policies", description = "Policies that decide"),
+        (name = "studies", description = "Policies compared on many days")
     )
 )]
 struct Api;
@@ -50,14 +59,16 @@ struct Everywhere;
 
 /// The paths that need no token.
 const OPEN: [&str; 2] = ["/healthz", "/readyz"];
-/// The writes that are carried out once for each key, and those of them that can be made for one state of the day.
-const KEYED: [&str; 3] = ["make_day", "add_events", "take_decision"];
-const MATCHED: [&str; 2] = ["add_events", "take_decision"];
+/// The writes that are carried out once for each key, and those that can be made for one state of the day.
+const KEYED: [&str; 4] = ["make_day", "add_events", "take_decision", "make_study"];
+const MATCHED: [&str; 5] =
+    ["add_events", "take_decision", "archive_day", "unarchive_day", "delete_day"];
 /// The answers that are about a day at an event.
-const TAGGED: [&str; 7] = [
+const TAGGED: [&str; 8] = [
     "make_day",
     "read_day",
     "day_state",
+    "day_demand",
     "add_events",
     "take_decision",
     "propose_decision",
@@ -67,6 +78,7 @@ const TAGGED: [&str; 7] = [
 impl Modify for Everywhere {
     fn modify(&self, api: &mut description::OpenApi) {
         let components = api.components.get_or_insert_default();
+        close_events(&mut components.schemas);
         let bearer = HttpBuilder::new().scheme(HttpAuthScheme::Bearer);
         let bearer = bearer.description(Some("A token; not needed as long as none was made."));
         components.add_security_scheme("token", SecurityScheme::Http(bearer.build()));
@@ -84,6 +96,47 @@ impl Modify for Everywhere {
             }
         }
     }
+}
+
+/// Says of events and routes that they have no other members, and of lists of events how long they are. As it is derived,
+/// an event is put together from two parts, and neither part could say so without forbidding the other.
+fn close_events(schemas: &mut BTreeMap<String, RefOr<Schema>>) {
+    let (Some(RefOr::T(Schema::AllOf(parts))), Some(RefOr::T(Schema::OneOf(mut kinds)))) =
+        (schemas.get("Event").cloned(), schemas.remove("What"))
+    else {
+        unreachable!("an event has a time and is one of several kinds")
+    };
+    let time = parts.items.into_iter().find_map(|part| match part {
+        RefOr::T(Schema::Object(mut timed)) => timed.properties.remove("time"),
+        _ => None,
+    });
+    let time = time.expect("an event may have a time");
+    for kind in objects(&mut kinds) {
+        kind.properties.insert("time".to_owned(), time.clone());
+        kind.additional_properties = Some(Box::new(AdditionalProperties::FreeForm(false)));
+    }
+    kinds.description = parts.description;
+    schemas.insert("Event".to_owned(), Schema::OneOf(kinds).into());
+    if let Some(RefOr::T(Schema::OneOf(routes))) = schemas.get_mut("RouteNames") {
+        for route in objects(routes) {
+            route.additional_properties = Some(Box::new(AdditionalProperties::FreeForm(false)));
+        }
+    }
+    if let Some(RefOr::T(Schema::OneOf(body))) = schemas.get_mut("OneOrMore") {
+        for item in &mut body.items {
+            if let RefOr::T(Schema::Array(events)) = item {
+                (events.min_items, events.max_items) = (Some(1), Some(MOST_EVENTS));
+            }
+        }
+    }
+}
+
+/// The objects of which something is one.
+fn objects(one_of: &mut OneOf) -> impl Iterator<Item = &mut Object> {
+    one_of.items.iter_mut().filter_map(|item| match item {
+        RefOr::T(Schema::Object(object)) => Some(object),
+        _ => None,
+    })
 }
 
 fn complete(operation: &mut Operation) {

@@ -10,7 +10,7 @@ use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 
 use super::answer::{Times, again, at_event, json};
-use super::extract::{Asked, Body, Named, Sender};
+use super::extract::{Asked, Body, EventNumber, Named, PageSize, Sender};
 use crate::days::Appended;
 use crate::error::Error;
 use crate::event::Event;
@@ -19,7 +19,7 @@ use crate::service::{Service, Write, parse};
 use crate::store::StoredEvent;
 
 /// The number of events that a request may bring.
-pub(super) const MOST_EVENTS: u64 = 1_000;
+pub(super) const MOST_EVENTS: usize = 1_000;
 
 /// One event, or several that are taken all or none.
 #[derive(Debug, Serialize, ToSchema)]
@@ -43,7 +43,7 @@ impl OneOrMore {
     fn several(body: &[u8]) -> Result<Vec<Event>, Error> {
         let raw: Vec<Box<RawValue>> = parse(body)?;
         let of = raw.len();
-        if of as u64 > MOST_EVENTS {
+        if of > MOST_EVENTS {
             return Err(too_many());
         }
         let read = |(at, event): (usize, Box<RawValue>)| {
@@ -139,11 +139,13 @@ pub(crate) struct EventList {
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct Page {
-    /// Events after this number.
+    /// Events after this number. If the day has no event of this number, that is answered by 404 (V602).
     #[serde(default)]
-    after: u64,
-    /// Their number, at most 10,000.
-    limit: Option<u32>,
+    #[param(inline)]
+    after: EventNumber,
+    /// Their number, at most 10,000; without it, 1,000.
+    #[param(inline)]
+    limit: Option<PageSize<10_000>>,
     /// How times are written in the answer.
     #[serde(default)]
     times: Times,
@@ -181,9 +183,9 @@ pub(super) async fn append(
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Asked(Page { after, limit, times }): Asked<Page>,
+    Asked(Page { after: EventNumber(after), limit, times }): Asked<Page>,
 ) -> Result<Response, Error> {
-    let limit = limit.unwrap_or(1_000).clamp(1, 10_000);
+    let PageSize(limit) = limit.unwrap_or(PageSize(1_000));
     let day = service.days.get(&day).await?;
     day.check_begun(after)?;
     let stored = service.days.store().events(day.id(), after, limit).await?;

@@ -9,7 +9,11 @@ use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
 use axum::http::HeaderMap;
 use axum::http::request::Parts;
 use http_body_util::{BodyExt as _, LengthLimitError, Limited};
-use serde::de::DeserializeOwned;
+use serde::de::{self, DeserializeOwned};
+use serde::{Deserialize, Deserializer};
+use utoipa::openapi::schema::{KnownFormat, ObjectBuilder, SchemaFormat, Type};
+use utoipa::openapi::{RefOr, Schema};
+use utoipa::{PartialSchema, ToSchema};
 
 use crate::access::Actor;
 use crate::error::Error;
@@ -27,6 +31,60 @@ impl<S: Send + Sync, T: DeserializeOwned> FromRequestParts<S> for Asked<T> {
         asked.map(|Query(asked)| Self(asked)).map_err(wrong)
     }
 }
+
+/// The number of an event. Beyond those that the description has, whose numbers are of 64 bits with a sign, nothing is taken.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct EventNumber(pub(super) u64);
+
+impl EventNumber {
+    /// Reads what stands in a header.
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        Self::checked(text.parse().ok()?)
+    }
+
+    fn checked(number: u64) -> Option<Self> {
+        i64::try_from(number).is_ok().then_some(Self(number))
+    }
+}
+
+impl<'de> Deserialize<'de> for EventNumber {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let number = u64::deserialize(deserializer)?;
+        let wrong = || de::Error::custom(format!("no event has a number such as {number}"));
+        Self::checked(number).ok_or_else(wrong)
+    }
+}
+
+impl PartialSchema for EventNumber {
+    fn schema() -> RefOr<Schema> {
+        let format = SchemaFormat::KnownFormat(KnownFormat::Int64);
+        let number = ObjectBuilder::new().schema_type(Type::Integer).format(Some(format));
+        number.minimum(Some(0)).into()
+    }
+}
+
+impl ToSchema for EventNumber {}
+
+/// How many entries a page of a list has, 1 to `MOST`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PageSize<const MOST: u32>(pub(super) u32);
+
+impl<'de, const MOST: u32> Deserialize<'de> for PageSize<MOST> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let size = u32::deserialize(deserializer)?;
+        let wrong = || de::Error::custom(format!("a page has 1 to {MOST} entries, not {size}"));
+        (1..=MOST).contains(&size).then_some(Self(size)).ok_or_else(wrong)
+    }
+}
+
+impl<const MOST: u32> PartialSchema for PageSize<MOST> {
+    fn schema() -> RefOr<Schema> {
+        let number = ObjectBuilder::new().schema_type(Type::Integer);
+        number.minimum(Some(1)).maximum(Some(MOST)).into()
+    }
+}
+
+impl<const MOST: u32> ToSchema for PageSize<MOST> {}
 
 /// The ids in the path.
 pub(super) struct Named<T>(pub(super) T);

@@ -22,6 +22,7 @@ pub(crate) struct NewDay {
     network: Option<String>,
     /// The seed with which the day is drawn from the network: its forecast and where aircraft stand in the morning, unless
     /// they are given. 1 if it is absent.
+    #[schema(maximum = 1_099_511_627_775u64)]
     seed: Option<u64>,
     /// A whole scenario, as a scenario file has it.
     #[schema(value_type = Option<Object>)]
@@ -55,6 +56,7 @@ pub(crate) struct ForecastRow {
     /// Where they fly to.
     to: String,
     /// Their number.
+    #[schema(format = Int64, maximum = 4_294_967_295u32)]
     passengers: u32,
 }
 

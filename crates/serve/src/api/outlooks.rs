@@ -15,7 +15,7 @@ use crate::days::DayCell;
 use crate::error::Error;
 use crate::moment::by_calendar;
 use crate::outlook::{Comparison, NamedPolicy, Outlook, WhatIf};
-use crate::service::{Service, parse};
+use crate::service::{Service, in_turn, parse};
 
 /// Which outlook is asked for.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -42,7 +42,8 @@ pub(super) async fn outlook(
     let day = service.days.get(&day).await?;
     let mut state = day.state().clone();
     let policy = named(&service, &day, policy).await?;
-    let outlook = service.compute(move || Outlook::of(&mut state, &policy)).await?;
+    let outlook =
+        in_turn(&service.turns.outlooks, move || Outlook::of(&mut state, &policy)).await?;
     day.stored_up_to(outlook.seq).await?;
     times.of(&day, || Ok(at_event(StatusCode::OK, outlook.seq, &outlook)))
 }
@@ -75,8 +76,8 @@ pub(super) async fn what_if(
     let day = service.days.get(&day).await?;
     let asked: Option<WhatIf> = by_calendar(day.calendar(), || parse(&body))?;
     let asked = asked.unwrap_or_default();
-    if asked.events.len() as u64 > MOST_EVENTS {
-        return Err(Error::TooMuch { what: "events in a what-if", most: MOST_EVENTS });
+    if asked.events.len() > MOST_EVENTS {
+        return Err(Error::TooMuch { what: "events in a what-if", most: MOST_EVENTS as u64 });
     }
     let mut state = day.state().clone();
     day.stored_up_to(state.seq()).await?;
@@ -89,7 +90,7 @@ pub(super) async fn what_if(
     };
     let ours = named(&service, &day, None).await?;
     let theirs = named(&service, &day, asked.policy.clone()).await?;
-    let compared =
-        service.compute(move || asked.compare(&mut state, otherwise, [&ours, &theirs])).await?;
+    let compare = move || asked.compare(&mut state, otherwise, [&ours, &theirs]);
+    let compared = in_turn(&service.turns.outlooks, compare).await?;
     times.of(&day, || Ok(json(StatusCode::OK, &compared)))
 }

@@ -12,7 +12,7 @@ use super::answer::json;
 use super::extract::{Named, Sender, Upload};
 use crate::days::now_ms;
 use crate::error::Error;
-use crate::policies::{self, PolicyInfo};
+use crate::policies::{self, PolicyInfo, WeightsInfo};
 use crate::service::Service;
 
 /// The bytes of a weight file.
@@ -44,7 +44,7 @@ pub(super) async fn read(
 }
 
 /// Keeps the weights of a policy, the bytes of a weight file, under a name. The name means these weights for good.
-#[utoipa::path(operation_id = "put_policy", put, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path)), request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
+#[utoipa::path(operation_id = "put_policy", put, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path, pattern = "^[a-z0-9_-][a-z0-9._-]{0,39}$")), request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
 pub(super) async fn put(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
@@ -70,8 +70,8 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// Checks a weight file without keeping it.
-#[utoipa::path(operation_id = "validate_policy", post, path = "/v1/policies/validate", tag = "policies", request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
+/// Checks a weight file without keeping it, and says what it is.
+#[utoipa::path(operation_id = "validate_policy", post, path = "/v1/policies/validate", tag = "policies", request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = WeightsInfo)))]
 pub(super) async fn validate(Upload(weights): Upload) -> Result<Response, Error> {
-    Ok(json(StatusCode::OK, &policies::validate("validated", &weights)?))
+    Ok(json(StatusCode::OK, &policies::validate(&weights)?))
 }

@@ -17,7 +17,7 @@ use utoipa::IntoParams;
 
 use super::answer::Times;
 use super::events::TakenEvent;
-use super::extract::{Asked, Named};
+use super::extract::{Asked, EventNumber, Named};
 use crate::access::Role;
 use crate::days::{DayCell, Told};
 use crate::error::Error;
@@ -37,8 +37,10 @@ const SIGN_OF_LIFE: Duration = Duration::from_secs(15);
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct From {
-    /// Events after this number; `Last-Event-ID` goes before it.
-    after: Option<u64>,
+    /// Events after this number; `Last-Event-ID` goes before it. If the day has no event of this number, that is answered by
+    /// 404 (V602).
+    #[param(inline)]
+    after: Option<EventNumber>,
     /// How times are written in the events.
     #[serde(default)]
     times: Times,
@@ -63,9 +65,9 @@ struct Reader {
 }
 
 /// The number of the event that a reader saw last.
-fn last_event(headers: &HeaderMap) -> Result<Option<u64>, Error> {
+fn last_event(headers: &HeaderMap) -> Result<Option<EventNumber>, Error> {
     let Some(id) = headers.get("last-event-id") else { return Ok(None) };
-    let number = id.to_str().ok().and_then(|id| id.parse().ok());
+    let number = id.to_str().ok().and_then(EventNumber::parse);
     let wrong =
         || Error::BadRequest { rule: "Last-Event-ID must be the number of an event".to_owned() };
     number.map(Some).ok_or_else(wrong)
@@ -95,7 +97,7 @@ pub(super) async fn stream(
     }
     let day = service.days.get(&day).await?;
     let fresh = day.subscribe();
-    let after = last_event(&headers)?.or(after).unwrap_or(0);
+    let EventNumber(after) = last_event(&headers)?.or(after).unwrap_or_default();
     day.check_begun(after)?;
     times.check(&day)?;
     let store = service.days.store().clone();

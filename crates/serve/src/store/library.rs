@@ -1,10 +1,39 @@
-//! Networks and weights of policies that were uploaded, in the store.
+//! Networks and weights of policies that were uploaded, in the store, each with a description beside it.
+//!
+//! A description is what a program answered when it read the network or the weights, as JSON. It counts for that version of
+//! the program alone, and as long as what it describes is not uploaded anew, so that versions that share a database do not
+//! mislead each other. Without one, the network or the weights are read again.
 
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use sqlx::any::AnyRow;
-use sqlx::{Row as _, query, query_scalar};
+use sqlx::{AnyConnection, Row as _, query, query_scalar};
 
 use super::Store;
 use crate::error::Error;
+
+/// The version of the program, whose descriptions are read.
+const PROGRAM: &str = env!("CARGO_PKG_VERSION");
+
+/// What is described.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// A network.
+    Network,
+    /// A policy whose weights were uploaded.
+    Policy,
+}
+
+/// Something that was uploaded, without it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Uploaded<T> {
+    /// Its name.
+    pub(crate) name: String,
+    /// When it was uploaded, milliseconds of the Unix clock.
+    pub(crate) created_ms: i64,
+    /// What this version of the program said of it, if it has read it before.
+    pub(crate) description: Option<T>,
+}
 
 /// A network that was uploaded.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,26 +57,79 @@ pub(crate) struct StoredPolicy {
     pub(crate) created_ms: i64,
 }
 
+impl Kind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Network => "network",
+            Self::Policy => "policy",
+        }
+    }
+}
+
 impl Store {
+    /// All that was uploaded of a kind, by its names.
+    pub(crate) async fn uploaded<T: DeserializeOwned>(
+        &self,
+        kind: Kind,
+    ) -> Result<Vec<Uploaded<T>>, Error> {
+        let select = match kind {
+            Kind::Network => {
+                "SELECT one.name, one.created_ms, said.description FROM networks AS one
+                 LEFT JOIN descriptions AS said ON said.kind = $1 AND said.name = one.name
+                 AND said.program = $2 AND said.created_ms = one.created_ms ORDER BY one.name"
+            }
+            Kind::Policy => {
+                "SELECT one.name, one.created_ms, said.description FROM policies AS one
+                 LEFT JOIN descriptions AS said ON said.kind = $1 AND said.name = one.name
+                 AND said.program = $2 AND said.created_ms = one.created_ms ORDER BY one.name"
+            }
+        };
+        let select = query(select).bind(kind.name()).bind(PROGRAM);
+        let rows = select.fetch_all(self.pool()).await?;
+        rows.iter().map(uploaded).collect()
+    }
+
+    /// The number of uploads of a kind with other names.
+    pub(crate) async fn number_of_others(&self, kind: Kind, name: &str) -> Result<usize, Error> {
+        let select = match kind {
+            Kind::Network => "SELECT COUNT(*) FROM networks WHERE name <> $1",
+            Kind::Policy => "SELECT COUNT(*) FROM policies WHERE name <> $1",
+        };
+        let count: i64 = query_scalar(select).bind(name).fetch_one(self.pool()).await?;
+        Ok(usize::try_from(count).unwrap_or_default())
+    }
+
+    /// Keeps what is said of something that was uploaded.
+    pub(crate) async fn describe(
+        &self,
+        kind: Kind,
+        name: &str,
+        created_ms: i64,
+        description: &impl Serialize,
+    ) -> Result<(), Error> {
+        let mut connection = self.pool().acquire().await?;
+        describe(&mut connection, kind, name, created_ms, description).await
+    }
+
     /// Adds a network, or puts it in the place of the one with its name.
-    pub(crate) async fn put_network(&self, network: &StoredNetwork) -> Result<(), Error> {
+    pub(crate) async fn put_network(
+        &self,
+        network: &StoredNetwork,
+        description: &impl Serialize,
+    ) -> Result<(), Error> {
+        let StoredNetwork { name, toml, created_ms } = network;
+        let mut transaction = self.pool().begin().await?;
         query(
             "INSERT INTO networks (name, toml, created_ms) VALUES ($1, $2, $3)
              ON CONFLICT (name) DO UPDATE SET toml = excluded.toml, created_ms = excluded.created_ms",
         )
-        .bind(&network.name)
-        .bind(&network.toml)
-        .bind(network.created_ms)
-        .execute(self.pool())
+        .bind(name)
+        .bind(toml)
+        .bind(created_ms)
+        .execute(&mut *transaction)
         .await?;
-        Ok(())
-    }
-
-    /// All networks that were uploaded, by their names.
-    pub(crate) async fn networks(&self) -> Result<Vec<StoredNetwork>, Error> {
-        let select = "SELECT name, toml, created_ms FROM networks ORDER BY name";
-        let rows = query(select).fetch_all(self.pool()).await?;
-        rows.iter().map(stored_network).collect()
+        describe(&mut transaction, Kind::Network, name, *created_ms, description).await?;
+        Ok(transaction.commit().await?)
     }
 
     /// The network with a name.
@@ -60,7 +142,9 @@ impl Store {
     /// Removes a network. Returns whether there was one.
     pub(crate) async fn delete_network(&self, name: &str) -> Result<bool, Error> {
         let delete = query("DELETE FROM networks WHERE name = $1").bind(name);
-        Ok(delete.execute(self.pool()).await?.rows_affected() > 0)
+        let is_deleted = delete.execute(self.pool()).await?.rows_affected() > 0;
+        self.forget_descriptions(Kind::Network, name).await?;
+        Ok(is_deleted)
     }
 
     /// Adds a policy unless there is one with its name. Returns the one that is there then.
@@ -83,13 +167,6 @@ impl Store {
         found.ok_or_else(|| Error::not_found("policy", &policy.name))
     }
 
-    /// All policies that were uploaded, by their names.
-    pub(crate) async fn policies(&self) -> Result<Vec<StoredPolicy>, Error> {
-        let select = "SELECT name, sha256, created_ms FROM policies ORDER BY name";
-        let rows = query(select).fetch_all(self.pool()).await?;
-        rows.iter().map(stored_policy).collect()
-    }
-
     /// The policy with a name.
     pub(crate) async fn policy(&self, name: &str) -> Result<Option<StoredPolicy>, Error> {
         let select = "SELECT name, sha256, created_ms FROM policies WHERE name = $1";
@@ -106,8 +183,50 @@ impl Store {
     /// Removes a policy. Returns whether there was one.
     pub(crate) async fn delete_policy(&self, name: &str) -> Result<bool, Error> {
         let delete = query("DELETE FROM policies WHERE name = $1").bind(name);
-        Ok(delete.execute(self.pool()).await?.rows_affected() > 0)
+        let is_deleted = delete.execute(self.pool()).await?.rows_affected() > 0;
+        self.forget_descriptions(Kind::Policy, name).await?;
+        Ok(is_deleted)
     }
+
+    /// Makes room: what is said of something that is not there is never read.
+    async fn forget_descriptions(&self, kind: Kind, name: &str) -> Result<(), Error> {
+        let delete = "DELETE FROM descriptions WHERE kind = $1 AND name = $2";
+        query(delete).bind(kind.name()).bind(name).execute(self.pool()).await?;
+        Ok(())
+    }
+}
+
+async fn describe(
+    connection: &mut AnyConnection,
+    kind: Kind,
+    name: &str,
+    created_ms: i64,
+    description: &impl Serialize,
+) -> Result<(), Error> {
+    let description = serde_json::to_string(description).expect("plain data can be written");
+    query(
+        "INSERT INTO descriptions (kind, name, program, created_ms, description)
+         VALUES ($1, $2, $3, $4, $5)
+         ON CONFLICT (kind, name, program)
+         DO UPDATE SET created_ms = excluded.created_ms, description = excluded.description",
+    )
+    .bind(kind.name())
+    .bind(name)
+    .bind(PROGRAM)
+    .bind(created_ms)
+    .bind(description)
+    .execute(connection)
+    .await?;
+    Ok(())
+}
+
+fn uploaded<T: DeserializeOwned>(row: &AnyRow) -> Result<Uploaded<T>, Error> {
+    let description: Option<String> = row.try_get("description")?;
+    Ok(Uploaded {
+        name: row.try_get("name")?,
+        created_ms: row.try_get("created_ms")?,
+        description: description.and_then(|text| serde_json::from_str(&text).ok()),
+    })
 }
 
 fn stored_network(row: &AnyRow) -> Result<StoredNetwork, Error> {

@@ -13,7 +13,7 @@ use crate::error::Error;
 /// Between two tries to reach a server.
 const PAUSE: Duration = Duration::from_millis(100);
 /// The statements that make the tables.
-const TABLES: [&str; 8] = [
+const TABLES: [&str; 9] = [
     "CREATE TABLE IF NOT EXISTS meta (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS days (
         id TEXT PRIMARY KEY, name TEXT NOT NULL, created_ms BIGINT NOT NULL, archived BIGINT NOT NULL,
@@ -34,6 +34,10 @@ const TABLES: [&str; 8] = [
         name TEXT PRIMARY KEY, toml TEXT NOT NULL, created_ms BIGINT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS policies (
         name TEXT PRIMARY KEY, weights BYTEA NOT NULL, sha256 TEXT NOT NULL, created_ms BIGINT NOT NULL)",
+    // What programs say of networks and policies, so that listing them reads none of them. Anything in it may be missing.
+    "CREATE TABLE IF NOT EXISTS descriptions (
+        kind TEXT NOT NULL, name TEXT NOT NULL, program TEXT NOT NULL, created_ms BIGINT NOT NULL,
+        description TEXT NOT NULL, PRIMARY KEY (kind, name, program))",
 ];
 
 /// The lock of PostgreSQL under which tables are made: the letters of `fleet`.

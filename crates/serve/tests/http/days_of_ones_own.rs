@@ -179,6 +179,7 @@ fn a_policy_of_ones_own_decides() {
     let weights = std::fs::read(path).expect("the shipped weights");
     let checked = service.send("POST", "/v1/policies/validate", &[], &weights);
     assert_eq!((checked.status, &checked.json["kind"]), (200, &json!("gcaps-x")), "{checked:?}");
+    assert_eq!(checked.json.get("name"), None, "it has none");
     let put = service.send("PUT", "/v1/policies/ours-2026", &[], &weights);
     assert_eq!(put.status, 200, "{put:?}");
     let sum = put.json["weights_sha256"].clone();

@@ -1,10 +1,15 @@
 //! The service over HTTP, as its users meet it.
 
 mod api;
+mod archived_days;
+mod collected_spans;
+mod console;
 mod days_of_ones_own;
+mod described_requests;
 mod malformed;
 mod operated_days;
 #[cfg(unix)]
 mod postgres;
 mod protected;
 mod running;
+mod studies;

@@ -1,36 +1,10 @@
 //! Requests that make no sense: each gets an answer with a code, and the day stays as it is.
 
-use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher};
+use vertifleet_testkit::{draw, spoilt};
 
 use crate::api::service;
 
 const REQUESTS: u32 = 1_000;
-
-/// A number that looks random and is the same every time.
-fn draw(seed: u32, at: u32) -> usize {
-    let hash = BuildHasherDefault::<DefaultHasher>::default().hash_one((seed, at));
-    usize::try_from(hash >> 33).expect("31 bits")
-}
-
-/// A body that is cut, changed or repeated somewhere.
-fn spoilt(good: &str, seed: u32) -> Vec<u8> {
-    let mut body = good.as_bytes().to_vec();
-    for change in 0..=u32::try_from(draw(seed, 0) % 3).expect("few") {
-        let at = draw(seed, 10 + change) % body.len();
-        match draw(seed, 20 + change) % 4 {
-            0 => body[at] = u8::try_from(draw(seed, 30 + change) % 256).expect("a byte"),
-            1 => {
-                body.remove(at);
-            }
-            2 => body.insert(at, b"{}[]\",:0-9e"[draw(seed, 40 + change) % 11]),
-            _ => body.truncate(at.max(1)),
-        }
-        if body.is_empty() {
-            body.push(b'?');
-        }
-    }
-    body
-}
 
 #[test]
 fn malformed_requests_are_refused_with_a_code() {
@@ -58,7 +32,7 @@ fn malformed_requests_are_refused_with_a_code() {
     let mut refused = 0;
     for seed in 0..REQUESTS {
         let (path, body) = good[draw(seed, 1) % good.len()];
-        let body = spoilt(body, seed);
+        let body = spoilt(body.as_bytes(), seed);
         let answer = service.send("POST", &format!("{day}{path}"), &[], &body);
         let sent = String::from_utf8_lossy(&body);
         assert!((200..500).contains(&answer.status), "{sent}: {answer:?}");

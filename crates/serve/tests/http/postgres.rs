@@ -1,122 +1,19 @@
-//! Two services that share a `PostgreSQL` database, which Debian's packages bring (`scripts/database`).
+//! Two services that share a `PostgreSQL` database.
 
 use std::collections::BTreeSet;
-use std::net::TcpListener;
-use std::os::unix::fs::{PermissionsExt as _, chown};
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::json;
 use vertifleet_serve::Location;
+use vertifleet_testkit::Postgres;
 
 use crate::operated_days::{day, operated, simulated};
 use crate::running::Running;
 
-/// A database server of its own, on a port of its own.
-struct Postgres {
-    folder: tempfile::TempDir,
-    port: u16,
-    server: Child,
-    location: Location,
-}
-
-/// The newest server that is installed.
-fn programs() -> PathBuf {
-    let versions = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten();
-    let mut found: Vec<PathBuf> = versions.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    found.sort();
-    found.pop().expect("PostgreSQL is installed: `scripts/database` installs it").join("bin")
-}
-
-/// A program of the server. It refuses to run as root, so root runs it as the user that the package makes.
-fn command(program: &str) -> Command {
-    let path = programs().join(program);
-    if !is_root() {
-        return Command::new(path);
-    }
-    let mut command = Command::new("runuser");
-    command.args(["-u", "postgres", "--"]).arg(path);
-    command
-}
-
-fn is_root() -> bool {
-    let id = Command::new("id").arg("-u").output().expect("id runs");
-    id.stdout == b"0\n"
-}
-
-fn own(folder: &Path) {
-    std::fs::set_permissions(folder, std::fs::Permissions::from_mode(0o700))
-        .expect("a folder of ours");
-    if is_root() {
-        let id = |flag: &str| -> u32 {
-            let id = Command::new("id").args([flag, "postgres"]).output().expect("id runs");
-            String::from_utf8_lossy(&id.stdout).trim().parse().expect("the package makes the user")
-        };
-        chown(folder, Some(id("-u")), Some(id("-g"))).expect("root may");
-    }
-}
-
-impl Postgres {
-    fn start() -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
-        own(folder.path());
-        let made = command("initdb")
-            .args(["-A", "trust", "-U", "postgres", "-D"])
-            .arg(folder.path())
-            .current_dir("/")
-            .output()
-            .expect("initdb runs");
-        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-        let port = TcpListener::bind("127.0.0.1:0")
-            .and_then(|socket| socket.local_addr())
-            .expect("a port")
-            .port();
-        let url = format!("postgres://postgres@127.0.0.1:{port}/postgres");
-        let server = serve(folder.path(), port);
-        Self { folder, port, server, location: Location::Postgres(url) }
-    }
-
-    /// Ends the server as a crash would: what was not committed is lost.
-    fn crash(&mut self) {
-        self.signal("-QUIT");
-        let _ = self.server.wait();
-    }
-
-    /// Starts the server again.
-    fn resume(&mut self) {
-        self.server = serve(self.folder.path(), self.port);
-    }
-
-    /// The first line of the file is the process that the server runs in, which is not the one that was started if another
-    /// user runs it.
-    fn signal(&self, signal: &str) {
-        let pid = std::fs::read_to_string(self.folder.path().join("postmaster.pid"));
-        let pid = pid.unwrap_or_default().lines().next().unwrap_or_default().to_owned();
-        let _ = Command::new("kill").args([signal, &pid]).status();
-    }
-}
-
-/// Runs the server on a port, and returns when it listens.
-fn serve(folder: &Path, port: u16) -> Child {
-    let server = command("postgres")
-        .arg("-D")
-        .arg(folder)
-        .arg("-k")
-        .arg(folder)
-        .args(["-p", &port.to_string(), "-c", "listen_addresses=127.0.0.1"])
-        .current_dir("/")
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("it starts");
-    let begun = Instant::now();
-    while std::net::TcpStream::connect(("127.0.0.1", port)).is_err() {
-        assert!(begun.elapsed() < Duration::from_secs(20), "PostgreSQL starts");
-        thread::sleep(Duration::from_millis(50));
-    }
-    server
+fn location(database: &Postgres) -> Location {
+    Location::Postgres(database.url())
 }
 
 /// Sends an event with a mark, as its key too, until it is acknowledged.
@@ -142,19 +39,11 @@ fn marks(service: &Running, path: &str) -> Vec<String> {
     events.iter().filter_map(|one| one["event"]["reason"].as_str().map(str::to_owned)).collect()
 }
 
-impl Drop for Postgres {
-    fn drop(&mut self) {
-        // Not SIGKILL, which would leave its children and the memory that they share.
-        self.signal("-INT");
-        let _ = self.server.wait();
-    }
-}
-
 #[test]
 fn two_services_share_a_database() {
     let database = Postgres::start();
-    let one = Running::start_at(database.location.clone());
-    let two = Running::start_at(database.location.clone());
+    let one = Running::start_at(location(&database));
+    let two = Running::start_at(location(&database));
     // A whole day through one of them.
     let paper = day("paper", 2_002);
     assert_eq!(operated(&one, &paper, "greedy").totals, simulated(&paper, "greedy"));
@@ -187,7 +76,7 @@ fn two_services_share_a_database() {
 fn services_that_start_together_make_the_tables_once() {
     let database = Postgres::start();
     thread::scope(|scope| {
-        let start = || Running::start_at(database.location.clone());
+        let start = || Running::start_at(location(&database));
         let services: Vec<_> = (0..4).map(|_| scope.spawn(start)).collect();
         for service in services {
             let service = service.join().expect("it starts");
@@ -199,7 +88,7 @@ fn services_that_start_together_make_the_tables_once() {
 #[test]
 fn a_database_that_crashes_loses_nothing_that_was_acknowledged() {
     let mut database = Postgres::start();
-    let services = [(); 2].map(|()| Running::start_at(database.location.clone()));
+    let services = [(); 2].map(|()| Running::start_at(location(&database)));
     let path = services[0].new_day("greedy");
     let stop = AtomicBool::new(false);
     let acknowledged: Vec<Vec<String>> = thread::scope(|scope| {

@@ -1,7 +1,7 @@
 //! What keeps others out, and what keeps anybody from taking all there is.
 
 use std::io::{Read as _, Write as _};
-use std::net::{Ipv4Addr, SocketAddr, TcpStream};
+use std::net::{Ipv4Addr, TcpStream};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use vertifleet_serve::{
     Limits, Location, Operation, Protection, Role, Settings, Tokens, operate, serve,
 };
 
-use crate::running::Running;
+use crate::running::{Running, settings_for};
 
 fn limited(limits: Limits) -> (tempfile::TempDir, Running) {
     let folder = tempfile::tempdir().expect("a folder");
@@ -35,10 +35,8 @@ fn it_speaks_tls_with_a_certificate_of_ones_own() {
     std::fs::write(&key, made.signing_key.serialize_pem()).expect("a file");
 
     let settings = |key: &std::path::Path| Settings {
-        listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
-        location: Location::Folder(folder.path().join("data")),
         protection: Protection::Tls { certificate: certificate.clone(), key: key.to_owned() },
-        limits: Limits::default(),
+        ..settings_for(Location::Folder(folder.path().join("data")))
     };
     let refused = serve(&settings(&certificate), |_| (), &Stop::default());
     assert_eq!(refused.expect_err("it is no key").code().to_string(), "V624");
@@ -59,6 +57,7 @@ fn it_speaks_tls_with_a_certificate_of_ones_own() {
         token: None,
         trusted,
         speed: None,
+        by_hand: false,
     };
     let report = operate(&operation(Some(certificate.clone())), &Stop::default(), |_, _| ());
     let report = report.expect("the service answers").expect("nobody stopped it");
@@ -88,6 +87,7 @@ fn a_certificate_that_nobody_vouches_for_is_not_trusted() {
         token: None,
         trusted: Some(folder.path().join("none.pem")),
         speed: None,
+        by_hand: false,
     };
     let refused = operate(&operation, &Stop::default(), |_, _| ());
     assert_eq!(refused.expect_err("no such file").code().to_string(), "V624");
@@ -187,6 +187,22 @@ fn a_token_that_asks_too_often_waits_and_others_do_not() {
     let wrong: Vec<u16> = (0..40).map(|_| ask("Bearer vf_1_guess").status).collect();
     assert!(wrong.contains(&401) && wrong.contains(&429), "{wrong:?}");
     assert_eq!(ask(&calm).status, 200);
+}
+
+#[test]
+fn what_a_token_may_not_do_counts_as_asked_with_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = Location::Folder(folder.path().to_owned());
+    let token = Tokens::open(&location).expect("a store").make("screen", Role::Read);
+    let bearer = format!("Bearer {}", token.expect("a token"));
+    let service = Running::start_with(location, Limits { requests_per_s: 2, ..Limits::default() });
+    let make = || service.send("POST", "/v1/days", &[("authorization", bearer.as_str())], b"{}");
+    let answers: Vec<_> = (0..40).map(|_| make()).collect();
+    let statuses: Vec<u16> = answers.iter().map(|answer| answer.status).collect();
+    assert!(statuses.starts_with(&[403, 403, 403, 403]), "{statuses:?}");
+    let refused = answers.iter().find(|answer| answer.status == 429).expect("too many");
+    assert!(refused.json["detail"].as_str().is_some_and(|detail| detail.starts_with("screen")));
+    assert_eq!(service.get("/v1/days").status, 401, "those without a token have not asked yet");
 }
 
 #[test]

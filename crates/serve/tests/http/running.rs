@@ -29,8 +29,11 @@ impl Running {
 
     /// Starts a service with its data somewhere and with limits of its own.
     pub(crate) fn start_with(location: Location, limits: Limits) -> Self {
-        let listen = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
-        let settings = Settings { listen, location, protection: Protection::None, limits };
+        Self::start_as(Settings { limits, ..settings_for(location) })
+    }
+
+    /// Starts a service.
+    pub(crate) fn start_as(settings: Settings) -> Self {
         let stop = Stop::default();
         let heard = stop.clone();
         let (listens, address) = mpsc::channel();
@@ -41,6 +44,17 @@ impl Running {
         let thread = std::thread::spawn(run);
         let address: SocketAddr = address.recv().expect("it starts");
         Self { url: format!("http://{address}"), stop, thread: Some(thread) }
+    }
+}
+
+/// Settings of a service for tests, with its data somewhere.
+pub(crate) fn settings_for(location: Location) -> Settings {
+    Settings {
+        listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
+        location,
+        protection: Protection::None,
+        limits: Limits::default(),
+        collector: None,
     }
 }
 

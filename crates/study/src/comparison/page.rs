@@ -13,17 +13,24 @@ use crate::origin::NetworkOrigin;
 use crate::page::{document, estimate, links, picture};
 use crate::published::{NOTE, PublishedResult};
 
-/// The page as HTML.
-pub(crate) fn text(summary: &ComparisonReport, figures: &[Figure]) -> String {
+/// The page as HTML. The files of the report stand beside it, among them the replay of so many days; or it is all that
+/// there is.
+pub(crate) fn text(
+    summary: &ComparisonReport,
+    figures: &[Figure],
+    days_beside: Option<usize>,
+) -> String {
+    let replayed = days_beside.filter(|&days| days > 0);
     let body = html! {
         (opening(summary))
         (results(summary))
+        @if let Some(days) = replayed { (replay(days)) }
         h2 { "Figures" }
         @for figure in figures { (picture(figure)) }
         @if !summary.comparisons.is_empty() { (tests(summary)) }
         @if !summary.trainings.is_empty() { (trainings(summary)) }
         @if !summary.published.is_empty() { (published(summary)) }
-        (closing(figures))
+        (closing(days_beside.is_some().then_some(figures)))
     };
     document(&format!("Vertifleet comparison: {}", summary.network), &body)
 }
@@ -266,16 +273,31 @@ fn published_cells(summary: &ComparisonReport, result: &PublishedResult) -> Mark
     }
 }
 
-fn closing(figures: &[Figure]) -> Markup {
+/// A link to the days that can be watched.
+fn replay(days: usize) -> Markup {
+    let which =
+        if days == 1 { "the first day".to_owned() } else { format!("the first {days} days") };
+    html! {
+        h2 { "Replay" }
+        p { a href="replay.html" { "Watch " (which) } " as each policy played "
+            (if days == 1 { "it" } else { "them" }) ": on a map, along the day, and two policies side by side with their "
+            "first difference." }
+    }
+}
+
+/// What to know about the page, and links to the files beside it.
+fn closing(files: Option<&[Figure]>) -> Markup {
     html! {
         footer {
             p { "Profit is fares less passenger and energy cost (Eq. 5 of the paper), and less what flights and aircraft cost beside "
                 "them where the network says so. Reward is profit as a share of the "
                 "revenue if every passenger flew (§III.H). Every policy met the same days. What the paper leaves open, and "
                 "what was assumed instead, is listed under " em { "Concepts: the model" } " in Vertifleet’s documentation." }
-            p { "Files beside this page: " a href="days.csv" { "days.csv" } ", every policy’s every day; "
-                a href="summary.json" { "summary.json" } ", all numbers of this page"
-                (links(figures)) "." }
+            @if let Some(figures) = files {
+                p { "Files beside this page: " a href="days.csv" { "days.csv" } ", every policy’s every day; "
+                    a href="summary.json" { "summary.json" } ", all numbers of this page"
+                    (links(figures)) "." }
+            }
         }
     }
 }

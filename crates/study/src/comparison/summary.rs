@@ -246,6 +246,11 @@ impl ComparisonReport {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
 
+    /// The page of the report by itself, as HTML.
+    pub fn page(&self) -> String {
+        super::page::text(self, &crate::figure::all(self), None)
+    }
+
     /// The tables of policies and tests as HTML for notebooks.
     pub fn html(&self) -> String {
         super::table::html(self)

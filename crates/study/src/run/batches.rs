@@ -21,12 +21,13 @@ struct Played<'a> {
     day: &'a BoundedDay,
     simulation: Simulation,
     choices: Vec<VertiportIx>,
+    keeps_choices: bool,
 }
 
 impl<'a> Played<'a> {
-    fn begin(day: &'a BoundedDay) -> Self {
+    fn begin(day: &'a BoundedDay, keeps_choices: bool) -> Self {
         let simulation = Simulation::new(Arc::clone(&day.scenario));
-        Self { day, simulation, choices: Vec::new() }
+        Self { day, simulation, choices: Vec::new(), keeps_choices }
     }
 }
 
@@ -40,11 +41,17 @@ pub(super) fn play(
     played: &(impl Fn() + Sync),
 ) -> Result<(Vec<DayRecord>, LatencySummary), Error> {
     let (mut records, mut nanoseconds) = (Vec::with_capacity(days.len()), Vec::new());
-    for days in days.chunks(MOST) {
-        let mut batch: Vec<Played<'_>> = days.iter().map(Played::begin).collect();
+    let mut waiting = days.iter().enumerate();
+    loop {
+        let next = waiting.by_ref().take(MOST);
+        let mut batch: Vec<Played<'_>> =
+            next.map(|(position, day)| Played::begin(day, kept.has_choices(position))).collect();
+        if batch.is_empty() {
+            break;
+        }
         let mut built = policy.build();
-        while step(name, built.as_mut(), &mut batch, kept, stop, &mut nanoseconds)? {}
-        for Played { day, simulation, choices } in batch {
+        while step(name, built.as_mut(), &mut batch, stop, &mut nanoseconds)? {}
+        for Played { day, simulation, choices, .. } in batch {
             records.push(record(day, &simulation, choices));
             played();
         }
@@ -57,7 +64,6 @@ fn step(
     name: &str,
     policy: &mut dyn Policy,
     batch: &mut [Played<'_>],
-    kept: Kept,
     stop: &Stop,
     nanoseconds: &mut Vec<u64>,
 ) -> Result<bool, Error> {
@@ -79,7 +85,7 @@ fn step(
         let row = day.simulation.apply(choice).map_err(|refusal| {
             Error::of_play(name, &day.day.scenario.name, PlayError::from(refusal))
         })?;
-        if kept == Kept::Choices {
+        if day.keeps_choices {
             day.choices.push(row.to);
         }
     }

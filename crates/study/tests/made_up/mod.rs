@@ -103,6 +103,7 @@ pub(crate) fn study(days: usize) -> ComparisonRecords {
             curve("mlp", 0.270, 0.249, &mut noise),
         ],
         trainings,
+        replayed: Vec::new(),
     }
 }
 

@@ -1,4 +1,4 @@
-"""A dispatch service, as a client sees it: its days, its networks and its policies."""
+"""A dispatch service, as a client sees it: its days, its networks, its policies and its studies."""
 
 from __future__ import annotations
 
@@ -25,6 +25,9 @@ from vertifleet.client.types import (
     PolicyInfo,
     PolicyList,
     ServiceInfo,
+    StudyInfo,
+    StudyList,
+    WeightsInfo,
 )
 
 
@@ -238,14 +241,14 @@ class AsyncClient:
         asked = keeping("policies", policy, body=bytes_of(weights))
         return await self._connection.object(PolicyInfo, asked)
 
-    async def validate_policy(self, weights: Model | bytes) -> PolicyInfo:
-        """What the service would know of a policy with these weights. They are not kept.
+    async def validate_policy(self, weights: Model | bytes) -> WeightsInfo:
+        """What the service would know of these weights. They are not kept.
 
         Raises:
             ServiceError: with the code of what is wrong with the weights.
         """
         asked = asking("policies", "validate", body=bytes_of(weights))
-        return await self._connection.object(PolicyInfo, asked)
+        return await self._connection.object(WeightsInfo, asked)
 
     async def delete_policy(self, policy: str) -> None:
         """Removes a policy that was uploaded. Days that it decides on keep it until the service starts again.
@@ -254,6 +257,76 @@ class AsyncClient:
             ServiceError: V602 if none of this name was uploaded.
         """
         await self._connection.remove("policies", policy)
+
+    async def make_study(
+        self,
+        network: str | Network,
+        policies: Sequence[str],
+        days: int,
+        *,
+        seed: int | None = None,
+        split: str | None = None,
+        bounds: bool | None = None,
+        idempotency_key: str | None = None,
+    ) -> StudyInfo:
+        """Lets policies play many days of a network in the background, as ``vertifleet compare`` does.
+
+        Ask for it with `study` until its ``state`` is "finished" or "failed". The service keeps it until it
+        stops.
+
+        Args:
+            network: the name of a network, or a network of your own, which is not kept.
+            policies: names of policies, at most 10. The others are measured against the first.
+            days: how many days are played, at most 1,000.
+            seed: the seed of the first day; 1 without it.
+            split: whose days are played: "comparison", or "validation".
+            bounds: whether every day gets an upper bound.
+            idempotency_key: a key of your own, for a study that must be made only once even if this process
+                ends before the answer comes.
+
+        Raises:
+            ServiceError: V602 for an unknown network or policy, V612 if it is too large or too many wait;
+                otherwise with the code of what is wrong.
+        """
+        members = {
+            "toml": network.toml if isinstance(network, Network) else None,
+            "network": None if isinstance(network, Network) else network,
+            "policies": list(policies),
+            "days": days,
+            "seed": seed,
+            "split": split,
+            "bounds": bounds,
+        }
+        asked = writing("studies", body=given(members), idempotency_key=idempotency_key)
+        return await self._connection.object(StudyInfo, asked)
+
+    async def studies(self) -> list[StudyInfo]:
+        """All studies since the service began, the latest first, without their results."""
+        return (await self._connection.object(StudyList, reading("studies")))["studies"]
+
+    async def study(self, study: str) -> StudyInfo:
+        """The study with this id: how far it is, and its ``result`` once it has finished.
+
+        Raises:
+            ServiceError: V602 if there is none.
+        """
+        return await self._connection.object(StudyInfo, reading("studies", study))
+
+    async def study_report(self, study: str) -> str:
+        """The result of a study as a page in HTML, which opens without the service too.
+
+        Raises:
+            ServiceError: V602 if there is no such study, or if it has not finished.
+        """
+        return (await self._connection.answer(reading("studies", study, "report"))).text
+
+    async def delete_study(self, study: str) -> None:
+        """Ends a study if it plays or waits, and forgets it.
+
+        Raises:
+            ServiceError: V602 if there is none.
+        """
+        await self._connection.remove("studies", study)
 
     async def info(self) -> ServiceInfo:
         """What the service is, and what the token of this client permits."""

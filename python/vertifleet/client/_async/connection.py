@@ -12,7 +12,7 @@ import httpx
 
 from vertifleet.client._errors import NoAnswerError, ServiceError, error_of, misunderstood, unanswered
 from vertifleet.client._messages import Message, Messages
-from vertifleet.client._requests import Request, checked_url, path_of, pauses, trust_of
+from vertifleet.client._requests import Request, changing, checked_url, pauses, trust_of
 
 Answer = TypeVar("Answer", bound=Mapping[str, object])
 
@@ -84,14 +84,14 @@ class AsyncConnection:
                     raise
                 await asyncio.sleep(pause_s)
 
-    async def remove(self, *path: str) -> None:
+    async def remove(self, *path: str, if_match: int | None = None) -> None:
         """Removes what a path names.
 
         Raises:
             ServiceError: if it cannot be removed, or is not there when it is first asked to be.
         """
         try:
-            await self.answer(Request("DELETE", path_of(*path)))
+            await self.answer(changing("DELETE", *path, if_match=if_match))
         except ServiceError as error:
             # A sending whose answer did not come may have removed it.
             if error.code != "V602" or error.tries == 1:

@@ -1,5 +1,5 @@
 # Written from ../_async/client.py by python/tools/client_sync.py: do not edit.
-"""A dispatch service, as a client sees it: its days, its networks and its policies."""
+"""A dispatch service, as a client sees it: its days, its networks, its policies and its studies."""
 
 from __future__ import annotations
 
@@ -26,6 +26,9 @@ from vertifleet.client.types import (
     PolicyInfo,
     PolicyList,
     ServiceInfo,
+    StudyInfo,
+    StudyList,
+    WeightsInfo,
 )
 
 
@@ -239,14 +242,14 @@ class Client:
         asked = keeping("policies", policy, body=bytes_of(weights))
         return self._connection.object(PolicyInfo, asked)
 
-    def validate_policy(self, weights: Model | bytes) -> PolicyInfo:
-        """What the service would know of a policy with these weights. They are not kept.
+    def validate_policy(self, weights: Model | bytes) -> WeightsInfo:
+        """What the service would know of these weights. They are not kept.
 
         Raises:
             ServiceError: with the code of what is wrong with the weights.
         """
         asked = asking("policies", "validate", body=bytes_of(weights))
-        return self._connection.object(PolicyInfo, asked)
+        return self._connection.object(WeightsInfo, asked)
 
     def delete_policy(self, policy: str) -> None:
         """Removes a policy that was uploaded. Days that it decides on keep it until the service starts again.
@@ -255,6 +258,76 @@ class Client:
             ServiceError: V602 if none of this name was uploaded.
         """
         self._connection.remove("policies", policy)
+
+    def make_study(
+        self,
+        network: str | Network,
+        policies: Sequence[str],
+        days: int,
+        *,
+        seed: int | None = None,
+        split: str | None = None,
+        bounds: bool | None = None,
+        idempotency_key: str | None = None,
+    ) -> StudyInfo:
+        """Lets policies play many days of a network in the background, as ``vertifleet compare`` does.
+
+        Ask for it with `study` until its ``state`` is "finished" or "failed". The service keeps it until it
+        stops.
+
+        Args:
+            network: the name of a network, or a network of your own, which is not kept.
+            policies: names of policies, at most 10. The others are measured against the first.
+            days: how many days are played, at most 1,000.
+            seed: the seed of the first day; 1 without it.
+            split: whose days are played: "comparison", or "validation".
+            bounds: whether every day gets an upper bound.
+            idempotency_key: a key of your own, for a study that must be made only once even if this process
+                ends before the answer comes.
+
+        Raises:
+            ServiceError: V602 for an unknown network or policy, V612 if it is too large or too many wait;
+                otherwise with the code of what is wrong.
+        """
+        members = {
+            "toml": network.toml if isinstance(network, Network) else None,
+            "network": None if isinstance(network, Network) else network,
+            "policies": list(policies),
+            "days": days,
+            "seed": seed,
+            "split": split,
+            "bounds": bounds,
+        }
+        asked = writing("studies", body=given(members), idempotency_key=idempotency_key)
+        return self._connection.object(StudyInfo, asked)
+
+    def studies(self) -> list[StudyInfo]:
+        """All studies since the service began, the latest first, without their results."""
+        return (self._connection.object(StudyList, reading("studies")))["studies"]
+
+    def study(self, study: str) -> StudyInfo:
+        """The study with this id: how far it is, and its ``result`` once it has finished.
+
+        Raises:
+            ServiceError: V602 if there is none.
+        """
+        return self._connection.object(StudyInfo, reading("studies", study))
+
+    def study_report(self, study: str) -> str:
+        """The result of a study as a page in HTML, which opens without the service too.
+
+        Raises:
+            ServiceError: V602 if there is no such study, or if it has not finished.
+        """
+        return (self._connection.answer(reading("studies", study, "report"))).text
+
+    def delete_study(self, study: str) -> None:
+        """Ends a study if it plays or waits, and forgets it.
+
+        Raises:
+            ServiceError: V602 if there is none.
+        """
+        self._connection.remove("studies", study)
 
     def info(self) -> ServiceInfo:
         """What the service is, and what the token of this client permits."""

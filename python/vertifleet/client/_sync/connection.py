@@ -13,7 +13,7 @@ import httpx
 
 from vertifleet.client._errors import NoAnswerError, ServiceError, error_of, misunderstood, unanswered
 from vertifleet.client._messages import Message, Messages
-from vertifleet.client._requests import Request, checked_url, path_of, pauses, trust_of
+from vertifleet.client._requests import Request, changing, checked_url, pauses, trust_of
 
 Answer = TypeVar("Answer", bound=Mapping[str, object])
 
@@ -85,14 +85,14 @@ class Connection:
                     raise
                 clock.sleep(pause_s)
 
-    def remove(self, *path: str) -> None:
+    def remove(self, *path: str, if_match: int | None = None) -> None:
         """Removes what a path names.
 
         Raises:
             ServiceError: if it cannot be removed, or is not there when it is first asked to be.
         """
         try:
-            self.answer(Request("DELETE", path_of(*path)))
+            self.answer(changing("DELETE", *path, if_match=if_match))
         except ServiceError as error:
             # A sending whose answer did not come may have removed it.
             if error.code != "V602" or error.tries == 1:

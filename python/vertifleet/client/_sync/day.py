@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from vertifleet._native import Scenario
 from vertifleet.client._errors import ServiceError
-from vertifleet.client._requests import Request, asking, given, path_of, reading, writing
+from vertifleet.client._requests import asking, changing, given, reading, writing
 from vertifleet.client._sync.connection import Connection
 from vertifleet.client.types import (
     Comparison,
@@ -22,6 +22,7 @@ from vertifleet.client.types import (
     Moment,
     MoreAircraft,
     Outlook,
+    PeriodDemand,
     Proposal,
     Taken,
     TakenDecision,
@@ -72,6 +73,19 @@ class Day:
         asked = reading("days", self.id, "state", seq=seq, times=times)
         return self._connection.object(DayState, asked)
 
+    def demand(self, period: Moment | None = None, *, times: Times | None = None) -> PeriodDemand:
+        """The passengers of a demand period who still want to fly, by pair.
+
+        Args:
+            period: the beginning of the period, or a time within it; without it, the present one.
+            times: how times are written.
+
+        Raises:
+            ServiceError: V603 if the day has no such period.
+        """
+        asked = reading("days", self.id, "demand", period=period, times=times)
+        return self._connection.object(PeriodDemand, asked)
+
     def scenario(self) -> Scenario:
         """The scenario that the day began with: to be played with other policies, for example.
 
@@ -95,6 +109,9 @@ class Day:
             after: only events after the one with this number.
             times: how times are written.
             page_size: how many events are asked for at once, at most 10,000.
+
+        Raises:
+            ServiceError: V602 if the day has no event with the number ``after``.
         """
         number: int | None = after
         while number is not None:
@@ -141,8 +158,8 @@ class Day:
             times: how times are written in the events.
 
         Raises:
-            ServiceError: V601 if the day has no such event, perhaps because it was restored from a copy: then
-                read its state again. V602 if it has been deleted.
+            ServiceError: V602 if the day has no such event, perhaps because it was restored from a copy: then
+                read its state again. That fails too if the day has been deleted.
             NoAnswerError: if the service does not come back.
         """
         pauses = self._connection.pauses()
@@ -267,10 +284,38 @@ class Day:
         asked = asking("days", self.id, "what-if", body=given(members), times=times)
         return self._connection.object(Comparison, asked)
 
-    def archive(self) -> None:
-        """Closes the day to writes. It can still be read."""
-        self._connection.answer(Request("POST", path_of("days", self.id, "archive")))
+    def archive(self, *, if_match: int | None = None) -> None:
+        """Closes the day to writes. It can still be read, and be opened again.
 
-    def delete(self) -> None:
-        """Removes the day with its events."""
-        self._connection.remove("days", self.id)
+        Args:
+            if_match: the number of the latest event that you know of. If there is a later one, nothing
+                happens.
+
+        Raises:
+            ServiceError: V605 if the day has gone on.
+        """
+        self._connection.answer(changing("POST", "days", self.id, "archive", if_match=if_match))
+
+    def unarchive(self, *, if_match: int | None = None) -> None:
+        """Opens the day again after it was archived.
+
+        Args:
+            if_match: the number of the latest event that you know of. If there is a later one, nothing
+                happens.
+
+        Raises:
+            ServiceError: V605 if the day has gone on.
+        """
+        self._connection.answer(changing("POST", "days", self.id, "unarchive", if_match=if_match))
+
+    def delete(self, *, if_match: int | None = None) -> None:
+        """Removes the day with its events.
+
+        Args:
+            if_match: the number of the latest event that you know of. If there is a later one, nothing
+                happens.
+
+        Raises:
+            ServiceError: V605 if the day has gone on.
+        """
+        self._connection.remove("days", self.id, if_match=if_match)

@@ -1,0 +1,97 @@
+//! Studies: asked for, followed, read, ended.
+
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use serde::Serialize;
+use sha2::{Digest as _, Sha256};
+use utoipa::ToSchema;
+
+use super::answer::{again, json};
+use super::days::new_id;
+use super::extract::{Named, Sender, Upload};
+use crate::error::Error;
+use crate::service::{Service, Write, in_turn, parse};
+use crate::studies::{NewStudy, StudyInfo};
+
+/// All studies.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct StudyList {
+    /// The latest first, without results.
+    studies: Vec<StudyInfo>,
+}
+
+/// Lists the studies that were asked for since the service began, the latest first. It keeps the last 100 that have ended,
+/// in memory: what a study says follows from what it was asked for, so it can be had again.
+#[utoipa::path(operation_id = "list_studies", get, path = "/v1/studies", tag = "studies", responses((status = 200, body = StudyList)))]
+pub(super) async fn list(State(service): State<Arc<Service>>) -> Response {
+    json(StatusCode::OK, &StudyList { studies: service.studies.list() })
+}
+
+/// Plays policies on many days of a network, in the background. One study plays at a time, and eight may wait. It is kept
+/// until the service stops.
+#[utoipa::path(operation_id = "make_study", post, path = "/v1/studies", tag = "studies", request_body = NewStudy, responses((status = 201, body = StudyInfo)))]
+pub(super) async fn create(
+    State(service): State<Arc<Service>>,
+    sender: Sender,
+    Upload(body): Upload,
+) -> Result<Response, Error> {
+    let writer = match service.write(&sender, &body).await? {
+        Write::Done(answer) => return Ok(again(answer)),
+        Write::New(writer) => writer,
+    };
+    if let Some(known) = service.studies.asked_before(writer.idempotency.as_ref())? {
+        return Ok(json(StatusCode::CREATED, &known));
+    }
+    let asked = parse::<NewStudy>(&body)?.check(&service).await?;
+    let study = service.studies.add(new_id(), writer.idempotency, asked)?;
+    Ok(json(StatusCode::CREATED, &study))
+}
+
+/// Reads a study: how far it is, and its result once it has finished.
+#[utoipa::path(operation_id = "read_study", get, path = "/v1/studies/{study}", tag = "studies", params(("study" = String, Path)), responses((status = 200, body = StudyInfo)))]
+pub(super) async fn read(
+    State(service): State<Arc<Service>>,
+    Named(study): Named<String>,
+) -> Result<Response, Error> {
+    Ok(json(StatusCode::OK, &service.studies.read(&study)?))
+}
+
+/// The result of a study as the page of a report, which opens without the service too.
+#[utoipa::path(operation_id = "study_report", get, path = "/v1/studies/{study}/report", tag = "studies", params(("study" = String, Path)), responses((status = 200, content_type = "text/html", body = String)))]
+pub(super) async fn report(
+    State(service): State<Arc<Service>>,
+    Named(study): Named<String>,
+) -> Result<Response, Error> {
+    let turns = Arc::clone(&service.turns.outlooks);
+    let page = in_turn(&turns, move || service.studies.page(&study)).await?;
+    let headers = [
+        (header::CONTENT_TYPE, HeaderValue::from_static("text/html; charset=utf-8")),
+        (header::CONTENT_SECURITY_POLICY, policy_of(&page)),
+    ];
+    Ok((headers, page).into_response())
+}
+
+/// Ends a study if it plays or waits, and forgets it.
+#[utoipa::path(operation_id = "delete_study", delete, path = "/v1/studies/{study}", tag = "studies", params(("study" = String, Path)), responses((status = 204)))]
+pub(super) async fn delete(
+    State(service): State<Arc<Service>>,
+    Named(study): Named<String>,
+) -> Result<StatusCode, Error> {
+    service.studies.delete(&study)?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// What a page may use: its own style sheet, and nothing else.
+fn policy_of(page: &str) -> HeaderValue {
+    let style = page.split_once("<style>").and_then(|(_, rest)| rest.split_once("</style>"));
+    let sum = BASE64_STANDARD.encode(Sha256::digest(style.map_or("", |(style, _)| style)));
+    let policy = format!(
+        "default-src 'none'; style-src 'sha256-{sum}'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; sandbox"
+    );
+    HeaderValue::try_from(policy).expect("letters and marks are a header")
+}

@@ -1,0 +1,351 @@
+//! Studies: comparisons of policies on many days of a network, played in the background while days are dispatched.
+//!
+//! One study plays at a time, on half of the cores at most and behind everything else, so that decisions stay quick. Studies
+//! live in memory: whatever one says follows from what it was asked for, so it can be had again after the service stopped.
+
+mod asked;
+mod progress;
+mod result;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use serde::Serialize;
+use utoipa::ToSchema;
+use vertifleet_core::Stop;
+use vertifleet_study::{ComparisonReport, NetworkOrigin};
+
+pub(crate) use self::asked::{Asked, NewStudy, Split};
+pub(crate) use self::progress::StudyProgress;
+use self::progress::{Progress, Watched};
+pub(crate) use self::result::StudyResult;
+use crate::days::{Idempotency, now_ms};
+use crate::error::Error;
+use crate::problem::Problem;
+
+/// Studies that wait for their turn.
+const MOST_WAITING: usize = 8;
+/// Studies that have ended and are kept; the oldest make room for new ones.
+const MOST_ENDED: usize = 100;
+/// The least claim to a core that Linux knows.
+#[cfg(target_os = "linux")]
+const LAST_IN_TURN: i32 = 19;
+
+/// A study: what it was asked for, how far it is, and what came out.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub(crate) struct StudyInfo {
+    /// Its id.
+    pub(crate) id: String,
+    /// The name of its network.
+    network: String,
+    /// Whether that is a shipped network (`shipped`), a network with such a name that draws other days (`changed`), or
+    /// neither (`own`).
+    #[schema(value_type = String)]
+    network_origin: NetworkOrigin,
+    /// Its policies. The others are measured against the first.
+    policies: Vec<String>,
+    /// Its number of days.
+    days: u32,
+    /// The seed of its first day, or its number among the validation days.
+    seed: u64,
+    /// Whose days they are.
+    split: Split,
+    /// Whether every day gets an upper bound.
+    bounds: bool,
+    /// The command that plays the same study without the service.
+    command: String,
+    /// When it was asked for, milliseconds of the Unix clock.
+    created_ms: i64,
+    /// What is allowed but hardly meant.
+    warnings: Vec<String>,
+    /// How far it is.
+    state: StudyState,
+    /// How far it has come, while it plays.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    progress: Option<StudyProgress>,
+    /// How long it played, seconds, once it has finished.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    took_s: Option<f64>,
+    /// Why it failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    problem: Option<Problem>,
+    /// What came out, where one study that has finished is asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    result: Option<StudyResult>,
+}
+
+/// How far a study is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum StudyState {
+    /// It waits for studies that were asked for before.
+    Waiting,
+    /// It plays its days.
+    Playing,
+    /// It has its result.
+    Finished,
+    /// It could not be played to its end.
+    Failed,
+}
+
+/// The studies of the service.
+#[derive(Debug, Default)]
+pub(crate) struct Studies {
+    list: Arc<Mutex<List>>,
+}
+
+/// All studies in the order in which they were asked for.
+#[derive(Debug, Default)]
+struct List {
+    studies: Vec<Arc<Study>>,
+    /// Whether a thread plays them.
+    is_played: bool,
+}
+
+/// A study.
+#[derive(Debug)]
+struct Study {
+    /// What never changes, with a state that is not looked at.
+    info: StudyInfo,
+    /// The request that made it, if it has a key.
+    key: Option<Idempotency>,
+    stop: Stop,
+    stage: Mutex<Stage>,
+}
+
+/// How far a study is, with what that stage needs.
+#[derive(Debug)]
+enum Stage {
+    Waiting(Box<Asked>),
+    Playing(Progress),
+    Finished { report: Box<ComparisonReport>, took_s: f64 },
+    Failed(Problem),
+}
+
+impl Studies {
+    /// Puts a study with a new id behind those that wait.
+    ///
+    /// # Errors
+    /// Returns [`Error::TooMuch`] if too many wait.
+    pub(crate) fn add(
+        &self,
+        id: String,
+        key: Option<Idempotency>,
+        asked: Asked,
+    ) -> Result<StudyInfo, Error> {
+        let mut list = lock(&self.list);
+        let waiting = list.studies.iter().filter(|study| study.state() == StudyState::Waiting);
+        if waiting.count() >= MOST_WAITING {
+            return Err(Error::TooMuch { what: "studies that wait", most: MOST_WAITING as u64 });
+        }
+        let study = Arc::new(Study::new(id, key, asked));
+        let info = study.info();
+        list.studies.push(study);
+        list.forget_the_oldest();
+        if !list.is_played {
+            list.is_played = true;
+            let played = Arc::clone(&self.list);
+            std::thread::spawn(move || play_all(&played));
+        }
+        Ok(info)
+    }
+
+    /// The study that a request with a key has made.
+    ///
+    /// # Errors
+    /// Returns [`Error::KeyReused`] if another request has made one with this key.
+    pub(crate) fn asked_before(
+        &self,
+        asked: Option<&Idempotency>,
+    ) -> Result<Option<StudyInfo>, Error> {
+        let Some(Idempotency { key, request }) = asked else { return Ok(None) };
+        let list = lock(&self.list);
+        let made = |study: &&Arc<Study>| study.key.as_ref().is_some_and(|known| known.key == *key);
+        let Some(study) = list.studies.iter().find(made) else { return Ok(None) };
+        let is_same = study.key.as_ref().is_some_and(|known| known.request == *request);
+        if is_same { Ok(Some(study.info())) } else { Err(Error::KeyReused { key: key.clone() }) }
+    }
+
+    /// All studies, the latest first, without their results.
+    pub(crate) fn list(&self) -> Vec<StudyInfo> {
+        lock(&self.list).studies.iter().rev().map(|study| study.info()).collect()
+    }
+
+    /// A study, with its result if it has one.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there is no such study.
+    pub(crate) fn read(&self, id: &str) -> Result<StudyInfo, Error> {
+        let study = self.find(id)?;
+        let mut info = study.info();
+        info.result = study.of_report(|report| StudyResult::of(report, &study.info.policies));
+        Ok(info)
+    }
+
+    /// The page with the result of a study.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there is no such study, or if it has not finished.
+    pub(crate) fn page(&self, id: &str) -> Result<String, Error> {
+        let page = self.find(id)?.of_report(ComparisonReport::page);
+        page.ok_or_else(|| Error::not_found("report of study", id))
+    }
+
+    /// Stops a study, if it has not ended, and forgets it.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there is no such study.
+    pub(crate) fn delete(&self, id: &str) -> Result<(), Error> {
+        let study = self.find(id)?;
+        study.stop.request();
+        lock(&self.list).studies.retain(|one| !Arc::ptr_eq(one, &study));
+        Ok(())
+    }
+
+    fn find(&self, id: &str) -> Result<Arc<Study>, Error> {
+        let found = lock(&self.list).studies.iter().find(|study| study.info.id == id).cloned();
+        found.ok_or_else(|| Error::not_found("study", id))
+    }
+}
+
+impl Drop for Studies {
+    /// The thread that plays them ends soon after the service has.
+    fn drop(&mut self) {
+        for study in lock(&self.list).studies.drain(..) {
+            study.stop.request();
+        }
+    }
+}
+
+impl List {
+    fn forget_the_oldest(&mut self) {
+        let has_ended =
+            |study: &Arc<Study>| matches!(study.state(), StudyState::Finished | StudyState::Failed);
+        let ended = self.studies.iter().filter(|study| has_ended(study)).count();
+        let mut too_many = ended.saturating_sub(MOST_ENDED);
+        self.studies.retain(|study| {
+            let is_forgotten = too_many > 0 && has_ended(study);
+            too_many -= usize::from(is_forgotten);
+            !is_forgotten
+        });
+    }
+}
+
+impl Study {
+    fn new(id: String, key: Option<Idempotency>, asked: Asked) -> Self {
+        let info = StudyInfo {
+            id,
+            network: asked.network.name().to_owned(),
+            network_origin: asked.origin,
+            policies: asked.policies.clone(),
+            days: asked.drawn.days,
+            seed: asked.drawn.first,
+            split: asked.split,
+            bounds: asked.bound_step.is_some(),
+            command: asked.command(),
+            created_ms: now_ms(),
+            warnings: asked.warnings.clone(),
+            state: StudyState::Waiting,
+            progress: None,
+            took_s: None,
+            problem: None,
+            result: None,
+        };
+        let stage = Mutex::new(Stage::Waiting(Box::new(asked)));
+        Self { info, key, stop: Stop::default(), stage }
+    }
+
+    fn state(&self) -> StudyState {
+        match &*lock(&self.stage) {
+            Stage::Waiting(_) => StudyState::Waiting,
+            Stage::Playing(_) => StudyState::Playing,
+            Stage::Finished { .. } => StudyState::Finished,
+            Stage::Failed(_) => StudyState::Failed,
+        }
+    }
+
+    fn info(&self) -> StudyInfo {
+        let mut info = StudyInfo { state: self.state(), ..self.info.clone() };
+        match &*lock(&self.stage) {
+            Stage::Waiting(_) => {}
+            Stage::Playing(progress) => info.progress = Some(progress.now()),
+            Stage::Finished { took_s, .. } => info.took_s = Some(*took_s),
+            Stage::Failed(problem) => info.problem = Some(problem.clone()),
+        }
+        info
+    }
+
+    fn of_report<T>(&self, say: impl Fn(&ComparisonReport) -> T) -> Option<T> {
+        match &*lock(&self.stage) {
+            Stage::Finished { report, .. } => Some(say(report)),
+            _ => None,
+        }
+    }
+
+    /// Begins, if it waits: says what was asked for, and that it plays.
+    fn begin(&self) -> Option<Box<Asked>> {
+        let mut stage = lock(&self.stage);
+        let Stage::Waiting(asked) = &mut *stage else { return None };
+        let phases = asked.policies.len() + usize::from(asked.bound_step.is_some());
+        let playing = Stage::Playing(Progress::of(phases));
+        match std::mem::replace(&mut *stage, playing) {
+            Stage::Waiting(asked) => Some(asked),
+            _ => unreachable!("it waits"),
+        }
+    }
+
+    /// Plays to the end, whatever it is.
+    fn play(self: &Arc<Self>, asked: &Asked) {
+        let begun = Instant::now();
+        let command = self.info.command.clone();
+        let watched = Watched(Arc::clone(self));
+        let play = || -> Result<ComparisonReport, Error> {
+            let records = threads()
+                .map_err(|cause| Error::Internal { cause: cause.to_string() })?
+                .install(|| asked.comparison(&self.stop)?.run(command, &self.stop, &watched))?;
+            Ok(ComparisonReport::of(&records)?)
+        };
+        let outcome = catch_unwind(AssertUnwindSafe(play)).unwrap_or_else(|_| {
+            Err(Error::Internal { cause: "the study failed; the log has more".to_owned() })
+        });
+        *lock(&self.stage) = match outcome {
+            Ok(report) => {
+                let took_s = begun.elapsed().as_secs_f64();
+                Stage::Finished { report: Box::new(report), took_s }
+            }
+            Err(error) => Stage::Failed(Problem::of(&error)),
+        };
+    }
+}
+
+/// Plays all studies that wait, one after the other.
+fn play_all(list: &Mutex<List>) {
+    let next = || {
+        let mut list = lock(list);
+        let next = list.studies.iter().find_map(|study| Some((Arc::clone(study), study.begin()?)));
+        list.is_played = next.is_some();
+        next
+    };
+    while let Some((study, asked)) = next() {
+        study.play(&asked);
+    }
+}
+
+/// The threads of a study: half of the cores, behind all other work.
+fn threads() -> Result<ThreadPool, ThreadPoolBuildError> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let pool = ThreadPoolBuilder::new().num_threads((cores / 2).max(1));
+    // On Linux this is about the thread that asks; elsewhere it would hold back the whole service.
+    #[cfg(target_os = "linux")]
+    let pool = pool.start_handler(|_| {
+        // A thread that may not step back plays all the same.
+        let _ = rustix::process::setpriority_process(None, LAST_IN_TURN);
+    });
+    pool.build()
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

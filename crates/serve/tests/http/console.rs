@@ -1,0 +1,38 @@
+//! The console comes from the service, to anybody; what it shows needs a token as ever.
+
+use vertifleet_serve::{Location, Role, Tokens};
+
+use crate::running::Running;
+
+#[test]
+fn the_console_needs_no_token_and_its_data_does() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = Location::Folder(folder.path().to_owned());
+    let token = Tokens::open(&location).expect("a store").make("screen", Role::Read);
+    token.expect("a token");
+    let service = Running::start_at(location);
+    let page = ureq::get(&service.url).call().expect("the page");
+    let header = |name: &str| page.headers()[name].to_str().expect("text").to_owned();
+    assert_eq!(header("content-type"), "text/html; charset=utf-8");
+    assert_eq!(header("cache-control"), "no-cache");
+    let policy = header("content-security-policy");
+    assert!(policy.contains("script-src 'self'") && !policy.contains("unsafe"), "{policy}");
+    let text = page.into_body().read_to_string().expect("text");
+    let script = text.split('"').find(|text| text.starts_with("/assets/")).expect("a file");
+    let file = ureq::get(format!("{}{script}", service.url)).call().expect("the file");
+    assert_eq!(file.headers()["cache-control"], "public, max-age=31536000, immutable");
+    assert_eq!(service.get("/v1/days").status, 401);
+    assert_eq!(service.get("/assets/none.js").status, 404);
+    assert_eq!(service.get("/assets/..%2Findex.html").status, 404);
+}
+
+#[test]
+fn the_policy_of_the_console_is_the_one_that_it_is_tested_under() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let service = Running::start(folder.path());
+    let page = ureq::get(&service.url).call().expect("the page");
+    let sent = page.headers()["content-security-policy"].to_str().expect("text");
+    let source = include_str!("../../../../web/security.ts");
+    let tested = source.split('"').skip(1).step_by(2).collect::<Vec<_>>().join("; ");
+    assert_eq!(sent, tested);
+}

@@ -1,0 +1,195 @@
+//! Studies: many days in the background, with the numbers that `vertifleet compare` has.
+
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+use vertifleet_core::{Network, Purpose, Stop};
+use vertifleet_serve::{Location, Role, Tokens};
+use vertifleet_study::comparison::{Comparison, DrawnDays};
+use vertifleet_study::competitor::Selection;
+use vertifleet_study::{ComparisonReport, Unwatched};
+
+use crate::api::service;
+use crate::running::Running;
+
+/// Makes a study, and returns its path.
+fn made(service: &Running, body: &Value) -> String {
+    let made = service.post("/v1/studies", body);
+    assert_eq!(made.status, 201, "{made:?}");
+    format!("/v1/studies/{}", made.json["id"].as_str().expect("an id"))
+}
+
+/// Waits until a study is in a state.
+fn until(service: &Running, study: &str, state: &str) -> Value {
+    let begun = Instant::now();
+    loop {
+        let found = service.get(study).json;
+        if found["state"] == state {
+            return found;
+        }
+        assert!(begun.elapsed() < Duration::from_mins(2), "it never is {state}: {found}");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn a_study_has_the_numbers_of_compare() {
+    let (_folder, service) = service();
+    let policies = ["random", "greedy"].map(str::to_owned);
+    let body = json!({"network": "paper", "policies": policies, "days": 4, "seed": 7, "split": "validation"});
+    let study = made(&service, &body);
+    let found = until(&service, &study, "finished");
+    let command = "vertifleet compare --network paper --policies random,greedy --days 4 --seed 7 --split validation";
+    assert_eq!(found["command"], command);
+    assert_eq!((&found["network_origin"], &found["warnings"]), (&json!("shipped"), &json!([])));
+
+    let network = Network::shipped("paper").expect("it is shipped");
+    let selection = Selection { policies: &policies, models: &[], seed: 7 };
+    let days = DrawnDays { purpose: Purpose::Validation, first: 7, days: 4 };
+    let never = Stop::default();
+    let comparison = Comparison::new(&network, &selection, days, None, &never).expect("days");
+    let records = comparison.run(String::new(), &never, &Unwatched).expect("a result");
+    let report = ComparisonReport::of(&records).expect("a result");
+    let result = &found["result"];
+    assert_eq!(result["first_seed"].as_u64(), report.day_seeds.map(|(first, _)| first));
+    for (policy, name) in result["policies"].as_array().expect("a list").iter().zip(&policies) {
+        assert_eq!(policy["name"], *name, "they come as they were asked for");
+        let same = report.policies.iter().find(|one| one.name == *name).expect("it played");
+        assert_eq!(number(&policy["profit_usd"]["mean"]), same.profit_usd.mean);
+        assert_eq!(policy["profit_usd"]["half_width_95"].as_f64(), same.profit_usd.half_width_95);
+        assert_eq!(number(&policy["passengers"]), same.passengers);
+        assert_eq!(number(&policy["spilled_passengers"]), same.spilled_passengers);
+        assert_eq!(policy["daily_profit_usd"], json!(same.daily_profit_usd));
+    }
+    assert_eq!(result["policies"][0]["minus_first"], Value::Null);
+    let minus = &result["policies"][1]["minus_first"];
+    let test = &report.comparisons[0].profit_usd;
+    assert_eq!(number(&minus["profit_usd"]["mean"]), test.difference.mean);
+    assert_eq!(minus["p_value"].as_f64(), test.p_value);
+    assert_eq!((&minus["days_ahead"], &minus["days_behind"]), (&json!(4), &json!(0)));
+
+    let page = service.get(&format!("{study}/report"));
+    let page = page.json.as_str().expect("a page").to_owned();
+    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("greedy earns"), "{page}");
+    assert!(!page.contains("summary.json"), "nothing stands beside it");
+}
+
+#[test]
+fn a_study_has_bounds_and_follows_its_progress() {
+    let (_folder, service) = service();
+    let town = include_str!("../../../../networks/paper.toml");
+    let town =
+        town.replace("name = \"paper\"", "name = \"town\"").replace("count = 40", "count = 4");
+    let body = json!({"toml": town, "policies": ["greedy", "prices"], "days": 3, "bounds": true});
+    let study = made(&service, &body);
+    let found = until(&service, &study, "finished");
+    assert!(number(&found["took_s"]) > 0.0, "{found}");
+    assert_eq!(found["network_origin"], "own");
+    let result = &found["result"];
+    let bound = number(&result["upper_bound_usd"]["mean"]);
+    for policy in result["policies"].as_array().expect("a list") {
+        let share = number(&policy["bound_share"]["mean"]);
+        assert!(share > 0.3 && share <= 1.0, "{policy}");
+        assert!(number(&policy["profit_usd"]["mean"]) < bound, "{policy}");
+    }
+    let listed = service.get("/v1/studies").json;
+    assert_eq!(listed["studies"][0]["id"], found["id"]);
+    assert_eq!(listed["studies"][0].get("result"), None, "a list has no results");
+}
+
+#[test]
+fn studies_wait_for_each_other_and_can_be_ended() {
+    let (_folder, service) = service();
+    let long = json!({"network": "paper", "policies": ["rolling", "greedy"], "days": 1_000});
+    let first = made(&service, &long);
+    let playing = until(&service, &first, "playing");
+    assert!(playing["progress"]["share"].is_number(), "{playing}");
+    assert_eq!(service.get(&format!("{first}/report")).status, 404, "it has no result yet");
+    let short = json!({"network": "paper", "policies": ["greedy"], "days": 1});
+    let second = made(&service, &short);
+    assert_eq!(service.get(&second).json["state"], "waiting");
+    // Decisions are taken meanwhile.
+    let day = service.new_day("greedy");
+    let begun = Instant::now();
+    assert_eq!(service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"})).status, 201);
+    assert!(begun.elapsed() < Duration::from_secs(5), "a decision took {:?}", begun.elapsed());
+    for _ in 1..8 {
+        made(&service, &short);
+    }
+    let refused = service.post("/v1/studies", &short);
+    assert_eq!((refused.status, &refused.json["code"]), (409, &json!("V612")), "{refused:?}");
+    assert_eq!(service.send("DELETE", &first, &[], b"").status, 204);
+    assert_eq!(service.get(&first).status, 404);
+    let single = until(&service, &second, "finished");
+    assert_eq!(single["result"]["policies"][0]["profit_usd"]["half_width_95"], Value::Null);
+    assert_eq!(service.get("/v1/studies").json["studies"].as_array().map(Vec::len), Some(8));
+}
+
+#[test]
+fn a_study_is_made_once_for_each_key() {
+    let (_folder, service) = service();
+    let body =
+        |days: u32| json!({"network": "paper", "policies": ["greedy"], "days": days}).to_string();
+    let asked = |days: u32, key: &str| {
+        service.send("POST", "/v1/studies", &[("idempotency-key", key)], body(days).as_bytes())
+    };
+    let (first, again, other) = (asked(1, "one"), asked(1, "one"), asked(1, "two"));
+    assert_eq!((first.status, again.status), (201, 201), "{again:?}");
+    assert_eq!(first.json["id"], again.json["id"]);
+    assert_ne!(first.json["id"], other.json["id"]);
+    assert_eq!(asked(2, "one").json["code"], "V609");
+}
+
+#[test]
+fn what_cannot_be_played_is_refused_at_once() {
+    let (_folder, service) = service();
+    for (body, status, code) in [
+        (json!({"network": "paper", "policies": ["greedy"], "days": 0}), 400, "V402"),
+        (json!({"network": "paper", "policies": [], "days": 1}), 400, "V402"),
+        (json!({"network": "paper", "policies": ["greedy", "greedy"], "days": 1}), 400, "V404"),
+        (json!({"network": "paper", "policies": ["ours"], "days": 1}), 404, "V602"),
+        (json!({"network": "paper", "policies": ["replay:/etc/passwd"], "days": 1}), 400, "V307"),
+        (json!({"network": "atlantis", "policies": ["greedy"], "days": 1}), 404, "V602"),
+        (json!({"policies": ["greedy"], "days": 1}), 400, "V601"),
+        (json!({"toml": "name = 1", "policies": ["greedy"], "days": 1}), 400, "V107"),
+        (json!({"network": "new-york", "policies": ["mlp"], "days": 1}), 400, "V307"),
+        (json!({"network": "paper", "policies": ["greedy"], "days": 1_001}), 409, "V612"),
+        (json!({"network": "large", "policies": ["greedy"], "days": 1_000}), 409, "V612"),
+        (json!({"network": "paper", "policies": vec!["greedy"; 11], "days": 1}), 409, "V612"),
+        (json!({"network": "paper", "policies": ["greedy"], "days": 1, "sky": 1}), 400, "V601"),
+        (
+            json!({"network": "paper", "policies": ["greedy"], "days": 1, "seed": 1_u64 << 41}),
+            400,
+            "V118",
+        ),
+    ] {
+        let refused = service.post("/v1/studies", &body);
+        assert_eq!((refused.status, &refused.json["code"]), (status, &json!(code)), "{refused:?}");
+    }
+    assert_eq!(service.get("/v1/studies").json["studies"], json!([]));
+    assert_eq!(service.send("DELETE", "/v1/studies/none", &[], b"").status, 404);
+}
+
+#[test]
+fn dispatchers_make_and_end_studies_and_readers_read_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = Location::Folder(folder.path().to_owned());
+    let tokens = Tokens::open(&location).expect("a store");
+    let token = |role| format!("Bearer {}", tokens.make("one", role).expect("a token"));
+    let (reads, dispatches) = (token(Role::Read), token(Role::Dispatch));
+    let service = Running::start(folder.path());
+    let body = json!({"network": "paper", "policies": ["greedy"], "days": 1}).to_string();
+    let as_ = |token: &str, method: &str, path: &str| {
+        service.send(method, path, &[("authorization", token)], body.as_bytes())
+    };
+    assert_eq!(as_(&reads, "POST", "/v1/studies").status, 403);
+    let made = as_(&dispatches, "POST", "/v1/studies");
+    let study = format!("/v1/studies/{}", made.json["id"].as_str().expect("an id"));
+    assert_eq!(as_(&reads, "GET", &study).status, 200);
+    assert_eq!(as_(&reads, "DELETE", &study).status, 403);
+    assert_eq!(as_(&dispatches, "DELETE", &study).status, 204);
+}

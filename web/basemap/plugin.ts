@@ -1,0 +1,56 @@
+// Makes the base map when the console is built: a file for each sector, and a module that knows their addresses. The data itself
+// is in no file of ours but in npm packages, and the same packages always give the same bytes.
+
+import { createHash } from 'node:crypto'
+import type { Plugin } from 'vite'
+import { sectors } from './cells.ts'
+
+const MODULE = 'virtual:basemap'
+const RESOLVED = `\0${MODULE}`
+/** Where the sectors are while the console is developed. */
+const DEVELOPED = '/basemap/'
+
+export function basemap(): Plugin {
+  let isServing = false
+  let kept: Map<string, string> | undefined
+  const all = () => (kept ??= sectors())
+  return {
+    name: 'basemap',
+    configResolved: (config) => {
+      isServing = config.command === 'serve'
+    },
+    resolveId: (id) => (id === MODULE ? RESOLVED : undefined),
+    load(id) {
+      if (id !== RESOLVED) return undefined
+      const addresses = [...all()].map(([name, source]) => {
+        if (isServing) return `${JSON.stringify(name)}: ${JSON.stringify(`${DEVELOPED}${name}.json`)}`
+        const reference = this.emitFile({ type: 'asset', fileName: fileOf(name, source), source })
+        return `${JSON.stringify(name)}: import.meta.ROLLUP_FILE_URL_${reference}`
+      })
+      return `export const addresses = {${addresses.join(', ')}}`
+    },
+    configureServer: (server) => {
+      server.middlewares.use(DEVELOPED, (request, response, next) => {
+        const text = all().get((request.url ?? '').replace(/^\/|\.json$/g, ''))
+        if (text === undefined) next()
+        else response.setHeader('Content-Type', 'application/json').end(text)
+      })
+    },
+  }
+}
+
+/** Files have a hash of their content in their names, as all that is kept for good, and a folder of their own, from which reports
+    take what they need. */
+function fileOf(name: string, source: string): string {
+  const hash = createHash('sha256').update(source).digest('base64url').slice(0, 8)
+  return `assets/basemap/${name}-${hash}.json`
+}
+
+/** For pages that carry their base map with them: no sector has an address. */
+export function noBasemap(): Plugin {
+  return {
+    name: 'no-basemap',
+    resolveId: (id) => (id === MODULE ? RESOLVED : undefined),
+    load: (id) => (id === RESOLVED ? 'export const addresses = {}' : undefined),
+  }
+}

@@ -1,0 +1,25 @@
+// Tests of the console in Debian's Chromium against the real program: VERTIFLEET_PROGRAM, or the one that `cargo build` made.
+// With VERTIFLEET_PREVIEW=dist the console comes from that folder rather than from within the program, which then need not be
+// built again after every change of the console.
+
+import { defineConfig } from '@playwright/test'
+
+export default defineConfig({
+  testDir: 'tests',
+  // Tests share two cores with a browser that draws in software.
+  workers: 1,
+  timeout: 60_000,
+  expect: { timeout: 10_000 },
+  reporter: [['list']],
+  outputDir: 'test-results',
+  use: {
+    viewport: { width: 1280, height: 800 },
+    launchOptions: {
+      executablePath: process.env['VERTIFLEET_CHROMIUM'] ?? '/usr/bin/chromium',
+      // Software drawing is many times faster without an emulated graphics processor.
+      args: ['--no-sandbox', '--disable-gpu'],
+    },
+    screenshot: 'only-on-failure',
+    trace: 'retain-on-failure',
+  },
+})

@@ -1,0 +1,78 @@
+// What part of the plane a picture shows. Cameras are values: moving one makes another, so that a picture knows by comparison
+// whether it must be drawn again.
+
+import type { Size } from '../parts/sheet'
+import type { Box } from './plane'
+
+export type { Size }
+
+export interface Camera {
+  /** The middle of the picture in the plane, miles. */
+  readonly x: number
+  readonly y: number
+  /** Pixels for a mile. */
+  readonly scale: number
+}
+
+/** A few stands fill the picture. */
+const MOST_SCALE = 3000
+/** How much smaller than the whole network fits the picture it may become: what is far away is of no use, and takes long to draw. */
+const LEAST_SHARE = 1 / 10
+/** Pixels that stay free around everything, so that rings and names fit. */
+const MARGIN = { x: 70, y: 56 }
+/** A network of one vertiport is shown with this much around it. */
+const LEAST_SPAN_MI = 1
+
+/** The camera that shows all of a box. */
+export function fit(box: Box, size: Size): Camera {
+  const margin = { x: Math.min(MARGIN.x, size.width / 7), y: Math.min(MARGIN.y, size.height / 8) }
+  const [width, height] = [
+    Math.max(box.east - box.west, LEAST_SPAN_MI),
+    Math.max(box.north - box.south, LEAST_SPAN_MI),
+  ]
+  const scale = Math.min((size.width - 2 * margin.x) / width, (size.height - 2 * margin.y) / height)
+  return { x: (box.west + box.east) / 2, y: (box.south + box.north) / 2, scale: Math.min(MOST_SCALE, scale) }
+}
+
+/** Moves the picture by pixels: what was under the pointer stays under it. */
+export function pan(camera: Camera, dx: number, dy: number): Camera {
+  return { ...camera, x: camera.x - dx / camera.scale, y: camera.y + dy / camera.scale }
+}
+
+/** Zooms by a factor around a pixel; out from the camera that shows everything only so far. */
+export function zoom(
+  camera: Camera,
+  factor: number,
+  size: Size,
+  px = size.width / 2,
+  py = size.height / 2,
+  whole = camera,
+): Camera {
+  const scale = Math.max(whole.scale * LEAST_SHARE, Math.min(MOST_SCALE, camera.scale * factor))
+  const [right, down] = [px - size.width / 2, py - size.height / 2]
+  return {
+    x: camera.x + right / camera.scale - right / scale,
+    y: camera.y - down / camera.scale + down / scale,
+    scale,
+  }
+}
+
+export function pixelX(camera: Camera, size: Size, x: number): number {
+  return (x - camera.x) * camera.scale + size.width / 2
+}
+
+export function pixelY(camera: Camera, size: Size, y: number): number {
+  return (camera.y - y) * camera.scale + size.height / 2
+}
+
+/** The part of the plane that a picture shows. */
+export function view(camera: Camera, size: Size): Box {
+  const [x, y] = [size.width / 2 / camera.scale, size.height / 2 / camera.scale]
+  return { west: camera.x - x, south: camera.y - y, east: camera.x + x, north: camera.y + y }
+}
+
+/** Whether everything of a box is in the picture. */
+export function shows(camera: Camera, size: Size, x: number, y: number, margin = 0): boolean {
+  const [px, py] = [pixelX(camera, size, x), pixelY(camera, size, y)]
+  return px >= margin && py >= margin && px <= size.width - margin && py <= size.height - margin
+}

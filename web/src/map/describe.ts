@@ -1,0 +1,83 @@
+// What is said about what a person points at on the map, line by line, the name first.
+
+import { at } from '../model/arrays'
+import { isHold, type LegRecord } from '../model/record'
+import { percent } from '../model/money'
+import { NONE, Phase } from '../model/motion'
+import type { Target } from '../model/target'
+import { clock, clockMinutes } from '../model/time'
+import { text } from '../text/text'
+import { standsOf } from './painters/names'
+import type { Scene } from './scene'
+
+const phaseNames: Record<Phase, keyof typeof text.map.phases> = {
+  [Phase.waiting]: 'waiting',
+  [Phase.charging]: 'charging',
+  [Phase.holding]: 'holding',
+  [Phase.delayed]: 'delayed',
+  [Phase.flying]: 'flying',
+  [Phase.out]: 'out',
+}
+
+export function describe(scene: Scene, target: Target): string[] {
+  return target.kind === 'vertiport'
+    ? describeVertiport(scene, target.vertiport)
+    : describeAircraft(scene, target.aircraft)
+}
+
+function describeAircraft({ record, frame }: Scene, aircraft: number): string[] {
+  const { id, type, seats } = at(record.aircraft, aircraft)
+  const phase = at(frame.phases, aircraft) as Phase
+  const leg = record.legs[at(frame.legs, aircraft)]
+  const stands = at(frame.stands, aircraft)
+  const place = stands === NONE ? '' : ` ${text.map.at(at(record.vertiports, stands).id)}`
+  const lines = [`${id} · ${type}`, `${text.map.phases[phaseNames[phase]]}${place}`]
+  if (leg !== undefined)
+    lines.push(
+      ...describeLeg(
+        leg,
+        phase,
+        record.vertiports.map((one) => one.id),
+        seats,
+      ),
+    )
+  lines.push(text.map.charge(percent(at(frame.charges, aircraft))))
+  return lines
+}
+
+function describeLeg(leg: LegRecord, phase: Phase, names: string[], seats: number): string[] {
+  if (phase === Phase.holding) return [text.map.holdsUntil(clockMinutes(leg.ready))]
+  if (phase === Phase.charging || phase === Phase.out) return [text.map.readyAt(clockMinutes(leg.ready))]
+  if (phase === Phase.waiting || isHold(leg)) return []
+  const load = leg.passengers === 0 ? text.map.empty : text.map.seats(leg.passengers, seats)
+  const next =
+    phase === Phase.delayed ? text.map.takesOff(clock(leg.departs)) : text.map.lands(clock(leg.arrives))
+  return [text.map.from(at(names, leg.from), at(names, leg.to)), `${load} · ${next}`]
+}
+
+function describeVertiport(scene: Scene, vertiport: number): string[] {
+  const { taken, promised } = standsOf(scene, vertiport)
+  const lines = [
+    at(scene.record.vertiports, vertiport).id,
+    text.map.stands(taken, promised, at(scene.room, vertiport)),
+  ]
+  const sum = (end: 'from' | 'to') =>
+    scene.allPairs.filter((pair) => pair[end] === vertiport).reduce((all, pair) => all + pair.passengers, 0)
+  if (scene.allPairs.length > 0)
+    lines.push(`${text.map.waitingFrom(sum('from'))} · ${text.map.waitingTo(sum('to'))}`)
+  const isClosed = scene.closures.some((one) => 'vertiport' in one && one.vertiport === vertiport)
+  if (isClosed) lines.push(text.map.vertiportClosed)
+  return lines
+}
+
+/** What the map shows in a sentence, for people who do not see it. */
+export function summarise(scene: Scene, time: number): string {
+  const { record, frame, closures } = scene
+  const flying = frame.phases.reduce((sum, phase) => sum + Number(phase === Phase.flying), 0)
+  const parts = [text.map.inTheAir(flying), text.map.closed(closures.length)].join(', ')
+  const what = text.map.summary(
+    text.map.vertiports(record.vertiports.length),
+    text.map.aircraft(record.aircraft.length),
+  )
+  return `${what} ${text.map.summaryAt(clockMinutes(time), parts)}`
+}

@@ -1,0 +1,98 @@
+// What every painter of the map is given, and what it must do. There are two, which draw the same: on the graphics processor, and
+// on a plain canvas where there is none.
+
+import type { ColourName, Rgb } from '../../parts/colours'
+import { Phase } from '../../model/motion'
+import { vertiportMeant, type Target } from '../../model/target'
+import type { Camera, Size } from '../camera'
+import { StandState } from '../rings'
+import type { Scene } from '../scene'
+
+export interface Picture {
+  scene: Scene
+  camera: Camera
+  size: Size
+  colours: Record<ColourName, Rgb>
+  hovered: Target | undefined
+  selected: Target | undefined
+  showsDemand: boolean
+}
+
+/** What rings, arcs, closures and names depend on: all but the aircraft that move. */
+export function stillParts(picture: Picture): unknown[] {
+  const { scene, camera, size, colours, hovered, selected, showsDemand } = picture
+  const marked = [vertiportMeant(hovered), vertiportMeant(selected)]
+  return [scene, scene.revision, camera, size, colours, showsDemand, ...marked]
+}
+
+export interface Painter {
+  /** What is drawn on, to be put into the page. */
+  readonly element: HTMLElement
+  paint(picture: Picture): void
+  destroy(): void
+}
+
+export const COLOUR_OF_STATE: Record<StandState, ColourName> = {
+  [StandState.waiting]: 'waiting',
+  [StandState.holding]: 'holding',
+  [StandState.charging]: 'charging',
+  [StandState.out]: 'out',
+  [StandState.promised]: 'flying',
+  [StandState.free]: 'line-strong',
+  [StandState.over]: 'bad',
+}
+
+/** Pieces that stand for something that is not there yet, or for nothing, are drawn lighter. */
+export const OPACITY_OF_STATE: Record<StandState, number> = {
+  [StandState.waiting]: 1,
+  [StandState.holding]: 1,
+  [StandState.charging]: 1,
+  [StandState.out]: 1,
+  [StandState.promised]: 0.55,
+  [StandState.free]: 0.28,
+  [StandState.over]: 1,
+}
+
+/** Half the length of an aircraft in the air, pixels; on the ground it is smaller. */
+const AIRCRAFT_PX = { least: 6, most: 10 }
+const SMALLEST = 0.68
+/** How many aircraft in the air a picture has room for before they are drawn smaller. */
+const FEW = 40
+
+/** How large aircraft are and how strong their ways: less on a small picture, and less where many fly. */
+export function looksOf({ scene, size }: Picture): { aircraft_px: number; wayOpacity: number } {
+  const flying = scene.frame.phases.reduce((sum, phase) => sum + Number(phase === Phase.flying), 0)
+  const crowd = Math.sqrt(Math.min(1, FEW / Math.max(1, flying)))
+  const wanted = (3 + Math.min(size.width, size.height) / 110) * (0.6 + 0.4 * crowd)
+  return {
+    aircraft_px: Math.max(AIRCRAFT_PX.least, Math.min(AIRCRAFT_PX.most, wanted)),
+    wayOpacity: 0.1 + 0.25 * crowd,
+  }
+}
+
+export function aircraftSize(px: number, lift: number): number {
+  return px * (SMALLEST + (1 - SMALLEST) * lift)
+}
+
+/** How visible an aircraft is: it fades where it comes or goes, so that the ring of the vertiport stays legible. */
+export function visibilityNear(distance_px: number, radius: number): number {
+  return Math.max(0, Math.min(1, (distance_px - 0.55 * radius) / (0.7 * radius)))
+}
+
+/** An aircraft from above that points up, in a square from -1 to 1. */
+export const AIRCRAFT_SHAPE =
+  'M0-1C.16-.86.17-.6.17-.38L.98.1V.32L.17.16.12.62.42.82V.98L0 .86-.42.98V.82L-.12.62-.17.16-.98.32V.1L-.17-.38C-.17-.6-.16-.86 0-1Z'
+
+/** How strongly an aircraft is filled: nothing for a flight without passengers. */
+export function fillOf(load: number): number {
+  return load === 0 ? 0 : 0.35 + 0.65 * load
+}
+
+/** The stroke of an arc of waiting passengers: its area, not its width, is in proportion. Small maps have thin ones. */
+export function arcWidth(passengers: number, { width, height }: Size): number {
+  const room = Math.min(1, Math.min(width, height) / 700)
+  return Math.min(5, 0.4 + 0.45 * Math.sqrt(passengers)) * (0.4 + 0.6 * room)
+}
+
+/** How far an arc stands off from the straight way, as a share of its length; the way back bends to the other side. */
+export const ARC_BEND = 0.16

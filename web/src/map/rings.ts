@@ -1,0 +1,96 @@
+// The ring of a vertiport: a piece for each stand, coloured by who holds it. It is read like a gauge, clockwise from the top: who
+// stands there, for whom a stand is kept, and what is free.
+
+import { at } from '../model/arrays'
+
+/** What a piece of a ring says, in the order in which pieces follow each other. */
+export const StandState = {
+  waiting: 0,
+  holding: 1,
+  charging: 2,
+  out: 3,
+  promised: 4,
+  free: 5,
+  over: 6,
+} as const
+export type StandState = (typeof StandState)[keyof typeof StandState]
+/** States that are counted; the others follow from these. */
+export const COUNTED = 5
+
+/** More stands than this are shown as one arc for each state: pieces would be too small to count. */
+const MOST_PIECES = 24
+const TURN = 2 * Math.PI
+/** Pixels between two pieces. */
+const GAP = 2
+
+export interface Piece {
+  begin: number
+  end: number
+  state: StandState
+}
+
+/** The radius of a ring in pixels: it grows with the number of stands, and shrinks where vertiports stand close together. */
+function ringRadius(room: number, nearest_px: number): number {
+  const wanted = Math.min(28, 11 + 2.4 * Math.sqrt(room))
+  return Math.max(4, Math.min(wanted, 0.42 * nearest_px))
+}
+
+/** The radius of the ring of a vertiport at a scale in pixels a mile. */
+export function radiusOf(
+  { room, nearest_mi }: { room: number[]; nearest_mi: number[] },
+  vertiport: number,
+  scale: number,
+): number {
+  return ringRadius(at(room, vertiport), at(nearest_mi, vertiport) * scale)
+}
+
+export function ringWidth(radius: number): number {
+  return Math.max(2.5, Math.min(5, radius * 0.3))
+}
+
+/** The pieces of a ring; `counts` has the aircraft in each counted state from `offset` on. */
+export function piecesOf(counts: ArrayLike<number>, offset: number, room: number, radius: number): Piece[] {
+  const states = inOrder(counts, offset, room)
+  const all = states.reduce((sum, { number }) => sum + number, 0)
+  if (all === 0) return []
+  const gap = Math.min(GAP / radius, TURN / all / 3)
+  return all <= MOST_PIECES ? countable(states, all, gap) : arcs(states, all, gap)
+}
+
+interface Counted {
+  state: StandState
+  number: number
+}
+
+/** How many stands are in each state. Aircraft for which there is no stand come last. */
+function inOrder(counts: ArrayLike<number>, offset: number, room: number): Counted[] {
+  const order: Counted[] = []
+  let left = room
+  let over = 0
+  for (let state = 0; state < COUNTED; state++) {
+    const number = at(counts, offset + state)
+    order.push({ state: state as StandState, number: Math.min(number, left) })
+    over += Math.max(0, number - left)
+    left = Math.max(0, left - number)
+  }
+  order.push({ state: StandState.free, number: left }, { state: StandState.over, number: over })
+  return order.filter(({ number }) => number > 0)
+}
+
+function countable(states: Counted[], all: number, gap: number): Piece[] {
+  const each = states.flatMap(({ state, number }) => Array.from({ length: number }, () => state))
+  return each.map((state, index) => ({
+    state,
+    begin: (index / all) * TURN + gap / 2,
+    end: ((index + 1) / all) * TURN - gap / 2,
+  }))
+}
+
+function arcs(states: Counted[], all: number, gap: number): Piece[] {
+  let before = 0
+  return states.map(({ state, number }) => {
+    const begin = (before / all) * TURN + gap / 2
+    before += number
+    return { state, begin, end: (before / all) * TURN - gap / 2 }
+  })
+}

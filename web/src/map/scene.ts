@@ -1,0 +1,140 @@
+// What is on the map at a moment, in the plane and without pixels or colours. Painters draw it; what moves is written anew at
+// every moment, and what changes only with decisions carries a revision, so that it is drawn anew only then.
+
+import { at } from '../model/arrays'
+import { Fleet, NONE, Phase, type FleetFrame } from '../model/motion'
+import { roomOf } from '../model/occupancy'
+import type { ClosureRecord, DayRecord, Seconds } from '../model/record'
+import { Waiting, type WaitingPair } from '../model/waiting'
+import { Plane } from './plane'
+import { COUNTED, StandState } from './rings'
+
+/** More arcs would hide each other; those of the fewest passengers are left out. */
+const MOST_ARCS = 24
+
+const STATE_OF_PHASE: Record<Phase, StandState> = {
+  [Phase.waiting]: StandState.waiting,
+  [Phase.charging]: StandState.charging,
+  [Phase.holding]: StandState.holding,
+  [Phase.out]: StandState.out,
+  [Phase.delayed]: StandState.promised,
+  [Phase.flying]: StandState.promised,
+}
+
+export class Scene {
+  readonly fleet: Fleet
+  readonly plane: Plane
+  readonly frame: FleetFrame
+  /** Where aircraft are in the plane, two numbers each. */
+  readonly aircraft: Float64Array
+  /** How many aircraft hold stands of each vertiport, by state. */
+  readonly counts: Uint16Array
+  /** Stands and chargers of each vertiport. */
+  readonly room: number[]
+  /** Miles to the nearest other vertiport. */
+  readonly nearest_mi: number[]
+  /** Everyone who waits, and the pairs with most of them, which are drawn. */
+  allPairs: readonly WaitingPair[] = []
+  pairs: readonly WaitingPair[] = []
+  closures: readonly ClosureRecord[] = []
+  /** Rises when rings, arcs or closures have changed. */
+  revision = 0
+  readonly #waiting: Waiting
+  readonly #formerCounts: Uint16Array
+
+  constructor(readonly record: DayRecord) {
+    this.fleet = new Fleet(record)
+    this.plane = new Plane(this.fleet.geography)
+    this.frame = this.fleet.frame()
+    this.aircraft = new Float64Array(2 * record.aircraft.length)
+    this.counts = new Uint16Array(COUNTED * record.vertiports.length)
+    this.#formerCounts = new Uint16Array(this.counts.length)
+    this.room = record.vertiports.map(roomOf)
+    this.nearest_mi = nearestOf(this.plane.vertiports)
+    this.#waiting = new Waiting(record)
+  }
+
+  /** Brings everything to a moment. `demand` stands in for what the record says about who waits. */
+  show(time: Seconds, demand?: readonly WaitingPair[]): void {
+    this.fleet.show(time, this.frame)
+    this.plane.write(this.frame.places, this.aircraft)
+    this.#count()
+    this.#showClosures(time)
+    this.#showWaiting(demand ?? this.#waiting.pairs(time))
+  }
+
+  /** Where an aircraft flies to, or would if it were not delayed; NONE for one that stands. */
+  destination(aircraft: number): number {
+    const phase = at(this.frame.phases, aircraft)
+    if (phase !== Phase.flying && phase !== Phase.delayed) return NONE
+    return at(this.record.legs, at(this.frame.legs, aircraft)).to
+  }
+
+  /** Where it comes from; NONE for one that stands. */
+  origin(aircraft: number): number {
+    if (at(this.frame.phases, aircraft) !== Phase.flying) return NONE
+    return at(this.record.legs, at(this.frame.legs, aircraft)).from
+  }
+
+  /** The share of the seats that is taken on the flight; 0 for one that stands. */
+  load(aircraft: number): number {
+    if (this.destination(aircraft) === NONE) return 0
+    const { passengers } = at(this.record.legs, at(this.frame.legs, aircraft))
+    return Math.min(1, passengers / at(this.record.aircraft, aircraft).seats)
+  }
+
+  /** The aircraft that hold stands of a vertiport, with those that are on their way to it. */
+  aircraftAt(vertiport: number): { aircraft: number; state: StandState }[] {
+    return this.record.aircraft.flatMap((_, aircraft) => {
+      const holder = this.#holds(aircraft)
+      return holder.vertiport === vertiport ? [{ aircraft, state: holder.state }] : []
+    })
+  }
+
+  #count(): void {
+    this.#formerCounts.set(this.counts)
+    this.counts.fill(0)
+    for (let aircraft = 0; aircraft < this.frame.size; aircraft++) {
+      const destination = this.destination(aircraft)
+      const vertiport = destination === NONE ? at(this.frame.stands, aircraft) : destination
+      const slot = COUNTED * vertiport + STATE_OF_PHASE[at(this.frame.phases, aircraft) as Phase]
+      this.counts[slot] = at(this.counts, slot) + 1
+    }
+    if (this.counts.some((count, slot) => count !== this.#formerCounts[slot])) this.revision++
+  }
+
+  #holds(aircraft: number): { vertiport: number; state: StandState } {
+    const destination = this.destination(aircraft)
+    const state = STATE_OF_PHASE[at(this.frame.phases, aircraft) as Phase]
+    return { vertiport: destination === NONE ? at(this.frame.stands, aircraft) : destination, state }
+  }
+
+  #showClosures(time: Seconds): void {
+    const closures = this.record.closures.filter((one) => one.since <= time && time < (one.until ?? Infinity))
+    const isSame =
+      closures.length === this.closures.length && closures.every((one, index) => one === this.closures[index])
+    if (isSame) return
+    this.closures = closures
+    this.revision++
+  }
+
+  #showWaiting(pairs: readonly WaitingPair[]): void {
+    if (pairs === this.allPairs) return
+    this.allPairs = pairs
+    this.pairs = [...pairs].sort((one, other) => other.passengers - one.passengers).slice(0, MOST_ARCS)
+    this.revision++
+  }
+}
+
+function nearestOf(places: Float64Array): number[] {
+  return Array.from({ length: places.length / 2 }, (_, one) => {
+    let nearest = Infinity
+    for (let other = 0; other < places.length / 2; other++) {
+      if (other === one) continue
+      const dx = at(places, 2 * one) - at(places, 2 * other)
+      const dy = at(places, 2 * one + 1) - at(places, 2 * other + 1)
+      nearest = Math.min(nearest, Math.hypot(dx, dy))
+    }
+    return nearest
+  })
+}

@@ -1,0 +1,23 @@
+// Access to arrays at positions that are known to exist. TypeScript asks for a check at every access otherwise, and pictures
+// read some thousand numbers a frame.
+
+/** The element at a position that exists. */
+export function at<T>(array: ArrayLike<T>, index: number): T {
+  return array[index] as T
+}
+
+/** How many of the first `size` sorted values, from `offset` on, are no greater than a value. */
+export function countUpTo(
+  values: ArrayLike<number>,
+  value: number,
+  offset = 0,
+  size = values.length - offset,
+): number {
+  let [low, high] = [0, size]
+  while (low < high) {
+    const middle = (low + high) >> 1
+    if (at(values, offset + middle) <= value) low = middle + 1
+    else high = middle
+  }
+  return low
+}

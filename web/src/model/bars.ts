@@ -1,0 +1,133 @@
+// What the Gantts draw: for every aircraft its flights, charging, holds and outages, with what had been planned; for every stand
+// of a vertiport who holds it.
+
+import { at } from './arrays'
+import { NONE } from './motion'
+import { roomOf, staysOf, type Stay } from './occupancy'
+import type { DayRecord, LegRecord, Seconds } from './record'
+import { isHold } from './record'
+
+export type BarKind = 'flight' | 'charge' | 'hold' | 'delay' | 'outage' | 'promised' | 'standing'
+
+export interface Bar {
+  kind: BarKind
+  begins: Seconds
+  /** Infinity where nobody knows. */
+  ends: Seconds
+  aircraft: number
+  /** Position in the record's legs, or NONE: an outage, or a stand before the first flight. */
+  leg: number
+  /** The share of the seats that is taken, of flights. */
+  load: number
+  isExpected: boolean
+}
+
+/** What was planned for a flight, where something else has come of it. */
+export interface Plan {
+  departs: Seconds
+  arrives: Seconds
+  ready: Seconds
+  leg: number
+}
+
+export interface FleetRow {
+  aircraft: number
+  /** By their beginnings. */
+  bars: Bar[]
+  /** Drawn over the bars, since an aircraft may be charging or waiting while it is out of service. */
+  outages: Bar[]
+  plans: Plan[]
+}
+
+export interface StandRow {
+  vertiport: number
+  /** From 0; rows beyond the vertiport's room hold aircraft that have no stand. */
+  stand: number
+  isOver: boolean
+  bars: Bar[]
+  /** Times in which the aircraft on the stand is out of service. */
+  outages: Bar[]
+}
+
+/** A row for each aircraft. */
+export function fleetRows(record: DayRecord): FleetRow[] {
+  const rows = record.aircraft.map((_, aircraft): FleetRow => ({
+    aircraft,
+    bars: [],
+    outages: [],
+    plans: [],
+  }))
+  record.legs.forEach((leg, index) => addLeg(at(rows, leg.aircraft), record, leg, index))
+  for (const { aircraft, since, until } of record.outages) {
+    const outage = { kind: 'outage', begins: since, ends: until ?? Infinity } as const
+    at(rows, aircraft).outages.push({ ...outage, aircraft, leg: NONE, load: 0, isExpected: false })
+  }
+  return rows
+}
+
+function addLeg(row: FleetRow, record: DayRecord, leg: LegRecord, index: number): void {
+  const { aircraft, decided, departs, arrives, ready } = leg
+  const load = Math.min(1, leg.passengers / at(record.aircraft, aircraft).seats)
+  const common = { aircraft, leg: index, load, isExpected: leg.is_expected }
+  const add = (kind: BarKind, begins: Seconds, ends: Seconds) => {
+    if (ends > begins) row.bars.push({ kind, begins, ends, ...common })
+  }
+  if (isHold(leg)) {
+    add('hold', decided, ready)
+    return
+  }
+  add('delay', decided, departs)
+  add('flight', departs, arrives)
+  add('charge', arrives, ready)
+  if (leg.planned !== undefined) row.plans.push({ ...leg.planned, leg: index })
+}
+
+/** A row for each stand, vertiport by vertiport. */
+export function standRows(record: DayRecord): StandRow[] {
+  const byVertiport: Stay[][] = record.vertiports.map(() => [])
+  for (const stay of staysOf(record)) at(byVertiport, stay.vertiport).push(stay)
+  return record.vertiports.flatMap((one, vertiport) => {
+    const room = roomOf(one)
+    const lanes = shareOut(at(byVertiport, vertiport), room)
+    return lanes.map((stays, stand): StandRow => {
+      const bars = stays.flatMap((stay) => barsOf(stay, record))
+      const outages = stays.flatMap((stay) => outagesOf(stay, record))
+      return { vertiport, stand, isOver: stand >= room, bars, outages }
+    })
+  })
+}
+
+/** Gives each stay the first stand that is free, and more stands than there are only if reports say that there are more aircraft. */
+function shareOut(stays: readonly Stay[], room: number): Stay[][] {
+  const lanes: Stay[][] = Array.from({ length: room }, () => [])
+  for (const stay of stays) {
+    const free = lanes.find((lane) => (lane.at(-1)?.leaves ?? -Infinity) <= stay.promised)
+    if (free === undefined) lanes.push([stay])
+    else free.push(stay)
+  }
+  return lanes
+}
+
+function barsOf(stay: Stay, record: DayRecord): Bar[] {
+  const { aircraft, leg } = stay
+  const flight = record.legs[leg]
+  const common = { aircraft, leg, load: 0, isExpected: flight?.is_expected ?? false }
+  const spans: [BarKind, Seconds, Seconds][] = [
+    ['promised', stay.promised, Math.min(stay.arrives, stay.leaves)],
+    ['charge', stay.arrives, Math.min(stay.ready, stay.leaves)],
+    ['standing', Math.max(stay.ready, record.start), stay.leaves],
+  ]
+  const there = spans.filter(([, begins, ends]) => ends > begins)
+  return there.map(([kind, begins, ends]) => ({ kind, begins, ends, ...common }))
+}
+
+/** The outages of an aircraft as far as it stands here. */
+function outagesOf({ aircraft, arrives, leaves, leg }: Stay, record: DayRecord): Bar[] {
+  const own = record.outages.filter((outage) => outage.aircraft === aircraft)
+  const within = own.map(({ since, until }) => ({
+    begins: Math.max(since, arrives),
+    ends: Math.min(until ?? Infinity, leaves),
+  }))
+  const common = { kind: 'outage', aircraft, leg, load: 0, isExpected: false } as const
+  return within.filter(({ begins, ends }) => ends > begins).map((times) => ({ ...common, ...times }))
+}

@@ -1,0 +1,134 @@
+import { describe, expect, it } from 'vitest'
+import type { DayState, Proposal, TakenEvent } from '../api/types'
+import { decidedLately, isSameAdvice, nextOf, ranked, Steady, waitingOf, worthOf } from './decisions'
+import answers from './fixtures/live-day.json'
+
+const state = answers.state as DayState
+const events = answers.events.events as unknown as TakenEvent[]
+
+const proposal: Proposal = {
+  aircraft: 'A01',
+  at: 'V1',
+  time: '06:00:00',
+  seq: 4,
+  to: 'V2',
+  policy: 'prices',
+  took_us: 900,
+  alternatives: [
+    {
+      to: 'V1',
+      value: 843.2,
+      worth_usd: 843.2,
+      flight_profit_usd: 0,
+      passengers: 0,
+      stand_price_usd: 3.27,
+      ...there('06:15:00'),
+    },
+    {
+      to: 'V2',
+      value: 849.6,
+      worth_usd: 849.6,
+      flight_profit_usd: 144.21,
+      passengers: 4,
+      stand_price_usd: 43.15,
+      passenger_price_usd: 2.5,
+      ...there('07:39:14'),
+    },
+    {
+      to: 'V3',
+      impossible: { rule: 'no_stand_free', reason: 'full' },
+      flight_profit_usd: 75.37,
+      passengers: 4,
+      ...there('07:06:12'),
+    },
+    {
+      to: 'V4',
+      value: 837.61,
+      worth_usd: 837.61,
+      flight_profit_usd: 30.83,
+      passengers: 4,
+      ...there('07:00:00'),
+    },
+    { to: 'V5', flight_profit_usd: 12, passengers: 1, ...there('07:00:00') },
+  ],
+}
+
+function there(ready: string) {
+  return { arrival: '06:45:00', ready, stands: 6, stands_taken: 4 }
+}
+
+describe('those who wait', () => {
+  it('are in the order in which they became ready, at full vertiports first', () => {
+    expect(waitingOf(state).map((one) => one.id)).toEqual(['A05'])
+    const all = {
+      ...state,
+      aircraft: state.aircraft.map((one) => ({ ...one, needs_decision: true, ready: '06:30:00' })),
+    }
+    expect(waitingOf(all).map((one) => one.isFull)).toEqual([true, true, false, false, false])
+  })
+
+  it('are followed by those who are ready next', () => {
+    expect(nextOf(state, 2).map((one) => one.id)).toEqual(['A01', 'A02'])
+  })
+})
+
+it('a list keeps its order while it is held', () => {
+  const list = (...ids: string[]) => ids.map((id) => ({ id }))
+  const steady = new Steady<{ id: string }>()
+  steady.of(list('a', 'b'), false)
+  expect(steady.of(list('c', 'b'), true)).toEqual(list('a', 'b', 'c'))
+  expect(steady.of(list('c', 'b'), false)).toEqual(list('c', 'b'))
+})
+
+describe('a proposal', () => {
+  it('ranks what is possible by its value, the advice first, what the policy did not consider last', () => {
+    const { possible, impossible } = ranked(proposal)
+    expect(possible.map((one) => one.to)).toEqual(['V2', 'V1', 'V4', 'V5'])
+    expect(impossible.map((one) => one.to)).toEqual(['V3'])
+  })
+
+  it('advises the same as long as the choice, its rank and the rules are the same', () => {
+    const changed = (to: string, more: object) => ({
+      ...proposal,
+      alternatives: proposal.alternatives.map((one) => (one.to === to ? { ...one, ...more } : one)),
+    })
+    expect(isSameAdvice(proposal, changed('V2', { value: 850, worth_usd: 850 }))).toBe(true)
+    expect(isSameAdvice(proposal, changed('V4', { value: 846 }))).toBe(false)
+    expect(isSameAdvice(proposal, changed('V3', { impossible: undefined }))).toBe(false)
+    expect(isSameAdvice(proposal, { ...proposal, to: 'V4' })).toBe(false)
+  })
+
+  it('is worth the sum of its parts', () => {
+    const [, flight, , , unpriced] = proposal.alternatives
+    const worth = flight && worthOf(flight)
+    expect(worth).toMatchObject({
+      flight_usd: 144.21,
+      passengers_usd: -10,
+      stand_usd: -43.15,
+      worth_usd: 849.6,
+    })
+    expect((worth?.flight_usd ?? 0) + (worth?.onward_usd ?? 0) - 10 - 43.15).toBeCloseTo(849.6)
+    expect(unpriced && worthOf(unpriced)).toBeUndefined()
+  })
+})
+
+describe('decisions of late', () => {
+  it('are told from the newest on, without those that were undone', () => {
+    const decided = decidedLately(events, 10)
+    expect(decided.map((one) => `${one.aircraft} ${one.to}`)).toEqual([
+      'A03 North',
+      'A03 East',
+      'A02 South',
+      'A01 East',
+    ])
+    expect(decided[2]).toMatchObject({
+      insteadOf: 'North',
+      reason: 'the crew lives there',
+      policy: undefined,
+    })
+  })
+
+  it('can be undone while nothing has happened since', () => {
+    expect(decidedLately(events, 10).map((one) => one.canBeUndone)).toEqual([true, false, false, false])
+  })
+})

@@ -1,0 +1,132 @@
+// What a dispatcher looks at when an aircraft has to be decided: who waits, what speaks for each choice, what was decided lately.
+
+import type { AircraftState, Alternative, DayState, Proposal, TakenEvent } from '../api/types'
+import type { Seconds } from './record'
+import { timeOf } from './time'
+
+/** An aircraft that waits for a decision, or will soon. */
+export interface Waiting {
+  id: string
+  at: string
+  ready: Seconds
+  isFull: boolean
+}
+
+/** Who needs a decision: who has waited longest comes first, and of these who takes the last stand of a vertiport. */
+export function waitingOf(state: DayState): Waiting[] {
+  const waiting = state.aircraft.filter((one) => one.needs_decision).map((one) => waitingAt(state, one))
+  return waiting.sort((one, other) => one.ready - other.ready || Number(other.isFull) - Number(one.isFull))
+}
+
+/** Who is ready next, of those who fly or charge. */
+export function nextOf(state: DayState, most: number): Waiting[] {
+  const later = state.aircraft.filter((one) => !one.needs_decision && !one.out_of_service)
+  const waiting = later.map((one) => waitingAt(state, one)).sort((one, other) => one.ready - other.ready)
+  return waiting.slice(0, most)
+}
+
+function waitingAt(state: DayState, { id, place, ready }: AircraftState): Waiting {
+  const vertiport = state.vertiports.find((one) => one.id === place)
+  const isFull = vertiport !== undefined && vertiport.taken >= vertiport.stands
+  return { id, at: place, ready: timeOf(ready), isFull }
+}
+
+/** A list that does not move while somebody points at it: what is gone stays, what is new comes last. */
+export class Steady<T extends { id: string }> {
+  #shown: readonly T[] = []
+
+  of(fresh: readonly T[], isHeld: boolean): readonly T[] {
+    const byId = new Map(fresh.map((one) => [one.id, one]))
+    const kept = isHeld ? this.#shown.map((one) => byId.get(one.id) ?? one) : []
+    for (const { id } of kept) byId.delete(id)
+    this.#shown = isHeld ? [...kept, ...byId.values()] : fresh
+    return this.#shown
+  }
+}
+
+/** The choices that are possible, the best by the policy first, and those that are not. */
+export function ranked(proposal: Proposal): { possible: Alternative[]; impossible: Alternative[] } {
+  const possible = proposal.alternatives.filter((one) => one.impossible == null)
+  const rank = (one: Alternative) => (one.to === proposal.to ? Infinity : (one.value ?? -Infinity))
+  possible.sort((one, other) => rank(other) - rank(one) || one.to.localeCompare(other.to))
+  return { possible, impossible: proposal.alternatives.filter((one) => one.impossible != null) }
+}
+
+/** Whether two proposals advise the same: the same choice, and the same order of what else is possible. */
+export function isSameAdvice(one: Proposal, other: Proposal): boolean {
+  if (one.aircraft !== other.aircraft || one.at !== other.at || one.to !== other.to) return false
+  const order = (proposal: Proposal) => {
+    const { possible, impossible } = ranked(proposal)
+    return [...possible, ...impossible]
+      .map(({ to, impossible: reason }) => `${to}:${reason?.rule ?? ''}`)
+      .join()
+  }
+  return order(one) === order(other)
+}
+
+/** What a choice is worth at the bid prices, in parts that add up. */
+export interface Worth {
+  flight_usd: number
+  /** What the aircraft can earn once it is ready there. */
+  onward_usd: number
+  passengers_usd: number
+  stand_usd: number
+  worth_usd: number
+}
+
+/** The parts of a worth; undefined if the policy has no prices. */
+export function worthOf(alternative: Alternative): Worth | undefined {
+  const { worth_usd, stand_price_usd, passenger_price_usd, passengers, flight_profit_usd } = alternative
+  if (worth_usd == null) return undefined
+  const passengers_usd = -(passenger_price_usd ?? 0) * passengers
+  const stand_usd = -(stand_price_usd ?? 0)
+  const onward_usd = worth_usd - flight_profit_usd - passengers_usd - stand_usd
+  return { flight_usd: flight_profit_usd, onward_usd, passengers_usd, stand_usd, worth_usd }
+}
+
+/** A decision that was taken, and whether it still can be taken back. */
+export interface Decided {
+  seq: number
+  aircraft: string
+  to: string
+  at: Seconds
+  actor: string
+  policy: string | undefined
+  insteadOf: string | undefined
+  reason: string | undefined
+  canBeUndone: boolean
+}
+
+/** The latest decisions, newest first. One can be undone as long as nothing has happened to its aircraft since. */
+export function decidedLately(events: readonly TakenEvent[], most: number): Decided[] {
+  const decided: Decided[] = []
+  const goneOn = new Set<string>()
+  for (let at = events.length - 1; at >= 0 && decided.length < most; at--) {
+    const taken = events[at]
+    if (taken === undefined || !('aircraft' in taken.event)) continue
+    const { event } = taken
+    if (event.type === 'decided' && !goneOn.has(`undone ${event.aircraft}`))
+      decided.push(decidedOf(taken, event, goneOn))
+    if (event.type === 'undone') goneOn.add(`undone ${event.aircraft}`)
+    else if (event.type === 'decided') goneOn.delete(`undone ${event.aircraft}`)
+    if (event.type === 'decided' || event.type === 'departed' || event.type === 'landed')
+      goneOn.add(event.aircraft)
+  }
+  return decided
+}
+
+type DecidedEvent = Extract<TakenEvent['event'], { type: 'decided' }>
+
+function decidedOf({ seq, actor }: TakenEvent, event: DecidedEvent, goneOn: Set<string>): Decided {
+  return {
+    seq,
+    aircraft: event.aircraft,
+    to: event.to,
+    at: timeOf(event.time ?? 0),
+    actor,
+    policy: event.policy ?? undefined,
+    insteadOf: event.instead_of ?? undefined,
+    reason: event.reason ?? undefined,
+    canBeUndone: !goneOn.has(event.aircraft),
+  }
+}

@@ -1,0 +1,100 @@
+import { describe, expect, it } from 'vitest'
+import type { DayState, Outlook, TakenEvent } from '../api/types'
+import answers from './fixtures/live-day.json'
+import { liveRecord } from './live'
+import { isHold, type DayRecord } from './record'
+import { Reports } from './reports'
+import type { Scenario } from './scenario'
+import { timeOf } from './time'
+
+const scenario = answers.scenario as Scenario
+const state = answers.state as DayState
+const outlook = answers.outlook as Outlook
+const events = answers.events.events as unknown as TakenEvent[]
+const [north, east, south] = [0, 1, 2]
+const [a01, a02, a03, a04, a05] = [0, 1, 2, 3, 4]
+
+function recordAfter(numberOfEvents: number, given: Outlook | null = outlook): DayRecord {
+  const reports = new Reports(scenario)
+  for (const event of events.slice(0, numberOfEvents)) reports.take(event)
+  return liveRecord({ scenario, reports, state, outlook: given ?? undefined })
+}
+
+const record = recordAfter(events.length)
+const taken = (aircraft: number) => record.legs.filter((leg) => leg.aircraft === aircraft && !leg.is_expected)
+
+describe('the record of a live day', () => {
+  it('has every leg of the outlook, in the order of decisions', () => {
+    expect(record.legs).toHaveLength(outlook.legs.length)
+    const times = record.legs.map((leg) => leg.decided)
+    expect(times).toEqual([...times].sort((one, other) => one - other))
+    expect(record.legs.filter((leg) => leg.is_expected)).toHaveLength(
+      outlook.legs.filter((leg) => !leg.is_taken).length,
+    )
+  })
+
+  it('has what was reported in the place of what was planned', () => {
+    const [late] = taken(a02)
+    expect(late).toMatchObject({
+      from: north,
+      to: south,
+      departs: timeOf('06:11:30'),
+      arrives: timeOf('06:54:06'),
+    })
+    expect(late?.planned?.departs).toBe(timeOf('06:00:00'))
+    expect(late?.planned?.arrives).toBe(timeOf('06:42:36'))
+    const [landed] = taken(a01)
+    expect(landed).toMatchObject({ to: east, departs: timeOf('06:00:00'), arrives: timeOf('06:45:00') })
+    expect(landed?.planned?.arrives).toBe(timeOf('06:41:40'))
+  })
+
+  it('knows holds, and nothing of decisions that were taken back', () => {
+    const [hold, flight] = taken(a03)
+    expect(hold !== undefined && isHold(hold)).toBe(true)
+    expect(flight).toMatchObject({ from: east, to: north, departs: timeOf('06:47:00') })
+    expect(flight?.planned).toBeUndefined()
+    expect(taken(a03)).toHaveLength(2)
+    expect(taken(a05)).toHaveLength(0)
+  })
+
+  it('shows flights of which only the state knows', () => {
+    const { legs } = recordAfter(events.length, null)
+    expect(legs.map((leg) => [leg.aircraft, leg.to, leg.departs])).toEqual([
+      [a02, south, timeOf('06:11:30')],
+      [a03, north, timeOf('06:47:00')],
+    ])
+  })
+
+  it('drops what an older outlook expected of an aircraft that was sent off since', () => {
+    const older: Outlook = {
+      ...outlook,
+      legs: outlook.legs.filter((leg) => !(leg.aircraft === 'A03' && leg.is_taken)),
+    }
+    const legs = recordAfter(events.length, older).legs.filter((leg) => leg.aircraft === a03)
+    expect(legs[0]).toMatchObject({ is_expected: false, to: north, profit_usd: 0 })
+    expect(legs.slice(1).every((leg) => leg.decided >= timeOf('07:52:21'))).toBe(true)
+  })
+
+  it('knows who is out of service, and until when', () => {
+    expect(record.outages).toEqual([
+      { aircraft: a04, since: timeOf('06:13:00'), until: timeOf('07:30:00'), reason: 'bird strike' },
+    ])
+  })
+
+  it('takes a closed vertiport apart when one of its routes opens', () => {
+    expect(recordAfter(10).closures).toEqual([
+      { vertiport: south, since: timeOf('06:20:00'), until: timeOf('08:00:00'), reason: 'fog' },
+    ])
+    const inForce = recordAfter(11).closures.filter((one) => (one.until ?? Infinity) > timeOf('06:30:00'))
+    const routes = inForce.map((one) => ('vertiport' in one ? 'all' : `${one.from}-${one.to}`))
+    expect(routes.sort()).toEqual([`${north}-${south}`, `${east}-${south}`, `${south}-${east}`].sort())
+  })
+
+  it('counts those who were carried before demand was reported', () => {
+    expect(scenario.demand[0]?.[north]?.[east]).toBe(5)
+    expect(record.demand?.passengers[0]?.[north]?.[east]).toBe(5 + 4)
+    expect(record.demand?.passengers[1]?.[south]?.[north]).toBe(
+      (scenario.demand[1]?.[south]?.[north] ?? 0) + 9,
+    )
+  })
+})

@@ -1,0 +1,200 @@
+// A live day as a record: its scenario, what its events said, and how the service expects it to go on.
+
+import type { DayState, Leg, Outlook } from '../api/types'
+import type { AircraftRecord, DayRecord, DemandRecord, LegRecord, Seconds, VertiportRecord } from './record'
+import { indexed, known, type Reports } from './reports'
+import type { Scenario } from './scenario'
+import { timeOf } from './time'
+
+/** Everything that a record is made of. The outlook may be older than the state, or not be there yet. */
+export interface LiveSources {
+  scenario: Scenario
+  reports: Reports
+  state: DayState
+  outlook: Outlook | undefined
+}
+
+export function liveRecord({ scenario, reports, state, outlook }: LiveSources): DayRecord {
+  const expected = outlook === undefined ? [] : legsOf(outlook, scenario)
+  const legs = new Legs(scenario, reports, expected).broughtUpTo(state)
+  return { ...frameOf(scenario), legs, ...whatIsKnown(scenario, reports, legs) }
+}
+
+/** What a record has from its scenario alone. */
+export function frameOf(scenario: Scenario): Omit<DayRecord, 'legs' | 'closures' | 'outages' | 'demand'> {
+  const vertiports = indexed(scenario.vertiports)
+  return {
+    name: scenario.name,
+    start: timeOf(scenario.operations.start),
+    end: timeOf(scenario.operations.end),
+    takeoff_s: scenario.operations.takeoff_s,
+    landing_s: scenario.operations.landing_s,
+    vertiports: scenario.vertiports.map(vertiportOf),
+    aircraft: scenario.aircraft.map((one) => aircraftOf(scenario, one, known(vertiports, one.at))),
+    periods: scenario.periods.map(timeOf),
+  }
+}
+
+function vertiportOf({ id, x_mi, y_mi, stands, ...more }: Scenario['vertiports'][number]): VertiportRecord {
+  const { latitude, longitude, chargers } = more
+  const degrees = latitude === undefined || longitude === undefined ? {} : { latitude, longitude }
+  return { id, place: { x_mi, y_mi, ...degrees }, stands, ...(chargers === undefined ? {} : { chargers }) }
+}
+
+function aircraftOf(
+  scenario: Scenario,
+  { id, type }: { id: string; type: string },
+  begins_at: number,
+): AircraftRecord {
+  const kind = scenario.aircraft_types.find((one) => one.id === type)
+  if (kind === undefined) throw new Error(`the scenario has no aircraft type "${type}"`)
+  const { seats, battery_kwh, charge_kw, energy_kwh_per_mi } = kind
+  return { id, type, seats, battery_kwh, charge_kw, energy_kwh_per_mi, begins_at }
+}
+
+function whatIsKnown(
+  scenario: Scenario,
+  reports: Reports,
+  legs: LegRecord[],
+): Pick<DayRecord, 'closures' | 'outages' | 'demand'> {
+  const [closures, outages] = [
+    reports.closures.map((one) => ({ ...one })),
+    reports.outages.map((one) => ({ ...one })),
+  ]
+  return { closures, outages, demand: demandOf(scenario, reports, legs) }
+}
+
+/** The legs of outlooks, read once: a day is drawn many times with one outlook. */
+const readLegs = new WeakMap<Outlook, LegRecord[]>()
+
+/** The legs of an outlook, in its order, which is that of decisions. */
+function legsOf(outlook: Outlook, scenario: Scenario): LegRecord[] {
+  const former = readLegs.get(outlook)
+  if (former !== undefined) return former
+  const [aircraft, vertiports] = [indexed(scenario.aircraft), indexed(scenario.vertiports)]
+  const legs = outlook.legs.map((leg) => legOf(leg, aircraft, vertiports))
+  readLegs.set(outlook, legs)
+  return legs
+}
+
+function legOf(leg: Leg, aircraft: Map<string, number>, vertiports: Map<string, number>): LegRecord {
+  const decided = timeOf(leg.time)
+  return {
+    aircraft: known(aircraft, leg.aircraft),
+    from: known(vertiports, leg.from),
+    to: known(vertiports, leg.to),
+    decided,
+    departs: decided,
+    arrives: timeOf(leg.arrival),
+    ready: timeOf(leg.ready),
+    passengers: leg.passengers,
+    profit_usd: leg.profit_usd,
+    is_expected: !leg.is_taken,
+  }
+}
+
+/** The legs of an outlook, brought up to date by what was reported and by the state. */
+class Legs {
+  readonly #legs: LegRecord[]
+  /** The latest decision of each aircraft. */
+  readonly #latest = new Map<number, LegRecord>()
+
+  constructor(
+    private readonly scenario: Scenario,
+    private readonly reports: Reports,
+    legs: LegRecord[],
+  ) {
+    this.#legs = legs.map((leg) => (leg.is_expected ? leg : this.#reported(leg)))
+    for (const leg of this.#legs) if (!leg.is_expected) this.#latest.set(leg.aircraft, leg)
+  }
+
+  /** Takes what the state knows of every aircraft, which may be newer than the outlook. */
+  broughtUpTo(state: DayState): LegRecord[] {
+    const more: LegRecord[] = []
+    const [ids, places] = [indexed(this.scenario.aircraft), indexed(this.scenario.vertiports)]
+    for (const one of state.aircraft) {
+      const aircraft = known(ids, one.id)
+      const times = { arrives: timeOf(one.arrival), ready: timeOf(one.ready) }
+      const latest = this.#latest.get(aircraft)
+      if (one.flight == null) {
+        const isSame = latest !== undefined && latest.from !== latest.to && !one.out_of_service
+        if (isSame) Object.assign(latest, times)
+        continue
+      }
+      const { passengers } = one.flight
+      const decided = timeOf(one.flight.decided)
+      if (latest?.decided === decided)
+        Object.assign(latest, this.#reported({ ...latest, ...times, passengers }))
+      else {
+        const [from, to] = [known(places, one.flight.from), known(places, one.flight.to)]
+        const flight = { aircraft, from, to, decided, departs: decided, ...times }
+        more.push(this.#reported({ ...flight, passengers, profit_usd: 0, is_expected: false }))
+      }
+    }
+    return more.length === 0 ? this.#legs : this.#with(more)
+  }
+
+  /** With legs of which the outlook knows nothing yet. What it expected of these aircraft before they are ready is void. */
+  #with(more: LegRecord[]): LegRecord[] {
+    const readyAt = new Map(more.map((leg) => [leg.aircraft, leg.ready]))
+    const isVoid = (leg: LegRecord) => leg.is_expected && leg.decided < (readyAt.get(leg.aircraft) ?? 0)
+    const legs = [...this.#legs.filter((leg) => !isVoid(leg)), ...more]
+    return legs.sort((one, other) => one.decided - other.decided || one.aircraft - other.aircraft)
+  }
+
+  /** A leg with when it left, who decided, and what had been planned if something else came of it. */
+  #reported(leg: LegRecord): LegRecord {
+    const report = this.reports.decision(leg.aircraft, leg.decided)
+    const policy = report?.policy === undefined ? {} : { policy: report.policy }
+    if (leg.from === leg.to) return { ...leg, ...policy }
+    const departs = report?.departs ?? leg.decided
+    const arrives = leg.decided + this.#flightTime(leg)
+    if (departs === leg.decided && leg.arrives === arrives) return { ...leg, ...policy, departs }
+    const planned = { departs: leg.decided, arrives, ready: arrives + leg.ready - leg.arrives }
+    return { ...leg, ...policy, departs, planned }
+  }
+
+  /** How long a flight takes if nothing holds it up (the model of the book): the way at cruise speed between two windows. */
+  #flightTime({ aircraft, from, to }: LegRecord): Seconds {
+    const { takeoff_s, landing_s } = this.scenario.operations
+    const type = this.scenario.aircraft[aircraft]?.type
+    const speed_mph = this.scenario.aircraft_types.find((one) => one.id === type)?.speed_mph ?? 1
+    const distance_mi = this.scenario.distance_mi[from]?.[to] ?? 0
+    return takeoff_s + Math.round((distance_mi / speed_mph) * 3600) + landing_s
+  }
+}
+
+/** How many want to fly: the forecast, and what the events said in its place. */
+function demandOf(scenario: Scenario, reports: Reports, legs: LegRecord[]): DemandRecord {
+  const passengers = (scenario.forecast ?? scenario.demand).map((table) => table.map((row) => [...row]))
+  const carried = new Carried(legs, reports.periods)
+  for (const { period, from, to, left, more } of reports.demand) {
+    const row = passengers[period]?.[from]
+    if (row === undefined) continue
+    const known =
+      left === undefined ? (row[to] ?? 0) : left.passengers + carried.before(left.at, period, from, to)
+    row[to] = Math.max(0, known + more)
+  }
+  return { passengers }
+}
+
+/** Passengers who were carried, by period and pair: a report of demand counts only those who are left. */
+class Carried {
+  readonly #legs = new Map<string, LegRecord[]>()
+
+  constructor(legs: LegRecord[], periods: Seconds[]) {
+    for (const leg of legs) {
+      if (leg.is_expected || leg.passengers === 0) continue
+      const period = periods.findLastIndex((begins) => begins <= leg.decided)
+      const name = `${period} ${leg.from} ${leg.to}`
+      const others = this.#legs.get(name)
+      if (others === undefined) this.#legs.set(name, [leg])
+      else others.push(leg)
+    }
+  }
+
+  before(time: Seconds, period: number, from: number, to: number): number {
+    const legs = this.#legs.get(`${period} ${from} ${to}`) ?? []
+    return legs.reduce((sum, leg) => (leg.decided < time ? sum + leg.passengers : sum), 0)
+  }
+}

@@ -1,0 +1,35 @@
+import { describe, expect, it } from 'vitest'
+import type { TakenEvent } from '../api/types'
+import { everything, eventTypes, isWanted, vertiportsOf, type LogFilter } from './log'
+import answers from './fixtures/live-day.json'
+
+const events = answers.events.events as unknown as TakenEvent[]
+const words = ({ event }: TakenEvent) => `${event.type} ${'reason' in event ? (event.reason ?? '') : ''}`
+const wanted = (filter: Partial<LogFilter>) =>
+  events.filter((one) => isWanted(one, { ...everything, ...filter }, words)).map((one) => one.seq)
+
+describe('the log', () => {
+  it('has everything as long as nothing is looked for', () => {
+    expect(wanted({})).toHaveLength(events.length)
+  })
+
+  it('is filtered by what happened, to which aircraft, and where', () => {
+    expect(wanted({ type: 'undone' })).toEqual([7])
+    expect(wanted({ aircraft: 'A04' })).toEqual([9])
+    expect(wanted({ vertiport: 'South' })).toEqual([3, 10, 11, 14, 15])
+    expect(wanted({ vertiport: 'South', type: 'closed' })).toEqual([10, 15])
+    expect(wanted({ actor: 'somebody' })).toEqual([])
+  })
+
+  it('finds every word of a text, wherever it stands', () => {
+    expect(wanted({ text: 'FOG closed' })).toEqual([10])
+    expect(wanted({ text: 'fog' })).toEqual([8, 10])
+  })
+})
+
+it('every type of event can be looked for, and says where it was', () => {
+  for (const { event } of events) {
+    expect(eventTypes).toContain(event.type)
+    expect(Array.isArray(vertiportsOf(event))).toBe(true)
+  }
+})

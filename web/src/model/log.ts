@@ -1,0 +1,76 @@
+// The log of a day: which of its events a person wants to see.
+
+import type { Event, TakenEvent } from '../api/types'
+
+export const eventTypes = [
+  'decided',
+  'undone',
+  'departed',
+  'landed',
+  'charging',
+  'ready',
+  'delayed',
+  'out_of_service',
+  'back_in_service',
+  'closed',
+  'reopened',
+  'demand',
+  'booked',
+  'cancelled',
+  'stands',
+  'clock',
+] as const satisfies readonly Event['type'][]
+
+/** What is looked for; an empty text means all. */
+export interface LogFilter {
+  text: string
+  type: string
+  aircraft: string
+  vertiport: string
+  actor: string
+}
+
+export const everything: LogFilter = { text: '', type: '', aircraft: '', vertiport: '', actor: '' }
+
+/** Whether an event is looked for. `words` is what a person reads of it. */
+export function isWanted(
+  taken: TakenEvent,
+  filter: LogFilter,
+  words: (taken: TakenEvent) => string,
+): boolean {
+  const { event, actor } = taken
+  if (filter.type !== '' && event.type !== filter.type) return false
+  if (filter.actor !== '' && actor !== filter.actor) return false
+  if (filter.aircraft !== '' && !('aircraft' in event && event.aircraft === filter.aircraft)) return false
+  if (filter.vertiport !== '' && !vertiportsOf(event).includes(filter.vertiport)) return false
+  if (filter.text === '') return true
+  const said = `${words(taken)} ${actor} ${taken.notices.join(' ')} ${taken.seq}`.toLowerCase()
+  return filter.text
+    .toLowerCase()
+    .split(/\s+/)
+    .every((word) => said.includes(word))
+}
+
+/** The vertiports that an event names. */
+export function vertiportsOf(event: Event): string[] {
+  switch (event.type) {
+    case 'decided':
+      return [event.to]
+    case 'departed':
+      return event.to == null ? [] : [event.to]
+    case 'landed':
+      return event.at == null ? [] : [event.at]
+    case 'closed':
+    case 'reopened':
+      return 'vertiport' in event.routes ? [event.routes.vertiport] : [event.routes.from, event.routes.to]
+    case 'demand':
+      return [...new Set(event.pairs.flatMap(({ from, to }) => [from, to]))]
+    case 'booked':
+    case 'cancelled':
+      return [event.from, event.to]
+    case 'stands':
+      return [event.vertiport]
+    default:
+      return []
+  }
+}

@@ -1,0 +1,29 @@
+import { expect, it } from 'vitest'
+import { count, countDifference, dollarDifference, dollars, dollarsAndCents, percent } from './money'
+
+it('writes sums in whole dollars and flights with cents', () => {
+  expect(dollars(37_149.4)).toBe('$37,149')
+  expect(dollars(-12.6)).toBe('−$13')
+  expect(dollarsAndCents(96.018)).toBe('$96.02')
+  expect(dollarsAndCents(-31.744)).toBe('−$31.74')
+})
+
+it('never writes a minus before nothing', () => {
+  expect(dollars(-0.2)).toBe('$0')
+  expect(dollarsAndCents(-0.001)).toBe('$0.00')
+})
+
+it('shows the sign of every difference', () => {
+  expect([dollarDifference(120.2), dollarDifference(-85), dollarDifference(0.3)]).toEqual([
+    '+$120',
+    '−$85',
+    '±$0',
+  ])
+  expect([countDifference(3), countDifference(-1204), countDifference(0)]).toEqual(['+3', '−1,204', '±0'])
+})
+
+it('writes counts and shares', () => {
+  expect(count(25_892)).toBe('25,892')
+  expect(percent(0.8449)).toBe('84 %')
+  expect(percent(0.8449, 1)).toBe('84.5 %')
+})

@@ -1,0 +1,46 @@
+// Dollars as a person reads them: whole in sums, with cents where one flight is looked at, and always with their sign where
+// they are a difference.
+
+const whole = new Intl.NumberFormat('en-US', { maximumFractionDigits: 0 })
+const cents = new Intl.NumberFormat('en-US', { minimumFractionDigits: 2, maximumFractionDigits: 2 })
+
+/** The minus of typography, which is as wide as a digit. */
+const MINUS = '−'
+
+/** `$37,149` for sums of a day. */
+export function dollars(amount_usd: number): string {
+  return signed(amount_usd, whole, '')
+}
+
+/** `$96.02` for one flight. */
+export function dollarsAndCents(amount_usd: number): string {
+  return signed(amount_usd, cents, '')
+}
+
+/** `+$120`, `−$85` or `±$0` for differences. */
+export function dollarDifference(amount_usd: number): string {
+  return Math.round(amount_usd) === 0 ? '±$0' : signed(amount_usd, whole, '+')
+}
+
+/** `12,345` passengers, flights, events. */
+export function count(number: number): string {
+  return signed(number, whole, '').replace('$', '')
+}
+
+/** `+12`, `−3` or `±0`. */
+export function countDifference(number: number): string {
+  return number === 0 ? '±0' : signed(number, whole, '+').replace('$', '')
+}
+
+/** `84 %` of a share. */
+export function percent(share: number, digits = 0): string {
+  const factor = 10 ** digits
+  return `${(Math.round(share * 100 * factor) / factor).toFixed(digits)} %`
+}
+
+function signed(amount: number, format: Intl.NumberFormat, plus: string): string {
+  const text = format.format(Math.abs(amount))
+  const isZero = !/[1-9]/.test(text)
+  const sign = isZero ? '' : amount < 0 ? MINUS : plus
+  return `${sign}$${text}`
+}

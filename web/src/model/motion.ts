@@ -1,0 +1,207 @@
+// Where every aircraft is at a moment, what it does there, and how full its battery is about. A fleet is prepared once for a
+// record; a frame then takes a search in the legs of each aircraft and allocates nothing.
+
+import { at, countUpTo } from './arrays'
+import { Geography } from './geography'
+import type { AircraftRecord, DayRecord, LegRecord, Seconds } from './record'
+import { isHold } from './record'
+
+/** What an aircraft does. */
+export const Phase = {
+  /** It is ready, and nobody has decided where it goes. */
+  waiting: 0,
+  charging: 1,
+  holding: 2,
+  /** It is to fly, but may not take off yet. */
+  delayed: 3,
+  flying: 4,
+  /** It is out of service. */
+  out: 5,
+} as const
+export type Phase = (typeof Phase)[keyof typeof Phase]
+
+/** Where nothing is: an aircraft without a leg, or in the air and so at no vertiport. */
+export const NONE = -1
+
+/** The fleet at a moment, an element for each aircraft. */
+export class FleetFrame {
+  time: Seconds = NaN
+  /** Degrees or miles east and north, two for each aircraft. */
+  readonly places: Float64Array
+  /** Degrees clockwise from north; 0 while the aircraft stands. */
+  readonly headings: Float32Array
+  /** 0 on the ground, 1 at cruise. */
+  readonly lifts: Float32Array
+  readonly phases: Uint8Array
+  /** An estimate of the share of the battery that is charged, 0 to 1. */
+  readonly charges: Float32Array
+  /** Position in the record's legs of the leg that the aircraft is on, or NONE before the first. */
+  readonly legs: Int32Array
+  /** The vertiport where it stands, or NONE in the air. */
+  readonly stands: Int32Array
+
+  constructor(readonly size: number) {
+    this.places = new Float64Array(2 * size)
+    this.headings = new Float32Array(size)
+    this.lifts = new Float32Array(size)
+    this.phases = new Uint8Array(size)
+    this.charges = new Float32Array(size)
+    this.legs = new Int32Array(size)
+    this.stands = new Int32Array(size)
+  }
+}
+
+/** The legs of all aircraft, one aircraft after the other, as numbers. */
+export class Fleet {
+  readonly geography: Geography
+  /** Where the legs of each aircraft begin; one more element than aircraft. */
+  readonly #begins: Int32Array
+  readonly #legs: Int32Array
+  readonly #decided: Float64Array
+  readonly #chargeAtDeparture: Float32Array
+  readonly #chargeAtArrival: Float32Array
+
+  constructor(readonly record: DayRecord) {
+    const { aircraft, legs } = record
+    this.geography = new Geography(record.vertiports)
+    this.#begins = new Int32Array(aircraft.length + 1)
+    this.#legs = new Int32Array(legs.length)
+    this.#decided = new Float64Array(legs.length)
+    this.#chargeAtDeparture = new Float32Array(legs.length)
+    this.#chargeAtArrival = new Float32Array(legs.length)
+    this.#sortByAircraft()
+    aircraft.forEach((one, index) => this.#estimateCharges(one, index))
+  }
+
+  /** A counting sort, which keeps the order of time. */
+  #sortByAircraft(): void {
+    const { legs } = this.record
+    for (const leg of legs) this.#begins[leg.aircraft + 1] = at(this.#begins, leg.aircraft + 1) + 1
+    for (let one = 1; one < this.#begins.length; one++) {
+      this.#begins[one] = at(this.#begins, one) + at(this.#begins, one - 1)
+    }
+    const next = this.#begins.slice()
+    legs.forEach((leg, index) => {
+      const slot = at(next, leg.aircraft)
+      next[leg.aircraft] = slot + 1
+      this.#legs[slot] = index
+      this.#decided[slot] = leg.decided
+    })
+  }
+
+  /** Days begin with full batteries; a flight takes energy by the mile, and charging begins at arrival. */
+  #estimateCharges(aircraft: AircraftRecord, index: number): void {
+    let former: LegRecord | undefined
+    let charge = 1
+    for (let slot = at(this.#begins, index); slot < at(this.#begins, index + 1); slot++) {
+      const leg = this.#legAt(slot)
+      if (former !== undefined) charge = chargedSince(charge, aircraft, leg.departs - former.arrives)
+      this.#chargeAtDeparture[slot] = charge
+      const energy_kwh = aircraft.energy_kwh_per_mi * this.geography.distance(leg.from, leg.to)
+      charge = Math.max(0, charge - energy_kwh / aircraft.battery_kwh)
+      this.#chargeAtArrival[slot] = charge
+      former = leg
+    }
+  }
+
+  #legAt(slot: number): LegRecord {
+    return at(this.record.legs, at(this.#legs, slot))
+  }
+
+  /** A frame of the right size, to be filled by `show` again and again. */
+  frame(): FleetFrame {
+    return new FleetFrame(this.record.aircraft.length)
+  }
+
+  /** The legs of an aircraft as positions in the record's legs, in the order of time. */
+  legsOf(aircraft: number): Int32Array {
+    return this.#legs.subarray(at(this.#begins, aircraft), at(this.#begins, aircraft + 1))
+  }
+
+  /** Writes the fleet at a moment to a frame. */
+  show(time: Seconds, frame: FleetFrame): void {
+    frame.time = time
+    for (let one = 0; one < frame.size; one++) this.#showAircraft(one, time, frame)
+    for (const outage of this.record.outages) {
+      const isOut = time >= outage.since && time < (outage.until ?? Infinity)
+      if (isOut && at(frame.stands, outage.aircraft) !== NONE) frame.phases[outage.aircraft] = Phase.out
+    }
+  }
+
+  #showAircraft(one: number, time: Seconds, frame: FleetFrame): void {
+    const begin = at(this.#begins, one)
+    const taken = countUpTo(this.#decided, time, begin, at(this.#begins, one + 1) - begin)
+    if (taken === 0) this.#showAtStart(one, frame)
+    else this.#showOnLeg(one, begin + taken - 1, time, frame)
+  }
+
+  #showAtStart(one: number, frame: FleetFrame): void {
+    const aircraft = at(this.record.aircraft, one)
+    this.#stand(one, aircraft.begins_at, frame)
+    frame.legs[one] = NONE
+    frame.charges[one] = 1
+    frame.phases[one] = Phase.waiting
+  }
+
+  #showOnLeg(one: number, slot: number, time: Seconds, frame: FleetFrame): void {
+    const aircraft = at(this.record.aircraft, one)
+    const leg = this.#legAt(slot)
+    frame.legs[one] = at(this.#legs, slot)
+    if (time < leg.departs || (isHold(leg) && time < leg.ready)) {
+      this.#stand(one, leg.from, frame)
+      frame.phases[one] = isHold(leg) ? Phase.holding : Phase.delayed
+      frame.charges[one] = chargedSince(at(this.#chargeAtDeparture, slot), aircraft, time - leg.departs)
+    } else if (time < leg.arrives) {
+      this.#fly(one, leg, time, frame)
+      const [before, after] = [at(this.#chargeAtDeparture, slot), at(this.#chargeAtArrival, slot)]
+      frame.charges[one] = before + (after - before) * shareOfTime(leg, time)
+    } else {
+      this.#stand(one, leg.to, frame)
+      frame.phases[one] = time < leg.ready ? Phase.charging : Phase.waiting
+      frame.charges[one] = chargedSince(at(this.#chargeAtArrival, slot), aircraft, time - leg.arrives)
+    }
+  }
+
+  #stand(one: number, vertiport: number, frame: FleetFrame): void {
+    frame.places[2 * one] = at(this.geography.places, 2 * vertiport)
+    frame.places[2 * one + 1] = at(this.geography.places, 2 * vertiport + 1)
+    frame.headings[one] = 0
+    frame.lifts[one] = 0
+    frame.stands[one] = vertiport
+  }
+
+  #fly(one: number, leg: LegRecord, time: Seconds, frame: FleetFrame): void {
+    const { takeoff_s, landing_s } = this.record
+    const [flown_s, left_s] = [time - leg.departs, leg.arrives - time]
+    const share = shareOfWay(flown_s, left_s, takeoff_s, landing_s)
+    this.geography.along(leg.from, leg.to, share, frame.places, frame.headings, one)
+    frame.lifts[one] = Math.min(1, ramp(flown_s, takeoff_s), ramp(left_s, landing_s))
+    frame.phases[one] = Phase.flying
+    frame.stands[one] = NONE
+  }
+}
+
+/** The share of a flight's way that is behind it: the speed rises evenly over the take-off and falls evenly over the landing. */
+export function shareOfWay(flown_s: number, left_s: number, takeoff_s: number, landing_s: number): number {
+  const total_s = flown_s + left_s
+  if (total_s <= 0) return 1
+  // A flight that is shorter than its take-off and landing spends its time on them in proportion.
+  const fit = Math.min(1, total_s / Math.max(takeoff_s + landing_s, 1e-9))
+  const [up_s, down_s] = [takeoff_s * fit, landing_s * fit]
+  const whole = total_s - (up_s + down_s) / 2
+  if (flown_s < up_s) return flown_s ** 2 / (2 * up_s) / whole
+  if (left_s < down_s) return 1 - left_s ** 2 / (2 * down_s) / whole
+  return (flown_s - up_s / 2) / whole
+}
+
+function ramp(passed_s: number, whole_s: number): number {
+  return whole_s <= 0 ? 1 : passed_s / whole_s
+}
+
+function shareOfTime(leg: LegRecord, time: Seconds): number {
+  return (time - leg.departs) / Math.max(leg.arrives - leg.departs, 1e-9)
+}
+
+function chargedSince(charge: number, aircraft: AircraftRecord, seconds: number): number {
+  return Math.min(1, charge + (aircraft.charge_kw * Math.max(0, seconds)) / 3600 / aircraft.battery_kwh)
+}

@@ -1,0 +1,68 @@
+import { describe, expect, it } from 'vitest'
+import { Pace } from './pace'
+
+/** Shows the clock sixty times a second from one instant to another. */
+function frames(pace: Pace, from_ms: number, to_ms: number): number[] {
+  const shown: number[] = []
+  for (let at = from_ms; at <= to_ms; at += 1000 / 60) shown.push(pace.at(at))
+  return shown
+}
+
+describe('the clock of a day', () => {
+  it('stands still while only one time is known', () => {
+    const pace = new Pace()
+    pace.hear(21_600, 0)
+    expect(pace.at(0)).toBe(21_600)
+    expect(pace.at(60_000)).toBe(21_600)
+  })
+
+  it('goes on between events at the speed that was observed', () => {
+    const pace = new Pace()
+    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    expect(pace.speed).toBeCloseTo(60)
+    pace.at(10_000)
+    expect(pace.at(10_500)).toBeCloseTo(22_230, -1)
+  })
+
+  it('neither jumps nor runs back when events come in bursts', () => {
+    const pace = new Pace()
+    const shown: number[] = []
+    let before = 0
+    for (const at of [0, 900, 2100, 2900, 4300, 5000, 6200, 7000, 8300, 9000, 10_100]) {
+      shown.push(...frames(pace, before, at))
+      pace.hear(21_600 + Math.round(at * 0.06), at)
+      before = at
+    }
+    const steps = shown.slice(240).map((time, index, all) => time - (all[index - 1] ?? time))
+    expect(Math.min(...steps)).toBeGreaterThanOrEqual(0)
+    expect(Math.max(...steps)).toBeLessThan(4)
+  })
+
+  it('waits when no news comes', () => {
+    const pace = new Pace()
+    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    pace.at(10_000)
+    frames(pace, 10_000, 20_000)
+    const late = pace.at(20_000)
+    frames(pace, 20_000, 60_000)
+    expect(pace.at(60_000)).toBeCloseTo(late)
+    expect(late).toBeLessThan(22_200 + 60 * 2)
+  })
+
+  it('stops when the day is over', () => {
+    const pace = new Pace()
+    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    pace.at(10_500)
+    pace.end(22_200, 10_600)
+    expect([pace.at(10_700), pace.at(60_000)]).toEqual([22_200, 22_200])
+    expect(pace.speed).toBe(0)
+  })
+
+  it('jumps when a person comes back to a page that slept', () => {
+    const pace = new Pace()
+    for (let second = 0; second <= 10; second++) pace.hear(21_600 + second, 1000 * second)
+    pace.at(10_000)
+    pace.hear(25_200, 3_600_000)
+    expect(pace.at(3_600_000)).toBeGreaterThanOrEqual(25_200)
+  })
+})

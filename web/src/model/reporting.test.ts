@@ -1,0 +1,37 @@
+import { describe, expect, it } from 'vitest'
+import { eventOf, fieldsOf, reportKinds, type EventFields } from './reporting'
+
+const fields: EventFields = { aircraft: 'A01', from: 'V1', to: '', until: '12:30', number: 3 }
+
+describe('an event that is filled in', () => {
+  it('has what its kind needs and nothing else', () => {
+    expect(eventOf('departed', fields)).toEqual({ type: 'departed', aircraft: 'A01' })
+    expect(eventOf('delayed', fields)).toEqual({ type: 'delayed', aircraft: 'A01', until: '12:30:00' })
+    expect(eventOf('closed', fields)).toEqual({
+      type: 'closed',
+      routes: { vertiport: 'V1' },
+      until: '12:30:00',
+    })
+    expect(eventOf('closed', { ...fields, to: 'V2', until: '' })).toEqual({
+      type: 'closed',
+      routes: { from: 'V1', to: 'V2' },
+    })
+    expect(eventOf('stands', fields)).toEqual({ type: 'stands', vertiport: 'V1', stands: 3 })
+  })
+
+  it('is none without a time where there has to be one, or with a time that is none', () => {
+    expect(eventOf('delayed', { ...fields, until: '' })).toBeUndefined()
+    expect(eventOf('out_of_service', { ...fields, until: 'noon' })).toBeUndefined()
+    expect(eventOf('out_of_service', { ...fields, until: '' })).toEqual({
+      type: 'out_of_service',
+      aircraft: 'A01',
+    })
+  })
+
+  it('can be of every kind', () => {
+    for (const kind of reportKinds) {
+      expect(eventOf(kind, { ...fields, to: 'V2' })?.type).toBe(kind)
+      expect(Object.keys(fieldsOf(kind))).toHaveLength(5)
+    }
+  })
+})

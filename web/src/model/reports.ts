@@ -1,0 +1,228 @@
+// What the events of a day have said so far, as far as pictures show it: when flights left, what was closed, who was out of
+// service, how many want to fly. Events are taken one by one, once, so that an hour of them costs no more than its events.
+
+import type { Event, RouteNames, TakenEvent } from '../api/types'
+import type { ClosureRecord, OutageRecord, RouteRecord, Seconds } from './record'
+import type { Scenario } from './scenario'
+import { timeOf } from './time'
+
+/** What is known of a decision beside what the service's outlook says. */
+export interface ReportedDecision {
+  departs?: Seconds
+  hasDeparted: boolean
+  policy?: string
+}
+
+/** What was said of the passengers of a pair in a period. */
+export interface DemandReport extends RouteRecord {
+  period: number
+  /** So many still wanted to fly at a time. */
+  left?: { passengers: number; at: Seconds }
+  /** So many more want to since; negative if fewer. */
+  more: number
+}
+
+export class Reports {
+  readonly closures: ClosureRecord[] = []
+  readonly outages: OutageRecord[] = []
+  /** By period and pair; only what was said last counts. */
+  readonly #demand = new Map<string, DemandReport>()
+  readonly periods: Seconds[]
+  /** The number of the latest event that was taken. */
+  seq = 0
+  readonly #aircraft: Map<string, number>
+  readonly #vertiports: Map<string, number>
+  readonly #decisions = new Map<string, ReportedDecision>()
+  /** When the latest decision of each aircraft was taken. */
+  readonly #latest = new Map<number, Seconds>()
+
+  constructor(scenario: Scenario) {
+    this.#aircraft = indexed(scenario.aircraft)
+    this.#vertiports = indexed(scenario.vertiports)
+    this.periods = scenario.periods.map(timeOf)
+    for (const { from, to, both_ways, start, end, known } of scenario.closures ?? []) {
+      if (known !== true) continue
+      const route = { from: this.#vertiport(from), to: this.#vertiport(to) }
+      const ways = both_ways === true ? [route, { from: route.to, to: route.from }] : [route]
+      for (const way of ways) this.closures.push({ ...way, since: timeOf(start), until: timeOf(end) })
+    }
+  }
+
+  /** What is known of the decision that an aircraft took at a time. */
+  decision(aircraft: number, decided: Seconds): ReportedDecision | undefined {
+    return this.#decisions.get(key(aircraft, decided))
+  }
+
+  take({ seq, event }: TakenEvent): void {
+    this.seq = seq
+    const at = timeOf(event.time ?? 0)
+    if ('aircraft' in event) this.#takeOfAircraft(event, this.#aircraftAt(event.aircraft), at)
+    else if (event.type === 'closed') this.#close(event, at)
+    else if (event.type === 'reopened') this.#reopen(event.routes, at)
+    else this.#takeDemand(event, at)
+  }
+
+  #takeOfAircraft(event: Event & { aircraft: string }, aircraft: number, at: Seconds): void {
+    const decided = this.#latest.get(aircraft) ?? at
+    switch (event.type) {
+      case 'decided':
+        this.#latest.set(aircraft, at)
+        this.#decisions.set(key(aircraft, at), {
+          hasDeparted: false,
+          ...(event.policy == null ? {} : { policy: event.policy }),
+        })
+        break
+      case 'undone':
+        this.#decisions.delete(key(aircraft, decided))
+        break
+      case 'departed': {
+        const known = this.#decisions.get(key(aircraft, decided))
+        const time = known === undefined || known.hasDeparted ? at : decided
+        this.#latest.set(aircraft, time)
+        this.#decisions.set(key(aircraft, time), { ...known, departs: at, hasDeparted: true })
+        break
+      }
+      case 'delayed': {
+        const known = this.#decisions.get(key(aircraft, decided))
+        if (known?.hasDeparted === false) known.departs = timeOf(event.until)
+        break
+      }
+      case 'out_of_service':
+        this.#endOutage(aircraft, at)
+        this.outages.push({
+          aircraft,
+          since: at,
+          ...(event.until == null ? {} : { until: timeOf(event.until) }),
+          ...(event.reason == null ? {} : { reason: event.reason }),
+        })
+        break
+      case 'back_in_service':
+        this.#endOutage(aircraft, at)
+        break
+      default:
+    }
+  }
+
+  #endOutage(aircraft: number, at: Seconds): void {
+    const outage = this.outages.findLast((one) => one.aircraft === aircraft)
+    if (outage !== undefined && isInForce(outage, at)) outage.until = at
+  }
+
+  #close(event: Event & { type: 'closed' }, at: Seconds): void {
+    const closed = this.#routes(event.routes)
+    for (const former of this.closures.filter((one) => isInForce(one, at) && isOf(one, closed)))
+      former.until = at
+    this.closures.push({
+      ...closed,
+      since: at,
+      ...(event.until == null ? {} : { until: timeOf(event.until) }),
+      ...(event.reason == null ? {} : { reason: event.reason }),
+    })
+  }
+
+  /** Ends what is closed of these routes. A vertiport of which one route opens falls apart into its routes. */
+  #reopen(names: RouteNames, at: Seconds): void {
+    const opened = this.#routes(names)
+    for (const closure of this.closures.filter((one) => isInForce(one, at) && touches(one, opened))) {
+      if ('vertiport' in closure && !('vertiport' in opened)) {
+        const { vertiport, ...rest } = closure
+        for (const route of this.#routesOf(vertiport)) {
+          if (route.from !== opened.from || route.to !== opened.to)
+            this.closures.push({ ...rest, ...route, since: at })
+        }
+      }
+      closure.until = at
+    }
+  }
+
+  get demand(): Iterable<DemandReport> {
+    return this.#demand.values()
+  }
+
+  #takeDemand(event: Event, at: Seconds): void {
+    if (event.type === 'demand') {
+      const period = this.#period(timeOf(event.period))
+      for (const { from, to, passengers } of event.pairs) {
+        const report = this.#demandOf(period, from, to)
+        report.left = { passengers, at }
+        report.more = 0
+      }
+    } else if (event.type === 'booked' || event.type === 'cancelled') {
+      const report = this.#demandOf(this.#period(timeOf(event.period)), event.from, event.to)
+      report.more += event.type === 'booked' ? event.passengers : -event.passengers
+    }
+  }
+
+  #demandOf(period: number, origin: string, destination: string): DemandReport {
+    const [from, to] = [this.#vertiport(origin), this.#vertiport(destination)]
+    const name = `${period} ${from} ${to}`
+    const report = this.#demand.get(name) ?? { period, from, to, more: 0 }
+    this.#demand.set(name, report)
+    return report
+  }
+
+  #routes(names: RouteNames): RouteRecord | { vertiport: number } {
+    return 'vertiport' in names
+      ? { vertiport: this.#vertiport(names.vertiport) }
+      : { from: this.#vertiport(names.from), to: this.#vertiport(names.to) }
+  }
+
+  #routesOf(vertiport: number): RouteRecord[] {
+    const others = [...this.#vertiports.values()].filter((other) => other !== vertiport)
+    return others.flatMap((other) => [
+      { from: vertiport, to: other },
+      { from: other, to: vertiport },
+    ])
+  }
+
+  #period(time: Seconds): number {
+    return Math.max(
+      0,
+      this.periods.findLastIndex((begins) => begins <= time),
+    )
+  }
+
+  #vertiport(id: string): number {
+    return known(this.#vertiports, id)
+  }
+
+  #aircraftAt(id: string): number {
+    return known(this.#aircraft, id)
+  }
+}
+
+/** Positions by id. */
+export function indexed(things: { id: string }[]): Map<string, number> {
+  return new Map(things.map(({ id }, at) => [id, at]))
+}
+
+/** The position of an id that the service gave, which is always one of the scenario. */
+export function known(positions: Map<string, number>, id: string): number {
+  const at = positions.get(id)
+  if (at === undefined) throw new Error(`the scenario of the day has no "${id}"`)
+  return at
+}
+
+function key(aircraft: number, decided: Seconds): string {
+  return `${aircraft}@${decided}`
+}
+
+function isInForce({ since, until }: { since: Seconds; until?: Seconds }, at: Seconds): boolean {
+  return since <= at && (until === undefined || until > at)
+}
+
+/** Whether a closure closes just these routes. */
+function isOf(closure: ClosureRecord, routes: RouteRecord | { vertiport: number }): boolean {
+  if ('vertiport' in closure) return 'vertiport' in routes && closure.vertiport === routes.vertiport
+  return !('vertiport' in routes) && closure.from === routes.from && closure.to === routes.to
+}
+
+/** Whether a closure closes what opens, or a part of it. */
+function touches(closure: ClosureRecord, opened: RouteRecord | { vertiport: number }): boolean {
+  if ('vertiport' in closure) {
+    if ('vertiport' in opened) return closure.vertiport === opened.vertiport
+    return closure.vertiport === opened.from || closure.vertiport === opened.to
+  }
+  if ('vertiport' in opened) return closure.from === opened.vertiport || closure.to === opened.vertiport
+  return closure.from === opened.from && closure.to === opened.to
+}

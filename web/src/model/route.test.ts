@@ -1,0 +1,23 @@
+import { expect, it } from 'vitest'
+import { hashOf, home, parseRoute, type Route } from './route'
+
+it('comes back from the hash that it makes', () => {
+  const routes: Route[] = [
+    home,
+    { view: 'editor', params: { network: 'new-york' } },
+    { view: 'now', day: '1a2063eef97e', params: { at: '07:10:00', aircraft: 'A 01/ä' } },
+    { view: 'replay', day: 'x/y', params: {} },
+    { view: 'replay', params: {} },
+  ]
+  for (const route of routes) expect(parseRoute(hashOf(route))).toEqual(route)
+})
+
+it('shows times in links as people read them', () => {
+  expect(hashOf({ view: 'now', day: 'd', params: { at: '07:10:00' } })).toBe('#/day/d/now?at=07:10:00')
+})
+
+it('leads to the days from anywhere unknown, and to now from an unknown view of a day', () => {
+  for (const hash of ['', '#', '#/', '#/nowhere', '#/day', '#/day/', '#/%E0%A4%A'])
+    expect(parseRoute(hash)).toEqual(home)
+  expect(parseRoute('#/day/d/nowhere')).toEqual({ view: 'now', day: 'd', params: {} })
+})

@@ -1,0 +1,43 @@
+// Addresses within the console, as the hash of its page: `#/day/ID/now?at=07:10:00`. Whoever has a link sees the same moment;
+// a token is never part of one.
+
+export const dayViews = ['now', 'timeline', 'what-if', 'log', 'replay'] as const
+export const otherViews = ['days', 'replay', 'editor', 'studies'] as const
+
+export type DayView = (typeof dayViews)[number]
+export type OtherView = (typeof otherViews)[number]
+
+/** A view of a day, or one that needs none, with what it wants to remember. */
+export type Route =
+  | { view: DayView; day: string; params: Readonly<Record<string, string>> }
+  | { view: OtherView; day?: undefined; params: Readonly<Record<string, string>> }
+
+export const home: Route = { view: 'days', params: {} }
+
+/** Reads a hash; what cannot be understood leads to the list of days. */
+export function parseRoute(hash: string): Route {
+  const [path = '', query = ''] = hash.replace(/^#\/?/, '').split('?', 2)
+  const [first = '', second = '', third = ''] = path.split('/').map(decoded)
+  const params = Object.fromEntries(new URLSearchParams(query))
+  if (first === 'day' && second !== '') {
+    const view = dayViews.find((one) => one === third)
+    return { view: view ?? 'now', day: second, params }
+  }
+  const view = otherViews.find((one) => one === first)
+  return view === undefined ? home : { view, params }
+}
+
+/** The hash of a route. */
+export function hashOf({ view, day, params }: Route): string {
+  const path = day === undefined ? view : `day/${encodeURIComponent(day)}/${view}`
+  const query = new URLSearchParams(params).toString().replaceAll('%3A', ':')
+  return `#/${path}${query === '' ? '' : `?${query}`}`
+}
+
+function decoded(part: string): string {
+  try {
+    return decodeURIComponent(part)
+  } catch {
+    return ''
+  }
+}

@@ -1,0 +1,57 @@
+// A scenario as its file has it (vertifleet-scenario/1): the members that the console shows. docs/src/reference/files.md
+// describes all of them.
+
+/** A table by origin and destination. */
+export type Table = number[][]
+
+export interface Scenario {
+  format: string
+  name: string
+  operations: { start: string; end: string; takeoff_s: number; landing_s: number; hold_s: number }
+  vertiports: ScenarioVertiport[]
+  aircraft_types: ScenarioAircraftType[]
+  aircraft: { id: string; type: string; at: string }[]
+  distance_mi: Table
+  /** A table, or one for each period. */
+  fare: Table | Table[]
+  passenger_cost: Table
+  periods: string[]
+  /** Passengers by period, origin and destination; those who come, where these differ from the forecast. */
+  demand: Table[]
+  forecast?: Table[]
+  energy_price: number[]
+  flight_cost?: Table
+  aircraft_cost?: number
+  closures?: ScenarioClosure[]
+  outages?: { aircraft: string; start: string; end: string }[]
+}
+
+export interface ScenarioVertiport {
+  id: string
+  x_mi: number
+  y_mi: number
+  stands: number
+  chargers?: number
+  latitude?: number
+  longitude?: number
+}
+
+export interface ScenarioAircraftType {
+  id: string
+  seats: number
+  speed_mph: number
+  battery_kwh: number
+  energy_kwh_per_mi: number
+  charge_kw: number
+  /** Share of the capacity that is lost in an hour from take-off to arrival; 0 if absent. */
+  self_discharge_per_h?: number
+}
+
+export interface ScenarioClosure {
+  from: string
+  to: string
+  both_ways?: boolean
+  start: string
+  end: string
+  known?: boolean
+}

@@ -1,0 +1,117 @@
+// What a study says, as it is put into words and pictures. All statistics come from the service; nothing here computes one.
+
+import type { PolicyResult, StudyResult } from '../api/types'
+import { dollarDifference, dollars, percent } from './money'
+
+/** The best policy and what its lead over another one is. */
+export interface Headline {
+  policy: string
+  profit: string
+  /** Its share of the proven bound. */
+  share: string | undefined
+  lead: Lead | undefined
+}
+
+export interface Lead {
+  other: string
+  difference: string
+  /** The 95 % interval of the difference; undefined with one day. */
+  interval: string | undefined
+  p: string
+  /** Whether the difference is more than what chance makes in one of 20 studies. */
+  isSignificant: boolean
+}
+
+const SIGNIFICANCE = 0.05
+
+/** A reference knows the days and is no policy. */
+export function isReference({ sees }: PolicyResult): boolean {
+  return sees === 'whole-day'
+}
+
+export function headlineOf({ policies }: StudyResult): Headline | undefined {
+  const ranked = policies
+    .filter((policy) => !isReference(policy))
+    .toSorted((one, other) => other.profit_usd.mean - one.profit_usd.mean)
+  const best = ranked[0]
+  if (best === undefined) return undefined
+  return {
+    policy: best.name,
+    profit: dollars(best.profit_usd.mean),
+    share: best.bound_share == null ? undefined : percent(best.bound_share.mean, 1),
+    lead: leadOf(policies, best, ranked[1]),
+  }
+}
+
+/** The lead over the first policy, or of the first over the next best one. Differences are against the first, so one is turned. */
+function leadOf(
+  policies: PolicyResult[],
+  best: PolicyResult,
+  second: PolicyResult | undefined,
+): Lead | undefined {
+  const first = policies[0]
+  const isFirst = best === first
+  const difference = isFirst ? second?.minus_first : best.minus_first
+  const other = isFirst ? second : first
+  if (difference == null || other === undefined) return undefined
+  const mean = isFirst ? -difference.profit_usd.mean : difference.profit_usd.mean
+  const half = difference.profit_usd.half_width_95
+  return {
+    other: other.name,
+    difference: dollarDifference(mean),
+    interval:
+      half == null ? undefined : `${dollarDifference(mean - half)} to ${dollarDifference(mean + half)}`,
+    p: pStatement(difference.p_value),
+    isSignificant: difference.p_value != null && difference.p_value < SIGNIFICANCE,
+  }
+}
+
+/** `p = 0.021`, or `p < 0.001` where digits say nothing more. */
+export function pStatement(p: number | null | undefined): string {
+  if (p == null) return 'p unknown'
+  return p < 0.001 ? 'p < 0.001' : `p = ${p.toFixed(3)}`
+}
+
+/** A mean with half of its interval: `$37,149 ± 320`. */
+export function estimate({ mean, half_width_95 }: PolicyResult['profit_usd'], isDifference = false): string {
+  const text = isDifference ? dollarDifference(mean) : dollars(mean)
+  return half_width_95 == null ? text : `${text} ± ${Math.round(half_width_95).toLocaleString('en-US')}`
+}
+
+/** What one policy earned more than another on each day, the best day first. Days are numbered from 0. */
+export function dailyDifferences(
+  policy: PolicyResult,
+  first: PolicyResult,
+): { day: number; difference_usd: number }[] {
+  const differences = policy.daily_profit_usd.map((profit, day) => ({
+    day,
+    difference_usd: profit - (first.daily_profit_usd[day] ?? 0),
+  }))
+  return differences.toSorted((one, other) => other.difference_usd - one.difference_usd)
+}
+
+/** Dollars on an axis: its ends and round steps between. */
+export interface Axis {
+  from: number
+  to: number
+  ticks: number[]
+}
+
+/** An axis around values, with about so many ticks. */
+export function axisAround(values: readonly number[], ticks: number): Axis {
+  const [least, most] = [Math.min(...values), Math.max(...values)]
+  const span = most - least || Math.max(1, Math.abs(most))
+  const step = roundStep(span / Math.max(1, ticks - 1))
+  const first = Math.floor(least / step)
+  const last = Math.max(first + 1, Math.ceil(most / step))
+  return {
+    from: first * step,
+    to: last * step,
+    ticks: Array.from({ length: last - first + 1 }, (_, index) => (first + index) * step),
+  }
+}
+
+function roundStep(least: number): number {
+  const power = 10 ** Math.floor(Math.log10(least))
+  return ([1, 2, 5].find((one) => one * power >= least * (1 - 1e-9)) ?? 10) * power
+}

@@ -1,0 +1,216 @@
+// A finished day as a record: a scenario file and the trace of a policy on it. docs/src/reference/files.md describes both.
+
+import { parseCsv } from './csv'
+import { frameOf } from './live'
+import type { ClosureRecord, DayRecord, LegRecord, OutageRecord } from './record'
+import type { Scenario } from './scenario'
+import { parseTime, timeOf } from './time'
+
+/** Why a file is not what it should be. The view has words for each. */
+export type FileFault =
+  | { what: 'no-scenario' }
+  | { what: 'no-trace' }
+  | { what: 'missing-column'; column: string }
+  | { what: 'unknown-id'; line: number; column: string; value: string }
+  | { what: 'unreadable'; line: number; column: string; value: string }
+  | { what: 'out-of-order'; line: number }
+
+/** A file of a person that cannot be shown. */
+export class FileError extends Error {
+  constructor(readonly fault: FileFault) {
+    super(JSON.stringify(fault))
+    this.name = 'FileError'
+  }
+}
+
+const COLUMNS = [
+  'time',
+  'aircraft',
+  'from',
+  'to',
+  'passengers',
+  'revenue',
+  'passenger_cost',
+  'energy_cost',
+  'arrival',
+  'ready',
+]
+
+/** Whether a text begins as a trace does. */
+export function isTrace(text: string): boolean {
+  return /^\uFEFF?"?time"?,"?aircraft"?,/.test(text)
+}
+
+/** Reads a scenario file. Only what pictures need is looked at: the program is what checks scenarios. */
+export function parseScenario(text: string): Scenario {
+  let scenario: unknown
+  try {
+    scenario = JSON.parse(text.replace(/^\uFEFF/, ''))
+  } catch {
+    throw new FileError({ what: 'no-scenario' })
+  }
+  if (!isScenario(scenario)) throw new FileError({ what: 'no-scenario' })
+  return scenario
+}
+
+function isScenario(value: unknown): value is Scenario {
+  const one = value as Partial<Scenario> | null
+  return (
+    typeof one === 'object' &&
+    String(one?.format).startsWith('vertifleet-scenario/') &&
+    [one?.vertiports, one?.aircraft, one?.aircraft_types, one?.periods, one?.demand].every(Array.isArray)
+  )
+}
+
+/** The day as the trace says it was. */
+export function recordOf(scenario: Scenario, trace: string, policy?: string): DayRecord {
+  return {
+    ...frameOf(scenario),
+    legs: new TraceReader(scenario, policy).read(trace),
+    closures: closuresOf(scenario),
+    outages: outagesOf(scenario),
+    demand: { passengers: scenario.demand },
+  }
+}
+
+/** What the fleet costs whatever it does, dollars: no leg has a part in it, but the profit of the day does. */
+export function fleetCost(scenario: Scenario): number {
+  return (scenario.aircraft_cost ?? 0) * scenario.aircraft.length
+}
+
+function closuresOf(scenario: Scenario): ClosureRecord[] {
+  const vertiports = positions(scenario.vertiports)
+  return (scenario.closures ?? []).flatMap(({ from, to, both_ways, start, end }) => {
+    const times = { since: timeOf(start), until: timeOf(end) }
+    const route = { from: vertiports.get(from) ?? 0, to: vertiports.get(to) ?? 0 }
+    const back = { from: route.to, to: route.from }
+    return both_ways === true
+      ? [
+          { ...route, ...times },
+          { ...back, ...times },
+        ]
+      : [{ ...route, ...times }]
+  })
+}
+
+function outagesOf(scenario: Scenario): OutageRecord[] {
+  const aircraft = positions(scenario.aircraft)
+  const known = (scenario.outages ?? []).filter((one) => aircraft.has(one.aircraft))
+  return known.map((one) => ({
+    aircraft: aircraft.get(one.aircraft) ?? 0,
+    since: timeOf(one.start),
+    until: timeOf(one.end),
+  }))
+}
+
+function positions(list: readonly { id: string }[]): Map<string, number> {
+  return new Map(list.map(({ id }, index) => [id, index]))
+}
+
+/** How long a flight and its charging take if nothing holds them up. */
+interface Nominal {
+  flight_s: number
+  charge_s: number
+}
+
+class TraceReader {
+  readonly #aircraft: Map<string, number>
+  readonly #vertiports: Map<string, number>
+  readonly #types: Scenario['aircraft_types']
+  #columns = new Map<string, number>()
+
+  constructor(
+    private readonly scenario: Scenario,
+    private readonly policy: string | undefined,
+  ) {
+    this.#aircraft = positions(scenario.aircraft)
+    this.#vertiports = positions(scenario.vertiports)
+    const types = new Map(scenario.aircraft_types.map((one) => [one.id, one]))
+    this.#types = scenario.aircraft.map((one) => {
+      const type = types.get(one.type)
+      if (type === undefined) throw new FileError({ what: 'no-scenario' })
+      return type
+    })
+  }
+
+  read(trace: string): LegRecord[] {
+    const [names, ...rows] = parseCsv(trace)
+    if (names === undefined || !isTrace(trace)) throw new FileError({ what: 'no-trace' })
+    this.#columns = new Map(names.map((name, index) => [name, index]))
+    const missing = COLUMNS.find((column) => !this.#columns.has(column))
+    if (missing !== undefined) throw new FileError({ what: 'missing-column', column: missing })
+    const legs = rows.map((row, index) => this.#leg(row, index + 2))
+    const late = legs.findIndex((leg, index) => leg.decided < (legs[index - 1]?.decided ?? 0))
+    if (late !== -1) throw new FileError({ what: 'out-of-order', line: late + 2 })
+    return legs
+  }
+
+  #leg(row: string[], line: number): LegRecord {
+    const aircraft = this.#id(this.#aircraft, row, 'aircraft', line)
+    const [from, to] = [
+      this.#id(this.#vertiports, row, 'from', line),
+      this.#id(this.#vertiports, row, 'to', line),
+    ]
+    const number = (column: string) => this.#number(row, column, line)
+    const time = (column: string) => this.#time(row, column, line)
+    const [decided, arrives, ready] = [time('time'), time('arrival'), time('ready')]
+    const costs =
+      number('passenger_cost') +
+      number('energy_cost') +
+      (this.#columns.has('flight_cost') ? number('flight_cost') : 0)
+    const leg: LegRecord = {
+      ...{ aircraft, from, to, decided, departs: decided, arrives, ready },
+      passengers: number('passengers'),
+      profit_usd: number('revenue') - costs,
+      is_expected: false,
+      ...(this.policy === undefined ? {} : { policy: this.policy }),
+    }
+    if (from !== to) this.#compareWithPlan(leg, this.#nominal(leg))
+    return leg
+  }
+
+  /** A flight that arrives late has waited on the ground (docs/src/concepts/model.md, take-off delays). */
+  #compareWithPlan(leg: LegRecord, { flight_s, charge_s }: Nominal): void {
+    const arrives = leg.decided + flight_s
+    const planned = { departs: leg.decided, arrives, ready: arrives + charge_s }
+    leg.departs = leg.decided + Math.max(0, leg.arrives - arrives)
+    if (leg.arrives !== planned.arrives || leg.ready !== planned.ready) leg.planned = planned
+  }
+
+  /** The model of the book: the way at cruise speed between take-off and landing, then the battery is charged to full. */
+  #nominal({ aircraft, from, to }: LegRecord): Nominal {
+    const { takeoff_s, landing_s } = this.scenario.operations
+    const type = this.#types[aircraft]
+    const distance_mi = this.scenario.distance_mi[from]?.[to] ?? 0
+    if (type === undefined) return { flight_s: 0, charge_s: 0 }
+    const flight_s = takeoff_s + Math.round((3600 * distance_mi) / type.speed_mph) + landing_s
+    const lost_kwh = (type.battery_kwh * (type.self_discharge_per_h ?? 0) * flight_s) / 3600
+    const energy_kwh = type.energy_kwh_per_mi * distance_mi + lost_kwh
+    return { flight_s, charge_s: Math.round((3600 * energy_kwh) / type.charge_kw) }
+  }
+
+  #field(row: string[], column: string): string {
+    return row[this.#columns.get(column) ?? -1] ?? ''
+  }
+
+  #id(known: Map<string, number>, row: string[], column: string, line: number): number {
+    const value = this.#field(row, column)
+    const index = known.get(value)
+    if (index === undefined) throw new FileError({ what: 'unknown-id', line, column, value })
+    return index
+  }
+
+  #number(row: string[], column: string, line: number): number {
+    const value = this.#field(row, column)
+    const number = value.trim() === '' ? NaN : Number(value)
+    if (!Number.isFinite(number)) throw new FileError({ what: 'unreadable', line, column, value })
+    return number
+  }
+
+  #time(row: string[], column: string, line: number): number {
+    const value = this.#field(row, column)
+    const time = parseTime(value)
+    if (time === undefined) throw new FileError({ what: 'unreadable', line, column, value })
+    return time
+  }
+}

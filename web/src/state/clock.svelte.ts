@@ -1,0 +1,53 @@
+// The clock of a live day, shown at every frame. It stops while the connection is away: nobody knows what happens then.
+
+import { Pace } from '../model/pace'
+import type { Seconds } from '../model/record'
+
+/** With reduced motion, pictures change once in this time instead of at every frame. */
+const CALM_MS = 1_000
+
+export class Clock {
+  /** The time of the day to show. */
+  time = $state<Seconds>(0)
+  /** Seconds of the day that pass in a second, about. */
+  speed = $state(0)
+  readonly #pace = new Pace()
+  #frame = 0
+  #isHeld = false
+  #shown_ms = 0
+
+  /** Takes the news that the day was at a time, `age_ms` ago. */
+  hear(time: Seconds, age_ms = 0): void {
+    this.#pace.hear(time, performance.now() - age_ms)
+    if (this.#shown_ms === 0) this.#show(performance.now())
+    this.speed = this.#pace.speed
+  }
+
+  /** Stops at the end of the day. */
+  end(time: Seconds): void {
+    this.#pace.end(time, performance.now())
+    this.#show(performance.now())
+    this.speed = 0
+  }
+
+  /** Holds the clock while the connection is away. */
+  hold(isHeld: boolean): void {
+    this.#isHeld = isHeld
+  }
+
+  /** Runs until the returned function is called. */
+  run(): () => void {
+    const calm = matchMedia('(prefers-reduced-motion: reduce)')
+    const step = (now: number) => {
+      if (!this.#isHeld && (!calm.matches || now - this.#shown_ms >= CALM_MS)) this.#show(now)
+      this.#frame = requestAnimationFrame(step)
+    }
+    this.#frame = requestAnimationFrame(step)
+    return () => cancelAnimationFrame(this.#frame)
+  }
+
+  #show(now: number): void {
+    this.#shown_ms = now
+    this.time = this.#pace.at(now)
+  }
+}

@@ -1,0 +1,222 @@
+// A live day as the console follows it: read once, then kept up to date by the stream of its events. The service knows the
+// rules, so after events its state and outlook are asked for again, no more often than the eye needs and the service can give.
+
+import { SvelteSet } from 'svelte/reactivity'
+import type { Service } from '../api/client'
+import { ProblemError } from '../api/problem'
+import { follow, type Connection } from '../api/stream'
+import type { DayInfo, DayState, Outlook, TakenEvent } from '../api/types'
+import { liveRecord } from '../model/live'
+import { LOOK_BACK_MS } from '../model/pace'
+import type { DayRecord, Seconds } from '../model/record'
+import { Reports } from '../model/reports'
+import type { Scenario } from '../model/scenario'
+import { timeOf } from '../model/time'
+import { Clock } from './clock.svelte'
+import { Refresher } from './refresher'
+
+/** Events that are kept for the log; earlier ones stay in the service, so that a long day does not fill the memory. */
+export const MOST_KEPT_EVENTS = 20_000
+
+/** How soon the state is asked for after an event, and how long to wait between two askings. */
+const STATE_PACE = { soon_ms: 60, least_ms: 500, share: 3 }
+/** An outlook is work for the service, so it is asked for more rarely, and for no more than a quarter of its time. */
+const OUTLOOK_PACE = { soon_ms: 250, least_ms: 1_500, share: 4 }
+
+const UNAUTHORIZED = 401
+
+export class LiveDay {
+  info = $state.raw<DayInfo>()
+  state = $state.raw<DayState>()
+  outlook = $state.raw<Outlook>()
+  events = $state.raw<TakenEvent[]>([])
+  connection = $state<Connection>('connecting')
+  /** Why the day cannot be read or followed, if it cannot. */
+  problem = $state.raw<ProblemError>()
+  /** Why there is no outlook, if there is none. */
+  outlookProblem = $state.raw<ProblemError>()
+  readonly clock = new Clock()
+  #scenario = $state.raw<Scenario>()
+  /** Counts the events that the reports have taken, so that what depends on them is made anew. */
+  #reported = $state(0)
+  #reports: Reports | undefined
+  readonly #service: Service
+  readonly #stateRefresher = new Refresher(STATE_PACE, () => this.#readState())
+  readonly #outlookRefresher = new Refresher(OUTLOOK_PACE, () => this.#readOutlook())
+  #stopFollowing: (() => void) | undefined
+  #stopClock: (() => void) | undefined
+  #isClosed = false
+
+  constructor(
+    readonly id: string,
+    service: Service,
+  ) {
+    this.#service = service
+  }
+
+  get scenario(): Scenario | undefined {
+    return this.#scenario
+  }
+
+  /** The day as a record; undefined until its state is known. */
+  readonly record: DayRecord | undefined = $derived.by(() => {
+    const [scenario, reports, state] = [this.#scenario, this.#reports, this.state]
+    if (scenario === undefined || reports === undefined || state === undefined || this.#reported < 0)
+      return undefined
+    return liveRecord({ scenario, reports, state, outlook: this.outlook })
+  })
+
+  /** The record without what is only expected: what pictures of this moment show. */
+  readonly happened: DayRecord | undefined = $derived.by(() => {
+    const record = this.record
+    return record === undefined
+      ? undefined
+      : { ...record, legs: record.legs.filter((leg) => !leg.is_expected) }
+  })
+
+  /** Numbers of the events by which this console decided, so that it can take back what it did. */
+  readonly ownDecisions = new SvelteSet<number>()
+
+  /** Reads the day and follows it until it is closed. */
+  async open(): Promise<void> {
+    try {
+      const [info, scenario] = await Promise.all([
+        this.#service.day(this.id),
+        this.#service.scenario(this.id),
+      ])
+      this.info = info
+      this.#scenario = scenario
+      await this.#readAll()
+    } catch (problem) {
+      this.#fail(problem)
+    }
+  }
+
+  close(): void {
+    this.#isClosed = true
+    this.#stopFollowing?.()
+    this.#stopClock?.()
+    this.#stateRefresher.stop()
+    this.#outlookRefresher.stop()
+  }
+
+  /** Asks for the state and the outlook now, after something that this console did itself. */
+  refresh(): void {
+    this.#stateRefresher.want()
+    this.#outlookRefresher.want()
+  }
+
+  /** Follows the day again after it was lost for good, as when a token had been revoked. */
+  resume(): void {
+    if (this.state === undefined) void this.open()
+    else {
+      this.#follow(this.events.at(-1)?.seq ?? 0)
+      this.refresh()
+    }
+  }
+
+  /** Reads the state now, and the outlook soon: for a console that has just decided and goes on. */
+  async readNow(): Promise<void> {
+    this.#outlookRefresher.want()
+    await this.#readState()
+  }
+
+  /** When an aircraft is or was ready. */
+  readyOf(aircraft: string): Seconds {
+    return timeOf(this.state?.aircraft.find((one) => one.id === aircraft)?.ready ?? 0)
+  }
+
+  async #readAll(): Promise<void> {
+    const [state, events] = await Promise.all([
+      this.#service.state(this.id),
+      this.#service.events(this.id, 0),
+    ])
+    if (this.#isClosed || this.#scenario === undefined) return
+    this.#reports = new Reports(this.#scenario)
+    this.events = []
+    this.#take(events)
+    this.#takeState(state)
+    this.#outlookRefresher.want()
+    this.#stopClock ??= this.clock.run()
+    this.#follow(events.at(-1)?.seq ?? 0)
+  }
+
+  #follow(after: number): void {
+    this.#stopFollowing?.()
+    this.#stopFollowing = follow({
+      url: this.#service.streamUrl(this.id),
+      headers: () => this.#service.headers(),
+      after,
+      onEvents: (events) => {
+        this.#take(events)
+        this.refresh()
+      },
+      onConnection: (connection, problem) => this.#connect(connection, problem),
+      onRewound: () => void this.#readAll().catch((problem: unknown) => this.#fail(problem)),
+    })
+  }
+
+  #connect(connection: Connection, problem: ProblemError | undefined): void {
+    const heals =
+      this.connection !== 'connecting' && this.connection !== 'connected' && connection === 'connected'
+    this.connection = connection
+    this.clock.hold(connection !== 'connected')
+    this.problem = connection === 'connected' ? undefined : problem
+    // A request that is refused for want of a token asks for one.
+    if (heals || problem?.status === UNAUTHORIZED) this.refresh()
+  }
+
+  #take(events: TakenEvent[]): void {
+    for (const event of events) this.#reports?.take(event)
+    const all = [...this.events, ...events]
+    this.events = all.length > MOST_KEPT_EVENTS ? all.slice(-MOST_KEPT_EVENTS) : all
+    this.#reported += events.length
+    this.#hear(events)
+  }
+
+  /** Events that were taken while nobody looked still say how fast the day passes. */
+  #hear(events: TakenEvent[]): void {
+    const now = Date.now()
+    for (const { event, at_ms } of events) {
+      const age_ms = Math.max(0, now - at_ms)
+      if (age_ms < LOOK_BACK_MS) this.clock.hear(timeOf(event.time ?? 0), age_ms)
+    }
+  }
+
+  async #readState(): Promise<void> {
+    try {
+      this.#takeState(await this.#service.state(this.id))
+    } catch (problem) {
+      this.#fail(problem)
+    }
+  }
+
+  #takeState(state: DayState): void {
+    this.state = state
+    const now = timeOf(state.now)
+    if (this.#isOver(state)) this.clock.end(now)
+    else this.clock.hear(now)
+  }
+
+  /** Whether nothing is left to happen: operations have ended, and every aircraft stands. */
+  #isOver({ now, aircraft }: DayState): boolean {
+    const end = timeOf(this.#scenario?.operations.end ?? '99:59:59')
+    return timeOf(now) > end && aircraft.every((one) => one.phase === 'standing' && !one.needs_decision)
+  }
+
+  async #readOutlook(): Promise<void> {
+    try {
+      this.outlook = await this.#service.outlook(this.id)
+      this.outlookProblem = undefined
+    } catch (problem) {
+      if (problem instanceof ProblemError) this.outlookProblem = problem
+      else throw problem
+    }
+  }
+
+  #fail(problem: unknown): void {
+    if (!(problem instanceof ProblemError)) throw problem
+    // The stream says that the connection is away and asks again when it is back.
+    if (problem.status !== 0 || this.state === undefined) this.problem = problem
+  }
+}

@@ -1,0 +1,34 @@
+// Where in the console a person is: the hash of the page, as a route.
+
+import { hashOf, parseRoute, type DayView, type OtherView, type Route } from '../model/route'
+
+class Router {
+  route = $state.raw<Route>(parseRoute(location.hash))
+
+  constructor() {
+    addEventListener('hashchange', () => (this.route = parseRoute(location.hash)))
+  }
+
+  go(route: Route): void {
+    location.hash = hashOf(route)
+  }
+
+  /** Goes to a view of the day that is open, or to one that needs none. */
+  goTo(view: DayView | OtherView): void {
+    const { day } = this.route
+    if (view === 'days' || view === 'editor' || view === 'studies') this.go({ view, params: {} })
+    else if (day !== undefined) this.go({ view, day, params: {} })
+    else if (view === 'replay') this.go({ view, params: {} })
+  }
+
+  /** Remembers something in the address without a step in the history; an absent value is forgotten. */
+  remember(params: Record<string, string | undefined>): void {
+    const merged = Object.entries({ ...this.route.params, ...params })
+    const kept = Object.fromEntries(merged.filter((one): one is [string, string] => one[1] !== undefined))
+    const route = { ...this.route, params: kept }
+    history.replaceState(history.state, '', hashOf(route))
+    this.route = route
+  }
+}
+
+export const router = new Router()

@@ -1,0 +1,67 @@
+// Who works here: the token of the session and what it permits. It is kept for the life of the tab and never put into an
+// address, where logs and histories would keep it.
+
+import { Service } from '../api/client'
+import { ProblemError } from '../api/problem'
+import type { ServiceInfo } from '../api/types'
+
+const KEY = 'vertifleet-token'
+const UNAUTHORIZED = 401
+
+class Session {
+  #token = $state<string | undefined>(sessionStorage.getItem(KEY) ?? undefined)
+  /** What the service said of itself and of the token; undefined until it did. */
+  info = $state.raw<ServiceInfo>()
+  /** Whether the service wants a token, or another one. */
+  needsToken = $state(false)
+  readonly service = new Service({ token: () => this.#token, fetch: (request) => this.#watched(request) })
+
+  get hasToken(): boolean {
+    return this.#token !== undefined
+  }
+
+  get mayDispatch(): boolean {
+    return this.info !== undefined && this.info.role !== 'read'
+  }
+
+  get mayAdminister(): boolean {
+    return this.info?.role === 'admin'
+  }
+
+  /** Asks the service who it is and what whoever asks may do. */
+  async begin(): Promise<void> {
+    try {
+      this.info = await this.service.info()
+      this.needsToken = false
+    } catch (problem) {
+      if (problem instanceof ProblemError && problem.status === UNAUTHORIZED) return
+      throw problem
+    }
+  }
+
+  async signIn(token: string): Promise<void> {
+    this.#keep(token)
+    await this.begin()
+    if (this.needsToken) this.#keep(undefined)
+  }
+
+  signOut(): void {
+    this.#keep(undefined)
+    this.info = undefined
+    this.needsToken = true
+  }
+
+  #keep(token: string | undefined): void {
+    this.#token = token
+    if (token === undefined) sessionStorage.removeItem(KEY)
+    else sessionStorage.setItem(KEY, token)
+  }
+
+  async #watched(request: Request): Promise<Response> {
+    const response = await fetch(request)
+    if (response.status === UNAUTHORIZED) this.needsToken = true
+    return response
+  }
+}
+
+export const session = new Session()

@@ -1,0 +1,53 @@
+// What the console says about what was done: shown for a while, errors until they are closed.
+
+import { ProblemError } from '../api/problem'
+import { text } from '../text/text'
+
+export interface Toast {
+  id: number
+  kind: 'done' | 'error'
+  title: string
+  detail?: string
+  hint?: string
+  code?: string
+  /** What takes it back, for a while. */
+  action?: { title: string; run: () => void }
+}
+
+const SHOWN_MS = 6_000
+const MOST = 4
+
+class Toasts {
+  list = $state.raw<readonly Toast[]>([])
+  #next = 1
+
+  done(title: string, action?: Toast['action']): void {
+    const id = this.#add({ kind: 'done', title, ...(action === undefined ? {} : { action }) })
+    setTimeout(() => this.close(id), SHOWN_MS)
+  }
+
+  /** Says what a request failed of, with its code and remedy. Anything else is an error of our own, and not hidden. */
+  fail(problem: unknown): void {
+    if (!(problem instanceof ProblemError)) throw problem
+    const { code, detail, hint, status } = problem
+    if (status === 0) {
+      this.#add({ kind: 'error', title: text.errors.noAnswer, hint: text.errors.noAnswerHint })
+      return
+    }
+    const remedy = hint ?? (status === 403 ? text.errors.notPermittedHint : undefined)
+    this.#add({ kind: 'error', title: detail, code, ...(remedy === undefined ? {} : { hint: remedy }) })
+  }
+
+  close(id: number): void {
+    this.list = this.list.filter((toast) => toast.id !== id)
+  }
+
+  #add(toast: Omit<Toast, 'id'>): number {
+    const id = this.#next++
+    const others = this.list.filter((one) => one.title !== toast.title || one.kind !== 'error')
+    this.list = [...others, { ...toast, id }].slice(-MOST)
+    return id
+  }
+}
+
+export const toasts = new Toasts()

@@ -1,0 +1,56 @@
+// What a person reads of an event, in a sentence without its time.
+
+import type { Event, RouteNames } from '../api/types'
+import { clock, timeOf } from '../model/time'
+import { text } from './text'
+
+export function sentence(event: Event): string {
+  const says = text.events
+  switch (event.type) {
+    case 'decided':
+      return says.decided(event.aircraft, event.to, event.instead_of ?? undefined)
+    case 'undone':
+      return says.undone(event.aircraft)
+    case 'departed':
+      return says.departed(event.aircraft, event.to ?? undefined, event.passengers ?? undefined)
+    case 'landed':
+      return says.landed(event.aircraft, event.at ?? undefined)
+    case 'charging':
+      return says.charging(event.aircraft, clock(timeOf(event.ready)))
+    case 'ready':
+      return says.ready(event.aircraft)
+    case 'delayed':
+      return says.delayed(event.aircraft, clock(timeOf(event.until)))
+    case 'out_of_service':
+      return says.outOfService(event.aircraft, until(event.until))
+    case 'back_in_service':
+      return says.backInService(event.aircraft)
+    case 'closed':
+      return says.closed(routes(event.routes), until(event.until))
+    case 'reopened':
+      return says.reopened(routes(event.routes))
+    case 'demand':
+      return says.demand(event.pairs.length, clock(timeOf(event.period)))
+    case 'booked':
+      return says.booked(event.passengers, event.from, event.to, clock(timeOf(event.period)))
+    case 'cancelled':
+      return says.cancelled(event.passengers, event.from, event.to, clock(timeOf(event.period)))
+    case 'stands':
+      return says.stands(event.vertiport, event.stands)
+    case 'clock':
+      return says.clock
+  }
+}
+
+/** Why it was done, where that was said. */
+export function reasonOf(event: Event): string | undefined {
+  return 'reason' in event ? (event.reason ?? undefined) : undefined
+}
+
+function until(moment: string | number | null | undefined): string | undefined {
+  return moment == null ? undefined : clock(timeOf(moment))
+}
+
+function routes(names: RouteNames): string {
+  return 'vertiport' in names ? text.events.allOf(names.vertiport) : text.events.route(names.from, names.to)
+}

@@ -1,0 +1,7 @@
+// The only way to what a person reads. Another language is a file with the same members as `en`.
+
+import { en } from './en'
+
+export type Texts = typeof en
+
+export const text: Texts = en

@@ -1,0 +1,131 @@
+// The axis of a timeline, the names of its rows, and the line of now with a veil over what is yet to come.
+
+import { at } from '../model/arrays'
+import type { Seconds } from '../model/record'
+import { clock, clockMinutes } from '../model/time'
+import { css, type ColourName, type Rgb } from '../parts/colours'
+import type { Size } from '../parts/sheet'
+import { TICK_PX } from './paint'
+import type { GanttRow } from './rows'
+import { pixelOf, ticks, type Span } from './span'
+
+export interface AxisPicture {
+  span: Span
+  time: Seconds
+  /** Of the plot; the names of rows are to its left. */
+  size: Size
+  gutter: number
+  colours: Record<ColourName, Rgb>
+}
+
+/** Half the width of the flag with the time. */
+const FLAG_PX = 28
+
+/** The times above the rows, and the time that is shown in a flag of its own. */
+export function paintAxis(
+  context: CanvasRenderingContext2D,
+  { span, time, size, gutter, colours }: AxisPicture,
+): void {
+  const family = getComputedStyle(context.canvas).fontFamily
+  context.textBaseline = 'middle'
+  context.textAlign = 'center'
+  context.font = `500 11px ${family}`
+  context.fillStyle = css(colours['ink-soft'])
+  const middle = size.height / 2
+  const isInView = time >= span.from && time <= span.to
+  const now = Math.max(FLAG_PX, Math.min(size.width - FLAG_PX, pixelOf(span, size.width, time)))
+  for (const tick of ticks(span, size.width, TICK_PX)) {
+    const x = pixelOf(span, size.width, tick)
+    const isFree = x > 18 && x < size.width - 18 && (!isInView || Math.abs(x - now) > FLAG_PX + 18)
+    if (isFree) context.fillText(clockMinutes(tick), gutter + x, middle)
+  }
+  if (!isInView) return
+  const x = gutter + now
+  context.fillStyle = css(colours['accent-ground'])
+  context.beginPath()
+  context.roundRect(x - FLAG_PX, 3, 2 * FLAG_PX, size.height - 6, 4)
+  context.fill()
+  context.fillStyle = '#fff'
+  context.font = `600 11px ${family}`
+  context.fillText(clock(time), x, middle + 0.5)
+}
+
+/** What is yet to come is paler, and now is a line. */
+export function paintNow(
+  context: CanvasRenderingContext2D,
+  { span, time, size, gutter, colours }: AxisPicture,
+): void {
+  const x = gutter + Math.max(0, Math.min(size.width, pixelOf(span, size.width, time)))
+  context.fillStyle = css(colours.surface, 0.5)
+  context.fillRect(x, 0, gutter + size.width - x, size.height)
+  if (time < span.from || time > span.to) return
+  context.fillStyle = css(colours.accent)
+  context.fillRect(Math.round(x) - 0.75, 0, 1.5, size.height)
+}
+
+export interface NamesPicture {
+  rows: readonly GanttRow[]
+  rowHeight: number
+  scrollTop: number
+  size: Size
+  gutter: number
+  colours: Record<ColourName, Rgb>
+}
+
+/** Names of rows; of a group, the name stands at its first row or where its rows come into view. */
+export function paintNames(context: CanvasRenderingContext2D, picture: NamesPicture): void {
+  const { rows, rowHeight, scrollTop, size, gutter, colours } = picture
+  const family = getComputedStyle(context.canvas).fontFamily
+  context.fillStyle = css(colours.surface)
+  context.fillRect(0, 0, gutter, size.height)
+  context.fillStyle = css(colours.line)
+  context.fillRect(gutter - 1, 0, 1, size.height)
+  context.textBaseline = 'middle'
+  const first = Math.max(0, Math.floor(scrollTop / rowHeight))
+  const end = Math.min(rows.length, Math.ceil((scrollTop + size.height) / rowHeight))
+  const px = Math.min(12, rowHeight * 0.62)
+  for (let index = first; index < end; index++) {
+    const row = at(rows, index)
+    const top = index * rowHeight - scrollTop
+    const hasGroups = row.target.kind === 'vertiport'
+    context.fillStyle = css(row.isOver ? colours.bad : hasGroups ? colours['ink-soft'] : colours.ink)
+    context.font = `${hasGroups ? 400 : 500} ${hasGroups ? px * 0.85 : px}px ${family}`
+    context.textAlign = hasGroups ? 'right' : 'left'
+    context.fillText(row.label, hasGroups ? gutter - 6 : 8, top + rowHeight / 2 + 0.5)
+    if (row.group !== undefined) {
+      context.fillStyle = css(colours.line)
+      context.fillRect(0, Math.round(top), gutter, 1)
+    }
+  }
+  paintGroups(context, picture, first, end, `600 ${Math.min(12, px)}px ${family}`)
+}
+
+function paintGroups(
+  context: CanvasRenderingContext2D,
+  picture: NamesPicture,
+  first: number,
+  end: number,
+  font: string,
+): void {
+  const { rows, rowHeight, scrollTop, gutter, colours } = picture
+  context.font = font
+  context.textAlign = 'left'
+  context.fillStyle = css(colours.ink)
+  let begin = first
+  while (begin > 0 && rows[begin]?.target.kind === 'vertiport' && rows[begin]?.group === undefined) begin--
+  for (let index = begin; index < end; index++) {
+    const group = rows[index]?.group
+    if (group === undefined) continue
+    const next = rows.findIndex((row, other) => other > index && row.group !== undefined)
+    const bottom = (next === -1 ? rows.length : next) * rowHeight - scrollTop
+    const top = Math.min(Math.max(index * rowHeight - scrollTop, 0), bottom - rowHeight)
+    context.fillText(shortened(context, group, gutter - 28), 8, top + rowHeight / 2 + 0.5)
+  }
+}
+
+function shortened(context: CanvasRenderingContext2D, name: string, width: number): string {
+  if (context.measureText(name).width <= width) return name
+  let end = name.length
+  while (end > 1 && context.measureText(`${name.slice(0, end)}…`).width > width) end--
+  return `${name.slice(0, end)}…`
+}

@@ -1,0 +1,48 @@
+// What is said about a bar of a timeline, line by line, the name first.
+
+import { at } from '../model/arrays'
+import type { Bar } from '../model/bars'
+import { dollarsAndCents } from '../model/money'
+import { isHold, type DayRecord, type LegRecord } from '../model/record'
+import { clock } from '../model/time'
+import { text } from '../text/text'
+
+export function describeBar(record: DayRecord, bar: Bar): string[] {
+  const { id } = at(record.aircraft, bar.aircraft)
+  const isEndless = bar.ends === Infinity
+  const begins = clock(Math.max(bar.begins, record.start))
+  const times = isEndless ? text.timeline.since(begins) : text.timeline.times(begins, clock(bar.ends))
+  const leg = record.legs[bar.leg]
+  const own = `${text.timeline.kinds[bar.kind]} ${times}`
+  return leg === undefined ? [id, own] : [`${id} · ${nameOf(record, leg)}`, own, ...details(record, leg)]
+}
+
+/** The whole of a leg in one sentence, for people who hear it. */
+export function describeLeg(record: DayRecord, leg: LegRecord): string {
+  const { id } = at(record.aircraft, leg.aircraft)
+  const times = text.timeline.times(
+    clock(isHold(leg) ? leg.decided : leg.departs),
+    clock(isHold(leg) ? leg.ready : leg.arrives),
+  )
+  return [`${id} ${nameOf(record, leg)}`, times, ...details(record, leg)].join(', ')
+}
+
+export function nameOf({ vertiports }: DayRecord, leg: LegRecord): string {
+  const [from, to] = [at(vertiports, leg.from).id, at(vertiports, leg.to).id]
+  return isHold(leg) ? text.timeline.hold(from) : text.timeline.flight(from, to)
+}
+
+function details(record: DayRecord, leg: LegRecord): string[] {
+  const lines: string[] = []
+  if (!isHold(leg)) {
+    const load = text.timeline.passengers(leg.passengers, at(record.aircraft, leg.aircraft).seats)
+    lines.push(`${load} · ${dollarsAndCents(leg.profit_usd)}`, text.timeline.ready(clock(leg.ready)))
+  }
+  if (leg.planned !== undefined) {
+    const { departs, arrives, ready } = leg.planned
+    lines.push(text.timeline.planned(clock(departs), clock(arrives), clock(ready)))
+  }
+  if (leg.is_expected) lines.push(text.timeline.expected)
+  else if (leg.policy !== undefined) lines.push(text.timeline.decidedBy(leg.policy))
+  return lines
+}

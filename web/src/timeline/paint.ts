@@ -1,0 +1,217 @@
+// Draws the rows of a timeline that are in view. What it draws changes with the record, the span and the selection, and not with
+// the time: what is yet to come is veiled by another layer.
+
+import { at } from '../model/arrays'
+import type { Bar, BarKind } from '../model/bars'
+import type { DayRecord } from '../model/record'
+import { aircraftMeant, vertiportMeant, type Target } from '../model/target'
+import { css, type ColourName, type Rgb } from '../parts/colours'
+import type { Size } from '../parts/sheet'
+import { barsWithin, type GanttRow } from './rows'
+import { pixelOf, ticks, type Span } from './span'
+import { isOfLeg } from './steps'
+
+export interface GanttPicture {
+  record: DayRecord
+  rows: readonly GanttRow[]
+  span: Span
+  /** Of the rows that are in view. */
+  size: Size
+  rowHeight: number
+  scrollTop: number
+  colours: Record<ColourName, Rgb>
+  hovered: Target | undefined
+  selected: Target | undefined
+}
+
+/** Pixels between two names on the axis, at least. */
+export const TICK_PX = 64
+/** How strong what is only expected is drawn; a veil over all that is yet to come makes it paler still. */
+const EXPECTED = 0.85
+/** Bars that are narrower than this have no text in them. */
+const LEAST_TEXT_PX = 18
+/** Dashes around narrower bars would be noise. */
+const LEAST_DASHED_PX = 14
+
+interface Look {
+  colour: ColourName
+  /** Share of the row's height, and where in it: 0 at the top, 1 at the bottom. */
+  height: number
+  place: number
+  fill: number
+  hasLine: boolean
+}
+
+const looks: Record<BarKind, Look> = {
+  flight: { colour: 'flying', height: 0.72, place: 0.35, fill: 1, hasLine: true },
+  charge: { colour: 'charging', height: 0.3, place: 0.68, fill: 0.85, hasLine: false },
+  hold: { colour: 'holding', height: 0.2, place: 0.62, fill: 0.9, hasLine: false },
+  delay: { colour: 'waiting', height: 0.3, place: 0.56, fill: 0.9, hasLine: false },
+  outage: { colour: 'out', height: 1, place: 0, fill: 0.16, hasLine: true },
+  promised: { colour: 'flying', height: 0.5, place: 0.5, fill: 0.18, hasLine: true },
+  standing: { colour: 'holding', height: 0.6, place: 0.5, fill: 0.32, hasLine: false },
+}
+
+/** On stands, charging is what a bar is about and not what is beneath it. */
+const chargingOnStand: Look = { colour: 'charging', height: 0.6, place: 0.5, fill: 0.85, hasLine: false }
+
+export function paintRows(context: CanvasRenderingContext2D, picture: GanttPicture): void {
+  const { rows, size, rowHeight, scrollTop } = picture
+  const first = Math.max(0, Math.floor(scrollTop / rowHeight))
+  const end = Math.min(rows.length, Math.ceil((scrollTop + size.height) / rowHeight))
+  const painter = new RowPainter(context, picture)
+  for (let row = first; row < end; row++) painter.paintGround(at(rows, row), row * rowHeight - scrollTop)
+  paintGrid(context, picture)
+  for (let row = first; row < end; row++) painter.paintRow(at(rows, row), row * rowHeight - scrollTop)
+}
+
+function paintGrid(context: CanvasRenderingContext2D, { span, size, colours }: GanttPicture): void {
+  context.strokeStyle = css(colours.line, 0.7)
+  context.lineWidth = 1
+  context.beginPath()
+  for (const tick of ticks(span, size.width, TICK_PX)) {
+    const x = Math.round(pixelOf(span, size.width, tick)) + 0.5
+    context.moveTo(x, 0)
+    context.lineTo(x, size.height)
+  }
+  context.stroke()
+}
+
+class RowPainter {
+  readonly #font: string
+  readonly #widths = new Map<string, number>()
+
+  constructor(
+    private readonly context: CanvasRenderingContext2D,
+    private readonly picture: GanttPicture,
+  ) {
+    const px = Math.max(9, Math.min(11, picture.rowHeight * 0.5))
+    this.#font = `500 ${px}px ${getComputedStyle(context.canvas).fontFamily}`
+    context.textBaseline = 'middle'
+    context.textAlign = 'left'
+    context.font = this.#font
+  }
+
+  paintGround({ target, group, isOver }: GanttRow, top: number): void {
+    const { context, picture } = this
+    const { size, rowHeight, colours, hovered, selected } = picture
+    const is = (one: Target | undefined) =>
+      target.kind === 'vertiport'
+        ? vertiportMeant(one) === target.vertiport
+        : aircraftMeant(one) === aircraftMeant(target)
+    const ground = is(selected) ? css(colours.chosen) : is(hovered) ? css(colours.hover) : undefined
+    if (isOver || ground !== undefined) {
+      context.fillStyle = ground ?? css(colours.bad, 0.1)
+      context.fillRect(0, top, size.width, rowHeight)
+    }
+    context.fillStyle = css(colours.line, group === undefined ? 0.35 : 1)
+    context.fillRect(0, Math.round(top), size.width, 1)
+  }
+
+  paintRow(row: GanttRow, top: number): void {
+    const [first, end] = barsWithin(row, this.picture.span)
+    for (let index = first; index < end; index++) this.#paintBar(at(row.bars, index), row, top)
+    for (const outage of row.outages) this.#paintBar(outage, row, top)
+    for (const plan of row.plans) this.#paintPlan(plan.departs, plan.arrives, top)
+  }
+
+  #paintBar(bar: Bar, row: GanttRow, top: number): void {
+    const { context, picture } = this
+    const { span, size, rowHeight, colours } = picture
+    const [left, right] = [this.#x(bar.begins), this.#x(bar.ends)]
+    if (right < 0 || left > size.width) return
+    const look = bar.kind === 'charge' && row.target.kind === 'vertiport' ? chargingOnStand : looks[bar.kind]
+    const height = Math.max(2, look.height * (rowHeight - 2))
+    const y = top + 1 + look.place * (rowHeight - 2 - height)
+    const width = Math.max(1, right - left - 0.5)
+    const isChosen = isOfLeg(picture.record, bar.leg, picture.selected)
+    const colour = colours[isChosen ? 'accent' : look.colour]
+    context.globalAlpha = bar.isExpected ? EXPECTED : 1
+    context.fillStyle = css(colour, look.fill * fillOfBar(bar))
+    context.beginPath()
+    context.roundRect(left, y, width, height, Math.min(2.5, width / 2))
+    context.fill()
+    if (look.hasLine && width > 2) this.#outline(bar, width, css(colour), isChosen)
+    if (bar.kind === 'outage') this.#hatch(left, y, width, height, css(colour, 0.5))
+    const text = this.#textOf(bar, row)
+    const isDark = bar.kind === 'flight' && bar.load > 0.6
+    if (text !== '' && width > LEAST_TEXT_PX)
+      this.#write(
+        text,
+        Math.max(left, 0),
+        Math.min(right, pixelOf(span, size.width, span.to)),
+        y + height / 2,
+        isDark,
+      )
+    context.globalAlpha = 1
+  }
+
+  #outline(bar: Bar, width: number, colour: string, isChosen: boolean): void {
+    const { context } = this
+    context.strokeStyle = colour
+    context.lineWidth = isChosen ? 2 : 1
+    if (width > LEAST_DASHED_PX && (bar.isExpected || bar.kind === 'promised')) context.setLineDash([3, 2])
+    context.stroke()
+    context.setLineDash([])
+  }
+
+  /** What was planned stands as a thin line beneath what has come of it. */
+  #paintPlan(departs: number, arrives: number, top: number): void {
+    const { context, picture } = this
+    const [left, right] = [this.#x(departs), this.#x(arrives)]
+    const y = top + picture.rowHeight - 1.5
+    context.fillStyle = css(picture.colours.ink, 0.65)
+    context.fillRect(left, y, Math.max(1, right - left), 1)
+    context.fillRect(left, y - 2, 1, 3)
+    context.fillRect(right - 1, y - 2, 1, 3)
+  }
+
+  #hatch(left: number, top: number, width: number, height: number, colour: string): void {
+    const { context, picture } = this
+    const [from, to] = [Math.max(left, 0), Math.min(left + width, picture.size.width)]
+    context.save()
+    context.beginPath()
+    context.rect(from, top, to - from, height)
+    context.clip()
+    context.strokeStyle = colour
+    context.lineWidth = 1
+    context.beginPath()
+    for (let x = from - height; x < to; x += 5) {
+      context.moveTo(x, top + height)
+      context.lineTo(x + height, top)
+    }
+    context.stroke()
+    context.restore()
+  }
+
+  /** A flight says where it goes, a stay who stays. */
+  #textOf(bar: Bar, { target }: GanttRow): string {
+    const { record } = this.picture
+    if (bar.kind === 'outage') return ''
+    if (target.kind === 'vertiport') return at(record.aircraft, bar.aircraft).id
+    return bar.kind === 'flight' ? at(record.vertiports, at(record.legs, bar.leg).to).id : ''
+  }
+
+  #write(text: string, left: number, right: number, y: number, isDark: boolean): void {
+    const { context, picture } = this
+    let width = this.#widths.get(text)
+    if (width === undefined) {
+      width = context.measureText(text).width
+      this.#widths.set(text, width)
+    }
+    if (width + 6 > right - left) return
+    context.fillStyle = css(isDark ? picture.colours.surface : picture.colours.ink)
+    context.fillText(text, left + (right - left - width) / 2, y + 0.5)
+  }
+
+  #x(time: number): number {
+    const { span, size } = this.picture
+    return pixelOf(span, size.width, Math.max(span.from - 3600, Math.min(span.to + 3600, time)))
+  }
+}
+
+/** Flights are filled by their load, as aircraft on the map are. */
+function fillOfBar({ kind, load }: Bar): number {
+  if (kind !== 'flight') return 1
+  return load === 0 ? 0.06 : 0.35 + 0.65 * load
+}

@@ -1,0 +1,77 @@
+// The layers of a timeline: rows, which are drawn again only when they change, and what moves with the time.
+
+import { changed } from '../map/painters/changes'
+import type { Seconds } from '../model/record'
+import { Sheet } from '../parts/sheet'
+import { paintAxis, paintNames, paintNow } from './axis'
+import { paintRows, type GanttPicture } from './paint'
+
+export const AXIS_PX = 26
+
+export interface TimelinePicture extends GanttPicture {
+  time: Seconds
+  gutter: number
+}
+
+export class Sheets {
+  readonly #axis = new Sheet()
+  readonly #rows = new Sheet()
+  readonly #now = new Sheet()
+  readonly #hasChanged = changed(
+    ({
+      record,
+      rows,
+      span,
+      size,
+      rowHeight,
+      scrollTop,
+      colours,
+      hovered,
+      selected,
+      gutter,
+    }: TimelinePicture) => [
+      record,
+      rows,
+      span,
+      size,
+      rowHeight,
+      scrollTop,
+      colours,
+      hovered,
+      selected,
+      gutter,
+    ],
+  )
+
+  /** Puts the layers into the elements of the axis and of the rows. */
+  constructor(axis: HTMLElement, rows: HTMLElement) {
+    axis.append(this.#axis.canvas)
+    rows.append(this.#rows.canvas, this.#now.canvas)
+  }
+
+  paint(picture: TimelinePicture): void {
+    const { size, gutter } = picture
+    const whole = { width: gutter + size.width, height: size.height }
+    if (this.#hasChanged(picture)) this.#paintRows(picture, whole)
+    paintNow(this.#now.begin(whole), picture)
+    const axis = { width: size.width, height: AXIS_PX }
+    paintAxis(this.#axis.begin({ width: whole.width, height: AXIS_PX }), { ...picture, size: axis })
+  }
+
+  destroy(): void {
+    for (const sheet of [this.#axis, this.#rows, this.#now]) sheet.canvas.remove()
+  }
+
+  /** Rows are drawn beside their names and never beneath them. */
+  #paintRows(picture: TimelinePicture, whole: { width: number; height: number }): void {
+    const context = this.#rows.begin(whole)
+    context.save()
+    context.beginPath()
+    context.rect(picture.gutter, 0, picture.size.width, picture.size.height)
+    context.clip()
+    context.translate(picture.gutter, 0)
+    paintRows(context, picture)
+    context.restore()
+    paintNames(context, picture)
+  }
+}

@@ -1,0 +1,210 @@
+// The network editor against the real program: what forms, the map and the text do to each other, what the service says of it, and
+// what a day of it would earn.
+
+import type { Page } from '@playwright/test'
+import type { NetworkInfo } from '../src/api/types'
+import { expect, expectAccessible, test } from './support/test'
+
+const TOLERANCE = { maxDiffPixelRatio: 0.02 }
+
+const sizes = {
+  desk: { width: 1280, height: 800 },
+  wall: { width: 1920, height: 1080 },
+  phone: { width: 390, height: 844 },
+}
+
+async function openNetwork(page: Page, console: string, name: string | RegExp): Promise<void> {
+  await page.goto(`${console}/#/editor`)
+  await page.getByRole('button', { name }).click()
+  await expect(page.getByText(/^Sound:/)).toBeVisible()
+}
+
+function text(page: Page) {
+  return page.getByRole('textbox', { name: 'Text of the network file' })
+}
+
+async function read(url: string, network: string): Promise<NetworkInfo> {
+  return (await (await fetch(`${url}/v1/networks/${network}`)).json()) as NetworkInfo
+}
+
+test('a vertiport is added, put right, saved and played', async ({ page, program }) => {
+  await openNetwork(page, program.console, /plane of miles/)
+  await page.getByRole('button', { name: 'Add a vertiport' }).click()
+  const map = await page.getByRole('region', { name: 'Map of the vertiports' }).boundingBox()
+  await page.mouse.click((map?.x ?? 0) + 300, (map?.y ?? 0) + 250)
+  await expect(page.getByRole('button', { name: /^V1, 4 stands/ })).toBeFocused()
+  await expect(page.getByText('Sound: 4 vertiports, 8 aircraft, 600 passengers a day')).toBeVisible()
+
+  await page.getByLabel('Stands of V1').fill('0')
+  await expect(page.getByText('1 thing is wrong')).toBeVisible()
+  await expect(page.getByText('V104')).toBeVisible()
+  await expect(page.getByRole('button', { name: 'Save', exact: true })).toBeDisabled()
+  await page.getByRole('tab', { name: 'Tariffs' }).click()
+  await page.getByRole('button', { name: /^Show/ }).click()
+  const stands = page.getByLabel('Stands of V1')
+  await expect(stands).toBeFocused()
+  await expect(stands).toHaveAccessibleDescription(/stands must be at least 1/)
+  await stands.fill('3')
+  await expect(page.getByText(/^Sound:/)).toBeVisible()
+
+  await page.getByRole('button', { name: 'Save', exact: true }).click()
+  await expect(page.getByText('region is saved.')).toBeVisible()
+  const saved = await read(program.url, 'region')
+  expect(saved.vertiports.map(({ id, stands }) => `${id} ${stands}`)).toContain('V1 3')
+  expect(saved.toml).toContain('# A network of three vertiports in a plane of miles.')
+
+  await page.getByRole('button', { name: 'What would a day earn?' }).click()
+  const earn = page.getByRole('region', { name: 'What would a day earn?' })
+  await earn.getByRole('spinbutton', { name: 'Days' }).fill('3')
+  await earn.getByRole('combobox', { name: 'Policy' }).selectOption('greedy')
+  await earn.getByRole('button', { name: 'Play it' }).click()
+  await expect(earn.getByText(/95 %, 3 days/)).toBeVisible()
+  await page.getByLabel('Stands of V1').fill('9')
+  await expect(earn.getByText('The network has changed since.')).toBeVisible()
+  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await earn.getByRole('button', { name: 'Play it again' }).click()
+  await expect(earn.getByText(/since the last time, on the same days/)).toBeVisible()
+  await earn.getByRole('link', { name: 'All numbers' }).click()
+  await expect(page.getByText(/greedy earns/)).toBeVisible()
+  await page.goBack()
+  await expect(page.getByLabel('Stands of V1')).toHaveValue('9')
+})
+
+test('vertiports are added, moved and removed by keyboard, and all of it is taken back', async ({
+  page,
+  program,
+}) => {
+  await openNetwork(page, program.console, /new-york/)
+  const before = await text(page).inputValue()
+  await page.getByRole('button', { name: 'Add a vertiport' }).press('Enter')
+  const pin = page.getByRole('button', { name: /^V1, 4 stands/ })
+  await expect(pin).toBeFocused()
+  const place = await pin.getAttribute('aria-label')
+  await page.keyboard.press('Shift+ArrowRight')
+  await page.keyboard.press('ArrowUp')
+  await expect(pin).not.toHaveAttribute('aria-label', place ?? '')
+  await expect(text(page)).toHaveValue(/weights = \[3, 3, 2, 4, 3, 3, 1, 1, 1, 1\]/)
+  await page.keyboard.press('Delete')
+  await expect(pin).toHaveCount(0)
+  for (let step = 0; step < 3; step++) await page.keyboard.press('Control+z')
+  await expect(text(page)).toHaveValue(before)
+  await page.keyboard.press('Control+y')
+  await expect(pin).toBeVisible()
+})
+
+test('a vertiport is dragged, and nothing else in the file changes', async ({ page, program }) => {
+  await openNetwork(page, program.console, /new-york/)
+  const before = (await text(page).inputValue()).split('\n')
+  const pin = page.getByRole('button', { name: /^LGA/ })
+  const box = await pin.boundingBox()
+  const [x, y] = [(box?.x ?? 0) + 12, (box?.y ?? 0) + (box?.height ?? 0) / 2]
+  await page.mouse.move(x, y)
+  await page.mouse.down()
+  await page.mouse.move(x + 40, y - 30, { steps: 5 })
+  await page.mouse.up()
+  const after = (await text(page).inputValue()).split('\n')
+  const changed = after.filter((line, index) => line !== before[index])
+  expect(after).toHaveLength(before.length)
+  expect(changed.map((line) => line.split(' = ')[0])).toEqual(['latitude', 'longitude'])
+})
+
+test('what is typed in the text is in the forms, and what is no TOML waits', async ({ page, program }) => {
+  await openNetwork(page, program.console, /new-york/)
+  const toml = await text(page).inputValue()
+  await text(page).fill(toml.replace('name = "new-york"', 'name = "new-york'))
+  await expect(page.getByText('The text cannot be read, so the forms show it as it was.')).toBeVisible()
+  await expect(page.getByLabel('Stands of JFK')).toBeDisabled()
+  await text(page).fill(toml.replace('stands = 8', 'stands = 12'))
+  await expect(page.getByLabel('Stands of JFK')).toHaveValue('12')
+  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await page.reload()
+  await expect(page.getByLabel('Stands of JFK')).toHaveValue('12')
+})
+
+test('a pair and a period are changed', async ({ page, program }) => {
+  await openNetwork(page, program.console, /new-york/)
+  await page.getByRole('tab', { name: 'Demand' }).click()
+  await page.getByRole('spinbutton', { name: /From 06:00/ }).fill('6.4')
+  await page.keyboard.press('Tab')
+  await expect(text(page)).toHaveValue(/shares_percent = \[6.4, 7.7/)
+  await page.getByRole('button', { name: 'Change single pairs' }).click()
+  const grid = page.getByRole('grid', { name: 'Passengers a day by pair' })
+  await grid.getByRole('gridcell').nth(1).focus()
+  await page.keyboard.press('ArrowDown')
+  await page.keyboard.press('ArrowRight')
+  await page.keyboard.type('55')
+  await page.keyboard.press('Enter')
+  const toml = await text(page).inputValue()
+  const rows = /passengers = \[\n([\s\S]*?)\n\]/.exec(toml)?.[1]?.split('\n') ?? []
+  expect(rows).toHaveLength(9)
+  expect(rows[1]).toMatch(/^ {4}\[\d+\.\d+, 0, 55,/)
+  await expect(page.getByText(/^Sound:/)).toBeVisible()
+})
+
+test('a shipped network is saved under a name of its own', async ({ page, program }) => {
+  await openNetwork(page, program.console, /paper/)
+  await page.getByLabel('Stands of V1').fill('7')
+  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await page.keyboard.press('Control+s')
+  const name = page.getByRole('textbox', { name: 'Name' })
+  await expect(name).toHaveValue('my-paper')
+  await name.fill('ours')
+  await page.getByRole('dialog').getByRole('button', { name: 'Save' }).click()
+  await expect(page.getByText('ours is saved.')).toBeVisible()
+  expect((await read(program.url, 'ours')).vertiports[0]?.stands).toBe(7)
+  expect((await read(program.url, 'paper')).vertiports[0]?.stands).toBe(6)
+  await page.getByLabel('Stands of V1').fill('8')
+  await page.getByRole('button', { name: 'Another network' }).click()
+  await page.getByRole('dialog').getByRole('button', { name: /^ours/ }).click()
+  await page.getByRole('button', { name: 'Open the other one' }).click()
+  await expect(page.getByLabel('Stands of V1')).toHaveValue('7')
+})
+
+test('whoever may only look can edit and download, and neither saves nor plays', async ({
+  page,
+  program,
+}) => {
+  const token = program.token('read')
+  await page.addInitScript((token) => sessionStorage.setItem('vertifleet-token', token), token)
+  await openNetwork(page, program.console, /paper/)
+  await page.getByLabel('Stands of V1').fill('7')
+  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByRole('button', { name: 'Save', exact: true })).toBeDisabled()
+  await page.getByRole('button', { name: 'What would a day earn?' }).click()
+  await expect(page.getByRole('button', { name: 'Play it' })).toBeDisabled()
+  const download = page.waitForEvent('download')
+  await page.getByRole('button', { name: 'Download' }).click()
+  expect((await download).suggestedFilename()).toBe('paper.toml')
+})
+
+for (const scheme of ['light', 'dark'] as const) {
+  test(`axe finds nothing serious in the editor (${scheme})`, async ({ page, program }) => {
+    await page.emulateMedia({ colorScheme: scheme })
+    await page.goto(`${program.console}/#/editor`)
+    await expect(page.getByRole('button', { name: /new-york/ })).toBeVisible()
+    await expectAccessible(page)
+    await openNetwork(page, program.console, /new-york/)
+    for (const tab of ['Vertiports', 'Fleet', 'Tariffs', 'Demand', 'Days']) {
+      await page.getByRole('tab', { name: tab }).click()
+      await expectAccessible(page)
+    }
+    await page.getByRole('tab', { name: 'Vertiports' }).click()
+    await page.getByLabel('Stands of JFK').fill('0')
+    await expect(page.getByText('V104')).toBeVisible()
+    await page.getByRole('button', { name: 'What would a day earn?' }).click()
+    await expectAccessible(page)
+  })
+
+  for (const screen of ['desk', 'wall', 'phone'] as const) {
+    test(`the editor looks as it did (${screen}, ${scheme})`, async ({ page, program }) => {
+      await page.emulateMedia({ colorScheme: scheme })
+      await page.setViewportSize(sizes[screen])
+      await openNetwork(page, program.console, /new-york/)
+      await page.waitForLoadState('networkidle')
+      await expect(page).toHaveScreenshot(`editor-${screen}-${scheme}.png`, TOLERANCE)
+      if (screen === 'wall') return
+      await page.getByRole('tab', { name: 'Demand' }).click()
+      await expect(page).toHaveScreenshot(`editor-demand-${screen}-${scheme}.png`, TOLERANCE)
+    })
+  }
+}

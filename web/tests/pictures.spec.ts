@@ -1,0 +1,179 @@
+// The map and the timelines by themselves: what they look like, that they can be used with keys and without eyes, and that 200 aircraft move smoothly on a machine without a graphics processor.
+
+import { expect, expectAccessible, frameTimes, test, withoutProcessor } from './support/pictures'
+
+const TOLERANCE = { maxDiffPixelRatio: 0.02 }
+
+test.use({ launchOptions: withoutProcessor })
+
+test.beforeAll(({ days }) => {
+  days.make('new-york', 'new-york')
+  days.make('disrupted', 'disrupted')
+})
+
+const sizes = {
+  desk: { width: 1280, height: 800 },
+  wall: { width: 1920, height: 1080 },
+  phone: { width: 390, height: 844 },
+}
+
+/** What is looked at, on which screens: New York has coasts, and a smaller network has less in its timelines to keep. */
+const pictures = [
+  { picture: 'map', day: 'new-york', screens: ['desk', 'wall', 'phone'] },
+  { picture: 'fleet', day: 'disrupted', screens: ['desk', 'phone'] },
+  { picture: 'stands', day: 'disrupted', screens: ['desk', 'phone'] },
+] as const
+
+test.describe('pictures', () => {
+  for (const { picture, day, screens } of pictures) {
+    for (const screen of screens) {
+      for (const scheme of ['light', 'dark'] as const) {
+        test(`the ${picture} looks as it did (${screen}, ${scheme})`, async ({ page, show }) => {
+          await page.emulateMedia({ colorScheme: scheme })
+          await page.setViewportSize(sizes[screen])
+          await show(`picture=${picture}&day=${day}&at=13:20:00`)
+          await expect(page).toHaveScreenshot(`${picture}-${screen}-${scheme}.png`, TOLERANCE)
+        })
+      }
+    }
+  }
+
+  for (const picture of ['map', 'fleet', 'stands']) {
+    test(`axe finds nothing serious in the ${picture}`, async ({ page, show }) => {
+      await show(`picture=${picture}&day=disrupted&at=10:00:00`)
+      await expectAccessible(page)
+    })
+  }
+})
+
+test.describe('the map', () => {
+  test.describe('without a graphics processor', () => {
+    test('is drawn on plain canvases', async ({ page, show }) => {
+      await page.addInitScript(() => {
+        const getContext = Object.getOwnPropertyDescriptor(HTMLCanvasElement.prototype, 'getContext')
+          ?.value as (this: HTMLCanvasElement, ...args: unknown[]) => unknown
+        HTMLCanvasElement.prototype.getContext = function (
+          this: HTMLCanvasElement,
+          kind: string,
+          ...more: unknown[]
+        ) {
+          return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...more)
+        } as HTMLCanvasElement['getContext']
+      })
+      await show('picture=map&day=disrupted&at=10:31:00')
+      await expect(page.locator('.deck')).toHaveCount(0)
+      await expect(page).toHaveScreenshot('map-of-both-painters.png', TOLERANCE)
+    })
+
+    test('keeps the bundled base map where another cannot be loaded', async ({ page, show }) => {
+      await page.route(
+        ({ pathname }) => pathname === '/nowhere.pmtiles',
+        (route) => route.abort(),
+      )
+      await show('picture=map&day=new-york&at=10:31:00&basemap=/nowhere.pmtiles')
+      await expect(page.getByText(/could not be loaded.*Natural Earth/)).toBeVisible()
+    })
+
+    test('says in words what it shows, and hides its canvases from those who hear it', async ({
+      page,
+      show,
+    }) => {
+      await show('picture=map&day=new-york&at=10:31:00')
+      const map = page.getByRole('region', { name: 'Map' })
+      await expect(
+        map.getByText(/A map of 9 vertiports and 32 aircraft. At 10:31: \d+ in the air/),
+      ).toBeAttached()
+      await expect(map.locator('[aria-hidden=true] canvas').first()).toBeVisible()
+    })
+
+    test('zooms and goes back, and says what is pointed at', async ({ page, show }) => {
+      await show('picture=map&day=disrupted&at=10:31:00')
+      const all = page.getByRole('button', { name: 'Show all vertiports' })
+      await expect(all).toBeDisabled()
+      await page.getByRole('button', { name: 'Zoom in' }).click()
+      await expect(all).toBeEnabled()
+      await all.click()
+      await expect(all).toBeDisabled()
+      await page.mouse.move(640, 400)
+      await page.mouse.wheel(0, -400)
+      await expect(all).toBeEnabled()
+      await page.mouse.down()
+      await page.mouse.move(700, 450, { steps: 4 })
+      await page.mouse.up()
+      await all.click()
+      // V2 is the easternmost vertiport of the network.
+      await page.mouse.move(1012, 271)
+      await expect(page.getByText(/^\d standing, \d promised, \d of 6 free$/)).toBeVisible()
+    })
+  })
+})
+
+test.describe('a timeline', () => {
+  test('is walked with keys, and says where one is', async ({ page, show }) => {
+    await show('picture=fleet&day=disrupted&at=10:00:00')
+    const timeline = page.getByRole('application', { name: /Timeline of the fleet/ })
+    await timeline.focus()
+    await page.keyboard.press('ArrowRight')
+    const said = page.locator('[aria-live=polite]')
+    await expect(said).toContainText('A01')
+    const first = await said.textContent()
+    await page.keyboard.press('ArrowRight')
+    await expect(said).not.toHaveText(first ?? '')
+    await page.keyboard.press('ArrowDown')
+    await expect(said).toContainText('A02')
+    await page.keyboard.press('+')
+    await expect(page.getByRole('button', { name: 'Show the whole day' })).toBeEnabled()
+    await page.keyboard.press('0')
+    await expect(page.getByRole('button', { name: 'Show the whole day' })).toBeDisabled()
+  })
+
+  test('is a table for those who want one', async ({ page, show }) => {
+    await show('picture=fleet&day=disrupted&at=10:00:00')
+    await page.getByRole('button', { name: 'As a table' }).click()
+    await page.getByLabel('Aircraft', { exact: true }).selectOption('A05')
+    const rows = page.getByRole('row')
+    await expect(rows.nth(1)).toContainText(/V\d → V\d/)
+    expect(await rows.count()).toBeGreaterThan(5)
+    await expectAccessible(page)
+  })
+
+  test('says what a bar is, and selects it', async ({ page, show }) => {
+    await show('picture=fleet&day=disrupted&at=10:00:00')
+    await page.mouse.move(100, 40)
+    await expect(page.getByText(/^A01 · V\d → V\d$/)).toBeVisible()
+    await expect(page.getByText(/^flight 06:00:00 to/)).toBeVisible()
+  })
+
+  test('zooms with Ctrl and the wheel, and moves with the pointer', async ({ page, show }) => {
+    await show('picture=stands&day=disrupted&at=10:00:00')
+    await page.mouse.move(640, 300)
+    await page.keyboard.down('Control')
+    await page.mouse.wheel(0, -200)
+    await page.keyboard.up('Control')
+    await expect(page.getByRole('button', { name: 'Zoom out' })).toBeEnabled()
+    await page.mouse.down()
+    await page.mouse.move(500, 300, { steps: 5 })
+    await page.mouse.up()
+    await page.getByRole('button', { name: 'Show the whole day' }).click()
+    await expect(page.getByRole('button', { name: 'Zoom out' })).toBeDisabled()
+  })
+})
+
+test.describe('200 aircraft', () => {
+  test.slow()
+
+  for (const picture of ['map', 'fleet', 'stands']) {
+    test(`move smoothly on the ${picture}`, async ({ page, show, days }, info) => {
+      days.makeWithTwoHundredAircraft('two-hundred')
+      await show(`picture=${picture}&day=two-hundred&at=08:20:00&speed=60`)
+      const times = await frameTimes(page, 5000)
+      const median_ms = times[Math.floor(times.length / 2)] ?? Infinity
+      info.annotations.push({
+        type: 'frames',
+        description: `${times.length} in 5 s, median ${median_ms.toFixed(1)} ms`,
+      })
+      // 60 frames a second on two idle cores; other work on the machine must not fail the test.
+      expect(median_ms).toBeLessThan(50)
+    })
+  }
+})

@@ -1,0 +1,170 @@
+// The replay: of a report from a disk, and of files that are chosen.
+
+import { readFileSync } from 'node:fs'
+import { pathToFileURL } from 'node:url'
+import {
+  expect,
+  expectAccessible,
+  fixture,
+  replayOfFixtures,
+  test,
+  withoutProcessor,
+} from './support/pictures'
+
+const TOLERANCE = { maxDiffPixelRatio: 0.02 }
+
+test.use({ launchOptions: withoutProcessor })
+
+let address = ''
+test.beforeAll(({ days }) => {
+  address = replayOfFixtures(days)
+})
+
+test('a day is played to its end', async ({ page }) => {
+  await page.goto(`${address}#policy=prices`)
+  const scrubber = page.getByRole('slider', { name: 'Time of the day' })
+  await expect(scrubber).toHaveAttribute('aria-valuetext', /^07:00:00/)
+  await page.getByLabel('Speed, seconds').last().selectOption('3,600 ×')
+  await page.keyboard.press('Escape')
+  await page.getByRole('button', { name: 'Play', exact: true }).click()
+  await expect(page.getByRole('button', { name: 'Pause' })).toBeVisible()
+  await expect(scrubber).toHaveAttribute('aria-valuetext', '09:06:01, $2,860', { timeout: 20_000 })
+  await expect(page.getByRole('button', { name: 'Play', exact: true })).toBeVisible()
+})
+
+test('time is moved along the scrubber, by key and by pointer', async ({ page }) => {
+  await page.goto(`${address}#policy=prices`)
+  const scrubber = page.getByRole('slider', { name: 'Time of the day' })
+  await scrubber.focus()
+  await page.keyboard.press('ArrowRight')
+  await expect(scrubber).toHaveAttribute('aria-valuetext', /^07:01:00/)
+  await page.keyboard.press('PageUp')
+  await expect(scrubber).toHaveAttribute('aria-valuetext', /^07:16:00/)
+  await page.keyboard.press('End')
+  await expect(scrubber).toHaveAttribute('aria-valuetext', /^09:06:01/)
+  const box = await scrubber.boundingBox()
+  if (box === null) throw new Error('the scrubber is in the page')
+  await page.mouse.move(box.x + box.width * 0.9, box.y + 20)
+  await page.mouse.down()
+  await page.mouse.move(box.x + box.width / 2, box.y + 20, { steps: 5 })
+  await page.mouse.up()
+  await expect(scrubber).toHaveAttribute('aria-valuetext', /^08:0[23]/)
+})
+
+test('steps lead from decision to decision', async ({ page }) => {
+  await page.goto(`${address}#policy=prices`)
+  const clock = page.getByRole('time')
+  await page.getByRole('button', { name: 'To the next decision' }).click()
+  await expect(clock).toHaveText('07:19:21')
+  await page.keyboard.press('Tab')
+  await page.locator('h1').click({ force: true })
+  await page.keyboard.press('ArrowRight')
+  await expect(clock).toHaveText('07:19:37')
+  await page.keyboard.press('ArrowLeft')
+  await expect(clock).toHaveText('07:19:21')
+})
+
+test('what earned most is looked at first', async ({ page }) => {
+  await page.goto(address)
+  await expect(page.getByLabel('Policy', { exact: true })).toHaveValue('greedy')
+})
+
+test('a link leads to the moment', async ({ page }) => {
+  await page.goto(`${address}#policy=greedy&with=prices&at=08:11:30`)
+  await expect(page.getByRole('time')).toHaveText('08:11:30')
+  await expect(page.getByLabel('Policy', { exact: true })).toHaveValue('greedy')
+  await page.getByRole('button', { name: 'To the next decision' }).click()
+  await expect(page).toHaveURL(/at=08:11:55/)
+  await expect(page).toHaveURL(/with=prices/)
+})
+
+test('two policies are compared, with where they first differ and what it was worth', async ({ page }) => {
+  await page.goto(`${address}#policy=prices`)
+  await page.getByLabel('Beside it').selectOption('greedy')
+  await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
+  const difference = page.getByRole('region', { name: 'Where they first differ' })
+  await expect(difference).toContainText(
+    /A0\d: prices: .*; greedy: .*\.\s+Worth .* at once, and −\$282 by the end of the day\./,
+  )
+  await difference.getByRole('button').click()
+  const time = /First difference at (\d\d:\d\d:\d\d)/.exec((await difference.textContent()) ?? '')?.[1] ?? ''
+  await expect(page.getByRole('time')).toHaveText(time)
+})
+
+test('files of a day are chosen, and wrong ones are named', async ({ page, days }) => {
+  await page.goto(pathToFileURL('dist/replay.html').href)
+  const files = page.getByLabel('Choose files')
+  await files.setInputFiles([fixture('tiny-1-greedy.csv')])
+  await expect(page.getByRole('alert')).toContainText('must be a scenario file')
+  const wrong = readFileSync(fixture('tiny-1-greedy.csv'), 'utf8').replace('A02', 'B02')
+  await files.setInputFiles([fixture('tiny-1.json')])
+  await expect(page.getByRole('alert')).toContainText('the trace of a day')
+  await files.setInputFiles({ name: 'wrong.csv', mimeType: 'text/csv', buffer: Buffer.from(wrong) })
+  await expect(page.getByRole('alert')).toBeVisible()
+  await files.setInputFiles([
+    fixture('tiny-1.json'),
+    fixture('tiny-1-greedy.csv'),
+    fixture('tiny-1-prices.csv'),
+  ])
+  await expect(page.getByLabel('Policy', { exact: true })).toHaveValue('greedy')
+  expect(days.folder).not.toBe('')
+})
+
+test('what is selected on a timeline is selected on the map', async ({ page }) => {
+  await page.goto(`${address}#policy=prices&at=07:05:00`)
+  await page.getByRole('application', { name: /Timeline of the fleet/ }).focus()
+  await page.keyboard.press('ArrowRight')
+  const map = page.getByRole('region', { name: 'Map' })
+  await expect(map.getByText('A01 · air-taxi')).toBeVisible()
+  await expect(map.getByText('South → East')).toBeVisible()
+})
+
+test('a report of the program opens from a disk and asks for nothing', async ({ page, days }) => {
+  days.run('scenario', fixture('tiny.toml'), '--seed', '1', '-o', 'day.json')
+  days.run('simulate', 'day.json', '--policy', 'greedy', '--report', 'day.html')
+  days.run(
+    'compare',
+    '--network',
+    fixture('tiny.toml'),
+    '--policies',
+    'greedy,prices',
+    '--days',
+    '2',
+    '--seed',
+    '1',
+    '--report',
+    'report',
+  )
+  const asked: string[] = []
+  page.on('request', (request) => asked.push(request.url()))
+  await page.goto(pathToFileURL(days.path('day.html')).href)
+  await expect(page.getByText('$3,142')).toHaveCount(0)
+  await page.getByRole('slider', { name: 'Time of the day' }).focus()
+  await page.keyboard.press('End')
+  await expect(page.getByText('$3,142')).toBeVisible()
+  await page.goto(pathToFileURL(days.path('report/report.html')).href)
+  await page.getByRole('link', { name: /Watch the first 2 days/ }).click()
+  await expect(page.getByLabel('Day', { exact: true })).toHaveValue('tiny-1')
+  await page.getByLabel('Beside it').selectOption({ index: 1 })
+  await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
+  expect(asked.filter((one) => !one.startsWith('file:') && !one.startsWith('data:'))).toEqual([])
+})
+
+for (const { name, width, height } of [
+  { name: 'desk', width: 1280, height: 800 },
+  { name: 'wall', width: 1920, height: 1080 },
+  { name: 'phone', width: 390, height: 844 },
+]) {
+  for (const scheme of ['light', 'dark'] as const) {
+    test(`the replay looks as it did, and axe finds nothing serious (${name}, ${scheme})`, async ({
+      page,
+    }) => {
+      await page.emulateMedia({ colorScheme: scheme })
+      await page.setViewportSize({ width, height })
+      await page.goto(`${address}#policy=prices&with=greedy&at=07:41:00`)
+      await page.waitForTimeout(800)
+      await expect(page).toHaveScreenshot(`replay-${name}-${scheme}.png`, TOLERANCE)
+      await expectAccessible(page)
+    })
+  }
+}

@@ -1,0 +1,129 @@
+// Studies against the real program: asked for, followed, read, reported and forgotten.
+
+import { readFile } from 'node:fs/promises'
+import type { Page } from '@playwright/test'
+import type { StudyInfo } from '../src/api/types'
+import { Fleet, smallNetwork } from './support/fleet'
+import { expect, expectAccessible, test } from './support/test'
+
+const TOLERANCE = { maxDiffPixelRatio: 0.02 }
+
+const sizes = {
+  desk: { width: 1280, height: 800 },
+  wall: { width: 1920, height: 1080 },
+  phone: { width: 390, height: 844 },
+}
+
+/** A study that has finished. */
+async function played(url: string): Promise<void> {
+  const service = new Fleet(url, '')
+  await service.ask('PUT', '/v1/networks/small', { toml: smallNetwork })
+  const body = { network: 'small', policies: ['greedy', 'prices', 'random'], days: 20, bounds: true }
+  const made = (await service.ask('POST', '/v1/studies', body)) as StudyInfo
+  await expect
+    .poll(async () => ((await service.ask('GET', `/v1/studies/${made.id}`)) as StudyInfo).state, {
+      timeout: 60_000,
+    })
+    .toBe('finished')
+}
+
+async function open(page: Page, console: string): Promise<void> {
+  await page.goto(`${console}/#/studies`)
+  await expect(page.getByRole('heading', { level: 1, name: 'Studies' })).toBeVisible()
+}
+
+test('a study is made, followed and read', async ({ page, context, program }) => {
+  await new Fleet(program.url, '').ask('PUT', '/v1/networks/small', { toml: smallNetwork })
+  await open(page, program.console)
+  await expect(page.getByText('There is no study yet.')).toBeVisible()
+  await page.keyboard.press('n')
+  const dialog = page.getByRole('dialog')
+  await dialog.getByRole('combobox', { name: 'Network' }).selectOption('small')
+  await dialog.getByRole('checkbox', { name: 'gcaps-x' }).uncheck()
+  await dialog.getByRole('checkbox', { name: 'prices' }).check()
+  await dialog.getByRole('checkbox', { name: 'random' }).check()
+  await dialog.getByRole('radio', { name: 'Measure the others against random' }).check()
+  await dialog.getByRole('spinbutton', { name: /^Days/ }).fill('8')
+  await dialog.getByRole('button', { name: 'Play the study' }).click()
+
+  await expect(page.getByText(/(greedy|prices) earns \$[\d,]+ a day over 8 days/)).toBeVisible()
+  await expect(page.getByText(/a day against random \(95 % interval/)).toBeVisible()
+  const rows = page.getByRole('table', { name: 'Result' }).getByRole('row')
+  await expect(rows).toHaveCount(4)
+  await expect(rows.nth(1)).toContainText('random')
+  await expect(page.getByRole('img', { name: /^Profit a day: / })).toBeVisible()
+  await expect(page.getByRole('img', { name: /earns more than random on each day/ })).toBeVisible()
+  const command = 'vertifleet compare --network small.toml --policies random,prices,greedy --days 8 --seed 1'
+  await expect(page.getByText(/^vertifleet compare/)).toContainText(command.slice(0, 45))
+
+  const report = context.waitForEvent('page')
+  await page.getByRole('link', { name: 'Report' }).click()
+  await expect((await report).getByRole('heading', { level: 1 })).toHaveText(/3 policies on 8 unseen days/)
+
+  await page.getByRole('button', { name: 'Forget' }).click()
+  await expect(page.getByText('There is no study yet.')).toBeVisible()
+})
+
+test('a study that plays can be stopped, and says how far it is', async ({ page, program }) => {
+  await open(page, program.console)
+  await page.keyboard.press('n')
+  const dialog = page.getByRole('dialog')
+  await dialog.getByRole('checkbox', { name: 'rolling' }).check()
+  await dialog.getByRole('spinbutton', { name: /^Days/ }).fill('1000')
+  await dialog.getByRole('button', { name: 'Play the study' }).click()
+  await expect(page.getByRole('progressbar', { name: 'Progress' })).toBeVisible()
+  await expect(page.getByText(/about .* left/)).toBeVisible({ timeout: 45_000 })
+  await page.getByRole('button', { name: 'Stop' }).click()
+  await expect(page.getByText('There is no study yet.')).toBeVisible()
+})
+
+test('what cannot be played is refused with its code', async ({ page, program }) => {
+  await open(page, program.console)
+  await page.keyboard.press('n')
+  const dialog = page.getByRole('dialog')
+  await dialog.getByRole('checkbox', { name: 'mlp' }).check()
+  await dialog.getByRole('button', { name: 'Play the study' }).click()
+  await expect(page.getByText('Error V307')).toBeVisible()
+  await expect(dialog).toBeVisible()
+})
+
+test('with a token the report is saved as a file', async ({ page, program }) => {
+  await played(program.url)
+  await page.addInitScript(
+    (token) => sessionStorage.setItem('vertifleet-token', token),
+    program.token('read'),
+  )
+  await open(page, program.console)
+  const download = page.waitForEvent('download')
+  await page.getByRole('button', { name: 'Save the report' }).click()
+  const file = await download
+  expect(file.suggestedFilename()).toBe('small-report.html')
+  expect(await readFile(await file.path(), 'utf8')).toContain('3 policies on 20 unseen days')
+  await expect(page.getByRole('button', { name: 'New study' })).toBeDisabled()
+})
+
+for (const scheme of ['light', 'dark'] as const) {
+  test(`axe finds nothing serious in the studies (${scheme})`, async ({ page, program }) => {
+    await page.emulateMedia({ colorScheme: scheme })
+    await open(page, program.console)
+    await expectAccessible(page)
+    await played(program.url)
+    await expect(page.getByText(/earns \$/)).toBeVisible()
+    await expectAccessible(page)
+    await page.keyboard.press('n')
+    await expect(page.getByRole('dialog')).toBeVisible()
+    await expectAccessible(page)
+  })
+
+  test(`studies look as they did (${scheme})`, async ({ page, program }) => {
+    await page.emulateMedia({ colorScheme: scheme })
+    await played(program.url)
+    for (const screen of ['desk', 'wall', 'phone'] as const) {
+      await page.setViewportSize(sizes[screen])
+      await open(page, program.console)
+      await expect(page.getByText(/earns \$/)).toBeVisible()
+      const mask = [page.locator('time')]
+      await expect(page).toHaveScreenshot(`studies-${screen}-${scheme}.png`, { ...TOLERANCE, mask })
+    }
+  })
+}

@@ -1,0 +1,176 @@
+// Pages for tests of pictures: one picture of a day, served from the sources; and the replay page of a report, opened from a disk.
+
+import { execFileSync } from 'node:child_process'
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import { join, resolve } from 'node:path'
+import { pathToFileURL } from 'node:url'
+import { test as base, type Page } from '@playwright/test'
+import { createServer, type ViteDevServer } from 'vite'
+
+export { expect } from '@playwright/test'
+export { expectAccessible } from './test'
+
+const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/debug/vertifleet')
+const fixtures = resolve('src/model/fixtures')
+const large = resolve('../networks/large.toml')
+
+/** What a machine without a graphics processor does, as most machines that run tests. */
+export const withoutProcessor = {
+  executablePath: process.env['VERTIFLEET_CHROMIUM'] ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu'],
+}
+/** WebGL on the main processor. */
+export const withWebGL = { ...withoutProcessor, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] }
+
+/** A folder with days that the program has drawn and played. */
+export class Days {
+  readonly folder = mkdtempSync(join(tmpdir(), 'vertifleet-days-'))
+
+  run(...args: string[]): void {
+    execFileSync(program, args, { cwd: this.folder, stdio: 'pipe' })
+  }
+
+  /** Draws a day of a network and plays it; its files are called `name.json` and `name.csv`. */
+  make(name: string, network: string, policy = 'prices'): void {
+    this.run('scenario', network, '--seed', '100', '-o', `${name}.json`)
+    this.run('simulate', `${name}.json`, '--policy', policy, '--trace', `${name}.csv`)
+  }
+
+  /** A day of the shipped network `large` with 200 aircraft. */
+  makeWithTwoHundredAircraft(name: string): void {
+    const network = readFileSync(large, 'utf8').replaceAll('count = 150', 'count = 100')
+    writeFileSync(join(this.folder, 'two-hundred.toml'), network)
+    this.make(name, 'two-hundred.toml')
+  }
+
+  path(file: string): string {
+    return join(this.folder, file)
+  }
+
+  remove(): void {
+    rmSync(this.folder, { recursive: true, force: true })
+  }
+}
+
+interface WorkerFixtures {
+  days: Days
+  server: ViteDevServer
+}
+
+interface Fixtures {
+  /** Shows one picture of a day: `picture=map&day=new-york&at=08:20:00`. */
+  show: (query: string) => Promise<void>
+  wrongs: string[]
+}
+
+export const test = base.extend<Fixtures, WorkerFixtures>({
+  days: [
+    // eslint-disable-next-line no-empty-pattern -- Playwright reads the names of the fixtures that are needed.
+    async ({}, use) => {
+      const days = new Days()
+      await use(days)
+      days.remove()
+    },
+    { scope: 'worker' },
+  ],
+
+  server: [
+    // eslint-disable-next-line no-empty-pattern -- as above.
+    async ({}, use) => {
+      const server = await createServer({
+        // Found out only later, they would have the page loaded again in the middle of a test.
+        optimizeDeps: { include: ['@deck.gl/core', '@deck.gl/layers', 'maplibre-gl', 'pmtiles'] },
+
+        server: { port: 0, host: '127.0.0.1', hmr: false },
+        logLevel: 'silent',
+      })
+      await server.listen()
+      await use(server)
+      await server.close()
+    },
+    { scope: 'worker' },
+  ],
+
+  wrongs: [
+    async ({ context }, use) => {
+      const wrongs: string[] = []
+      context.on('weberror', (error) => wrongs.push(error.error().message))
+      await use(wrongs)
+      base.expect(wrongs).toEqual([])
+    },
+    { auto: true },
+  ],
+
+  page: async ({ page }, use) => {
+    await page.addInitScript(useOneFont)
+    await use(page)
+  },
+
+  show: async ({ page, server, days }, use) => {
+    await page.route(
+      (url) => url.pathname.startsWith('/days/'),
+      (route) =>
+        route.fulfill({ path: days.path(new URL(route.request().url()).pathname.slice('/days/'.length)) }),
+    )
+    await use(async (query) => {
+      const asked = new URLSearchParams(query)
+      const day = asked.get('day') ?? ''
+      const files = `scenario=/days/${day}.json&trace=/days/${day}.csv`
+      const [address] = server.resolvedUrls?.local ?? []
+      await page.goto(`${address}tests/pages/pictures.html?${files}&${query}`)
+      await page.locator('canvas:visible').first().waitFor()
+      await page.waitForTimeout(800)
+    })
+  },
+})
+
+/** Pictures of tests have the font that comes with Debian's Chromium, whatever the machine prefers. */
+function useOneFont(): void {
+  const style = () => {
+    const sheet = new CSSStyleSheet()
+    sheet.replaceSync(":root { --sans: 'Liberation Sans' !important; --mono: 'Liberation Mono' !important }")
+    document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet]
+  }
+  document.addEventListener('DOMContentLoaded', style)
+}
+
+export function fixture(file: string): string {
+  return join(fixtures, file)
+}
+
+/** Writes the built replay page with the day of the fixtures under both policies, and gives its address. */
+export function replayOfFixtures(days: Days): string {
+  const play = (policy: string, profit_usd: number) => ({
+    policy,
+    trace: readFileSync(fixture(`tiny-1-${policy}.csv`), 'utf8'),
+    profit_usd,
+  })
+  const scenario = JSON.parse(readFileSync(fixture('tiny-1.json'), 'utf8')) as object
+  const plays = [play('prices', 2860.02), play('greedy', 3142.4)]
+  const text = JSON.stringify({ days: [{ name: 'tiny-1', scenario, plays }] })
+  const place = '<script type="application/json" id="vertifleet-data">'
+  const page = readFileSync('dist/replay.html', 'utf8').replace(place, () => place + text)
+  writeFileSync(days.path('replay.html'), page)
+  return pathToFileURL(days.path('replay.html')).href
+}
+
+/** When frames were shown for some time, as the milliseconds between two of them, in order of length. */
+export async function frameTimes(page: Page, for_ms: number): Promise<number[]> {
+  const times = await page.evaluate(
+    (length) =>
+      new Promise<number[]>((done) => {
+        const passed: number[] = []
+        const begin = performance.now()
+        let former: number | undefined
+        requestAnimationFrame(function step(now) {
+          if (former !== undefined) passed.push(now - former)
+          former = now
+          if (now - begin < length) requestAnimationFrame(step)
+          else done(passed)
+        })
+      }),
+    for_ms,
+  )
+  return times.sort((one, other) => one - other)
+}

@@ -1,0 +1,97 @@
+// The real program, started for one test with a folder of its own, killed and started again as the test wants.
+
+import { execFileSync, spawn, type ChildProcess } from 'node:child_process'
+import { mkdtempSync, rmSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import { join, resolve } from 'node:path'
+import { preview, type PreviewServer } from 'vite'
+
+const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/debug/vertifleet')
+/** A folder to take the console from in the place of the program. */
+const previewed = process.env['VERTIFLEET_PREVIEW']
+
+export class Program {
+  readonly #folder = mkdtempSync(join(tmpdir(), 'vertifleet-console-'))
+  #process: ChildProcess | undefined
+  #port = 0
+  #preview: PreviewServer | undefined
+
+  static async start(): Promise<Program> {
+    const started = new Program()
+    await started.run()
+    if (previewed !== undefined) await started.#servePreview(resolve(previewed))
+    return started
+  }
+
+  /** Where the service is. */
+  get url(): string {
+    return `http://127.0.0.1:${this.#port}`
+  }
+
+  /** Where the console is. */
+  get console(): string {
+    const address = this.#preview?.httpServer.address()
+    return typeof address === 'object' && address !== null ? `http://127.0.0.1:${address.port}` : this.url
+  }
+
+  /** Starts the service, after it was killed at the same address. */
+  async run(): Promise<void> {
+    const address = `127.0.0.1:${this.#port}`
+    const child = spawn(program, ['serve', '--listen', address, '--data', this.#folder])
+    this.#process = child
+    this.#port = await new Promise<number>((listens, fails) => {
+      let said = ''
+      const read = (bytes: Buffer) => {
+        said += bytes.toString()
+        const found = /http:\/\/127\.0\.0\.1:(\d+)/.exec(said)
+        if (found?.[1] !== undefined) listens(Number(found[1]))
+      }
+      child.stdout.on('data', read)
+      child.stderr.on('data', read)
+      child.on('error', fails)
+      child.on('exit', () => fails(new Error(`the program ended: ${said}`)))
+    })
+  }
+
+  async kill(signal: NodeJS.Signals = 'SIGKILL'): Promise<void> {
+    const child = this.#process
+    if (child === undefined || child.exitCode !== null || child.signalCode !== null) return
+    const ended = new Promise((resume) => child.once('exit', resume))
+    child.kill(signal)
+    await ended
+  }
+
+  /** Makes a token, after which the service wants one of everybody. */
+  token(role: 'read' | 'dispatch' | 'admin'): string {
+    const args = [
+      'serve',
+      'token',
+      'make',
+      '--name',
+      `${role}-console`,
+      '--role',
+      role,
+      '--data',
+      this.#folder,
+    ]
+    const said = execFileSync(program, args, { encoding: 'utf8' })
+    const token = /vf_\S+/.exec(said)?.[0]
+    if (token === undefined) throw new Error(`no token in: ${said}`)
+    return token
+  }
+
+  async stop(): Promise<void> {
+    await this.kill()
+    await this.#preview?.close()
+    rmSync(this.#folder, { recursive: true, force: true })
+  }
+
+  async #servePreview(outDir: string): Promise<void> {
+    process.env['VERTIFLEET_URL'] = this.url
+    this.#preview = await preview({
+      build: { outDir },
+      preview: { port: 0, host: '127.0.0.1' },
+      logLevel: 'silent',
+    })
+  }
+}

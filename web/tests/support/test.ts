@@ -1,0 +1,65 @@
+// What all tests of the console have: the program, a console on a day, and the promise that nothing goes wrong unseen.
+
+import AxeBuilder from '@axe-core/playwright'
+import { expect, test as base, type Page } from '@playwright/test'
+import { Fleet } from './fleet'
+import { Program } from './program'
+
+interface Fixtures {
+  program: Program
+  fleet: Fleet
+  /** What went wrong in the page: errors of scripts and offences against the content security policy. */
+  wrongs: string[]
+}
+
+export const test = base.extend<Fixtures>({
+  // eslint-disable-next-line no-empty-pattern -- Playwright reads the names of the fixtures that are needed.
+  program: async ({}, use) => {
+    const program = await Program.start()
+    await use(program)
+    await program.stop()
+  },
+
+  fleet: async ({ program }, use) => {
+    await use(await Fleet.onSmallDay(program.url))
+  },
+
+  wrongs: [
+    async ({ context }, use) => {
+      const wrongs: string[] = []
+      context.on('weberror', (error) => wrongs.push(error.error().message))
+      context.on('console', (message) => {
+        if (/content security policy/i.test(message.text())) wrongs.push(message.text())
+      })
+      await use(wrongs)
+      expect(wrongs).toEqual([])
+    },
+    { auto: true },
+  ],
+})
+
+export { expect }
+
+/** Opens a view of the day that the fleet flies on. */
+export async function open(page: Page, program: Program, fleet: Fleet, view = 'now'): Promise<void> {
+  await page.goto(`${program.console}/#/day/${fleet.day}/${view}`)
+  await expect(page.getByText('Live', { exact: true })).toBeVisible()
+}
+
+/** The panel in which decisions are taken. */
+export function panel(page: Page) {
+  return page.getByRole('region', { name: 'Decision', exact: true })
+}
+
+/** Those who wait for a decision, as buttons. */
+export function waiting(page: Page) {
+  return page.getByRole('region', { name: 'Needs a decision' }).getByRole('listitem').getByRole('button')
+}
+
+/** Sees that axe finds nothing serious. */
+export async function expectAccessible(page: Page): Promise<void> {
+  const { violations } = await new AxeBuilder({ page }).analyze()
+  const serious = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical')
+  const found = serious.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' | ')}`)
+  expect(found).toEqual([])
+}

@@ -1,0 +1,168 @@
+// Every view of the shell: reached by key, readable by everybody, and within its bounds on a phone.
+
+import { expect, expectAccessible, open, test, waiting } from './support/test'
+
+const views = ['now', 'timeline', 'what-if', 'log', 'replay'] as const
+
+for (const scheme of ['light', 'dark'] as const) {
+  for (const view of views) {
+    test(`axe finds nothing serious in ${view} (${scheme})`, async ({ page, program, fleet }) => {
+      await page.emulateMedia({ colorScheme: scheme })
+      await fleet.decide('A01')
+      await open(page, program, fleet, view)
+      await expect(page.getByRole('heading', { level: 1 })).toBeAttached()
+      await page.waitForTimeout(500)
+      await expectAccessible(page)
+    })
+  }
+
+  test(`axe finds nothing serious in the days, the palette and the help (${scheme})`, async ({
+    page,
+    program,
+    fleet,
+  }) => {
+    await page.emulateMedia({ colorScheme: scheme })
+    await page.goto(program.console)
+    await expect(page.getByRole('link', { name: /small-2/ })).toHaveAttribute('href', new RegExp(fleet.day))
+    await expectAccessible(page)
+    for (const key of ['n', '?', 'Control+k']) {
+      await page.keyboard.press(key)
+      await expect(page.getByRole('dialog')).toBeVisible()
+      await expectAccessible(page)
+      await page.keyboard.press('Escape')
+      await expect(page.getByRole('dialog')).toBeHidden()
+    }
+  })
+}
+
+test('views are reached by keys, and the palette does what it says', async ({ page, program, fleet }) => {
+  await open(page, program, fleet)
+  await page.keyboard.press('g')
+  await page.keyboard.press('l')
+  await expect(page.getByRole('heading', { level: 1, name: 'Log' })).toBeVisible()
+  await page.keyboard.press('Control+k')
+  await page.getByRole('combobox', { name: /Find a command/ }).fill('what')
+  await page.keyboard.press('Enter')
+  await expect(page.getByRole('heading', { level: 1, name: 'What if' })).toBeVisible()
+})
+
+test('single keys can be switched off', async ({ page, program, fleet }) => {
+  await open(page, program, fleet)
+  await page.keyboard.press('?')
+  await page.getByRole('checkbox', { name: /Single keys/ }).uncheck()
+  await page.keyboard.press('Escape')
+  await page.keyboard.press('g')
+  await page.keyboard.press('l')
+  await page.waitForTimeout(300)
+  expect(page.url()).toContain('/now')
+})
+
+test('the skip link leads to the content and not away from the day', async ({ page, program, fleet }) => {
+  await open(page, program, fleet, 'log')
+  await page.keyboard.press('Tab')
+  await expect(page.getByRole('link', { name: 'Skip to the content' })).toBeFocused()
+  await page.keyboard.press('Enter')
+  await expect(page.getByRole('main')).toBeFocused()
+  expect(page.url()).toContain(fleet.day)
+})
+
+test('a day is made in the console', async ({ page, program, fleet }) => {
+  await page.goto(program.console)
+  await expect(page.getByRole('link', { name: /small-2/ })).toBeVisible()
+  await page.keyboard.press('n')
+  await page.getByRole('combobox', { name: 'Network' }).selectOption('small')
+  await page.getByRole('spinbutton', { name: /Seed/ }).fill('9')
+  await page.getByRole('textbox', { name: /Name/ }).fill('a day of tests')
+  await page.getByRole('button', { name: 'Make the day' }).click()
+  await expect(waiting(page)).toHaveCount(6)
+  expect(page.url()).not.toContain(fleet.day)
+})
+
+test('a what-if compares both rests of the day and can be reported', async ({ page, program, fleet }) => {
+  await open(page, program, fleet, 'what-if')
+  await page.getByRole('combobox', { name: 'From' }).selectOption('South')
+  await page.getByRole('textbox', { name: /Until/ }).fill('08:00')
+  await page.getByRole('button', { name: 'Add the change' }).click()
+  await page.getByRole('button', { name: 'Compare', exact: true }).click()
+  const profit = page.getByRole('row', { name: /^Profit/ })
+  await expect(profit).toContainText('−$')
+  await expect(page.getByText(/They first differ at/)).toBeVisible()
+  expect(await fleet.events()).toHaveLength(0)
+  await page.getByRole('button', { name: 'Report it' }).click()
+  await expect(page.getByText('1 event is reported to the day.')).toBeVisible()
+  expect((await fleet.events())[0]?.event).toMatchObject({ type: 'closed', routes: { vertiport: 'South' } })
+})
+
+test('what no system reports is reported by hand', async ({ page, program, fleet }) => {
+  await fleet.decide('A01')
+  await open(page, program, fleet)
+  await page.keyboard.press('e')
+  const dialog = page.getByRole('dialog', { name: 'Report an event' })
+  await dialog.getByRole('combobox', { name: 'What happened' }).selectOption('closed')
+  await dialog.getByRole('combobox', { name: 'From' }).selectOption('South')
+  await dialog.getByRole('textbox', { name: /Until/ }).fill('noon')
+  await dialog.getByRole('button', { name: 'Report', exact: true }).click()
+  await expect(dialog.getByText('A time is written as')).toBeVisible()
+  await dialog.getByRole('textbox', { name: /Until/ }).fill('8:00')
+  await dialog.getByRole('textbox', { name: /When/ }).fill('06:05')
+  await dialog.getByRole('textbox', { name: /Reason/ }).fill('fog')
+  await expectAccessible(page)
+  await dialog.getByRole('button', { name: 'Report', exact: true }).click()
+  await expect(page.getByText('All routes of South are closed until 08:00:00.')).toBeVisible()
+  const { event } = (await fleet.events()).at(-1) ?? {}
+  expect(event).toEqual({
+    type: 'closed',
+    routes: { vertiport: 'South' },
+    time: '06:05:00',
+    until: '08:00:00',
+    reason: 'fog',
+  })
+})
+
+test('an error of the service is shown with its code and remedy', async ({ page, program, fleet }) => {
+  await open(page, program, fleet, 'what-if')
+  await page.getByRole('combobox', { name: 'Change', exact: true }).selectOption('aircraft')
+  await page.getByRole('spinbutton').fill('9')
+  await page.getByRole('button', { name: 'Add the change' }).click()
+  await page.getByRole('button', { name: 'Compare', exact: true }).click()
+  await expect(page.getByRole('alert').getByText(/Error V113/)).toBeVisible()
+})
+
+test('a log of thousands of events has few of them in the page', async ({ page, program, fleet }) => {
+  for (let page = 0; page < 5; page++) {
+    await fleet.report(
+      ...Array.from(
+        { length: 400 },
+        () => ({ type: 'booked', from: 'North', to: 'East', period: '07:00:00', passengers: 1 }) as const,
+      ),
+    )
+  }
+  await fleet.report({ type: 'closed', routes: { vertiport: 'South' }, reason: 'fog' })
+  await open(page, program, fleet, 'log')
+  await expect(page.getByText('2,001 events')).toBeVisible()
+  expect(await page.getByRole('row').count()).toBeLessThan(60)
+  const rows = page.locator('.rows')
+  await rows.evaluate((element) => (element.scrollTop = 15_000))
+  const read = page.getByRole('row').filter({ hasText: /^1495\b/ })
+  await expect(read).toBeInViewport()
+  const before = (await read.boundingBox())?.y ?? 0
+  await fleet.report({ type: 'clock', time: '06:10:00' }, { type: 'clock', time: '06:11:00' })
+  await expect(page.getByText('2,003 events')).toBeVisible()
+  await expect.poll(async () => (await read.boundingBox())?.y).toBeCloseTo(before, 0)
+  await page.getByRole('searchbox', { name: 'Search' }).fill('fog')
+  await expect(page.getByText('1 of 2,003 events')).toBeVisible()
+  expect(page.url()).toContain('text=fog')
+})
+
+test('no view is wider than a phone', async ({ page, program, fleet }) => {
+  await page.setViewportSize({ width: 390, height: 844 })
+  for (const view of views) {
+    await open(page, program, fleet, view)
+    await page.waitForTimeout(300)
+    const wide = await page.evaluate(() => {
+      const main = document.querySelector('main')
+      return Math.max(document.documentElement.scrollWidth, main?.scrollWidth ?? 0)
+    })
+    expect(wide, view).toBeLessThanOrEqual(390)
+  }
+})

@@ -1,0 +1,41 @@
+// Builds the console: index.html and files whose names carry a hash of their content, so that the same sources give the
+// same bytes. Development and tests reach the service through a proxy at VERTIFLEET_URL.
+
+import { svelte } from '@sveltejs/vite-plugin-svelte'
+import { defineConfig, type ProxyOptions } from 'vite'
+import { basemap } from './basemap/plugin.ts'
+import { contentSecurityPolicy } from './security.ts'
+
+const service = process.env['VERTIFLEET_URL'] ?? 'http://127.0.0.1:8080'
+const proxy: Record<string, ProxyOptions> = {
+  '/v1': {
+    target: service,
+    changeOrigin: true,
+    configure: (proxy) =>
+      proxy.on('proxyRes', (from, _request, response) => {
+        // A stream that has nothing to say yet has been answered all the same: its head must not wait for its first event.
+        setImmediate(() => response.flushHeaders())
+        // The end of a service that was killed is the end of its streams.
+        from.on('close', () => {
+          if (!from.complete) response.destroy()
+        })
+      }),
+  },
+}
+
+export default defineConfig({
+  define: { __EMBEDDED__: 'false' },
+  plugins: [svelte(), basemap()],
+  build: {
+    target: 'es2022',
+    outDir: 'dist',
+    // Nothing becomes a data: address in the page, since the content security policy permits none.
+    assetsInlineLimit: 0,
+    modulePreload: { polyfill: false },
+    reportCompressedSize: false,
+    chunkSizeWarningLimit: 1200,
+  },
+  worker: { format: 'es' },
+  server: { proxy },
+  preview: { proxy, headers: { 'Content-Security-Policy': contentSecurityPolicy } },
+})

@@ -1,0 +1,71 @@
+// Builds dist/replay.html: one file with everything in it, which reports copy and fill with their days. It opens from a disk
+// without a server, so nothing may be left outside of it.
+
+import { svelte } from '@sveltejs/vite-plugin-svelte'
+import { defineConfig, type Plugin } from 'vite'
+import { noBasemap } from './basemap/plugin.ts'
+
+/** Puts scripts and styles into the page. A module script runs after the page is read, wherever it stands. */
+function inline(): Plugin {
+  return {
+    name: 'inline',
+    enforce: 'post',
+    generateBundle(_options, bundle) {
+      const page = bundle['replay.html']
+      if (page?.type !== 'asset') throw new Error('there is no replay.html in the bundle')
+      let html = String(page.source)
+      for (const [name, file] of Object.entries(bundle)) {
+        if (file === page) continue
+        html =
+          file.type === 'chunk'
+            ? withScript(html, name, file.code)
+            : withStyle(html, name, String(file.source))
+        // eslint-disable-next-line @typescript-eslint/no-dynamic-delete -- the bundler is told by the names that are left.
+        delete bundle[name]
+      }
+      if (/(?:src|href)="\.?\//.test(html)) throw new Error('replay.html still asks for other files')
+      page.source = html
+    },
+  }
+}
+
+/** The end of a script's element must not stand in its text. */
+function withScript(html: string, name: string, code: string): string {
+  const text = code.replaceAll('</script', '<\\/script')
+  return replaced(
+    html,
+    new RegExp(`<script[^>]*${quoted(name)}"[^>]*></script>`),
+    `<script type="module">${text}</script>`,
+  )
+}
+
+function withStyle(html: string, name: string, code: string): string {
+  return replaced(html, new RegExp(`<link[^>]*${quoted(name)}"[^>]*>`), `<style>${code}</style>`)
+}
+
+function replaced(html: string, element: RegExp, text: string): string {
+  if (!element.test(html)) throw new Error(`replay.html has no element ${String(element)}`)
+  return html.replace(element, () => text)
+}
+
+function quoted(text: string): string {
+  return text.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')
+}
+
+export default defineConfig({
+  define: { __EMBEDDED__: 'true' },
+  plugins: [svelte(), noBasemap(), inline()],
+  base: './',
+  build: {
+    target: 'es2022',
+    outDir: 'dist',
+    emptyOutDir: false,
+    assetsInlineLimit: Number.MAX_SAFE_INTEGER,
+    cssCodeSplit: false,
+    modulePreload: false,
+    reportCompressedSize: false,
+    chunkSizeWarningLimit: 4000,
+    rolldownOptions: { input: 'replay.html', output: { codeSplitting: false } },
+  },
+  worker: { format: 'iife' },
+})
