@@ -57,7 +57,7 @@ export function remove(file: TomlFile, path: Path): Splice[] {
 export function append(file: TomlFile, path: Path, entry: Literal | Members): Splice[] {
   const found = file.find(path)
   if (found !== undefined && 'value' in found && found.value.type === 'TOMLArray')
-    return [withElement(file, found.value, entry as Literal)]
+    return [withElement(file, found.value, entry)]
   const newline = newlineOf(file)
   const block = [
     `[[${path.map((step) => key(String(step))).join('.')}]]`,

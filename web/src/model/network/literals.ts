@@ -39,7 +39,7 @@ function number(value: number): string {
 }
 
 function quoted(text: string): string {
-  const escaped = text.replace(/["\\\u0000-\u001f\u007f]/g, (character) => {
+  const escaped = text.replace(/["\\\p{Cc}]/gu, (character) => {
     if (character === '"' || character === '\\') return `\\${character}`
     return `\\u${character.charCodeAt(0).toString(16).padStart(4, '0')}`
   })
