@@ -17,6 +17,25 @@ test('looks the same from both painters', async ({ page, show }) => {
   await expect(page).toHaveScreenshot('map-of-both-painters.png', { maxDiffPixelRatio: 0.03 })
 })
 
+test('looks the same where there is no WebGL at all', async ({ page, show }) => {
+  await page.addInitScript(() => {
+    const getContext = Object.getOwnPropertyDescriptor(HTMLCanvasElement.prototype, 'getContext')?.value as (
+      this: HTMLCanvasElement,
+      ...args: unknown[]
+    ) => unknown
+    HTMLCanvasElement.prototype.getContext = function (
+      this: HTMLCanvasElement,
+      kind: string,
+      ...more: unknown[]
+    ) {
+      return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...more)
+    } as HTMLCanvasElement['getContext']
+  })
+  await show('picture=map&day=disrupted&at=10:31:00')
+  await expect(page.locator('.deck')).toHaveCount(0)
+  await expect(page).toHaveScreenshot('map-of-both-painters.png', { maxDiffPixelRatio: 0.02 })
+})
+
 test('is not drawn with WebGL where that only pretends to have a graphics processor', async ({
   page,
   show,
