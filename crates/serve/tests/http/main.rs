@@ -13,3 +13,4 @@ mod postgres;
 mod protected;
 mod running;
 mod studies;
+mod waiting_passengers;
