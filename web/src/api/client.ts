@@ -17,6 +17,7 @@ import type {
   NewDecision,
   NewStudy,
   Outlook,
+  PeriodDemand,
   PolicyInfo,
   Proposal,
   ServiceInfo,
@@ -147,6 +148,11 @@ export class Service {
   async outlook(day: string, policy?: string): Promise<Outlook> {
     const query = policy === undefined ? {} : { policy }
     return answer(await this.#client.GET('/v1/days/{day}/outlook', { params: { path: { day }, query } }))
+  }
+
+  /** Who waits in the present period. */
+  async demand(day: string): Promise<PeriodDemand> {
+    return answer(await this.#client.GET('/v1/days/{day}/demand', { params: { path: { day } } }))
   }
 
   async whatIf(day: string, body: WhatIf): Promise<Comparison> {

@@ -1,7 +1,7 @@
 // What a dispatcher looks at when an aircraft has to be decided: who waits, what speaks for each choice, what was decided lately.
 
 import type { AircraftState, Alternative, DayState, Proposal, TakenEvent } from '../api/types'
-import type { Seconds } from './record'
+import type { DayRecord, LegRecord, Seconds } from './record'
 import { timeOf } from './time'
 
 /** An aircraft that waits for a decision, or will soon. */
@@ -29,6 +29,18 @@ function waitingAt(state: DayState, { id, place, ready }: AircraftState): Waitin
   const vertiport = state.vertiports.find((one) => one.id === place)
   const isFull = vertiport !== undefined && vertiport.taken >= vertiport.stands
   return { id, at: place, ready: timeOf(ready), isFull }
+}
+
+/** A decision that is expected of the policy. */
+export interface Expected {
+  id: string
+  leg: LegRecord
+}
+
+/** What the outlook expects to be decided next, the earliest first. */
+export function expectedNext({ legs }: DayRecord, time: Seconds, most: number): Expected[] {
+  const next = legs.filter((leg) => leg.is_expected && leg.decided >= time).slice(0, most)
+  return next.map((leg) => ({ id: `${leg.aircraft} ${leg.decided}`, leg }))
 }
 
 /** A list that does not move while somebody points at it: what is gone stays, what is new comes last. */

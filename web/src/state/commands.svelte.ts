@@ -24,8 +24,9 @@ class Commands {
 
   /** All commands, those of the view before those of the shell. */
   get all(): Command[] {
-    const byId = new Map(this.#lists.flat().map((command) => [command.id, command]))
-    return [...byId.values()].reverse()
+    const lastAdded = this.#lists.toReversed().flat()
+    const ids = lastAdded.map((command) => command.id)
+    return lastAdded.filter((command, index) => ids.indexOf(command.id) === index)
   }
 
   /** Adds commands until the returned function is called: `$effect(() => commands.add([...]))`. */

@@ -95,7 +95,8 @@ export const en = {
     backToDays: 'All days',
     archived: 'Archived: nothing about this day can change any more.',
     timeZone: (zone: string) => `Times are those of ${zone}.`,
-    clockOnly: 'Times are on the day’s own clock.',
+    ownClock: 'the day’s own clock',
+    clockOnly: 'The day has no date: times are on its own clock.',
   },
 
   now: {
@@ -113,7 +114,8 @@ export const en = {
     repositioning: (number: number) =>
       number === 0 ? 'none empty' : `${number.toLocaleString('en-US')} empty`,
     loadFactor: (share: string) => `${share} of seats taken`,
-    speed: 'Speed',
+    speed: 'How much faster than real time the day passes, about',
+    times: (speed: number) => `×${speed}`,
     map: 'Map',
     fleet: 'Fleet timeline',
     side: 'Decisions',
@@ -144,7 +146,7 @@ export const en = {
     override: 'Override…',
     overrideCommand: 'Override the recommendation',
     by: (policy: string) => `recommended by ${policy}`,
-    took: (ms: string) => `in ${ms} ms`,
+    took: (ms: number) => (ms < 0.1 ? 'in less than 0.1 ms' : `in ${ms.toFixed(1)} ms`),
     tooLate: (asked: string, policy: string) => `${asked} was not ready in time; ${policy} answered instead.`,
     policy: 'Policy that is asked',
     dayPolicy: (policy: string) => `${policy} (the day’s)`,
@@ -203,6 +205,13 @@ export const en = {
     undone: (aircraft: string) => `The decision of ${aircraft} is taken back.`,
     changed: 'The day has moved on, and the policy now chooses otherwise. Nothing was decided.',
     mayNotDecide: 'You may look at this day, and not decide on it.',
+  },
+
+  expected: {
+    title: 'Expected next',
+    by: (policy: string) => `if ${policy} decides`,
+    hold: (at: string) => `holds at ${at}`,
+    route: (from: string, to: string) => `${from} → ${to}`,
   },
 
   decided: {
@@ -325,6 +334,7 @@ export const en = {
     saveTrace: 'Save the trace',
     kept: (number: string) => `The latest ${number} events are kept here; the service has all of them.`,
     event: (seq: number) => `Event ${seq}`,
+    takenHint: 'When the service took the event, on the clock of this computer',
     noActor: 'not known: the service asks for no tokens',
     columns: {
       number: 'No.',
@@ -460,6 +470,7 @@ export const en = {
     zoomIn: 'Zoom in',
     zoomOut: 'Zoom out',
     whole: 'Show the whole day',
+    aroundNow: 'Show the hours around now',
     table: 'As a table',
     picture: 'As a picture',
     nothing: 'Nothing is selected.',

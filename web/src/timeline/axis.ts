@@ -16,7 +16,12 @@ export interface AxisPicture {
   size: Size
   gutter: number
   colours: Record<ColourName, Rgb>
+  /** Whether the time is now, so that what is yet to come is only expected, and drawn like that. */
+  isLive: boolean
 }
+
+/** How strong the veil over what is yet to come is. */
+const VEIL = { overKnown: 0.5, overExpected: 0.15 }
 
 /** Half the width of the flag with the time. */
 const FLAG_PX = 28
@@ -53,10 +58,10 @@ export function paintAxis(
 /** What is yet to come is paler, and now is a line. */
 export function paintNow(
   context: CanvasRenderingContext2D,
-  { span, time, size, gutter, colours }: AxisPicture,
+  { span, time, size, gutter, colours, isLive }: AxisPicture,
 ): void {
   const x = gutter + Math.max(0, Math.min(size.width, pixelOf(span, size.width, time)))
-  context.fillStyle = css(colours.surface, 0.5)
+  context.fillStyle = css(colours.surface, isLive ? VEIL.overExpected : VEIL.overKnown)
   context.fillRect(x, 0, gutter + size.width - x, size.height)
   if (time < span.from || time > span.to) return
   context.fillStyle = css(colours.accent)

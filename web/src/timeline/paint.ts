@@ -26,8 +26,8 @@ export interface GanttPicture {
 
 /** Pixels between two names on the axis, at least. */
 export const TICK_PX = 64
-/** How strong what is only expected is drawn; a veil over all that is yet to come makes it paler still. */
-const EXPECTED = 0.85
+/** How strong what is only expected is drawn, but for its text. */
+const EXPECTED = 0.5
 /** Bars that are narrower than this have no text in them. */
 const LEAST_TEXT_PX = 18
 /** Dashes around narrower bars would be noise. */
@@ -132,9 +132,10 @@ class RowPainter {
     context.roundRect(left, y, width, height, Math.min(2.5, width / 2))
     context.fill()
     if (look.hasLine && width > 2) this.#outline(bar, width, css(colour), isChosen)
+    context.globalAlpha = 1
     if (bar.kind === 'outage') this.#hatch(left, y, width, height, css(colour, 0.5))
     const text = this.#textOf(bar, row)
-    const isDark = bar.kind === 'flight' && bar.load > 0.6
+    const isDark = bar.kind === 'flight' && bar.load > 0.6 && !bar.isExpected
     if (text !== '' && width > LEAST_TEXT_PX)
       this.#write(
         text,
@@ -143,7 +144,6 @@ class RowPainter {
         y + height / 2,
         isDark,
       )
-    context.globalAlpha = 1
   }
 
   #outline(bar: Bar, width: number, colour: string, isChosen: boolean): void {

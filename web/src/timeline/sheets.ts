@@ -11,6 +11,7 @@ export const AXIS_PX = 26
 export interface TimelinePicture extends GanttPicture {
   time: Seconds
   gutter: number
+  isLive: boolean
 }
 
 export class Sheets {

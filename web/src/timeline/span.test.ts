@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { follow, panSpan, pixelOf, showTime, ticks, timeAt, zoomSpan } from './span'
+import { follow, isSameSpan, liveSpan, panSpan, pixelOf, showTime, ticks, timeAt, zoomSpan } from './span'
 
 const whole = { from: 6 * 3600, to: 22 * 3600 }
 
@@ -35,6 +35,25 @@ describe('a span', () => {
     expect(follow(near, edge, edge + 10, whole)).toEqual({ from: near.from + 10, to: near.to + 10 })
     expect(follow(near, 9 * 3600, 9 * 3600 + 10, whole)).toBe(near)
     expect(follow(near, edge + 20, edge + 10, whole)).toBe(near)
+  })
+
+  it('stays the same at the end of the day, so that nothing is drawn again', () => {
+    const last = { from: 20 * 3600, to: 22 * 3600 }
+    expect(follow(last, 21.9 * 3600, 21.91 * 3600, whole)).toBe(last)
+  })
+})
+
+describe('a day that happens', () => {
+  it('is shown as a whole where there is room', () => {
+    expect(liveSpan(9 * 3600, 1000, whole)).toBe(whole)
+  })
+
+  it('is shown around now where there is not, and never beyond its ends', () => {
+    const near = liveSpan(12 * 3600, 720, whole)
+    expect(near).toEqual({ from: 10 * 3600, to: 18 * 3600 })
+    expect(liveSpan(6 * 3600, 720, whole)).toEqual({ from: 6 * 3600, to: 14 * 3600 })
+    expect(liveSpan(22 * 3600, 720, whole)).toEqual({ from: 14 * 3600, to: 22 * 3600 })
+    expect(isSameSpan(near, whole)).toBe(false)
   })
 })
 

@@ -32,12 +32,30 @@ export function showTime(span: Span, time: Seconds, whole: Span): Span {
   return span
 }
 
+/** Pixels that an hour has at least where the whole day is shown, and how many it has where only a part of it is. */
+const HOUR_PX = { least: 60, good: 90 }
+
+/** What is shown of a day that happens until a person chooses otherwise: all of it where there is room for it, or else the
+ *  hours around now, most of them ahead. The very object `whole` is returned for all of it. */
+export function liveSpan(time: Seconds, width: number, whole: Span): Span {
+  if (HOUR_PX.least * (whole.to - whole.from) <= 3600 * width) return whole
+  const length = (3600 * Math.max(1, width)) / HOUR_PX.good
+  return within({ from: time - 0.25 * length, to: time + 0.75 * length }, whole)
+}
+
+/** Whether two spans show the same, to the second. */
+export function isSameSpan(one: Span, other: Span): boolean {
+  return Math.abs(one.from - other.from) < 1 && Math.abs(one.to - other.to) < 1
+}
+
 /** Goes on with a time that was in view and is about to leave it, so that the line of now stays where it can be seen. */
 export function follow(span: Span, former: Seconds, time: Seconds, whole: Span): Span {
   const length = span.to - span.from
   const wasInView = former >= span.from && former <= span.to
   const edge = span.from + 0.8 * length
-  return wasInView && time > former && time > edge ? panSpan(span, time - edge, whole) : span
+  if (!wasInView || time <= former || time <= edge) return span
+  const moved = panSpan(span, time - edge, whole)
+  return isSameSpan(moved, span) ? span : moved
 }
 
 /** Moves a span that reaches beyond the whole back into it. */
