@@ -33,7 +33,7 @@ fn the_container_is_built_from_all_that_the_program_has_within_it() {
     // What is compiled in is named by its way from the source file, which leads out of the crate and into a folder here.
     let without_tests = sources.iter().filter_map(|source| source.split("#[cfg(test)]").next());
     let paths = without_tests.flat_map(|source| source.split('"').skip(1).step_by(2));
-    let paths = paths.filter_map(|path| path.starts_with("../").then(|| path.replace("../", "")));
+    let paths = paths.filter(|path| path.starts_with("../")).map(|path| path.replace("../", ""));
     let outside: Vec<String> = paths.filter(|path| root.join(path).exists()).collect();
     assert!(outside.iter().any(|path| path == "web/dist/replay.html"), "{outside:?}");
     for path in outside {

@@ -34,13 +34,13 @@ pub(crate) use self::answer::Totals;
 pub use self::describe::openapi;
 pub(crate) use self::extract::Sender;
 use crate::access::admit;
-use crate::console;
+use crate::console::Console;
 use crate::error::Error;
 use crate::metrics::measure;
 use crate::service::Service;
 
 /// All paths.
-pub(crate) fn router(service: Arc<Service>) -> Router {
+pub(crate) fn router(service: Arc<Service>, console: Console) -> Router {
     Router::new()
         .route("/v1/days", get(days::list).post(days::create))
         .route("/v1/days/{day}", get(days::read).delete(days::delete))
@@ -76,7 +76,7 @@ pub(crate) fn router(service: Arc<Service>) -> Router {
         .route("/readyz", get(service::readyz))
         .route("/metrics", get(service::metrics))
         .route("/openapi.json", get(service::described))
-        .merge(console::router())
+        .merge(console.router())
         .fallback(|uri: axum::http::Uri| async move { Error::not_found("path", uri.path()) })
         .method_not_allowed_fallback(|method: axum::http::Method| async move {
             Error::NotAllowed { method: method.to_string() }

@@ -237,6 +237,16 @@ pub enum Error {
         rule: String,
     },
 
+    /// V626. The console cannot show this base map. Cause: `--basemap` is no address of HTTP. Fix: name a style or a PMTiles
+    /// file as `https://tiles.example.com/style.json`.
+    #[error("the console cannot show the base map {address:?}: {rule}")]
+    BadBasemap {
+        /// The address.
+        address: String,
+        /// What is wrong.
+        rule: String,
+    },
+
     /// V621. Another process wrote to the same day at the same time, again and again. Cause: several services share a
     /// database, and many clients write to one day through all of them. Fix: send the request again.
     #[error("another service wrote to the day at the same time")]
@@ -328,6 +338,7 @@ impl Error {
             | Self::InUse { .. }
             | Self::BadCertificate { .. }
             | Self::BadCollector { .. }
+            | Self::BadBasemap { .. }
             | Self::CannotListen { .. }
             | Self::NoAnswer { .. } => StatusCode::INTERNAL_SERVER_ERROR,
         }
@@ -374,6 +385,7 @@ impl Coded for Error {
             Self::TooOften { .. } => 623,
             Self::BadCertificate { .. } => 624,
             Self::BadCollector { .. } => 625,
+            Self::BadBasemap { .. } => 626,
         })
     }
 

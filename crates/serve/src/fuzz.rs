@@ -18,6 +18,7 @@ use tokio::runtime::Runtime;
 
 use crate::access::{Role, Tokens};
 use crate::api::router;
+use crate::console::Console;
 use crate::days::Days;
 use crate::limits::Limits;
 use crate::service::Service;
@@ -66,7 +67,9 @@ impl AnyRequest {
             // Requests come as fast as they are answered.
             let limits = Limits { requests_per_s: 1_000_000, ..Limits::default() };
             let service = Service::new(Days::new(store, limits.events), limits).await;
-            let router = TowerToHyperService::new(router(Arc::new(service.expect("it is new"))));
+            let service = Arc::new(service.expect("it is new"));
+            let console = Console::new(None).expect("without a base map nothing is wrong");
+            let router = TowerToHyperService::new(router(service, console));
             let mut client = Client { router, token, day: String::new() };
             client.day = client.new_day().await;
             client

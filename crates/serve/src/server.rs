@@ -11,6 +11,7 @@ use vertifleet_core::Stop;
 
 use crate::api::router;
 use crate::connections::{acceptor, listen, take};
+use crate::console::Console;
 use crate::days::Days;
 use crate::error::Error;
 use crate::limits::Limits;
@@ -36,6 +37,9 @@ pub struct Settings {
     pub limits: Limits,
     /// The collector of OpenTelemetry that spans of requests are sent to, for example `http://127.0.0.1:4318`.
     pub collector: Option<String>,
+    /// The address of a base map that the console shows in the place of the bundled one: a style of `MapLibre`, or a file of
+    /// `PMTiles`.
+    pub basemap: Option<String>,
 }
 
 /// What keeps others from listening in on what is said.
@@ -59,12 +63,14 @@ pub enum Protection {
 ///
 /// # Errors
 /// Returns [`Error::CannotListen`] if the address cannot be used, [`Error::Unprotected`] if others can reach it and
-/// nothing protects it, [`Error::BadCertificate`], [`Error::BadCollector`], and the errors of the store.
+/// nothing protects it, [`Error::BadCertificate`], [`Error::BadCollector`],
+/// [`Error::BadBasemap`], and the errors of the store.
 pub fn serve(
     settings: &Settings,
     ready: impl FnOnce(SocketAddr),
     stop: &Stop,
 ) -> Result<(), Error> {
+    let console = Console::new(settings.basemap.as_deref())?;
     let spans = settings.collector.as_deref().map(Spans::to).transpose()?.map(Arc::new);
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
@@ -89,7 +95,7 @@ pub fn serve(
         ready(listener.local_addr().map_err(cannot)?);
         let stopping = service.stopping.clone();
         tokio::spawn(pass_on(stop.clone(), stopping.clone()));
-        let router = router(service);
+        let router = router(service, console);
         let serving = take(listener, router, tls, settings.limits, stopping.subscribe());
         let mut heard = stopping.subscribe();
         tokio::select! {

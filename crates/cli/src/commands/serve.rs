@@ -77,6 +77,7 @@ fn settings(arguments: &ServeArguments, location: Location) -> Settings {
         protection: protection(arguments),
         limits: Limits::default(),
         collector: collector(arguments),
+        basemap: arguments.basemap.clone(),
     }
 }
 

@@ -1,8 +1,9 @@
 //! The console comes from the service, to anybody; what it shows needs a token as ever.
 
-use vertifleet_serve::{Location, Role, Tokens};
+use vertifleet_core::{Coded as _, Stop};
+use vertifleet_serve::{Location, Role, Settings, Tokens, serve};
 
-use crate::running::Running;
+use crate::running::{Running, settings_for};
 
 #[test]
 fn the_console_needs_no_token_and_its_data_does() {
@@ -35,4 +36,32 @@ fn the_policy_of_the_console_is_the_one_that_it_is_tested_under() {
     let source = include_str!("../../../../web/security.ts");
     let tested = source.split('"').skip(1).step_by(2).collect::<Vec<_>>().join("; ");
     assert_eq!(sent, tested);
+}
+
+#[test]
+fn a_base_map_of_the_operator_is_named_to_the_console_and_may_be_loaded() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let with = |address: &str| {
+        let settings = settings_for(Location::Folder(folder.path().to_owned()));
+        Settings { basemap: Some(address.to_owned()), ..settings }
+    };
+    let service = Running::start_as(with("https://tiles.example.com:8443/style.json?key=a&b=c"));
+    let page = ureq::get(&service.url).call().expect("the page");
+    let policy = page.headers()["content-security-policy"].to_str().expect("text").to_owned();
+    let from_there = |what: &str| {
+        let rule = policy.split("; ").find(|rule| rule.starts_with(what)).expect("a rule");
+        rule.ends_with(" https://tiles.example.com:8443")
+    };
+    assert!(from_there("connect-src") && from_there("img-src"), "{policy}");
+    assert!(!from_there("script-src"), "{policy}");
+    let text = page.into_body().read_to_string().expect("text");
+    let named = r#"content="https://tiles.example.com:8443/style.json?key=a&amp;b=c""#;
+    assert!(text.contains(named), "{text}");
+    drop(service);
+    for wrong in
+        ["tiles.pmtiles", "ftp://tiles.example.com/a", "https://me@here/a", "https://a;b/c"]
+    {
+        let refused = serve(&with(wrong), |_| (), &Stop::default());
+        assert_eq!(refused.expect_err(wrong).code().to_string(), "V626", "{wrong}");
+    }
 }

@@ -72,6 +72,10 @@ fn decide_all(service: &Running) {
     let days = service.get("/v1/days").json;
     let Some(id) = days["days"][0]["id"].as_str() else { return };
     let state = service.get(&format!("/v1/days/{id}/state")).json;
+    // Before the operator has said who waits in the morning, the day only knows whom it expects.
+    if state["seq"] == 0 {
+        return;
+    }
     for aircraft in state["aircraft"].as_array().expect("a list") {
         if aircraft["needs_decision"] == true {
             let taken = service

@@ -55,6 +55,7 @@ pub(crate) fn settings_for(location: Location) -> Settings {
         protection: Protection::None,
         limits: Limits::default(),
         collector: None,
+        basemap: None,
     }
 }
 
