@@ -22,6 +22,11 @@ it('a name gives way to other rings and to the edge of the picture', () => {
   expect(placeLabels([wish(390, 100)], size)[0]?.left).toBeLessThan(390)
 })
 
+it('a name does not stand where the picture is covered', () => {
+  const covered = [{ left: 110, top: 0, right: 400, bottom: 300 }]
+  expect(placeLabels([wish(100, 100)], size, covered)[0]?.left).toBe(45)
+})
+
 it('a name without room is left out, those of less weight first', () => {
   const crowd = Array.from({ length: 9 }, (_, one) =>
     wish(100 + (one % 3) * 14, 100 + Math.floor(one / 3) * 14, one),

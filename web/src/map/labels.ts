@@ -22,17 +22,21 @@ export interface LabelPlace {
 
 const GAP = 5
 
-interface Rectangle {
+export interface Rectangle {
   left: number
   top: number
   right: number
   bottom: number
 }
 
-/** Where each name goes within a picture; undefined where it finds no room. */
-export function placeLabels(wishes: readonly LabelWish[], size: Size): (LabelPlace | undefined)[] {
+/** Where each name goes within a picture, of which some parts are covered; undefined where it finds no room. */
+export function placeLabels(
+  wishes: readonly LabelWish[],
+  size: Size,
+  covered: readonly Rectangle[] = [],
+): (LabelPlace | undefined)[] {
   const rings = wishes.map(({ x, y, radius }) => around(x, y, radius, radius))
-  const taken: Rectangle[] = []
+  const taken = [...covered]
   const places = new Array<LabelPlace | undefined>(wishes.length).fill(undefined)
   const order = wishes
     .map((wish, index) => ({ wish, index }))

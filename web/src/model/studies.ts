@@ -23,6 +23,8 @@ export interface Lead {
 }
 
 const SIGNIFICANCE = 0.05
+/** Smaller ones say nothing more. */
+const LEAST_P = 0.001
 
 /** A reference knows the days and is no policy. */
 export function isReference({ sees }: PolicyResult): boolean {
@@ -69,7 +71,13 @@ function leadOf(
 /** `p = 0.021`, or `p < 0.001` where digits say nothing more. */
 export function pStatement(p: number | null | undefined): string {
   if (p == null) return 'p unknown'
-  return p < 0.001 ? 'p < 0.001' : `p = ${p.toFixed(3)}`
+  return p < LEAST_P ? `p ${pValue(p)}` : `p = ${pValue(p)}`
+}
+
+/** The same without its name, for a column that has it. */
+export function pValue(p: number | null | undefined): string {
+  if (p == null) return '–'
+  return p < LEAST_P ? `< ${LEAST_P}` : p.toFixed(3)
 }
 
 /** A mean with half of its interval: `$37,149 ± 320`. */

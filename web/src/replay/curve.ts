@@ -22,6 +22,21 @@ export function paintCurves(context: CanvasRenderingContext2D, picture: CurvePic
   else if (one !== undefined) paintEarnings(context, picture, one)
 }
 
+/** The profits, or differences of them, that the lower and the upper edge of the curves stand for. */
+export function edges([one, other]: readonly Earnings[]): { low: number; high: number } {
+  if (one === undefined) return { low: 0, high: 0 }
+  if (other === undefined) {
+    const [low, high] = one.range
+    return { low, high }
+  }
+  const behind = (time: Seconds) => Math.abs(one.at(time).profit_usd - other.at(time).profit_usd)
+  const most = [-Infinity, ...one.times, ...other.times].reduce(
+    (most, time) => Math.max(most, behind(time)),
+    0,
+  )
+  return { low: -most, high: most }
+}
+
 function xOf({ span, size }: CurvePicture, time: Seconds): number {
   return ((time - span.from) / (span.to - span.from)) * size.width
 }
@@ -42,7 +57,7 @@ function paintPeriods(context: CanvasRenderingContext2D, picture: CurvePicture):
 /** The profit so far. It rises at decisions and stays the same in between. */
 function paintEarnings(context: CanvasRenderingContext2D, picture: CurvePicture, earnings: Earnings): void {
   const { size, colours } = picture
-  const [low, high] = earnings.range
+  const { low, high } = edges([earnings])
   const y = (amount: number) =>
     size.height - 2 - ((amount - low) / Math.max(high - low, 1e-9)) * (size.height - 6)
   if (low < 0) paintLevel(context, picture, y(0))
@@ -75,7 +90,7 @@ function paintDifference(
     const time = span.from + (x / size.width) * (span.to - span.from)
     return one.at(time).profit_usd - other.at(time).profit_usd
   })
-  const most = Math.max(1, ...columns.map(Math.abs))
+  const most = Math.max(1, edges([one, other]).high)
   const middle = size.height / 2
   const y = (amount: number) => middle - (amount / most) * (middle - 3)
   columns.forEach((amount, x) => {

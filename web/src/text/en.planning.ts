@@ -18,6 +18,8 @@ export const editor = {
     city: 'Three vertiports with coordinates',
     plane: 'Three vertiports in a plane of miles',
   },
+  openFile: 'Open a file',
+  openFileHint: 'A network file (TOML) of this machine',
   size: (vertiports: number, aircraft: number, passengers: number) =>
     `${plural(vertiports, 'vertiport', 'vertiports')}, ${whole(aircraft)} aircraft, ${whole(passengers)} passengers a day`,
   other: 'Another network',
@@ -31,13 +33,15 @@ export const editor = {
   saveAsHint: (name: string) =>
     `${name} is shipped with the program and stays as it is. Yours needs a name of its own: letters, digits, dots, dashes and underscores.`,
   saved: (name: string) => `${name} is saved.`,
+  replace: 'Replace it',
+  replaceHint: (name: string) => `There is a network ${name} already. Saving replaces it with this one.`,
   unsaved: 'not saved',
   mayNotSave: 'The token that you signed in with may not save networks. You can download the file.',
   download: 'Download',
   remove: 'Delete',
   removeHint: (name: string) =>
     `${name} is removed from the service. Days that were made from it stay as they are.`,
-  removed: (name: string) => `${name} is deleted.`,
+  removed: (name: string) => `${name} is deleted. Its text is still here.`,
   network: 'Network',
   tabs: {
     places: 'Vertiports',
@@ -61,7 +65,6 @@ export const editor = {
     line: (line: number) => `line ${line}`,
     show: 'Show',
     unreadable: 'The text cannot be read, so the forms show it as it was.',
-    notPossible: 'The network could not be checked.',
   },
 
   map: {
@@ -70,7 +73,6 @@ export const editor = {
       'Drag a vertiport to move it. With the keyboard, go to one with Tab, move it with the arrow keys (ten times as far with Shift), and remove it with Delete.',
     add: 'Add a vertiport',
     adding: 'Click where it is to be',
-    stopAdding: 'Stop adding',
     vertiport: (id: string, stands: number | undefined, place: string) =>
       `${id}, ${stands === undefined ? 'no stands' : plural(stands, 'stand', 'stands')}, ${place}`,
     degrees: (latitude: string, longitude: string) => `${latitude}° north, ${longitude}° east`,
@@ -203,6 +205,8 @@ export const editor = {
     outages: 'Aircraft fail',
     entries: (number: number) => plural(number, 'entry', 'entries'),
     chance: (share: number) => `${Math.round(share * 1000) / 10} % a day`,
+    scatter: (share: number) => `by ${Math.round(share * 1000) / 10} % of a pair’s passengers`,
+    atVertiports: (number: number) => `at ${plural(number, 'vertiport', 'vertiports')}`,
     showText: 'Show in the text',
   },
 
@@ -301,10 +305,8 @@ export const studies = {
     `That is ${difference} a day against ${other} (95 % interval ${interval}; paired t-test, ${p}).`,
   chance: (difference: string, other: string, p: string) =>
     `The difference to ${other}, ${difference}, is within what chance alone can make (paired t-test, ${p}).`,
-  against: (name: string) => `Against ${name}`,
   table: {
     policy: 'Policy',
-    sees: 'Sees',
     profit: 'Profit a day',
     share: 'Of the bound',
     difference: 'Against the first',
@@ -314,9 +316,11 @@ export const studies = {
     load: 'Load factor',
     flights: 'Flights',
   },
-  sees: { present: 'the present', forecast: 'the forecast', 'whole-day': 'the whole day' } as Readonly<
-    Record<string, string>
-  >,
+  sees: {
+    present: 'sees the present',
+    forecast: 'sees the forecast',
+    'whole-day': 'sees the whole day',
+  } as Readonly<Record<string, string>>,
   reference: 'knows the days: a reference, no policy',
   perDay:
     'Means a day. ± is half of the 95 % interval (Student’s t). p: the chance of such a difference if there were none.',

@@ -558,6 +558,7 @@ export const en = {
     choose: 'Choose files',
     add: 'Add files',
     asItWas: 'As it was',
+    daysOfService: 'Days of this service',
     faults: {
       'no-scenario': 'One of the files must be a scenario file, and no more than one.',
       'no-trace': 'At least one of the files must be the trace of a day, as simulate --trace writes it.',

@@ -3,13 +3,13 @@
 import { at } from '../../model/arrays'
 import { css } from '../../parts/colours'
 import { shows } from '../camera'
-import { placeLabels, type LabelPlace } from '../labels'
+import { placeLabels, type LabelPlace, type Rectangle } from '../labels'
 import { COUNTED, radiusOf, StandState } from '../rings'
 import type { Scene } from '../scene'
 import { vertiportPixel } from '../where'
 import { changed } from './changes'
 import { stillParts, type Picture } from './painter'
-import { Sheet } from '../../parts/sheet'
+import { Sheet, type Size } from '../../parts/sheet'
 
 const NAME_PX = 12
 const NUMBER_PX = 10
@@ -32,7 +32,7 @@ export class NamesPainter {
     const fonts = { name: `600 ${NAME_PX}px ${family}`, number: `500 ${NUMBER_PX}px ${family}` }
     const visible = picture.scene.room.map((_, one) => one).filter((one) => isVisible(picture, one))
     const labels = visible.map((one) => labelOf(context, picture, one, fonts))
-    const places = placeLabels(labels, picture.size)
+    const places = placeLabels(labels, picture.size, controls(picture.size))
     context.lineJoin = 'round'
     labels.forEach((label, index) => {
       if (label.radius >= LEAST_RADIUS_FOR_NUMBER) paintNumber(context, picture, label, fonts.number)
@@ -40,6 +40,14 @@ export class NamesPainter {
       if (place !== undefined) paintName(context, picture, label, place, fonts)
     })
   }
+}
+
+/** Where the buttons and the key of the map lie over it: no name could be read there. */
+function controls({ width, height }: Size): Rectangle[] {
+  return [
+    { left: width - 48, top: 0, right: width, bottom: 148 },
+    { left: 0, top: height - 64, right: 72, bottom: height },
+  ]
 }
 
 interface Fonts {

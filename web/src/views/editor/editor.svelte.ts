@@ -32,10 +32,20 @@ const tabOf: Readonly<Record<string, Tab>> = {
   uniform_demand: 'demand',
 }
 
+/** A network to edit. */
+export interface Opened {
+  toml: string
+  /** Its name in the service; empty if it is not there. */
+  source: string
+  /** Whether the service has it because it was saved, rather than shipped with it. */
+  isOwn: boolean
+}
+
 interface Kept {
   text: string
   saved: string
   source: string
+  isOwn: boolean
 }
 
 class Editor {
@@ -43,8 +53,9 @@ class Editor {
   /** The text as it was read or saved last. */
   #saved = $state('')
   #first = $state('')
-  /** The network that it was read from, or a template. */
+  /** The network of the service that it was read from or saved as; empty if it is not there. */
   source = $state('')
+  isOwn = $state(false)
   tab = $state<Tab>('places')
   /** Whether the text stands beside the forms, or takes a tab of its own where there is no room. */
   showsText = $state(true)
@@ -76,6 +87,7 @@ class Editor {
     this.#first = kept.text
     this.#saved = kept.saved
     this.source = kept.source
+    this.isOwn = kept.isOwn
   }
 
   get isOpen(): boolean {
@@ -136,12 +148,13 @@ class Editor {
     return this.#history?.canRedo === true
   }
 
-  /** Begins to edit a text. */
-  open(text: string, source: string): void {
-    this.#history = History.of(text)
-    this.#first = text
-    this.#saved = text
+  /** Begins to edit a network. */
+  open({ toml, source, isOwn }: Opened): void {
+    this.#history = History.of(toml)
+    this.#first = toml
+    this.#saved = toml
     this.source = source
+    this.isOwn = isOwn
     this.opened += 1
     this.vertiport = undefined
     this.study = undefined
@@ -245,12 +258,28 @@ class Editor {
       const info = await session.service.keepNetwork(this.draft.name, text)
       this.#saved = text
       this.source = info.name
+      this.isOwn = true
       this.#keep()
       return info
     } catch (cause) {
       toasts.fail(cause)
       return undefined
     }
+  }
+
+  /** Removes the network from the service. Its text stays here, and is not saved any more. */
+  async remove(): Promise<boolean> {
+    try {
+      await session.service.forgetNetwork(this.source)
+    } catch (cause) {
+      toasts.fail(cause)
+      return false
+    }
+    this.#saved = ''
+    this.source = ''
+    this.isOwn = false
+    this.#keep()
+    return true
   }
 
   #refused(cause: unknown, file: TomlFile): void {
@@ -269,7 +298,7 @@ class Editor {
   }
 
   #keep(): void {
-    const kept: Kept = { text: this.text, saved: this.#saved, source: this.source }
+    const kept: Kept = { text: this.text, saved: this.#saved, source: this.source, isOwn: this.isOwn }
     try {
       if (kept.text.length <= MOST_KEPT) sessionStorage.setItem(KEY, JSON.stringify(kept))
       else sessionStorage.removeItem(KEY)
