@@ -1,5 +1,13 @@
 import { expect, it } from 'vitest'
-import { count, countDifference, dollarDifference, dollars, dollarsAndCents, percent } from './money'
+import {
+  count,
+  countDifference,
+  dollarDifference,
+  dollars,
+  dollarsAndCents,
+  percent,
+  pointDifference,
+} from './money'
 
 it('writes sums in whole dollars and flights with cents', () => {
   expect(dollars(37_149.4)).toBe('$37,149')
@@ -18,6 +26,11 @@ it('shows the sign of every difference', () => {
     '+$120',
     '−$85',
     '±$0',
+  ])
+  expect([pointDifference(0.0149), pointDifference(-0.014), pointDifference(0.0001)]).toEqual([
+    '+1.5',
+    '−1.4',
+    '±0.0',
   ])
   expect([countDifference(3), countDifference(-1204), countDifference(0)]).toEqual(['+3', '−1,204', '±0'])
 })

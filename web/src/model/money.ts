@@ -3,6 +3,7 @@
 
 const whole = new Intl.NumberFormat('en-US', { maximumFractionDigits: 0 })
 const cents = new Intl.NumberFormat('en-US', { minimumFractionDigits: 2, maximumFractionDigits: 2 })
+const tenths = new Intl.NumberFormat('en-US', { minimumFractionDigits: 1, maximumFractionDigits: 1 })
 
 /** The minus of typography, which is as wide as a digit. */
 const MINUS = '−'
@@ -36,6 +37,11 @@ export function countDifference(number: number): string {
 export function percent(share: number, digits = 0): string {
   const factor = 10 ** digits
   return `${(Math.round(share * 100 * factor) / factor).toFixed(digits)} %`
+}
+
+/** `−1.4` or `±0.0`: how many percent of the whole two shares differ by. */
+export function pointDifference(share: number): string {
+  return Math.abs(share) < 0.0005 ? '±0.0' : signed(100 * share, tenths, '+').replace('$', '')
 }
 
 function signed(amount: number, format: Intl.NumberFormat, plus: string): string {

@@ -49,6 +49,14 @@ describe('the clock of a day', () => {
     expect(late).toBeLessThan(22_200 + 60 * 2)
   })
 
+  it('never runs far ahead of a simulated day that waits for people', () => {
+    const pace = new Pace()
+    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 500 * second, 1000 * second)
+    pace.at(10_000)
+    frames(pace, 10_000, 20_000)
+    expect(pace.at(20_000)).toBeLessThanOrEqual(21_600 + 500 * 10 + 120)
+  })
+
   it('stops when the day is over', () => {
     const pace = new Pace()
     for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)

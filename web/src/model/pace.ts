@@ -14,6 +14,9 @@ const JUMP_MS = 4_000
 /** How much longer than the longest silence so far the clock goes on without news. */
 const PATIENCE = 1.5
 const LEAST_PATIENCE_MS = 1_500
+/** A day that passes faster than this is simulated, and waits where people are to decide: its clock goes on for less long. */
+const SIMULATED = 2
+const MOST_AHEAD_S = 120
 
 interface News {
   time: Seconds
@@ -70,7 +73,8 @@ export class Pace {
 
   #patience(): number {
     const silences = this.#news.slice(1).map((news, at) => news.at_ms - (this.#news[at]?.at_ms ?? news.at_ms))
-    return Math.max(LEAST_PATIENCE_MS, PATIENCE * Math.max(0, ...silences))
+    const patience_ms = Math.max(LEAST_PATIENCE_MS, PATIENCE * Math.max(0, ...silences))
+    return this.speed > SIMULATED ? Math.min(patience_ms, (1000 * MOST_AHEAD_S) / this.speed) : patience_ms
   }
 
   #isFarBehind(shown: News, target: Seconds): boolean {

@@ -1,6 +1,6 @@
 // A fleet that flies as it is expected to: it reports departures and landings, and leaves decisions to the console.
 
-import type { DayState, Event, TakenEvent } from '../../src/api/types'
+import type { DayInfo, DayList, DayState, Event, NewDay, TakenEvent } from '../../src/api/types'
 import { clock, timeOf } from '../../src/model/time'
 
 /** A small network: quickly played, and with vertiports that fill up. */
@@ -54,6 +54,26 @@ least = 4
 most = 30
 `
 
+/** The same with stands for all, on a day that goes wrong: late take-offs, a closure, and aircraft out of service. */
+export const disturbedNetwork = `${smallNetwork.replaceAll(/stands = \d/g, 'stands = 7')}
+[disturbances.takeoff_delays]
+slot_s = 900
+vertiports = [
+    { at = "North", probability = 0.5, mean_s = 300, most_s = 900 },
+    { at = "East", probability = 0.2, mean_s = 300, most_s = 900 },
+    { at = "South", probability = 0.2, mean_s = 300, most_s = 900 },
+]
+[[disturbances.closures]]
+probability = 1
+least_s = 1800
+most_s = 3600
+routes = [{ from = "North", to = "South", both_ways = true }]
+[disturbances.outages]
+probability = 0.3
+least_s = 1800
+most_s = 3600
+`
+
 export class Fleet {
   constructor(
     private readonly url: string,
@@ -63,12 +83,23 @@ export class Fleet {
 
   /** A day of the small network. */
   static async onSmallDay(url: string, token?: string): Promise<Fleet> {
-    const maker = new Fleet(url, '', token)
-    await maker.ask('PUT', '/v1/networks/small', { toml: smallNetwork })
-    const day = (await maker.ask('POST', '/v1/days', { network: 'small', seed: 2, policy: 'prices' })) as {
-      id: string
-    }
+    await new Fleet(url, '', token).ask('PUT', '/v1/networks/small', { toml: smallNetwork })
+    return Fleet.onNewDay(url, { network: 'small', seed: 2, policy: 'prices' }, token)
+  }
+
+  static async onNewDay(url: string, asked: NewDay, token?: string): Promise<Fleet> {
+    const day = (await new Fleet(url, '', token).ask('POST', '/v1/days', asked)) as DayInfo
     return new Fleet(url, day.id, token)
+  }
+
+  /** The day that somebody else makes, as soon as it is there. */
+  static async onDayOfOthers(url: string): Promise<Fleet> {
+    for (;;) {
+      const { days } = (await new Fleet(url, '').ask('GET', '/v1/days')) as DayList
+      const [day] = days
+      if (day !== undefined) return new Fleet(url, day.id)
+      await new Promise((resume) => setTimeout(resume, 50))
+    }
   }
 
   async ask(method: string, path: string, body?: unknown): Promise<unknown> {
@@ -86,12 +117,32 @@ export class Fleet {
     return (await this.ask('GET', `/v1/days/${this.day}/state`)) as DayState
   }
 
+  /** How many decisions were taken. */
+  async decisions(): Promise<number> {
+    return (await this.state()).totals.decisions
+  }
+
   async events(): Promise<TakenEvent[]> {
     return ((await this.ask('GET', `/v1/days/${this.day}/events`)) as { events: TakenEvent[] }).events
   }
 
   async report(...events: Event[]): Promise<void> {
     await this.ask('POST', `/v1/days/${this.day}/events`, events)
+  }
+
+  /** Who waits for a decision. */
+  async waiting(): Promise<string[]> {
+    const { aircraft } = await this.state()
+    return aircraft.filter((one) => one.needs_decision).map((one) => one.id)
+  }
+
+  /** Goes on and takes the policy's decisions until a time, at which nobody waits. */
+  async playUntil(time: string): Promise<void> {
+    while (await this.goOn()) {
+      const { now } = await this.state()
+      if (timeOf(now) >= timeOf(time)) return
+      for (const aircraft of await this.waiting()) await this.decide(aircraft)
+    }
   }
 
   async decide(aircraft: string, more: object = {}): Promise<void> {

@@ -1,7 +1,7 @@
 // The real program, started for one test with a folder of its own, killed and started again as the test wants.
 
 import { execFileSync, spawn, type ChildProcess } from 'node:child_process'
-import { mkdtempSync, rmSync } from 'node:fs'
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { join, resolve } from 'node:path'
 import { preview, type PreviewServer } from 'vite'
@@ -59,6 +59,16 @@ export class Program {
     const ended = new Promise((resume) => child.once('exit', resume))
     child.kill(signal)
     await ended
+  }
+
+  /** Lets `vertifleet operate` report a day of a network to its end, and gives what went wrong with it: nothing, or an error. */
+  operate(network: string, ...args: string[]): Promise<string> {
+    const file = join(this.#folder, 'operated.toml')
+    writeFileSync(file, network)
+    const child = spawn(program, ['operate', this.url, '--network', file, ...args])
+    let said = ''
+    child.stderr.on('data', (bytes: Buffer) => (said += bytes.toString()))
+    return new Promise((ends) => child.once('close', (code) => ends(code === 0 ? '' : `${code}: ${said}`)))
   }
 
   /** Makes a token, after which the service wants one of everybody. */

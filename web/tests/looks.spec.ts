@@ -1,0 +1,104 @@
+// What the views of a day look like, on a day of New York that went wrong a little and stands still.
+
+import type { Page } from '@playwright/test'
+import { Fleet } from './support/fleet'
+import type { Program } from './support/program'
+import { expect, open, panel, test } from './support/test'
+
+const TOLERANCE = { maxDiffPixelRatio: 0.02 }
+
+const sizes = {
+  desk: { width: 1280, height: 800 },
+  wall: { width: 1920, height: 1080 },
+  phone: { width: 390, height: 844 },
+}
+
+/** A morning with a closure, an aircraft out of service and a late one; some aircraft wait for a decision. */
+async function morning(program: Program): Promise<Fleet> {
+  const fleet = await Fleet.onNewDay(program.url, {
+    network: 'new-york',
+    seed: 3,
+    policy: 'prices',
+    date: '2026-06-01',
+  })
+  await fleet.playUntil('06:40:00')
+  await fleet.report(
+    { type: 'closed', routes: { from: 'JFK', to: 'LGA' }, until: '09:00:00', reason: 'thunderstorm' },
+    { type: 'out_of_service', aircraft: 'A07', until: '08:30:00', reason: 'a rotor is looked at' },
+  )
+  await fleet.playUntil('07:20:00')
+  return fleet
+}
+
+/** Shows a day without a clock that goes on: for whoever looks ten minutes later, nothing has happened for long. */
+async function standStill(page: Page): Promise<void> {
+  await page.clock.setFixedTime(Date.now() + 600_000)
+  await page.addInitScript(() => {
+    document.addEventListener('DOMContentLoaded', () => {
+      const sheet = new CSSStyleSheet()
+      sheet.replaceSync(
+        ":root { --sans: 'Liberation Sans' !important; --mono: 'Liberation Mono' !important }",
+      )
+      document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet]
+    })
+  })
+}
+
+/** What differs each time: how long the service took, when it did so, and the ids it gave. */
+function passing(page: Page) {
+  return [
+    page.locator('.decision .bar'),
+    page.locator('.taken'),
+    page.locator('td .id'),
+    page.locator('time'),
+  ]
+}
+
+const views: Record<string, (page: Page, program: Program, fleet: Fleet) => Promise<void>> = {
+  now: async (page, program, fleet) => {
+    await open(page, program, fleet)
+    await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
+    await expect(page.locator('.figures')).toContainText('of the bound')
+  },
+  timeline: async (page, program, fleet) => {
+    await open(page, program, fleet, 'timeline')
+    await expect(page.locator('.gantt canvas').first()).toBeVisible()
+  },
+  'what-if': async (page, program, fleet) => {
+    await open(page, program, fleet, 'what-if')
+    await page.getByRole('combobox', { name: 'From' }).selectOption('JFK')
+    await page.getByRole('textbox', { name: /Until/ }).fill('09:00')
+    await page.getByRole('button', { name: 'Add the change' }).click()
+    await page.getByRole('button', { name: 'Compare', exact: true }).click()
+    await expect(page.getByText(/They first differ at/)).toBeVisible({ timeout: 30_000 })
+  },
+  log: async (page, program, fleet) => {
+    await open(page, program, fleet, 'log')
+    await expect(page.getByRole('cell', { name: /has departed/ }).first()).toBeVisible()
+  },
+  days: async (page, program) => {
+    await page.goto(program.console)
+    await expect(page.getByRole('link', { name: /new-york/ })).toBeVisible()
+  },
+}
+
+for (const scheme of ['light', 'dark'] as const) {
+  test(`the views of a day look as they did (${scheme})`, async ({ page, program }) => {
+    test.setTimeout(300_000)
+    await page.emulateMedia({ colorScheme: scheme })
+    const fleet = await morning(program)
+    await standStill(page)
+    for (const screen of ['desk', 'wall', 'phone'] as const) {
+      await page.setViewportSize(sizes[screen])
+      for (const [view, show] of Object.entries(views)) {
+        // A view begins anew only on a page that was left.
+        await page.goto('about:blank')
+        await show(page, program, fleet)
+        await page.mouse.move(0, 0)
+        await page.waitForTimeout(600)
+        const look = { ...TOLERANCE, mask: passing(page) }
+        await expect.soft(page).toHaveScreenshot(`${view}-${screen}-${scheme}.png`, look)
+      }
+    }
+  })
+}
