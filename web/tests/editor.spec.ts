@@ -3,6 +3,7 @@
 
 import type { Page } from '@playwright/test'
 import type { NetworkInfo } from '../src/api/types'
+import { smallNetwork } from './support/fleet'
 import { expect, expectAccessible, test } from './support/test'
 
 const TOLERANCE = { maxDiffPixelRatio: 0.02 }
@@ -158,6 +159,60 @@ test('a shipped network is saved under a name of its own', async ({ page, progra
   await page.getByRole('dialog').getByRole('button', { name: /^ours/ }).click()
   await page.getByRole('button', { name: 'Open the other one' }).click()
   await expect(page.getByLabel('Stands of V1')).toHaveValue('7')
+})
+
+test('the service is asked once for all that is typed without a pause', async ({ page, program }) => {
+  await page.clock.install()
+  await openNetwork(page, program.console, /paper/)
+  const asked: string[] = []
+  page.on('request', (request) => asked.push(new URL(request.url()).pathname))
+  await page.clock.pauseAt(new Date(Date.now() + 60_000))
+  await text(page).focus()
+  await page.keyboard.type('# a remark', { delay: 5 })
+  expect(asked).toEqual([])
+  const answer = page.waitForResponse(/validate/)
+  await page.clock.runFor(1000)
+  await answer
+  expect(asked).toEqual(['/v1/networks/validate'])
+})
+
+/** Opens the small network from a file. */
+async function openFile(page: Page, console: string): Promise<void> {
+  await page.goto(`${console}/#/editor`)
+  const file = { name: 'small.toml', mimeType: 'application/toml', buffer: Buffer.from(smallNetwork) }
+  await page.getByLabel('Open a file').setInputFiles(file)
+  await expect(page.getByText(/^Sound:/)).toBeVisible()
+}
+
+test('a file is opened and saved, and deleted networks can be taken back', async ({ page, program }) => {
+  await openFile(page, program.console)
+  await page.getByRole('button', { name: 'Save', exact: true }).click()
+  await expect(page.getByText('small is saved.')).toBeVisible()
+  expect((await read(program.url, 'small')).toml).toBe(smallNetwork)
+
+  await page.getByRole('button', { name: 'Delete' }).click()
+  await expect(page.getByText('small is deleted. Its text is still here.')).toBeVisible()
+  expect((await fetch(`${program.url}/v1/networks/small`)).status).toBe(404)
+  await page.getByRole('status').getByRole('button', { name: 'Take back' }).click()
+  await expect.poll(async () => (await fetch(`${program.url}/v1/networks/small`)).status).toBe(200)
+})
+
+test('no network is replaced unasked', async ({ page, program }) => {
+  await fetch(`${program.url}/v1/networks/small`, {
+    method: 'PUT',
+    body: JSON.stringify({ toml: smallNetwork }),
+  })
+  await openFile(page, program.console)
+  await page.getByLabel('Stands of South').fill('5')
+  await page.getByRole('button', { name: 'Save', exact: true }).click()
+  const dialog = page.getByRole('dialog')
+  await expect(dialog.getByText('There is a network small already.')).toBeVisible()
+  await expect(dialog.getByRole('button', { name: 'Replace it' })).toBeVisible()
+  await dialog.getByRole('textbox', { name: 'Name' }).fill('smaller')
+  await dialog.getByRole('button', { name: 'Save' }).click()
+  await expect(page.getByText('smaller is saved.')).toBeVisible()
+  expect((await read(program.url, 'small')).vertiports[2]?.stands).toBe(2)
+  expect((await read(program.url, 'smaller')).vertiports[2]?.stands).toBe(5)
 })
 
 test('whoever may only look can edit and download, and neither saves nor plays', async ({
