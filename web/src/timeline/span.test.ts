@@ -45,7 +45,7 @@ describe('a span', () => {
 
 describe('a day that happens', () => {
   it('is shown as a whole where there is room', () => {
-    expect(liveSpan(9 * 3600, 1000, whole)).toBe(whole)
+    expect(liveSpan(9 * 3600, 1200, whole)).toBe(whole)
   })
 
   it('is shown around now where there is not, and never beyond its ends', () => {

@@ -33,7 +33,7 @@ export function showTime(span: Span, time: Seconds, whole: Span): Span {
 }
 
 /** Pixels that an hour has at least where the whole day is shown, and how many it has where only a part of it is. */
-const HOUR_PX = { least: 60, good: 90 }
+const HOUR_PX = { least: 75, good: 90 }
 
 /** What is shown of a day that happens until a person chooses otherwise: all of it where there is room for it, or else the
  *  hours around now, most of them ahead. The very object `whole` is returned for all of it. */
