@@ -41,6 +41,7 @@ CALLS: dict[str, tuple[str, tuple[Any, ...]]] = {
     "day_outlook": ("day.outlook", ()),
     "what_if": ("day.what_if", ()),
     "day_demand": ("day.demand", ()),
+    "day_ledger": ("day.ledger", ()),
     "day_scenario": ("day.scenario", ()),
     "list_networks": ("client.networks", ()),
     "read_network": ("client.network", ("paper",)),

@@ -123,3 +123,55 @@ fn what_is_no_copy_of_a_service_is_not_put_back() {
     serve(&["backup", &copy_text], &data).failure();
     assert!(std::fs::read(&copy).expect("it is there").starts_with(b"no database"));
 }
+
+#[test]
+fn a_changed_beginning_of_a_day_is_found() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let id = data(folder.path());
+    let copy = folder.path().join("copy.db");
+    serve(&["backup", copy.to_str().expect("text")], folder.path()).success();
+    let mut bytes = std::fs::read(&copy).expect("it was written");
+    let stands = b"\"stands\": 6";
+    let at = bytes.windows(stands.len()).position(|window| window == stands).expect("a vertiport");
+    bytes[at + stands.len() - 1] = b'9';
+    std::fs::write(&copy, &bytes).expect("it is ours");
+    let elsewhere = folder.path().join("elsewhere");
+    let refused = serve(&["restore", copy.to_str().expect("text")], &elsewhere).failure();
+    let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(said.contains("V607") && said.contains(&id) && said.contains("began with"), "{said}");
+}
+
+#[test]
+#[cfg(unix)]
+fn nobody_else_can_read_copies_and_what_is_put_back() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().expect("a folder");
+    // Marks that mean something in addresses are letters of a name like all others.
+    let (first, second) = (folder.path().join("a%42?#"), folder.path().join("second"));
+    data(&first);
+    let copy = folder.path().join("copy.db");
+    serve(&["backup", copy.to_str().expect("text")], &first).success();
+    serve(&["restore", copy.to_str().expect("text")], &second).success();
+    let mode = |path: &Path| path.metadata().expect("it is there").permissions().mode() & 0o777;
+    assert_eq!(mode(&copy), 0o600);
+    assert_eq!(mode(&second.join("vertifleet.db")), 0o600);
+    for data in [&first, &second] {
+        assert_eq!(mode(data), 0o700, "{}", data.display());
+        assert!(data.join("vertifleet.db").exists());
+    }
+    assert!(!folder.path().join("aB").exists());
+}
+
+#[test]
+fn mistakes_make_no_data() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let nowhere = folder.path().join("nowhere");
+    serve(&["token", "list"], &nowhere).failure();
+    serve(&["token", "revoke", "1f"], &nowhere).failure();
+    assert!(!nowhere.exists());
+    for wrong in ["mysql://here", "foo", "sqlite:///any.db"] {
+        let refused = serve(&["verify", "--database", wrong], &nowhere).code(2);
+        let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(said.contains("V628"), "{said}");
+    }
+}

@@ -35,7 +35,7 @@ impl Service {
         let mut socket = self.connect();
         write!(
             socket,
-            "{method} {path} HTTP/1.1\r\nhost: here\r\nconnection: close\r\ncontent-length: {}\r\n\r\n{body}",
+            "{method} {path} HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\ncontent-length: {}\r\n\r\n{body}",
             body.len()
         )
         .expect("it is sent");
@@ -78,7 +78,7 @@ fn a_thousand_readers_get_every_event() {
     let day = service.new_day();
     let mut readers: Vec<TcpStream> = (0..READERS).map(|_| service.connect()).collect();
     for reader in &mut readers {
-        write!(reader, "GET {day}/stream HTTP/1.1\r\nhost: here\r\n\r\n").expect("it is sent");
+        write!(reader, "GET {day}/stream HTTP/1.1\r\nhost: localhost\r\n\r\n").expect("it is sent");
     }
     for _ in 0..EVENTS {
         let (status, taken) = service.ask("POST", &format!("{day}/events"), r#"{"type": "clock"}"#);

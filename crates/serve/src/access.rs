@@ -1,6 +1,8 @@
 //! Who may do what: bearer tokens with roles. As long as no token has been made, everybody on this machine may do
 //! everything, and the service listens on this machine alone.
 
+mod own_pages;
+
 use std::num::NonZeroU32;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -30,6 +32,8 @@ const STALE: Duration = Duration::from_mins(1);
 const TWO: NonZeroU32 = NonZeroU32::new(2).unwrap();
 /// Every token begins like this, so that people and scanners know one when they see it.
 const PREFIX: &str = "vf_";
+/// What stands before a token, in large or small letters (RFC 9110).
+const SCHEME: &str = "Bearer ";
 
 /// What a token permits. Each role permits what those before it do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, ToSchema)]
@@ -160,12 +164,13 @@ impl Access {
         Ok(self.tokens().await?.iter().any(|token| token.revoked_ms == 0))
     }
 
-    /// Lets a request in, or not. Whatever a token asks for counts as asked with it; what cannot be checked because the store
-    /// does not answer counts as nobody's.
-    async fn admit(&self, headers: &HeaderMap, needed: Role) -> Result<Actor, Error> {
+    /// Lets a request to a host in, or not. Whatever a token asks for counts as asked with it; what cannot be checked because
+    /// the store does not answer counts as nobody's.
+    async fn admit(&self, host: &str, headers: &HeaderMap, needed: Role) -> Result<Actor, Error> {
         let tokens = self.tokens().await?;
         // Once there has been a token, revoking the last one does not open the door to everybody.
         if tokens.is_empty() {
+            own_pages::check(host, headers)?;
             return Ok(Actor::default());
         }
         let token = sent(&tokens, headers);
@@ -211,7 +216,13 @@ impl StoredToken {
 /// The token in force that a request came with.
 fn sent<'a>(tokens: &'a [StoredToken], headers: &HeaderMap) -> Option<&'a StoredToken> {
     let given = headers.get(header::AUTHORIZATION)?.to_str().ok()?;
-    matching(tokens, given.strip_prefix("Bearer ")?)
+    matching(
+        tokens,
+        given
+            .split_at_checked(SCHEME.len())
+            .filter(|(scheme, _)| scheme.eq_ignore_ascii_case(SCHEME))?
+            .1,
+    )
 }
 
 /// The token in force that a text is.
@@ -231,7 +242,11 @@ pub(crate) async fn admit(
     let path = request.uri().path();
     if !matches!(path, "/healthz" | "/readyz") && !console::is_open(path) {
         let needed = Role::needed(request.method(), path);
-        let actor = service.access.admit(request.headers(), needed).await?;
+        // HTTP/2 has the host in the address of the request.
+        let named = request.uri().host().map(str::to_owned);
+        let told = || request.headers().get(header::HOST)?.to_str().ok().map(str::to_owned);
+        let host = named.or_else(told).unwrap_or_default();
+        let actor = service.access.admit(&host, request.headers(), needed).await?;
         request.extensions_mut().insert(actor);
     }
     Ok(next.run(request).await)
@@ -266,22 +281,37 @@ impl Drop for Tokens {
 }
 
 impl Tokens {
-    /// Opens the store of a service.
+    /// Opens the store of a service, and makes one if there is none.
     ///
     /// # Errors
     /// Returns [`Error::Store`] or [`Error::BadData`] if it cannot be opened.
     pub fn open(location: &Location) -> Result<Self, Error> {
+        Self::of(async || Store::open(location).await)
+    }
+
+    /// Opens the store of a service, which must be there.
+    ///
+    /// # Errors
+    /// Returns [`Error::Store`] or [`Error::BadData`] if it is not there or cannot be opened.
+    pub fn open_existing(location: &Location) -> Result<Self, Error> {
+        Self::of(async || Store::open_existing(location).await)
+    }
+
+    fn of(open: impl AsyncFnOnce() -> Result<Store, Error>) -> Result<Self, Error> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|cause| Error::Internal { cause: cause.to_string() })?;
-        let store = runtime.block_on(Store::open(location))?;
+        let store = runtime.block_on(open())?;
         Ok(Self { runtime, store })
     }
 
     /// Makes a token and returns its text, which cannot be had again.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] if it cannot be stored.
+    /// Returns [`Error::NameTaken`] if another one with this name is in force, and [`Error::Store`] if it cannot be stored.
     pub fn make(&self, name: &str, role: Role) -> Result<String, Error> {
+        if self.list()?.iter().any(|token| token.name == name && token.revoked_ms == 0) {
+            return Err(Error::NameTaken { name: name.to_owned() });
+        }
         let (id, secret) = (random_digits(4)?, random_digits(32)?);
         let token = StoredToken {
             id: id.clone(),
@@ -313,7 +343,7 @@ impl Tokens {
     pub fn revoke(&self, id: &str) -> Result<(), Error> {
         self.runtime.block_on(async {
             if !self.store.revoke_token(id, now_ms()).await? {
-                return Err(Error::not_found("token", id));
+                return Err(Error::not_found("token in force with the id", id));
             }
             self.store.record("", "token revoked", id, now_ms()).await
         })
@@ -348,7 +378,8 @@ mod tests {
         let store = Store::open(&location).await.expect("a store");
         store.close().await;
         let access = Access::new(store, 1);
-        let ask = async || access.admit(&HeaderMap::new(), Role::Read).await.map(|_| ());
+        let ask =
+            async || access.admit("localhost", &HeaderMap::new(), Role::Read).await.map(|_| ());
         for _ in 0..20 {
             let refused = ask().await;
             assert!(matches!(refused, Err(Error::Store { .. })), "{refused:?}");

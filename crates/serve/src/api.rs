@@ -7,6 +7,7 @@ mod demand;
 mod describe;
 mod events;
 mod extract;
+mod ledger;
 mod networks;
 mod new_day;
 mod outlooks;
@@ -48,6 +49,7 @@ pub(crate) fn router(service: Arc<Service>, console: Console) -> Router {
         .route("/v1/days/{day}/unarchive", post(days::unarchive))
         .route("/v1/days/{day}/state", get(days::state))
         .route("/v1/days/{day}/demand", get(demand::demand))
+        .route("/v1/days/{day}/ledger", get(ledger::ledger))
         .route("/v1/days/{day}/scenario", get(days::scenario))
         .route("/v1/days/{day}/trace.csv", get(days::trace))
         .route("/v1/days/{day}/events", get(events::list).post(events::append))

@@ -25,7 +25,8 @@ impl Calendar {
     /// Returns [`Error::BadRequest`] if there is no such date or no such time zone.
     pub(crate) fn new(date: &str, time_zone: &str) -> Result<Self, Error> {
         let wrong = |rule: String| Error::BadRequest { rule };
-        let no_date = || wrong(format!("{date:?} is no date: write it as 2026-11-23"));
+        let no_date =
+            || wrong(format!("{date:?} is no date from 1970 to 2199: write it as 2026-11-23"));
         let is_plain = date.len() == 10 && !date.starts_with(['-', '+']);
         let read =
             date.parse::<Date>().ok().filter(|read| is_plain && YEARS.contains(&read.year()));

@@ -266,7 +266,8 @@ impl Weighed<'_> {
 
 /// An amount to the hundredth, which is all that people read and much shorter than a float.
 fn to_cents(amount: f64) -> f64 {
-    (amount * 100.0).round() / 100.0
+    // Nobody reads -0.0 as nothing.
+    (amount * 100.0).round() / 100.0 + 0.0
 }
 
 /// Why each vertiport cannot be chosen, in the order of the day.

@@ -98,6 +98,14 @@ pub enum Error {
         rule: String,
     },
 
+    /// V607. The data is that of another program, or of a newer version. Fix: use the program that wrote it, or name the
+    /// right folder or file.
+    #[error("the data of the service cannot be read: {rule}")]
+    ForeignData {
+        /// What is wrong.
+        rule: String,
+    },
+
     /// V608. The day is closed to writes. Cause: it was archived. Fix: open it again, or make a new day.
     #[error("day {id:?} is archived")]
     Archived {
@@ -247,6 +255,40 @@ pub enum Error {
         rule: String,
     },
 
+    /// V627. A request without a token that a page of another machine may have sent. Cause: the service has no tokens, so it
+    /// trusts this machine alone, and the request names another host or comes from a page of one. Fix: ask for
+    /// `http://127.0.0.1:8080`, or make a token, after which nothing else counts.
+    #[error("the service has no tokens, and the request {what} {named:?}")]
+    ForeignPage {
+        /// What the request does.
+        what: &'static str,
+        /// The host or the origin.
+        named: String,
+    },
+
+    /// V628. A database that cannot be meant. Cause: `--database` is no address of `PostgreSQL`. Fix: name it as
+    /// `postgres://user@host/database`.
+    #[error("the address of the database must begin with postgres:// or postgresql://")]
+    BadDatabase,
+
+    /// V629. A token with this name is in force. Cause: two tokens with one name could not be told apart in the record of
+    /// who did what. Fix: name it otherwise, or revoke the other one.
+    #[error("a token with the name {name:?} is in force")]
+    NameTaken {
+        /// The name.
+        name: String,
+    },
+
+    /// V630. A policy that days need cannot be deleted. Cause: days that are not archived are decided by it. Fix: archive
+    /// them, or leave the policy.
+    #[error("policy {name:?} decides on {days} days that are not archived")]
+    PolicyInUse {
+        /// The policy.
+        name: String,
+        /// The number of days.
+        days: i64,
+    },
+
     /// V621. Another process wrote to the same day at the same time, again and again. Cause: several services share a
     /// database, and many clients write to one day through all of them. Fix: send the request again.
     #[error("another service wrote to the day at the same time")]
@@ -275,7 +317,7 @@ impl Error {
                     .iter()
                     .any(|rule| cause.message().contains(rule)) =>
             {
-                Self::BadData { rule: cause.message().to_owned() }
+                Self::ForeignData { rule: cause.message().to_owned() }
             }
             _ => error.into(),
         }
@@ -321,24 +363,29 @@ impl Error {
             Self::TooMuch { what, .. } if what.starts_with("bytes") => {
                 StatusCode::PAYLOAD_TOO_LARGE
             }
-            Self::TooMuch { what: "streams", .. } | Self::Store { .. } | Self::Conflict => {
-                StatusCode::SERVICE_UNAVAILABLE
+            Self::Store { .. } => StatusCode::SERVICE_UNAVAILABLE,
+            Self::TooOften { .. } | Self::TooMuch { what: "streams", .. } => {
+                StatusCode::TOO_MANY_REQUESTS
             }
-            Self::Archived { .. } | Self::KeyInUse { .. } | Self::TooMuch { .. } => {
-                StatusCode::CONFLICT
-            }
+            Self::Archived { .. }
+            | Self::KeyInUse { .. }
+            | Self::Conflict
+            | Self::PolicyInUse { .. }
+            | Self::NameTaken { .. }
+            | Self::TooMuch { .. } => StatusCode::CONFLICT,
             Self::TooSlow { .. } => StatusCode::REQUEST_TIMEOUT,
             Self::NoToken => StatusCode::UNAUTHORIZED,
-            Self::NotPermitted { .. } => StatusCode::FORBIDDEN,
-            Self::TooOften { .. } => StatusCode::TOO_MANY_REQUESTS,
+            Self::NotPermitted { .. } | Self::ForeignPage { .. } => StatusCode::FORBIDDEN,
             Self::NotAllowed { .. } => StatusCode::METHOD_NOT_ALLOWED,
             Self::BadData { .. }
+            | Self::ForeignData { .. }
             | Self::Internal { .. }
             | Self::Unprotected { .. }
             | Self::InUse { .. }
             | Self::BadCertificate { .. }
             | Self::BadCollector { .. }
             | Self::BadBasemap { .. }
+            | Self::BadDatabase
             | Self::CannotListen { .. }
             | Self::NoAnswer { .. } => StatusCode::INTERNAL_SERVER_ERROR,
         }
@@ -366,7 +413,7 @@ impl Coded for Error {
             Self::Unfit(_) => 604,
             Self::Moved { .. } => 605,
             Self::Store { .. } => 606,
-            Self::BadData { .. } => 607,
+            Self::BadData { .. } | Self::ForeignData { .. } => 607,
             Self::Archived { .. } => 608,
             Self::KeyReused { .. } => 609,
             Self::NoToken => 610,
@@ -386,6 +433,10 @@ impl Coded for Error {
             Self::BadCertificate { .. } => 624,
             Self::BadCollector { .. } => 625,
             Self::BadBasemap { .. } => 626,
+            Self::ForeignPage { .. } => 627,
+            Self::BadDatabase => 628,
+            Self::NameTaken { .. } => 629,
+            Self::PolicyInUse { .. } => 630,
         })
     }
 
@@ -407,7 +458,13 @@ impl Coded for Error {
             Self::Archived { .. } => Some("POST /v1/days/DAY/unarchive opens it again"),
             Self::KeyReused { .. } => Some("use a new Idempotency-Key for each request"),
             Self::BadData { .. } => Some("`vertifleet serve verify` names what is damaged"),
+            Self::ForeignData { .. } => Some(
+                "use the program that wrote it or a newer one, or name the right folder or file",
+            ),
             Self::NoToken => Some("send it as `Authorization: Bearer vf_...`"),
+            Self::ForeignPage { .. } => Some(
+                "ask for 127.0.0.1 or localhost, or make a token: `vertifleet serve token make`",
+            ),
             Self::Unprotected { .. } => Some(
                 "listen on 127.0.0.1, or name a certificate (--certificate, --key) or stand behind a proxy that speaks TLS (--behind-proxy), and make a token",
             ),

@@ -1,7 +1,9 @@
 //! Events as they are written and read: what a live day is told, in JSON, with ids instead of positions.
 
 use std::collections::HashMap;
+use std::fmt;
 
+use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, de};
 use serde_json::{Map, Value};
 use utoipa::ToSchema;
@@ -25,7 +27,7 @@ pub(crate) struct Event {
 impl<'de> Deserialize<'de> for Event {
     /// Reads in two steps, because a flattened member would let unknown members pass.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut members = Map::deserialize(deserializer)?;
+        let Members(mut members) = Members::deserialize(deserializer)?;
         let time = members.remove("time").map(Option::<Moment>::deserialize);
         // A variant without members would let any pass.
         let is_clock = members.get("type").is_some_and(|kind| kind == "clock");
@@ -34,6 +36,36 @@ impl<'de> Deserialize<'de> for Event {
         }
         let what = What::deserialize(Value::Object(members)).map_err(de::Error::custom)?;
         Ok(Self { time: time.transpose().map_err(de::Error::custom)?.flatten(), what })
+    }
+}
+
+/// The members of an event, each of which is there once.
+struct Members(Map<String, Value>);
+
+impl<'de> Deserialize<'de> for Members {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Each;
+        impl<'de> Visitor<'de> for Each {
+            type Value = Members;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Members, A::Error> {
+                let mut members = Map::new();
+                while let Some(name) = map.next_key::<String>()? {
+                    if members.contains_key(&name) {
+                        return Err(de::Error::custom(format!(
+                            "the member `{name}` is there twice"
+                        )));
+                    }
+                    members.insert(name, map.next_value()?);
+                }
+                Ok(Members(members))
+            }
+        }
+        deserializer.deserialize_map(Each)
     }
 }
 

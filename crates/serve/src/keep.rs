@@ -1,5 +1,6 @@
 //! Keeping the data: every event checked, copies made and put back, days written out for other programs.
 
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,7 +11,9 @@ use vertifleet_core::Scenario;
 
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
-use crate::store::{AuditRecord, DATABASE, Location, PAGE, Store, StoredDay, StoredEvent};
+use crate::store::{
+    AuditRecord, DATABASE, Location, PAGE, Store, StoredDay, StoredEvent, make_folder,
+};
 
 /// The data of a service, which may run meanwhile.
 #[derive(Debug)]
@@ -102,15 +105,19 @@ impl Keeper {
 
     async fn check(&self, id: &str) -> Result<DayCheck, Error> {
         let check = |events, finding| DayCheck { day: id.to_owned(), events, finding };
-        let found = self.store.day(id).await?;
-        let (_, scenario) = found.ok_or_else(|| Error::not_found("day", id))?;
+        let (_, scenario) = match self.store.day(id).await {
+            Ok(found) => found.ok_or_else(|| Error::not_found("day", id))?,
+            Err(Error::BadData { rule }) => return Ok(check(0, Some(rule))),
+            Err(error) => return Err(error),
+        };
         let mut state = match Scenario::from_json(scenario.as_bytes(), id) {
             Ok(scenario) => DispatchDay::new(Arc::new(scenario)),
             Err(error) => return Ok(check(0, Some(error.to_string()))),
         };
         match self.store.replay(id, &mut state, u64::MAX).await {
             Ok(()) => Ok(check(state.seq(), None)),
-            Err(damage) => Ok(check(state.seq(), Some(damage.to_string()))),
+            Err(Error::BadData { rule }) => Ok(check(state.seq(), Some(rule))),
+            Err(failure) => Ok(check(state.seq(), Some(failure.to_string()))),
         }
     }
 
@@ -134,7 +141,10 @@ impl Keeper {
         let failed = |error: std::io::Error| Error::Store {
             cause: format!("{}: {error}", unfinished.display()),
         };
-        let written = self.runtime.block_on(self.store.copy_to(&unfinished.display().to_string()));
+        // SQLite fills a file that is empty, and leaves it to those who may read it.
+        let written = new_private_file(&unfinished).map_err(failed).and_then(|_| {
+            self.runtime.block_on(self.store.copy_to(&unfinished.display().to_string()))
+        });
         let named = written.and_then(|()| {
             std::fs::File::open(&unfinished).and_then(|copy| copy.sync_all()).map_err(failed)?;
             std::fs::rename(&unfinished, file).map_err(failed)
@@ -225,17 +235,43 @@ pub fn restore(copy: &Path, folder: &Path) -> Result<Contents, Error> {
     }
     let bytes =
         std::fs::read(copy).map_err(|error| failed(format!("{}: {error}", copy.display())))?;
-    vertifleet_core::create_folder(folder)?;
     // It is checked in a place of its own, so that a damaged copy never looks like the data of a service.
     let trial: PathBuf = folder.join("restoring");
-    vertifleet_core::create_folder(&trial)?;
-    let written = vertifleet_core::write_atomically(&trial.join(DATABASE), &bytes);
-    let checked = written.map_err(Error::from).and_then(|()| check_copy(&trial));
+    let io_failed = |error: std::io::Error| failed(format!("{}: {error}", trial.display()));
+    make_folder(&trial).map_err(io_failed)?;
+    let checked = put_back(&bytes, &trial, &database);
     let removed = std::fs::remove_dir_all(&trial);
     let contents = checked?;
-    removed.map_err(|error| failed(format!("{}: {error}", trial.display())))?;
-    vertifleet_core::write_atomically(&database, &bytes)?;
+    removed.map_err(io_failed)?;
     Ok(contents)
+}
+
+/// Checks a copy in a folder of its own, and gives it its name. Nobody but its owner can read it.
+fn put_back(bytes: &[u8], trial: &Path, database: &Path) -> Result<Contents, Error> {
+    let failed =
+        |error: std::io::Error| Error::Store { cause: format!("{}: {error}", trial.display()) };
+    let write = |name: &str| {
+        let mut file = new_private_file(&trial.join(name))?;
+        file.write_all(bytes)?;
+        file.sync_all()
+    };
+    write(DATABASE).map_err(failed)?;
+    let contents = check_copy(trial)?;
+    // What was looked at may have changed in doing so.
+    write("copy").map_err(failed)?;
+    std::fs::rename(trial.join("copy"), database).map_err(failed)?;
+    if let Some(folder) = database.parent() {
+        std::fs::File::open(folder).and_then(|folder| folder.sync_all()).map_err(failed)?;
+    }
+    Ok(contents)
+}
+
+/// Makes a file that its owner alone can read.
+fn new_private_file(path: &Path) -> std::io::Result<std::fs::File> {
+    let mut options = std::fs::OpenOptions::new();
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options.write(true).create_new(true).open(path)
 }
 
 fn check_copy(folder: &Path) -> Result<Contents, Error> {
@@ -246,7 +282,7 @@ fn check_copy(folder: &Path) -> Result<Contents, Error> {
         contents.days += 1;
         contents.events += check.events;
         if let Some(rule) = check.finding {
-            finding.get_or_insert(rule);
+            finding.get_or_insert(format!("day {}: {rule}", check.day));
         }
     })?;
     match finding {

@@ -1,7 +1,7 @@
 //! Errors as answers: problem details (RFC 9457) with the project's codes.
 
 use axum::Extension;
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -46,12 +46,24 @@ impl Problem {
 
 impl IntoResponse for Error {
     fn into_response(self) -> Response {
-        if self.status() >= StatusCode::INTERNAL_SERVER_ERROR {
+        let status = self.status();
+        if status >= StatusCode::INTERNAL_SERVER_ERROR {
             tracing::error!(error = %self, "a request failed");
         }
         let body = serde_json::to_string(&Problem::of(&self)).expect("plain data can be written");
         let kind = [(header::CONTENT_TYPE, "application/problem+json")];
         // The code is there for whoever measures requests.
-        (self.status(), Extension(self.code()), kind, body).into_response()
+        let mut answer = (status, Extension(self.code()), kind, body).into_response();
+        let told = match status {
+            StatusCode::UNAUTHORIZED => Some((header::WWW_AUTHENTICATE, "Bearer")),
+            StatusCode::TOO_MANY_REQUESTS | StatusCode::SERVICE_UNAVAILABLE => {
+                Some((header::RETRY_AFTER, "1"))
+            }
+            _ => None,
+        };
+        answer
+            .headers_mut()
+            .extend(told.map(|(name, text)| (name, HeaderValue::from_static(text))));
+        answer
     }
 }

@@ -131,7 +131,8 @@ fn lock(location: &Location) -> Result<Option<File>, Error> {
 
 /// Refuses an address that others can reach, unless what they say is encrypted and tokens tell who they are.
 async fn check_protection(settings: &Settings, service: &Service) -> Result<(), Error> {
-    if settings.listen.ip().is_loopback() {
+    // A proxy lets the whole world in, wherever it finds the service.
+    if settings.listen.ip().is_loopback() && settings.protection != Protection::Proxy {
         return Ok(());
     }
     let unprotected =

@@ -163,12 +163,32 @@ fn sum(path: &str, body: &[u8]) -> String {
     format!("{:016x}{:016x}", hash.h1, hash.h2)
 }
 
+/// What is wrong with JSON, without the words of the language that this is written in.
+pub(crate) fn in_words_of_json(message: &str) -> String {
+    let mut text = message.replace(" field ", " member ");
+    for (name, most) in
+        [("u16", u64::from(u16::MAX)), ("u32", u64::from(u32::MAX)), ("u64", u64::MAX)]
+    {
+        text = text.replace(
+            &format!("expected {name}"),
+            &format!("expected a whole number from 0 to {most}"),
+        );
+    }
+    // The name of a type, and how many members it has.
+    if let Some((before, after)) = text.split_once("expected struct ") {
+        let rest = after.split_once(" at ").map_or("", |(_, place)| place);
+        let place = if rest.is_empty() { String::new() } else { format!(" at {rest}") };
+        text = format!("{before}expected an object{place}");
+    }
+    text
+}
+
 /// Reads the JSON of a request. No body at all is the empty object.
 pub(crate) fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, Error> {
     let body = if body.is_empty() { b"{}".as_slice() } else { body };
     serde_json::from_slice(body).map_err(|error| {
-        // What a format calls a field is a member here. A message may quote what was sent, which may be long.
-        let text = error.to_string().replace(" field ", " member ");
+        // A message may quote what was sent, which may be long.
+        let text = in_words_of_json(&error.to_string());
         let mut rule: String = text.chars().take(LONGEST_RULE).collect();
         if rule.len() < text.len() {
             rule.push_str("...");

@@ -16,7 +16,9 @@ use sqlx::any::AnyRow;
 use sqlx::{AnyPool, AssertSqlSafe, Row as _, query, query_scalar};
 
 pub(crate) use self::library::{Kind, StoredNetwork, StoredPolicy, Uploaded};
+pub(crate) use self::open::make_folder;
 pub use self::tokens::AuditRecord;
+use crate::days::now_ms;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 
@@ -27,7 +29,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Rows that are read at once.
 pub(crate) const PAGE: u32 = 10_000;
 /// The version of the tables. A store of a newer version is refused.
-const VERSION: &str = "2";
+const VERSION: &str = "3";
 
 /// Where the data lies.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -93,6 +95,23 @@ pub(crate) struct StoredAnswer {
     pub(crate) answer: String,
 }
 
+/// In the place of the sum of a day that an earlier version of the program made.
+const NO_SUM: i64 = -1;
+
+impl StoredDay {
+    /// The sum over all of a day that never changes.
+    fn sum(&self, scenario: &str) -> i64 {
+        let Self { id, name, created_ms, archived: _, policy, date, time_zone } = self;
+        let sum = crc32c::crc32c(&created_ms.to_le_bytes());
+        let add = |sum, text: &str| {
+            let sum = crc32c::crc32c_append(sum, &(text.len() as u64).to_le_bytes());
+            crc32c::crc32c_append(sum, text.as_bytes())
+        };
+        let texts = [id, name, policy, date, time_zone].map(String::as_str);
+        texts.into_iter().chain([scenario]).fold(sum, add).into()
+    }
+}
+
 impl StoredEvent {
     /// The sum of an event after one with the sum `before`.
     pub(crate) fn chain_after(&self, before: u32) -> u32 {
@@ -130,8 +149,8 @@ impl Store {
     ) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
         query(
-            "INSERT INTO days (id, name, created_ms, archived, policy, scenario, date, time_zone)
-             VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",
+            "INSERT INTO days (id, name, created_ms, archived, policy, scenario, date, time_zone, sum)
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9)",
         )
         .bind(&day.id)
         .bind(&day.name)
@@ -141,6 +160,7 @@ impl Store {
         .bind(scenario)
         .bind(&day.date)
         .bind(&day.time_zone)
+        .bind(day.sum(scenario))
         .execute(&mut *transaction)
         .await?;
         if let Some(answer) = answer {
@@ -163,15 +183,25 @@ impl Store {
     }
 
     /// A day and its scenario.
+    ///
+    /// # Errors
+    /// Returns [`Error::BadData`] if they are not as they were stored.
     pub(crate) async fn day(&self, id: &str) -> Result<Option<(StoredDay, String)>, Error> {
         let row = query(
-            "SELECT id, name, created_ms, archived, policy, date, time_zone, scenario FROM days
+            "SELECT id, name, created_ms, archived, policy, date, time_zone, scenario, sum FROM days
              WHERE id = $1",
         )
         .bind(id)
         .fetch_optional(&self.pool)
         .await?;
-        row.map(|row| Ok((stored_day(&row)?, row.try_get("scenario")?))).transpose()
+        let Some(row) = row else { return Ok(None) };
+        let (day, scenario): (_, String) = (stored_day(&row)?, row.try_get("scenario")?);
+        let sum: i64 = row.try_get("sum")?;
+        if sum != NO_SUM && sum != day.sum(&scenario) {
+            let rule = "what the day began with was changed".to_owned();
+            return Err(Error::BadData { rule });
+        }
+        Ok(Some((day, scenario)))
     }
 
     /// The number of days.
@@ -189,12 +219,15 @@ impl Store {
         id: &str,
         archived: bool,
         expected: Option<u64>,
+        actor: &str,
     ) -> Result<(), Error> {
         let update = "UPDATE days SET archived = $2 WHERE id = $1";
         let mut transaction = self.pool.begin().await?;
         let update = query(update).bind(id).bind(i64::from(archived));
         let updated = update.execute(&mut *transaction).await?;
         check_at(&mut transaction, id, updated.rows_affected(), expected).await?;
+        let done = if archived { "day archived" } else { "day unarchived" };
+        tokens::record(&mut transaction, actor, done, id, now_ms()).await?;
         Ok(transaction.commit().await?)
     }
 
@@ -202,12 +235,18 @@ impl Store {
     ///
     /// # Errors
     /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Moved`] if it is at another event.
-    pub(crate) async fn delete(&self, id: &str, expected: Option<u64>) -> Result<(), Error> {
+    pub(crate) async fn delete(
+        &self,
+        id: &str,
+        expected: Option<u64>,
+        actor: &str,
+    ) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
         let delete = query("DELETE FROM days WHERE id = $1").bind(id);
         let deleted = delete.execute(&mut *transaction).await?;
         check_at(&mut transaction, id, deleted.rows_affected(), expected).await?;
         query("DELETE FROM events WHERE day = $1").bind(id).execute(&mut *transaction).await?;
+        tokens::record(&mut transaction, actor, "day deleted", id, now_ms()).await?;
         Ok(transaction.commit().await?)
     }
 
@@ -357,10 +396,8 @@ impl Store {
     /// # Errors
     /// Returns [`Error::Store`] if it does not.
     pub(crate) async fn check(&self) -> Result<(), Error> {
-        query("UPDATE meta SET value = $1 WHERE name = 'version'")
-            .bind(VERSION)
-            .execute(&self.pool)
-            .await?;
+        // The same value as before, whichever it is: a newer program may have brought the store up to date by now.
+        query("UPDATE meta SET value = value WHERE name = 'version'").execute(&self.pool).await?;
         Ok(())
     }
 }
@@ -463,6 +500,7 @@ mod tests {
         for statement in [
             "ALTER TABLE days DROP COLUMN date",
             "ALTER TABLE days DROP COLUMN time_zone",
+            "ALTER TABLE days DROP COLUMN sum",
             "DROP TABLE networks",
             "DROP TABLE policies",
             "DROP TABLE descriptions",

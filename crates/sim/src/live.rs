@@ -75,6 +75,8 @@ pub enum Phase {
     InTheAir {
         /// The position of its flight among the day's decisions.
         flight: usize,
+        /// When it departed.
+        departed: Time,
     },
 }
 
@@ -351,7 +353,7 @@ impl LiveDay {
     pub fn flight(&self, aircraft: AircraftIx) -> Option<&TraceRow> {
         match self.aircraft.get(aircraft.at())?.phase {
             Phase::Standing => None,
-            Phase::SentOff { flight, .. } | Phase::InTheAir { flight } => {
+            Phase::SentOff { flight, .. } | Phase::InTheAir { flight, .. } => {
                 Some(&self.decisions[flight].row)
             }
         }

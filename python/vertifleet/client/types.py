@@ -569,6 +569,38 @@ class Taken(TypedDict):
     """What people should look at."""
 
 
+Entry = TypedDict(
+    "Entry",
+    {
+        # When it was decided.
+        "time": Moment,
+        # The aircraft.
+        "aircraft": str,
+        # Where it left.
+        "from": str,
+        # Where it flew to.
+        "to": str,
+        # Whether it has been reported landed. Until then the amounts are those that are expected.
+        "has_landed": bool,
+        # Passengers on board.
+        "passengers": int,
+        # Fares, dollars.
+        "revenue_usd": float,
+        # Cost of carrying the passengers, dollars.
+        "passenger_cost_usd": float,
+        # Energy, kWh.
+        "energy_kwh": float,
+        # Cost of charging it again, dollars.
+        "energy_cost_usd": float,
+        # Cost of the flight with or without passengers, beside its energy; dollars.
+        "flight_cost_usd": float,
+        # Fares less all costs of the flight, dollars.
+        "profit_usd": float,
+    },
+)
+"""A flight in the account."""
+
+
 class Totals(TypedDict):
     """The numbers of a day: dollars, kilowatt-hours, shares and counts, as their names say. Passengers who
     have not been carried yet count as spilled.
@@ -590,6 +622,17 @@ class Totals(TypedDict):
     passengers: int
     spilled_passengers: int
     load_factor: float
+
+
+class Ledger(TypedDict):
+    """What a day has earned and cost so far."""
+
+    seq: int
+    """The number of the latest event."""
+    flights: list[Entry]
+    """An entry for each flight, in the order in which they were decided."""
+    totals: Totals
+    """The sums, and what aircraft cost whether they fly or not."""
 
 
 Leg = TypedDict(

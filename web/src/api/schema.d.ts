@@ -214,6 +214,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/days/{day}/ledger": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The account of a day so far, flight by flight. */
+        get: operations["day_ledger"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/days/{day}/outlook": {
         parameters: {
             query?: never;
@@ -663,6 +680,54 @@ export interface components {
             /** @description The difference. */
             profit_usd: components["schemas"]["Estimate"];
         };
+        /** @description A flight in the account. */
+        Entry: {
+            /** @description The aircraft. */
+            aircraft: string;
+            /**
+             * Format: double
+             * @description Cost of charging it again, dollars.
+             */
+            energy_cost_usd: number;
+            /**
+             * Format: double
+             * @description Energy, kWh.
+             */
+            energy_kwh: number;
+            /**
+             * Format: double
+             * @description Cost of the flight with or without passengers, beside its energy; dollars.
+             */
+            flight_cost_usd: number;
+            /** @description Where it left. */
+            from: string;
+            /** @description Whether it has been reported landed. Until then the amounts are those that are expected. */
+            has_landed: boolean;
+            /**
+             * Format: double
+             * @description Cost of carrying the passengers, dollars.
+             */
+            passenger_cost_usd: number;
+            /**
+             * Format: int32
+             * @description Passengers on board.
+             */
+            passengers: number;
+            /**
+             * Format: double
+             * @description Fares less all costs of the flight, dollars.
+             */
+            profit_usd: number;
+            /**
+             * Format: double
+             * @description Fares, dollars.
+             */
+            revenue_usd: number;
+            /** @description When it was decided. */
+            time: components["schemas"]["Moment"];
+            /** @description Where it flew to. */
+            to: string;
+        };
         /** @description A mean with its interval. */
         Estimate: {
             /**
@@ -875,6 +940,18 @@ export interface components {
             reason: string;
             /** @description The rule. */
             rule: components["schemas"]["RuleName"];
+        };
+        /** @description What a day has earned and cost so far. */
+        Ledger: {
+            /** @description An entry for each flight, in the order in which they were decided. */
+            flights: components["schemas"]["Entry"][];
+            /**
+             * Format: int64
+             * @description The number of the latest event.
+             */
+            seq: number;
+            /** @description The sums, and what aircraft cost whether they fly or not. */
+            totals: components["schemas"]["Totals"];
         };
         /** @description A flight or a hold. */
         Leg: {
@@ -2031,6 +2108,42 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Taken"];
+                };
+            };
+            /** @description What is wrong (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    day_ledger: {
+        parameters: {
+            query?: {
+                /** @description How times are written in the answer. */
+                times?: components["schemas"]["Times"];
+            };
+            header?: never;
+            path: {
+                day: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description As it was asked */
+            200: {
+                headers: {
+                    /** @description The number of the event that the day is at, in quotes */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Ledger"];
                 };
             };
             /** @description What is wrong (RFC 9457) */

@@ -23,7 +23,10 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
     };
     match &arguments.action {
         Some(ServeAction::Token(action)) => {
-            let tokens = Tokens::open(&location)?;
+            let tokens = match action {
+                TokenAction::Make { .. } => Tokens::open(&location)?,
+                TokenAction::List | TokenAction::Revoke { .. } => Tokens::open_existing(&location)?,
+            };
             eprintln!("tokens of {}", place(arguments));
             keep_tokens(&tokens, action)?;
         }

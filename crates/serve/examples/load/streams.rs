@@ -86,7 +86,7 @@ pub(crate) fn load(url: &str, clients: u64, time: Duration) -> Value {
 
 async fn read(address: String, day: String, begun: Instant, counts: Counts) {
     let mut socket = TcpStream::connect(address).await.expect("it listens");
-    let head = format!("GET {day}/stream HTTP/1.1\r\nhost: here\r\n\r\n");
+    let head = format!("GET {day}/stream HTTP/1.1\r\nhost: localhost\r\n\r\n");
     socket.write_all(head.as_bytes()).await.expect("it is sent");
     let mut lines = BufReader::new(socket).lines();
     while let Ok(Some(line)) = lines.next_line().await {

@@ -61,6 +61,7 @@ pub(crate) struct DayList {
 /// A page of a list.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Page {
     /// The cursor that an earlier page ended with.
     #[serde(default)]
@@ -259,7 +260,6 @@ pub(super) async fn archive(
     Named(day): Named<String>,
 ) -> Result<StatusCode, Error> {
     service.days.archive(&day, &sender.writer()?).await?;
-    service.days.store().record(&sender.actor, "day archived", &day, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -271,7 +271,6 @@ pub(super) async fn unarchive(
     Named(day): Named<String>,
 ) -> Result<StatusCode, Error> {
     service.days.unarchive(&day, &sender.writer()?).await?;
-    service.days.store().record(&sender.actor, "day unarchived", &day, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -283,13 +282,13 @@ pub(super) async fn delete(
     Named(day): Named<String>,
 ) -> Result<StatusCode, Error> {
     service.days.delete(&day, &sender.writer()?).await?;
-    service.days.store().record(&sender.actor, "day deleted", &day, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
 /// The state to be read.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct At {
     /// The number of the event after which the state is asked for; without it, the latest. If the day has no such event,
     /// that is answered by 404 (V602).

@@ -14,7 +14,7 @@ use utoipa::{Modify, OpenApi, openapi as description};
 use super::answer::Times;
 use super::events::MOST_EVENTS;
 use super::{
-    days, decisions, demand, events, networks, outlooks, policies, service, stream, studies,
+    days, decisions, demand, events, ledger, networks, outlooks, policies, service, stream, studies,
 };
 use crate::problem::Problem;
 
@@ -30,7 +30,7 @@ use crate::problem::Problem;
     components(schemas(Problem, Times)),
     paths(
         service::info, service::healthz, service::readyz, service::metrics, service::described, days::list, days::create, days::read, days::archive, days::unarchive, days::delete, days::state,
-        days::scenario, days::trace, demand::demand, events::list, events::append, decisions::propose, decisions::decide,
+        days::scenario, days::trace, demand::demand, ledger::ledger, events::list, events::append, decisions::propose, decisions::decide,
         outlooks::outlook, outlooks::what_if, stream::stream, networks::list, networks::read,
         networks::put, networks::delete, networks::validate, policies::list, policies::read,
         policies::put, policies::delete, policies::validate, studies::list, studies::create, studies::read, studies::report,
@@ -64,11 +64,12 @@ const KEYED: [&str; 4] = ["make_day", "add_events", "take_decision", "make_study
 const MATCHED: [&str; 5] =
     ["add_events", "take_decision", "archive_day", "unarchive_day", "delete_day"];
 /// The answers that are about a day at an event.
-const TAGGED: [&str; 8] = [
+const TAGGED: [&str; 9] = [
     "make_day",
     "read_day",
     "day_state",
     "day_demand",
+    "day_ledger",
     "add_events",
     "take_decision",
     "propose_decision",

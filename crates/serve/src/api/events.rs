@@ -13,7 +13,7 @@ use super::answer::{Times, again, at_event, json};
 use super::extract::{Asked, Body, EventNumber, Named, PageSize, Sender};
 use crate::days::Appended;
 use crate::error::Error;
-use crate::event::Event;
+use crate::event::{Event, What};
 use crate::moment::by_calendar;
 use crate::service::{Service, Write, parse};
 use crate::store::StoredEvent;
@@ -59,6 +59,19 @@ impl OneOrMore {
             Self::One(event) => vec![event],
         }
     }
+}
+
+/// Checks that nobody but the service says that a policy has decided.
+fn check_who_decided(events: &[Event]) -> Result<(), Error> {
+    let claims = |event: &Event| match &event.what {
+        What::Decided { policy, instead_of, .. } => policy.is_some() || instead_of.is_some(),
+        _ => false,
+    };
+    if events.iter().any(claims) {
+        let rule = "`policy` and `instead_of` are what the service says of decisions that it took itself: leave them out";
+        return Err(Error::BadRequest { rule: rule.to_owned() });
+    }
+    Ok(())
 }
 
 fn too_many() -> Error {
@@ -138,6 +151,7 @@ pub(crate) struct EventList {
 /// Which events are asked for.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Page {
     /// Events after this number. If the day has no event of this number, that is answered by 404 (V602).
     #[serde(default)]
@@ -171,6 +185,7 @@ pub(super) async fn append(
     };
     let day = service.days.get(&day).await?;
     let events = by_calendar(day.calendar(), || OneOrMore::parse(&body))?.events();
+    check_who_decided(&events)?;
     if events.is_empty() {
         return Err(too_many());
     }

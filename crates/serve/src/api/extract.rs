@@ -17,7 +17,7 @@ use utoipa::{PartialSchema, ToSchema};
 
 use crate::access::Actor;
 use crate::error::Error;
-use crate::service::Service;
+use crate::service::{Service, in_words_of_json};
 
 /// What stands after the question mark.
 pub(super) struct Asked<T>(pub(super) T);
@@ -27,7 +27,11 @@ impl<S: Send + Sync, T: DeserializeOwned> FromRequestParts<S> for Asked<T> {
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Error> {
         let asked = Query::try_from_uri(&parts.uri);
-        let wrong = |error: QueryRejection| Error::BadRequest { rule: error.body_text() };
+        let wrong = |error: QueryRejection| {
+            let text = error.body_text();
+            let text = text.strip_prefix("Failed to deserialize query string: ").unwrap_or(&text);
+            Error::BadRequest { rule: in_words_of_json(text) }
+        };
         asked.map(|Query(asked)| Self(asked)).map_err(wrong)
     }
 }

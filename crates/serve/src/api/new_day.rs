@@ -149,7 +149,9 @@ impl NewDay {
         };
         let length = name.chars().count();
         if length == 0 || length > LONGEST_NAME || name.contains(char::is_control) {
-            let rule = format!("the `name` of a day has 1 to {LONGEST_NAME} characters");
+            let rule = format!(
+                "the `name` of a day has 1 to {LONGEST_NAME} characters, all of them printed ones"
+            );
             return Err(Error::BadRequest { rule });
         }
         Ok(name.clone())

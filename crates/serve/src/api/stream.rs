@@ -36,6 +36,7 @@ const SIGN_OF_LIFE: Duration = Duration::from_secs(15);
 /// Where the stream begins.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct From {
     /// Events after this number; `Last-Event-ID` goes before it. If the day has no event of this number, that is answered by
     /// 404 (V602).

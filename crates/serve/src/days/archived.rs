@@ -26,7 +26,7 @@ impl Days {
 
     async fn set_archived(&self, id: &str, archived: bool, writer: &Writer) -> Result<(), Error> {
         let day = self.settled(id, writer).await?;
-        self.store.set_archived(id, archived, writer.if_match).await?;
+        self.store.set_archived(id, archived, writer.if_match, &writer.actor).await?;
         self.drop_from_memory(&day);
         Ok(())
     }
@@ -37,7 +37,7 @@ impl Days {
     /// Returns the errors of [`archive`](Self::archive).
     pub(crate) async fn delete(&self, id: &str, writer: &Writer) -> Result<(), Error> {
         let day = self.settled(id, writer).await?;
-        self.store.delete(id, writer.if_match).await?;
+        self.store.delete(id, writer.if_match, &writer.actor).await?;
         self.drop_from_memory(&day);
         Ok(())
     }

@@ -78,10 +78,12 @@ impl Store {
                  LEFT JOIN descriptions AS said ON said.kind = $1 AND said.name = one.name
                  AND said.program = $2 AND said.created_ms = one.created_ms ORDER BY one.name"
             }
+            // A policy without weights was deleted; its name goes on to mean them.
             Kind::Policy => {
                 "SELECT one.name, one.created_ms, said.description FROM policies AS one
                  LEFT JOIN descriptions AS said ON said.kind = $1 AND said.name = one.name
-                 AND said.program = $2 AND said.created_ms = one.created_ms ORDER BY one.name"
+                 AND said.program = $2 AND said.created_ms = one.created_ms
+                 WHERE length(one.weights) > 0 ORDER BY one.name"
             }
         };
         let select = query(select).bind(kind.name()).bind(PROGRAM);
@@ -93,7 +95,9 @@ impl Store {
     pub(crate) async fn number_of_others(&self, kind: Kind, name: &str) -> Result<usize, Error> {
         let select = match kind {
             Kind::Network => "SELECT COUNT(*) FROM networks WHERE name <> $1",
-            Kind::Policy => "SELECT COUNT(*) FROM policies WHERE name <> $1",
+            Kind::Policy => {
+                "SELECT COUNT(*) FROM policies WHERE name <> $1 AND length(weights) > 0"
+            }
         };
         let count: i64 = query_scalar(select).bind(name).fetch_one(self.pool()).await?;
         Ok(usize::try_from(count).unwrap_or_default())
@@ -147,7 +151,7 @@ impl Store {
         Ok(is_deleted)
     }
 
-    /// Adds a policy unless there is one with its name. Returns the one that is there then.
+    /// Adds a policy unless other weights have ever had its name. Returns what has the name then.
     pub(crate) async fn add_policy(
         &self,
         policy: &StoredPolicy,
@@ -155,7 +159,8 @@ impl Store {
     ) -> Result<StoredPolicy, Error> {
         query(
             "INSERT INTO policies (name, weights, sha256, created_ms) VALUES ($1, $2, $3, $4)
-             ON CONFLICT (name) DO NOTHING",
+             ON CONFLICT (name) DO UPDATE SET weights = excluded.weights
+             WHERE policies.sha256 = excluded.sha256",
         )
         .bind(&policy.name)
         .bind(weights)
@@ -163,26 +168,37 @@ impl Store {
         .bind(policy.created_ms)
         .execute(self.pool())
         .await?;
-        let found = self.policy(&policy.name).await?;
-        found.ok_or_else(|| Error::not_found("policy", &policy.name))
+        let select = "SELECT name, sha256, created_ms FROM policies WHERE name = $1";
+        stored_policy(&query(select).bind(&policy.name).fetch_one(self.pool()).await?)
     }
 
     /// The policy with a name.
     pub(crate) async fn policy(&self, name: &str) -> Result<Option<StoredPolicy>, Error> {
-        let select = "SELECT name, sha256, created_ms FROM policies WHERE name = $1";
+        let select = "SELECT name, sha256, created_ms FROM policies
+             WHERE name = $1 AND length(weights) > 0";
         let row = query(select).bind(name).fetch_optional(self.pool()).await?;
         row.as_ref().map(stored_policy).transpose()
     }
 
     /// The weight file of a policy.
     pub(crate) async fn weights(&self, name: &str) -> Result<Option<Vec<u8>>, Error> {
-        let select = query_scalar("SELECT weights FROM policies WHERE name = $1").bind(name);
-        Ok(select.fetch_optional(self.pool()).await?)
+        let select = "SELECT weights FROM policies WHERE name = $1 AND length(weights) > 0";
+        Ok(query_scalar(select).bind(name).fetch_optional(self.pool()).await?)
     }
 
-    /// Removes a policy. Returns whether there was one.
+    /// Removes the weights of a policy. Its name goes on to mean them, since logs of days name it. Returns whether there was
+    /// one.
+    ///
+    /// # Errors
+    /// Returns [`Error::PolicyInUse`] if it decides on days that are not archived.
     pub(crate) async fn delete_policy(&self, name: &str) -> Result<bool, Error> {
-        let delete = query("DELETE FROM policies WHERE name = $1").bind(name);
+        let select = "SELECT COUNT(*) FROM days WHERE policy = $1 AND archived = 0";
+        let days: i64 = query_scalar(select).bind(name).fetch_one(self.pool()).await?;
+        if days > 0 {
+            return Err(Error::PolicyInUse { name: name.to_owned(), days });
+        }
+        let delete = "UPDATE policies SET weights = $2 WHERE name = $1 AND length(weights) > 0";
+        let delete = query(delete).bind(name).bind(&[][..] as &[u8]);
         let is_deleted = delete.execute(self.pool()).await?.rows_affected() > 0;
         self.forget_descriptions(Kind::Policy, name).await?;
         Ok(is_deleted)

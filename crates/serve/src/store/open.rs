@@ -18,7 +18,7 @@ const TABLES: [&str; 9] = [
     "CREATE TABLE IF NOT EXISTS days (
         id TEXT PRIMARY KEY, name TEXT NOT NULL, created_ms BIGINT NOT NULL, archived BIGINT NOT NULL,
         policy TEXT NOT NULL, scenario TEXT NOT NULL, date TEXT NOT NULL DEFAULT '',
-        time_zone TEXT NOT NULL DEFAULT '')",
+        time_zone TEXT NOT NULL DEFAULT '', sum BIGINT NOT NULL DEFAULT -1)",
     "CREATE TABLE IF NOT EXISTS events (
         day TEXT NOT NULL, seq BIGINT NOT NULL, at_ms BIGINT NOT NULL, actor TEXT NOT NULL,
         body TEXT NOT NULL, notices TEXT NOT NULL, chain BIGINT NOT NULL, PRIMARY KEY (day, seq))",
@@ -48,6 +48,8 @@ const SINCE_1: [&str; 2] = [
     "ALTER TABLE days ADD COLUMN date TEXT NOT NULL DEFAULT ''",
     "ALTER TABLE days ADD COLUMN time_zone TEXT NOT NULL DEFAULT ''",
 ];
+/// What a store of version 2 lacks.
+const SINCE_2: &str = "ALTER TABLE days ADD COLUMN sum BIGINT NOT NULL DEFAULT -1";
 
 /// The settings of each connection to `SQLite`: a log that readers do not wait for, written to the disk before a commit
 /// is answered.
@@ -86,8 +88,14 @@ impl Store {
     /// Opens a store, and makes its tables if there are none.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] if the database cannot be reached, and [`Error::BadData`] if a newer program wrote it.
+    /// Returns [`Error::Store`] if the database cannot be reached, [`Error::BadDatabase`] if it is none of `PostgreSQL`, and
+    /// [`Error::BadData`] if a newer program wrote it.
     pub(crate) async fn open(location: &Location) -> Result<Self, Error> {
+        if let Location::Postgres(url) = location
+            && !["postgres://", "postgresql://"].iter().any(|scheme| url.starts_with(scheme))
+        {
+            return Err(Error::BadDatabase);
+        }
         install_default_drivers();
         // What fails in a transaction may leave a connection in a state that nobody wants: when a disk is full, SQLite ends
         // the transaction by itself, and all that came after would be part of one that is never committed.
@@ -160,25 +168,26 @@ impl Store {
         let found: String = query_scalar("SELECT value FROM meta WHERE name = 'version'")
             .fetch_one(&self.pool)
             .await?;
-        if found == "1" {
-            return self.bring_up_to_date().await;
+        if matches!(found.as_str(), "1" | "2") {
+            return self.bring_up_to_date(&found).await;
         }
         if found != VERSION {
             let rule =
                 format!("it is of version {found:?}, and this program reads version {VERSION:?}");
-            return Err(Error::BadData { rule });
+            return Err(Error::ForeignData { rule });
         }
         Ok(())
     }
 
-    /// Adds to a store of version 1 what it lacks.
-    async fn bring_up_to_date(&self) -> Result<(), Error> {
+    /// Adds to a store of an earlier version what it lacks.
+    async fn bring_up_to_date(&self, found: &str) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
-        let update = "UPDATE meta SET value = $1 WHERE name = 'version' AND value = '1'";
-        let updated = query(update).bind(VERSION).execute(&mut *transaction).await?;
+        let update = "UPDATE meta SET value = $1 WHERE name = 'version' AND value = $2";
+        let updated = query(update).bind(VERSION).bind(found).execute(&mut *transaction).await?;
         // Another service may have done it in the meantime.
         if updated.rows_affected() > 0 {
-            for statement in SINCE_1 {
+            let since_1 = SINCE_1.into_iter().filter(|_| found == "1");
+            for statement in since_1.chain([SINCE_2]) {
                 query(statement).execute(&mut *transaction).await?;
             }
         }
@@ -187,13 +196,20 @@ impl Store {
 }
 
 /// Makes a folder that its owner alone can read, unless it is there.
-fn make_folder(folder: &Path) -> std::io::Result<()> {
+pub(crate) fn make_folder(folder: &Path) -> std::io::Result<()> {
     let mut builder = std::fs::DirBuilder::new();
     #[cfg(unix)]
     std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    if folder.is_file() {
+        let rule = "a file has this name, and a folder is needed";
+        return Err(std::io::Error::new(std::io::ErrorKind::NotADirectory, rule));
+    }
     builder.recursive(true).create(folder)
 }
 
+/// The address of a file, in which marks that mean something in addresses are written as numbers.
 fn sqlite_url(path: &Path) -> String {
-    format!("sqlite://{}?mode=rwc", path.display())
+    let path = path.display().to_string();
+    let path = path.replace('%', "%25").replace('?', "%3F").replace('#', "%23");
+    format!("sqlite://{path}?mode=rwc")
 }

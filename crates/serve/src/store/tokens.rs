@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sqlx::any::AnyRow;
-use sqlx::{Row as _, query};
+use sqlx::{AnyConnection, Row as _, query};
 
 use super::Store;
 use crate::access::{Role, StoredToken};
@@ -67,15 +67,27 @@ impl Store {
         target: &str,
         at_ms: i64,
     ) -> Result<(), Error> {
-        query("INSERT INTO audit (at_ms, actor, action, target) VALUES ($1, $2, $3, $4)")
-            .bind(at_ms)
-            .bind(actor)
-            .bind(action)
-            .bind(target)
-            .execute(self.pool())
-            .await?;
-        Ok(())
+        let mut connection = self.pool().acquire().await?;
+        record(&mut connection, actor, action, target, at_ms).await
     }
+}
+
+/// Records what somebody does in a transaction, so that neither is there without the other.
+pub(super) async fn record(
+    connection: &mut AnyConnection,
+    actor: &str,
+    action: &str,
+    target: &str,
+    at_ms: i64,
+) -> Result<(), Error> {
+    query("INSERT INTO audit (at_ms, actor, action, target) VALUES ($1, $2, $3, $4)")
+        .bind(at_ms)
+        .bind(actor)
+        .bind(action)
+        .bind(target)
+        .execute(connection)
+        .await?;
+    Ok(())
 }
 
 fn audit_record(row: &AnyRow) -> Result<AuditRecord, Error> {

@@ -471,3 +471,80 @@ fn the_dashboard_and_the_alerts_ask_for_what_is_measured() {
         }
     }
 }
+
+#[test]
+fn nobody_else_says_that_a_policy_decided_and_no_member_is_there_twice() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let path = format!("{day}/events");
+    for event in [
+        r#"{"type": "decided", "aircraft": "A05", "to": "V2", "policy": "rolling"}"#,
+        r#"{"type": "decided", "aircraft": "A05", "to": "V2", "instead_of": "V3"}"#,
+        r#"{"type": "clock", "time": "06:00:00", "time": "07:00:00"}"#,
+    ] {
+        let refused = service.send("POST", &path, &[], event.as_bytes());
+        assert_eq!((refused.status, text(&refused.json, "code")), (400, "V601"), "{event}");
+    }
+    for asked in ["state?foo=1", "events?aftr=1", "stream?aftr=1", "ledger?seq=1"] {
+        assert_eq!(service.get(&format!("{day}/{asked}")).status, 400, "{asked}");
+    }
+    assert_eq!(service.get("/v1/days?lmit=1").status, 400);
+}
+
+#[test]
+fn what_lies_in_the_past_is_refused_and_what_the_rules_forbid_has_a_notice() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let report = |event: Value| service.post(&format!("{day}/events"), &event);
+    let notice = |answer: &crate::running::Answer| {
+        answer.json["notices"][0][0].as_str().unwrap_or_default().to_owned()
+    };
+    assert_eq!(report(json!({"type": "clock", "time": "09:00:00"})).status, 201);
+    let all = json!({"vertiport": "V1"});
+    for past in [
+        json!({"type": "closed", "routes": all, "until": "08:00:00"}),
+        json!({"type": "out_of_service", "aircraft": "A09", "until": "08:00:00"}),
+        json!({"type": "charging", "aircraft": "A09", "ready": "06:00:00"}),
+    ] {
+        let refused = report(past);
+        assert_eq!((refused.status, text(&refused.json, "code")), (422, "V604"), "{refused:?}");
+    }
+
+    let state = service.get(&format!("{day}/state")).json;
+    let to = if state["aircraft"][2]["place"] == "V1" { "V2" } else { "V1" };
+    let departed = |aircraft: &str, time: &str| {
+        report(json!({"type": "departed", "aircraft": aircraft, "to": to, "time": time}))
+    };
+    assert_eq!(report(json!({"type": "out_of_service", "aircraft": "A03"})).status, 201);
+    assert!(notice(&departed("A03", "09:10:00")).contains("out of service"));
+    let early = report(json!({"type": "landed", "aircraft": "A03", "time": "09:05:00"}));
+    assert!(text(&early.json, "detail").contains("departed at 09:10:00"), "{early:?}");
+    let charging = json!({"type": "charging", "aircraft": "A04", "ready": "09:40:00"});
+    assert_eq!(report(charging).status, 201);
+    let at = service.get(&format!("{day}/state")).json["aircraft"][3]["place"].clone();
+    let elsewhere = if at == "V3" { "V4" } else { "V3" };
+    let left = report(json!({"type": "departed", "aircraft": "A04", "to": elsewhere}));
+    assert!(notice(&left).contains("not ready before 09:40:00"), "{left:?}");
+}
+
+#[test]
+fn the_ledger_adds_up_to_the_totals() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    for aircraft in ["A01", "A02", "A03"] {
+        let taken = service.post(&format!("{day}/decisions"), &json!({"aircraft": aircraft}));
+        assert_eq!(taken.status, 201);
+    }
+    let landed = json!({"type": "landed", "aircraft": "A01", "time": "06:50:00"});
+    assert_eq!(service.post(&format!("{day}/events"), &landed).status, 201);
+    let ledger = service.get(&format!("{day}/ledger")).json;
+    let flights = ledger["flights"].as_array().expect("a list");
+    assert_eq!(
+        flights.iter().map(|one| one["has_landed"] == true).collect::<Vec<_>>(),
+        [true, false, false]
+    );
+    let sum: f64 = flights.iter().map(|one| one["profit_usd"].as_f64().expect("dollars")).sum();
+    let total = ledger["totals"]["profit_usd"].as_f64().expect("dollars");
+    assert!((sum - total).abs() < 0.01 && total > 0.0, "{ledger}");
+    assert_eq!(ledger["totals"], service.get(&format!("{day}/state")).json["totals"]);
+}

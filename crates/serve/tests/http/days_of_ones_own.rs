@@ -206,8 +206,18 @@ fn a_policy_of_ones_own_decides() {
     let outlook = service.get(&format!("{day}/outlook")).json;
     assert_eq!(outlook["policy"], "ours-2026");
     assert_eq!(service.get("/v1/policies/ours-2026").json["vertiports"], Value::Null);
+    // It cannot be taken from a day that it decides on, and its name means these weights for good.
+    let needed = service.send("DELETE", "/v1/policies/ours-2026", &[], b"");
+    assert_eq!((needed.status, &needed.json["code"]), (409, &json!("V630")), "{needed:?}");
+    assert_eq!(service.post(&format!("{day}/archive"), &json!({})).status, 204);
     assert_eq!(service.send("DELETE", "/v1/policies/ours-2026", &[], b"").status, 204);
+    assert_eq!(service.send("DELETE", "/v1/policies/ours-2026", &[], b"").status, 404);
     assert_eq!(service.get(&format!("{day}/outlook")).status, 404);
+    let listed = service.get("/v1/policies").json;
+    assert!(!listed.to_string().contains("ours-2026"), "{listed}");
+    assert_eq!(service.send("PUT", "/v1/policies/ours-2026", &[], &others).status, 400);
+    assert_eq!(service.send("PUT", "/v1/policies/ours-2026", &[], &weights).status, 200);
+    assert_eq!(service.get(&format!("{day}/outlook")).status, 200);
 }
 
 #[test]

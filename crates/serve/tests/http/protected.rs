@@ -113,7 +113,7 @@ fn a_body_that_does_not_come_ends_the_request() {
     let (_folder, service) =
         limited(Limits { request: Duration::from_millis(200), ..Limits::default() });
     let mut slow = connect(&service);
-    let head = "POST /v1/days HTTP/1.1\r\nhost: here\r\ncontent-length: 100\r\n\r\n{";
+    let head = "POST /v1/days HTTP/1.1\r\nhost: localhost\r\ncontent-length: 100\r\n\r\n{";
     slow.write_all(head.as_bytes()).expect("it is sent");
     let mut said = [0; 12];
     slow.read_exact(&mut said).expect("an answer");
@@ -135,13 +135,13 @@ fn streams_days_and_events_have_limits() {
     let day = service.new_day("greedy");
     let readers = [connect(&service), connect(&service)];
     for mut reader in &readers {
-        write!(reader, "GET {day}/stream HTTP/1.1\r\nhost: here\r\n\r\n").expect("it is sent");
+        write!(reader, "GET {day}/stream HTTP/1.1\r\nhost: localhost\r\n\r\n").expect("it is sent");
         let mut said = [0; 15];
         reader.read_exact(&mut said).expect("an answer");
         assert_eq!(&said, b"HTTP/1.1 200 OK");
     }
     let third = service.get(&format!("{day}/stream"));
-    assert_eq!((third.status, &third.json["code"]), (503, &json!("V612")));
+    assert_eq!((third.status, &third.json["code"]), (429, &json!("V612")));
     drop(readers);
 
     service.new_day("greedy");
@@ -160,7 +160,7 @@ fn a_body_of_most_requests_is_short() {
     let (_folder, service) = limited(Limits::default());
     let day = service.new_day("greedy");
     let mut long = connect(&service);
-    write!(long, "POST {day}/events HTTP/1.1\r\nhost: here\r\ncontent-length: 5000000\r\n\r\n[")
+    write!(long, "POST {day}/events HTTP/1.1\r\nhost: localhost\r\ncontent-length: 5000000\r\n\r\n[")
         .expect("it is sent");
     let mut said = [0; 12];
     long.read_exact(&mut said).expect("an answer");
@@ -219,7 +219,7 @@ fn the_stream_of_a_token_ends_when_it_is_revoked() {
     let id = made.json["id"].as_str().expect("an id");
     let mut reader = connect(&service);
     let head = format!(
-        "GET /v1/days/{id}/stream HTTP/1.1\r\nhost: here\r\nconnection: close\r\nauthorization: {bearer}\r\n\r\n"
+        "GET /v1/days/{id}/stream HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\nauthorization: {bearer}\r\n\r\n"
     );
     reader.write_all(head.as_bytes()).expect("it is sent");
     let token_id = &tokens.list().expect("tokens")[0].id;
@@ -227,4 +227,52 @@ fn the_stream_of_a_token_ends_when_it_is_revoked() {
     let mut said = Vec::new();
     reader.read_to_end(&mut said).expect("the stream ends");
     assert!(said.starts_with(b"HTTP/1.1 200"), "{}", String::from_utf8_lossy(&said));
+}
+
+#[test]
+fn without_tokens_pages_of_other_machines_may_do_nothing() {
+    let (_folder, service) = limited(Limits::default());
+    let make = |headers: &[(&str, &str)]| {
+        let made = service.send("POST", "/v1/days", headers, br#"{"network": "paper"}"#);
+        (made.status, made.json["code"].as_str().unwrap_or_default().to_owned())
+    };
+    let refused = (403, "V627".to_owned());
+    assert_eq!(make(&[("origin", "http://evil.example"), ("content-type", "text/plain")]), refused);
+    assert_eq!(make(&[("origin", "null")]), refused);
+    assert_eq!(make(&[("host", "evil.example")]), refused);
+    assert_eq!(service.send("GET", "/v1/days", &[("host", "evil.example:80")], b"").status, 403);
+    assert_eq!(make(&[("origin", &service.url)]).0, 201);
+    assert_eq!(service.get("/v1/days").json["days"].as_array().map(Vec::len), Some(1));
+}
+
+#[test]
+fn behind_a_proxy_there_must_be_a_token_on_this_machine_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let settings = Settings {
+        protection: Protection::Proxy,
+        ..settings_for(Location::Folder(folder.path().to_owned()))
+    };
+    let refused = serve(&settings, |_| (), &Stop::default());
+    assert_eq!(refused.expect_err("a proxy lets all in").code().to_string(), "V619");
+}
+
+#[test]
+fn tokens_have_names_of_their_own_and_answers_say_how_to_ask() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = Location::Folder(folder.path().to_owned());
+    let tokens = Tokens::open(&location).expect("a store");
+    let token = tokens.make("console", Role::Read).expect("a token");
+    let taken = tokens.make("console", Role::Admin).expect_err("one of this name is in force");
+    assert_eq!(taken.code().to_string(), "V629");
+    let service = Running::start_at(location);
+    let config = ureq::Agent::config_builder().http_status_as_error(false).build();
+    let agent: ureq::Agent = config.into();
+    let refused = agent.get(format!("{}/v1/days", service.url)).call().expect("an answer");
+    assert_eq!(
+        (refused.status().as_u16(), &refused.headers()["www-authenticate"].as_bytes()),
+        (401, &&b"Bearer"[..])
+    );
+    let bearer = format!("bearer {}", token.trim());
+    let headers = [("authorization", bearer.as_str()), ("host", "dispatch.example.com")];
+    assert_eq!(service.send("GET", "/v1/days", &headers, b"").status, 200);
 }

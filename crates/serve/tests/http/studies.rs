@@ -179,7 +179,7 @@ fn dispatchers_make_and_end_studies_and_readers_read_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let location = Location::Folder(folder.path().to_owned());
     let tokens = Tokens::open(&location).expect("a store");
-    let token = |role| format!("Bearer {}", tokens.make("one", role).expect("a token"));
+    let token = |role: Role| format!("Bearer {}", tokens.make(role.name(), role).expect("a token"));
     let (reads, dispatches) = (token(Role::Read), token(Role::Dispatch));
     let service = Running::start(folder.path());
     let body = json!({"network": "paper", "policies": ["greedy"], "days": 1}).to_string();

@@ -165,6 +165,20 @@ pub enum Notice {
     /// An aircraft left for a vertiport that no decision could have sent it to.
     #[error("{0}; it has departed all the same")]
     AgainstTheRules(Refusal),
+    /// An aircraft left that was reported out of service.
+    #[error("aircraft {aircraft:?} is out of service; it has departed all the same")]
+    DepartedOutOfService {
+        /// The aircraft.
+        aircraft: String,
+    },
+    /// An aircraft left before it was expected to be charged, or to end its hold.
+    #[error("aircraft {aircraft:?} is not ready before {ready}; it has departed all the same")]
+    DepartedUnready {
+        /// The aircraft.
+        aircraft: String,
+        /// When it was expected to be ready.
+        ready: Time,
+    },
     /// An aircraft landed somewhere else.
     #[error("aircraft {aircraft:?} landed at {at:?} instead of {to:?}")]
     Diverted {
@@ -229,13 +243,25 @@ pub enum Unfit {
         /// The latest time that was reported.
         now: Time,
     },
-    /// A delay until before it became known.
-    #[error("a delay until {until} cannot become known at {time}")]
+    /// Something that was over before it became known.
+    #[error("what ends at {until} cannot be reported for {time}, when it is over")]
     Backwards {
         /// The time of the report.
         time: Time,
-        /// The end of the delay.
+        /// The end of what is reported.
         until: Time,
+    },
+    /// A landing before the departure.
+    #[error(
+        "aircraft {aircraft:?} cannot have landed at {time}: it departed at {departed}, or later"
+    )]
+    BeforeDeparture {
+        /// The aircraft.
+        aircraft: String,
+        /// The time of the report.
+        time: Time,
+        /// When it departed, or was sent off.
+        departed: Time,
     },
     /// The aircraft is on its way, as far as has been reported.
     #[error("aircraft {aircraft:?} cannot decide: it {is}")]

@@ -14,18 +14,38 @@ const LONGEST_STEP_S: u32 = 4 * 3_600;
 const MOST_PASSENGERS: u32 = 1_000_000;
 
 impl LiveDay {
-    /// Whether a report may be a slip of the pen: it lies hours after everything that the day has heard of, or delays
-    /// something into the past. Since the clock never runs back, such a report does harm that cannot be undone.
+    /// Whether a report may be a slip of the pen: it lies hours after everything that the day has heard of, something that
+    /// it tells was over before, or a flight landed before it departed. Since the clock never runs back, the first does harm
+    /// that cannot be undone.
     ///
     /// # Errors
-    /// Returns [`Unfit::TooFarAhead`] or [`Unfit::Backwards`].
+    /// Returns [`Unfit::TooFarAhead`], [`Unfit::Backwards`] or [`Unfit::BeforeDeparture`].
     pub fn check_times(&self, time: Time, report: &Report) -> Result<(), Unfit> {
         match *report {
             Report::Clock => Ok(()),
             _ if time > self.now + LONGEST_STEP_S => {
                 Err(Unfit::TooFarAhead { time, now: self.now })
             }
-            Report::Delayed { until, .. } if until < time => Err(Unfit::Backwards { time, until }),
+            Report::Delayed { until, .. }
+            | Report::Charging { ready: until, .. }
+            | Report::OutOfService { until: Some(until), .. }
+            | Report::Closed { until: Some(until), .. }
+                if until < time =>
+            {
+                Err(Unfit::Backwards { time, until })
+            }
+            Report::Landed { aircraft, .. } => {
+                let departed = match self.state(aircraft)?.phase {
+                    Phase::Standing => return Ok(()),
+                    Phase::SentOff { flight, .. } => self.decisions[flight].row.time,
+                    Phase::InTheAir { departed, .. } => departed,
+                };
+                if time >= departed {
+                    return Ok(());
+                }
+                let aircraft = self.id(aircraft);
+                Err(Unfit::BeforeDeparture { aircraft, time, departed })
+            }
             _ => Ok(()),
         }
     }
@@ -203,6 +223,7 @@ impl LiveDay {
             return Err(Unfit::Unknown("route"));
         }
         self.check_seats(aircraft, passengers)?;
+        notices.extend(self.not_ready(aircraft, time));
         if sent_to != Some(to) {
             if sent_to.is_some() {
                 self.undo(aircraft)?;
@@ -212,7 +233,7 @@ impl LiveDay {
         let Phase::SentOff { flight, departs } = self.aircraft[aircraft.at()].phase else {
             unreachable!("it has been sent off by now");
         };
-        self.aircraft[aircraft.at()].phase = Phase::InTheAir { flight };
+        self.aircraft[aircraft.at()].phase = Phase::InTheAir { flight, departed: time };
         self.aircraft[aircraft.at()].undoable = None;
         if let Some(passengers) = passengers {
             self.correct_passengers(flight, passengers);
@@ -222,6 +243,25 @@ impl LiveDay {
             self.set_arrival(aircraft, flight, time + flight_s);
         }
         Ok(())
+    }
+
+    /// Why an aircraft should not have departed, whatever its flight.
+    fn not_ready(&self, aircraft: AircraftIx, time: Time) -> Option<Notice> {
+        let LiveAircraft { phase, charged, out, .. } = self.aircraft[aircraft.at()];
+        // Whoever has been sent off may depart, whatever has happened since.
+        if phase != Phase::Standing {
+            return None;
+        }
+        let is_out = match out {
+            None => false,
+            Some(OutOfService::UntilReported) => true,
+            Some(OutOfService::Until(until)) => time < until,
+        };
+        if is_out {
+            return Some(Notice::DepartedOutOfService { aircraft: self.id(aircraft) });
+        }
+        (time < charged)
+            .then(|| Notice::DepartedUnready { aircraft: self.id(aircraft), ready: charged })
     }
 
     fn check_seats(&self, aircraft: AircraftIx, passengers: Option<u16>) -> Result<(), Unfit> {
@@ -310,7 +350,7 @@ impl LiveDay {
                 self.known.arrival[aircraft.at()] = time;
                 self.set_charged(aircraft, state.charged.max(time));
             }
-            Phase::SentOff { flight, .. } | Phase::InTheAir { flight } => {
+            Phase::SentOff { flight, .. } | Phase::InTheAir { flight, .. } => {
                 if at != expected_at {
                     notices.push(Notice::Diverted {
                         aircraft: self.id(aircraft),
@@ -385,7 +425,7 @@ impl LiveDay {
                 self.aircraft[aircraft.at()].phase = Phase::SentOff { flight, departs: until };
                 self.set_arrival(aircraft, flight, until + flight_s);
             }
-            Phase::InTheAir { flight } => self.set_arrival(aircraft, flight, until),
+            Phase::InTheAir { flight, .. } => self.set_arrival(aircraft, flight, until),
         }
         Ok(())
     }

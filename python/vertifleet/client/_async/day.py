@@ -18,6 +18,7 @@ from vertifleet.client.types import (
     DayState,
     Event,
     EventList,
+    Ledger,
     Moment,
     MoreAircraft,
     Outlook,
@@ -84,6 +85,14 @@ class AsyncDay:
         """
         asked = reading("days", self.id, "demand", period=period, times=times)
         return await self._connection.object(PeriodDemand, asked)
+
+    async def ledger(self, *, times: Times | None = None) -> Ledger:
+        """What the day has earned and cost so far, flight by flight; amounts in dollars.
+
+        Args:
+            times: how times are written.
+        """
+        return await self._connection.object(Ledger, reading("days", self.id, "ledger", times=times))
 
     async def scenario(self) -> Scenario:
         """The scenario that the day began with: to be played with other policies, for example.

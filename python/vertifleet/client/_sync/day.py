@@ -19,6 +19,7 @@ from vertifleet.client.types import (
     DayState,
     Event,
     EventList,
+    Ledger,
     Moment,
     MoreAircraft,
     Outlook,
@@ -85,6 +86,14 @@ class Day:
         """
         asked = reading("days", self.id, "demand", period=period, times=times)
         return self._connection.object(PeriodDemand, asked)
+
+    def ledger(self, *, times: Times | None = None) -> Ledger:
+        """What the day has earned and cost so far, flight by flight; amounts in dollars.
+
+        Args:
+            times: how times are written.
+        """
+        return self._connection.object(Ledger, reading("days", self.id, "ledger", times=times))
 
     def scenario(self) -> Scenario:
         """The scenario that the day began with: to be played with other policies, for example.

@@ -1,0 +1,107 @@
+//! The account of a day, flight by flight.
+
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::http::StatusCode;
+use axum::response::Response;
+use serde::{Deserialize, Serialize};
+use utoipa::{IntoParams, ToSchema};
+use vertifleet_core::VertiportIx;
+use vertifleet_sim::DayTotals;
+
+use super::answer::{Times, Totals, at_event};
+use super::extract::{Asked, Named};
+use crate::dispatch_day::DispatchDay;
+use crate::error::Error;
+use crate::moment::Moment;
+use crate::service::Service;
+
+/// How the account is written.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct How {
+    /// How times are written in the answer.
+    #[serde(default)]
+    times: Times,
+}
+
+/// What a day has earned and cost so far.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct Ledger {
+    /// The number of the latest event.
+    seq: u64,
+    /// An entry for each flight, in the order in which they were decided.
+    flights: Vec<Entry>,
+    /// The sums, and what aircraft cost whether they fly or not.
+    #[schema(value_type = Totals)]
+    totals: DayTotals,
+}
+
+/// A flight in the account.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct Entry {
+    /// When it was decided.
+    time: Moment,
+    /// The aircraft.
+    aircraft: String,
+    /// Where it left.
+    from: String,
+    /// Where it flew to.
+    to: String,
+    /// Whether it has been reported landed. Until then the amounts are those that are expected.
+    has_landed: bool,
+    /// Passengers on board.
+    passengers: u16,
+    /// Fares, dollars.
+    revenue_usd: f64,
+    /// Cost of carrying the passengers, dollars.
+    passenger_cost_usd: f64,
+    /// Energy, kWh.
+    energy_kwh: f64,
+    /// Cost of charging it again, dollars.
+    energy_cost_usd: f64,
+    /// Cost of the flight with or without passengers, beside its energy; dollars.
+    flight_cost_usd: f64,
+    /// Fares less all costs of the flight, dollars.
+    profit_usd: f64,
+}
+
+/// The account of a day so far, flight by flight.
+#[utoipa::path(operation_id = "day_ledger", get, path = "/v1/days/{day}/ledger", tag = "days", params(("day" = String, Path), How), responses((status = 200, body = Ledger)))]
+pub(super) async fn ledger(
+    State(service): State<Arc<Service>>,
+    Named(day): Named<String>,
+    Asked(how): Asked<How>,
+) -> Result<Response, Error> {
+    let day = service.days.get(&day).await?;
+    let ledger = Ledger::of(&mut day.state());
+    day.stored_up_to(ledger.seq).await?;
+    how.times.of(&day, || Ok(at_event(StatusCode::OK, ledger.seq, &ledger)))
+}
+
+impl Ledger {
+    fn of(day: &mut DispatchDay) -> Self {
+        let (seq, totals) = (day.seq(), day.live_mut().totals());
+        let live = day.live();
+        let scenario = live.scenario();
+        let id = |vertiport: VertiportIx| scenario.vertiports[vertiport.at()].id.clone();
+        let trace = live.trace();
+        let flights = trace.rows.iter().filter(|row| row.from != row.to).map(|row| Entry {
+            time: row.time.into(),
+            aircraft: scenario.aircraft[row.aircraft.at()].id.clone(),
+            from: id(row.from),
+            to: id(row.to),
+            has_landed: live.flight(row.aircraft).is_none_or(|flight| flight.time != row.time),
+            passengers: row.passengers,
+            revenue_usd: row.revenue_usd,
+            passenger_cost_usd: row.passenger_cost_usd,
+            energy_kwh: row.energy_kwh,
+            energy_cost_usd: row.energy_cost_usd,
+            flight_cost_usd: row.flight_cost_usd,
+            profit_usd: row.profit_usd(),
+        });
+        Self { seq, flights: flights.collect(), totals }
+    }
+}
