@@ -13,11 +13,15 @@ const previewed = process.env['VERTIFLEET_PREVIEW']
 export class Program {
   readonly #folder = mkdtempSync(join(tmpdir(), 'vertifleet-console-'))
   #process: ChildProcess | undefined
+  readonly #operators: ChildProcess[] = []
   #port = 0
   #preview: PreviewServer | undefined
 
-  static async start(): Promise<Program> {
-    const started = new Program()
+  private constructor(private readonly more: readonly string[]) {}
+
+  /** Starts the service; `more` is what it is told beside where to listen and where its data is. */
+  static async start(...more: string[]): Promise<Program> {
+    const started = new Program(more)
     await started.run()
     if (previewed !== undefined) await started.#servePreview(resolve(previewed))
     return started
@@ -37,7 +41,7 @@ export class Program {
   /** Starts the service, after it was killed at the same address. */
   async run(): Promise<void> {
     const address = `127.0.0.1:${this.#port}`
-    const child = spawn(program, ['serve', '--listen', address, '--data', this.#folder])
+    const child = spawn(program, ['serve', '--listen', address, '--data', this.#folder, ...this.more])
     this.#process = child
     this.#port = await new Promise<number>((listens, fails) => {
       let said = ''
@@ -66,6 +70,7 @@ export class Program {
     const file = join(this.#folder, 'operated.toml')
     writeFileSync(file, network)
     const child = spawn(program, ['operate', this.url, '--network', file, ...args])
+    this.#operators.push(child)
     let said = ''
     child.stderr.on('data', (bytes: Buffer) => (said += bytes.toString()))
     return new Promise((ends) => child.once('close', (code) => ends(code === 0 ? '' : `${code}: ${said}`)))
@@ -91,6 +96,7 @@ export class Program {
   }
 
   async stop(): Promise<void> {
+    for (const operator of this.#operators) operator.kill()
     await this.kill()
     await this.#preview?.close()
     rmSync(this.#folder, { recursive: true, force: true })

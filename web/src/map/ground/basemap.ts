@@ -36,7 +36,8 @@ export class Basemap {
     setWorkerUrl(workerUrl)
     if (!/\.pmtiles($|\?)/.test(options.address)) return new Basemap(options.address, options)
     const tiles = new PMTiles(options.address)
-    const protocol = new Protocol()
+    // The metadata have what is to be named on the map.
+    const protocol = new Protocol({ metadata: true })
     protocol.add(tiles)
     addProtocol('pmtiles', protocol.tile)
     const [header, metadata] = await Promise.all([tiles.getHeader(), tiles.getMetadata()])
@@ -66,10 +67,10 @@ export class Basemap {
 
   /** Sources may write their names with links; only the words are shown. */
   #attribution(): string {
-    const sources = Object.values(this.#map.getStyle().sources)
-    const named = sources.map((one) => ('attribution' in one ? one.attribution : ''))
-    const words = named.map((html) =>
-      new DOMParser().parseFromString(html, 'text/html').body.textContent.trim(),
+    // The style knows only what it says itself; sources know what their tiles say too.
+    const sources = Object.keys(this.#map.getStyle().sources).map((name) => this.#map.getSource(name))
+    const words = sources.map((one) =>
+      new DOMParser().parseFromString(one?.attribution ?? '', 'text/html').body.textContent.trim(),
     )
     return [...new Set(words)].filter((one) => one !== '').join(' · ')
   }

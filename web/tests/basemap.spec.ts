@@ -1,0 +1,120 @@
+// serve --basemap: a base map of the operator's own from another server, under the content security policy of the program.
+
+import { createServer, type Server } from 'node:http'
+import type { AddressInfo } from 'node:net'
+import type { Page } from '@playwright/test'
+import { withWebGL } from './support/pictures'
+import { worldWithWaterWestOf } from './support/pmtiles'
+import { Program } from './support/program'
+import { expect, test as base } from './support/test'
+
+/** Within the network of New York, so that its map shows both sides. */
+const SHORE = -73.8
+
+interface Fixtures {
+  /** Where the files of the base map are. */
+  tiles: string
+}
+
+const test = base.extend<Fixtures>({
+  // eslint-disable-next-line no-empty-pattern -- Playwright reads the names of the fixtures that are needed.
+  tiles: async ({}, use) => {
+    const server = tileServer()
+    await new Promise<void>((listens) => server.listen(0, '127.0.0.1', listens))
+    await use(`http://127.0.0.1:${(server.address() as AddressInfo).port}`)
+    server.close()
+  },
+})
+
+test.use({ launchOptions: withWebGL })
+
+/** A server of files as there are many: other origins may read, whole or in parts. */
+function tileServer(): Server {
+  const file = worldWithWaterWestOf(SHORE)
+  const style = {
+    version: 8,
+    sources: {
+      shape: {
+        type: 'geojson',
+        attribution: 'A style',
+        data: { type: 'Point', coordinates: [SHORE, 40.7] },
+      },
+    },
+    layers: [{ id: 'ground', type: 'background', paint: { 'background-color': '#204060' } }],
+  }
+  return createServer((request, response) => {
+    response.setHeader('Access-Control-Allow-Origin', '*')
+    response.setHeader('Access-Control-Allow-Headers', '*')
+    if (request.method === 'OPTIONS') response.end()
+    else if (request.url === '/style.json') response.end(JSON.stringify(style))
+    else {
+      const [, from, to] = /bytes=(\d+)-(\d+)/.exec(request.headers.range ?? '') ?? []
+      response.writeHead(206).end(file.subarray(Number(from), Number(to) + 1))
+    }
+  })
+}
+
+/** The colour of the picture at a point, as `#rrggbb`. */
+async function colourAt(page: Page, x: number, y: number): Promise<string> {
+  const picture = (await page.screenshot({ clip: { x, y, width: 1, height: 1 } })).toString('base64')
+  return page.evaluate(async (png) => {
+    const image = new Image()
+    image.src = `data:image/png;base64,${png}`
+    await image.decode()
+    const context = new OffscreenCanvas(1, 1).getContext('2d')
+    context?.drawImage(image, 0, 0)
+    const [red = 0, green = 0, blue = 0] = context?.getImageData(0, 0, 1, 1).data ?? []
+    return `#${[red, green, blue].map((one) => one.toString(16).padStart(2, '0')).join('')}`
+  }, picture)
+}
+
+async function withBasemap(address: string, use: (program: Program) => Promise<void>): Promise<void> {
+  const program = await Program.start('--basemap', address)
+  try {
+    await use(program)
+  } finally {
+    await program.stop()
+  }
+}
+
+test('a PMTiles file is drawn in the colours of the console, on the map of a day and in the editor', async ({
+  page,
+  tiles,
+}) => {
+  await withBasemap(`${tiles}/world.pmtiles`, async ({ url }) => {
+    const body = JSON.stringify({ network: 'new-york', seed: 1, policy: 'greedy' })
+    const made = await fetch(`${url}/v1/days`, { method: 'POST', body })
+    const { id } = (await made.json()) as { id: string }
+    for (const view of [`day/${id}/now`, 'editor']) {
+      await page.goto(`${url}/#/${view}`)
+      if (view === 'editor') await page.getByRole('button', { name: /new-york/ }).click()
+      const basemap = page.locator('.basemap')
+      await expect(basemap.locator('canvas')).toBeVisible()
+      await expect(page.getByText('A survey')).toBeVisible()
+      const box = await basemap.boundingBox()
+      if (box === null) throw new Error('the base map is in the page')
+      const [west, east, y] = [box.x + 150, box.x + box.width - 12, box.y + box.height - 40]
+      await expect.poll(() => colourAt(page, west, y)).toBe('#dde6ed')
+      expect(await colourAt(page, east, y)).toBe('#f7f8f7')
+    }
+  })
+})
+
+test('a style is drawn as it is', async ({ page, tiles }) => {
+  await withBasemap(`${tiles}/style.json`, async ({ url }) => {
+    await page.goto(`${url}/#/editor`)
+    await page.getByRole('button', { name: /new-york/ }).click()
+    const map = page.getByRole('region', { name: 'Map of the vertiports' })
+    await expect(map.getByText('A style')).toBeVisible()
+    const box = await map.boundingBox()
+    await expect.poll(() => colourAt(page, (box?.x ?? 0) + 20, (box?.y ?? 0) + 200)).toBe('#204060')
+  })
+})
+
+test('a base map that cannot be had leaves the bundled one, and says so', async ({ page }) => {
+  await withBasemap('http://127.0.0.1:9/world.pmtiles', async ({ url }) => {
+    await page.goto(`${url}/#/editor`)
+    await page.getByRole('button', { name: /new-york/ }).click()
+    await expect(page.getByText(/could not be loaded.*Natural Earth/)).toBeVisible()
+  })
+})
