@@ -62,8 +62,9 @@ const views: Record<string, (page: Page, program: Program, fleet: Fleet) => Prom
     await expect(page.locator('.figures')).toContainText('of the bound')
   },
   timeline: async (page, program, fleet) => {
+    const outlook = page.waitForResponse(/\/outlook/)
     await open(page, program, fleet, 'timeline')
-    await expect(page.locator('.gantt canvas').first()).toBeVisible()
+    await outlook
   },
   'what-if': async (page, program, fleet) => {
     await open(page, program, fleet, 'what-if')

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest'
 import type { DayState, Outlook, TakenEvent } from '../api/types'
 import answers from './fixtures/live-day.json'
 import { liveRecord } from './live'
-import { isHold, type DayRecord } from './record'
+import { isHold, type DayRecord, type LegRecord } from './record'
 import { Reports } from './reports'
 import type { Scenario } from './scenario'
 import { timeOf } from './time'
@@ -14,10 +14,14 @@ const events = answers.events.events as unknown as TakenEvent[]
 const [north, east, south] = [0, 1, 2]
 const [a01, a02, a03, a04, a05] = [0, 1, 2, 3, 4]
 
-function recordAfter(numberOfEvents: number, given: Outlook | null = outlook): DayRecord {
+function recordAfter(
+  numberOfEvents: number,
+  given: Outlook | null = outlook,
+  flown: LegRecord[] = [],
+): DayRecord {
   const reports = new Reports(scenario)
   for (const event of events.slice(0, numberOfEvents)) reports.take(event)
-  return liveRecord({ scenario, reports, state, outlook: given ?? undefined })
+  return liveRecord({ scenario, reports, state, outlook: given ?? undefined, flown })
 }
 
 const record = recordAfter(events.length)
@@ -63,6 +67,14 @@ describe('the record of a live day', () => {
       [a02, south, timeOf('06:11:30')],
       [a03, north, timeOf('06:47:00')],
     ])
+  })
+
+  it('has what had been flown before there is an outlook', () => {
+    const flown = record.legs.filter((leg) => !leg.is_expected)
+    const early = recordAfter(events.length, null, flown)
+    expect(early.legs.map(({ decided, aircraft }) => [decided, aircraft])).toEqual(
+      flown.map(({ decided, aircraft }) => [decided, aircraft]),
+    )
   })
 
   it('drops what an older outlook expected of an aircraft that was sent off since', () => {

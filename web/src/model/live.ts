@@ -12,11 +12,13 @@ export interface LiveSources {
   reports: Reports
   state: DayState
   outlook: Outlook | undefined
+  /** What had been flown when the day was opened, for as long as there is no outlook. */
+  flown: readonly LegRecord[]
 }
 
-export function liveRecord({ scenario, reports, state, outlook }: LiveSources): DayRecord {
-  const expected = outlook === undefined ? [] : legsOf(outlook, scenario)
-  const legs = new Legs(scenario, reports, expected).broughtUpTo(state)
+export function liveRecord({ scenario, reports, state, outlook, flown }: LiveSources): DayRecord {
+  const known = outlook === undefined ? flown : legsOf(outlook, scenario)
+  const legs = new Legs(scenario, reports, known).broughtUpTo(state)
   return { ...frameOf(scenario), legs, ...whatIsKnown(scenario, reports, legs) }
 }
 
@@ -102,7 +104,7 @@ class Legs {
   constructor(
     private readonly scenario: Scenario,
     private readonly reports: Reports,
-    legs: LegRecord[],
+    legs: readonly LegRecord[],
   ) {
     this.#legs = legs.map((leg) => (leg.is_expected ? leg : this.#reported(leg)))
     for (const leg of this.#legs) if (!leg.is_expected) this.#latest.set(leg.aircraft, leg)

@@ -7,6 +7,7 @@ import {
   dollarsAndCents,
   percent,
   pointDifference,
+  tenths,
 } from './money'
 
 it('writes sums in whole dollars and flights with cents', () => {
@@ -37,6 +38,7 @@ it('shows the sign of every difference', () => {
 
 it('writes counts and shares', () => {
   expect(count(25_892)).toBe('25,892')
+  expect([tenths(841.72), tenths(-3.44)]).toEqual(['841.7', '−3.4'])
   expect(percent(0.8449)).toBe('84 %')
   expect(percent(0.8449, 1)).toBe('84.5 %')
 })

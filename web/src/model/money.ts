@@ -3,7 +3,7 @@
 
 const whole = new Intl.NumberFormat('en-US', { maximumFractionDigits: 0 })
 const cents = new Intl.NumberFormat('en-US', { minimumFractionDigits: 2, maximumFractionDigits: 2 })
-const tenths = new Intl.NumberFormat('en-US', { minimumFractionDigits: 1, maximumFractionDigits: 1 })
+const oneDigit = new Intl.NumberFormat('en-US', { minimumFractionDigits: 1, maximumFractionDigits: 1 })
 
 /** The minus of typography, which is as wide as a digit. */
 const MINUS = '−'
@@ -28,6 +28,11 @@ export function count(number: number): string {
   return signed(number, whole, '').replace('$', '')
 }
 
+/** `841.7` for values that are not dollars. */
+export function tenths(number: number): string {
+  return signed(number, oneDigit, '').replace('$', '')
+}
+
 /** `+12`, `−3` or `±0`. */
 export function countDifference(number: number): string {
   return number === 0 ? '±0' : signed(number, whole, '+').replace('$', '')
@@ -41,7 +46,7 @@ export function percent(share: number, digits = 0): string {
 
 /** `−1.4` or `±0.0`: how many percent of the whole two shares differ by. */
 export function pointDifference(share: number): string {
-  return Math.abs(share) < 0.0005 ? '±0.0' : signed(100 * share, tenths, '+').replace('$', '')
+  return Math.abs(share) < 0.0005 ? '±0.0' : signed(100 * share, oneDigit, '+').replace('$', '')
 }
 
 function signed(amount: number, format: Intl.NumberFormat, plus: string): string {

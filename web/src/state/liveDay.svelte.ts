@@ -8,10 +8,11 @@ import { follow, type Connection } from '../api/stream'
 import type { DayInfo, DayState, Outlook, TakenEvent } from '../api/types'
 import { liveRecord } from '../model/live'
 import { LOOK_BACK_MS } from '../model/pace'
-import type { DayRecord, Seconds } from '../model/record'
+import type { DayRecord, LegRecord, Seconds } from '../model/record'
 import { Reports } from '../model/reports'
 import type { Scenario } from '../model/scenario'
 import { timeOf } from '../model/time'
+import { recordOf } from '../model/traces'
 import { Clock } from './clock.svelte'
 import { Refresher } from './refresher'
 
@@ -40,6 +41,7 @@ export class LiveDay {
   /** Counts the events that the reports have taken, so that what depends on them is made anew. */
   #reported = $state(0)
   #reports: Reports | undefined
+  #flown: readonly LegRecord[] = []
   readonly #service: Service
   readonly #stateRefresher = new Refresher(STATE_PACE, () => this.#readState())
   readonly #outlookRefresher = new Refresher(OUTLOOK_PACE, () => this.#readOutlook())
@@ -63,7 +65,7 @@ export class LiveDay {
     const [scenario, reports, state] = [this.#scenario, this.#reports, this.state]
     if (scenario === undefined || reports === undefined || state === undefined || this.#reported < 0)
       return undefined
-    return liveRecord({ scenario, reports, state, outlook: this.outlook })
+    return liveRecord({ scenario, reports, state, outlook: this.outlook, flown: this.#flown })
   })
 
   /** The record without what is only expected: what pictures of this moment show. */
@@ -127,11 +129,13 @@ export class LiveDay {
   }
 
   async #readAll(): Promise<void> {
-    const [state, events] = await Promise.all([
+    const [state, events, trace] = await Promise.all([
       this.#service.state(this.id),
       this.#service.events(this.id, 0),
+      this.#service.trace(this.id),
     ])
     if (this.#isClosed || this.#scenario === undefined) return
+    this.#flown = recordOf(this.#scenario, trace).legs
     this.#reports = new Reports(this.#scenario)
     this.events = []
     this.#take(events)

@@ -23,6 +23,13 @@ export const withoutProcessor = {
 /** WebGL on the main processor. */
 export const withWebGL = { ...withoutProcessor, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] }
 
+/** The shipped network `large` with 200 aircraft. */
+export function networkOfTwoHundred(): string {
+  return readFileSync(large, 'utf8')
+    .replaceAll('count = 150', 'count = 100')
+    .replace('name = "large"', 'name = "two-hundred"')
+}
+
 /** A folder with days that the program has drawn and played. */
 export class Days {
   readonly folder = mkdtempSync(join(tmpdir(), 'vertifleet-days-'))
@@ -39,8 +46,7 @@ export class Days {
 
   /** A day of the shipped network `large` with 200 aircraft. */
   makeWithTwoHundredAircraft(name: string): void {
-    const network = readFileSync(large, 'utf8').replaceAll('count = 150', 'count = 100')
-    writeFileSync(join(this.folder, 'two-hundred.toml'), network)
+    writeFileSync(join(this.folder, 'two-hundred.toml'), networkOfTwoHundred())
     this.make(name, 'two-hundred.toml')
   }
 

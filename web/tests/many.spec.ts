@@ -1,0 +1,30 @@
+// A day of 200 aircraft, which vertifleet operate flies: all of it is shown, and decisions are taken as on a small day.
+
+import { Fleet } from './support/fleet'
+import { networkOfTwoHundred } from './support/pictures'
+import { expect, open, panel, test, waiting } from './support/test'
+
+test('200 aircraft are shown and decided', async ({ page, program }) => {
+  test.slow()
+  const network = networkOfTwoHundred()
+  void program.operate(network, '--policy', 'greedy', '--speed', '60', '--by-hand')
+  const fleet = await Fleet.onDayOfOthers(program.url)
+  await expect.poll(async () => (await fleet.waiting()).length).toBe(200)
+  await open(page, program, fleet)
+  await expect(waiting(page)).toHaveCount(200)
+  const map = page.getByRole('region', { name: 'Map' })
+  await expect(map.getByText(/^A map of 60 vertiports and 200 aircraft/).first()).toBeAttached()
+  for (const aircraft of ['A001', 'A002', 'A003']) {
+    await expect(panel(page).getByRole('heading', { name: new RegExp(`^${aircraft}`) })).toBeVisible()
+    await page.waitForTimeout(400)
+    await page.keyboard.press('a')
+    await expect(page.getByText(new RegExp(`^${aircraft} (flies to|holds at) `))).toBeVisible()
+  }
+  for (const aircraft of await fleet.waiting()) await fleet.decide(aircraft)
+  await expect(map.getByText(/At 06:\d\d: 1\d\d in the air/).first()).toBeAttached({ timeout: 30_000 })
+  await page.keyboard.press('g')
+  await page.keyboard.press('t')
+  await page.getByRole('application', { name: /Timeline of the fleet/ }).focus()
+  await page.keyboard.press('ArrowDown')
+  await expect(page.locator('[aria-live=polite]').filter({ hasText: /^A\d{3} / })).toBeAttached()
+})
