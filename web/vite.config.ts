@@ -4,6 +4,7 @@
 import { svelte } from '@sveltejs/vite-plugin-svelte'
 import { defineConfig, type ProxyOptions } from 'vite'
 import { basemap } from './basemap/plugin.ts'
+import { licences } from './licences.ts'
 import { contentSecurityPolicy } from './security.ts'
 
 const service = process.env['VERTIFLEET_URL'] ?? 'http://127.0.0.1:8080'
@@ -25,7 +26,7 @@ const proxy: Record<string, ProxyOptions> = {
 
 export default defineConfig({
   define: { __EMBEDDED__: 'false' },
-  plugins: [svelte(), basemap()],
+  plugins: [svelte(), basemap(), licences()],
   build: {
     target: 'es2022',
     outDir: 'dist',

@@ -4,6 +4,7 @@
 import { svelte } from '@sveltejs/vite-plugin-svelte'
 import { defineConfig, type Plugin } from 'vite'
 import { noBasemap } from './basemap/plugin.ts'
+import { noticesOf } from './licences.ts'
 
 /** Puts scripts and styles into the page. A module script runs after the page is read, wherever it stands. */
 function inline(): Plugin {
@@ -13,7 +14,8 @@ function inline(): Plugin {
     generateBundle(_options, bundle) {
       const page = bundle['replay.html']
       if (page?.type !== 'asset') throw new Error('there is no replay.html in the bundle')
-      let html = String(page.source)
+      const notices = `<script type="text/plain" id="licences">${ended(noticesOf(bundle))}</script>`
+      let html = String(page.source).replace('</body>', () => `  ${notices}\n  </body>`)
       for (const [name, file] of Object.entries(bundle)) {
         if (file === page) continue
         html =
@@ -29,14 +31,17 @@ function inline(): Plugin {
   }
 }
 
-/** The end of a script's element must not stand in its text. */
 function withScript(html: string, name: string, code: string): string {
-  const text = code.replaceAll('</script', '<\\/script')
   return replaced(
     html,
     new RegExp(`<script[^>]*${quoted(name)}"[^>]*></script>`),
-    `<script type="module">${text}</script>`,
+    `<script type="module">${ended(code)}</script>`,
   )
+}
+
+/** The end of a script's element must not stand in its text. */
+function ended(text: string): string {
+  return text.replaceAll('</script', '<\\/script')
 }
 
 function withStyle(html: string, name: string, code: string): string {

@@ -150,6 +150,13 @@ test('a report of the program opens from a disk and asks for nothing', async ({ 
   expect(asked.filter((one) => !one.startsWith('file:') && !one.startsWith('data:'))).toEqual([])
 })
 
+test('the page carries the notices of those whose work is in it', async ({ page }) => {
+  await page.goto(address)
+  const notices = await page.locator('#licences').textContent()
+  expect(notices).toMatch(/^svelte \d+\.\d+\.\d+, MIT$/m)
+  expect(notices).toContain('Natural Earth')
+})
+
 for (const { name, width, height } of [
   { name: 'desk', width: 1280, height: 800 },
   { name: 'wall', width: 1920, height: 1080 },

@@ -19,6 +19,7 @@ export const en = {
     help: 'Keys',
     helpSingleKeys:
       'Single keys do something. Switch them off if you speak to your computer or hit keys by accident.',
+    licences: 'Licences of what the console is made of',
     close: 'Close',
     cancel: 'Cancel',
     theme: 'Appearance',
