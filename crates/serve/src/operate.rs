@@ -1,6 +1,7 @@
 //! The simulated operator: plays a whole day through the public API, as the people and systems of an operator would. It
 //! is the demonstration, the load, and the test from end to end.
 
+mod by_hand;
 mod client;
 
 use std::path::PathBuf;
@@ -10,15 +11,12 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use vertifleet_core::{Scenario, Stop, Stopped, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Scenario, Stop, Stopped, Time, VertiportIx};
 use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::Reporter;
 
 use self::client::Client;
 use crate::error::Error;
-
-/// How often the operator looks whether others have decided.
-const LOOK: Duration = Duration::from_millis(20);
 
 /// A day to be operated.
 #[derive(Debug, Clone)]
@@ -38,6 +36,22 @@ pub struct Operation {
     /// Whether others decide, as people at their consoles do. The operator tells the service the time of each decision, and
     /// the day waits until it is taken.
     pub by_hand: bool,
+}
+
+impl Operation {
+    /// The vertiport with an id.
+    fn vertiport(&self, id: &str, client: &Client) -> Result<VertiportIx, Error> {
+        let mut all = VertiportIx::all(self.day.vertiports.len()).zip(&self.day.vertiports);
+        let found = all.find(|(_, vertiport)| vertiport.id == id).map(|(at, _)| at);
+        found.ok_or_else(|| client.wrong("an answer with an unknown vertiport"))
+    }
+
+    /// The aircraft with an id.
+    fn aircraft(&self, id: &str, client: &Client) -> Result<AircraftIx, Error> {
+        let mut all = AircraftIx::all(self.day.aircraft.len()).zip(&self.day.aircraft);
+        let found = all.find(|(_, aircraft)| aircraft.id == id).map(|(at, _)| at);
+        found.ok_or_else(|| client.wrong("an answer with an unknown aircraft"))
+    }
 }
 
 /// What came of a day.
@@ -70,9 +84,19 @@ pub fn operate(
     let mut client = Client::new(operation)?;
     let made: Made = client.post("/v1/days", &new_day(operation))?;
     let mut reporter = Reporter::new(&operation.day);
-    let mut begun = Instant::now();
+    let begun = Instant::now();
     let start = operation.day.operations.start;
     let mut took = Vec::new();
+    if operation.by_hand {
+        let people = by_hand::People::new(operation, &made.id, &mut client, stop);
+        let played = people.play(&mut reporter, |time, asked| {
+            took.push(asked.as_secs_f64() * 1e3);
+            watch(time, asked);
+        });
+        if let Err(Stopped) = played? {
+            return Ok(None);
+        }
+    }
     while let Some(decision) = reporter.next_decision() {
         if let Err(Stopped) = wait(operation.speed, begun, decision.time.since(start), stop) {
             return Ok(None);
@@ -80,21 +104,10 @@ pub fn operate(
         client.report(&made.id, &mut reporter, decision.time)?;
         let asked = Instant::now();
         let aircraft = &operation.day.aircraft[decision.aircraft.at()].id;
-        let taken = if operation.by_hand {
-            let taken = client
-                .tell_time(&made.id, decision.time)
-                .and_then(|()| wait_for_others(&mut client, &made.id, aircraft, stop))?;
-            let Some(taken) = taken else { return Ok(None) };
-            begun += asked.elapsed();
-            taken
-        } else {
-            client.decide(&made.id, aircraft, decision.time)?
-        };
+        let taken = client.decide(&made.id, aircraft, decision.time)?;
         let asked = asked.elapsed();
         took.push(asked.as_secs_f64() * 1e3);
-        let all = VertiportIx::all(operation.day.vertiports.len()).zip(&operation.day.vertiports);
-        let to = all.into_iter().find(|(_, vertiport)| vertiport.id == taken);
-        let (to, _) = to.ok_or_else(|| client.wrong("an answer with an unknown vertiport"))?;
+        let to = operation.vertiport(&taken, &client)?;
         reporter.apply(to).map_err(|refusal| client.wrong(&refusal.to_string()))?;
         watch(decision.time, asked);
     }
@@ -133,22 +146,6 @@ fn wait(speed: Option<f64>, begun: Instant, day_s: u32, stop: &Stop) -> Result<(
         let Some(left) = due.checked_sub(begun.elapsed()) else { return Ok(()) };
         thread::sleep(left.min(Duration::from_millis(100)));
     }
-}
-
-/// Waits until somebody has decided where an aircraft flies. Returns `None` if the operator is to stop.
-fn wait_for_others(
-    client: &mut Client,
-    day: &str,
-    aircraft: &str,
-    stop: &Stop,
-) -> Result<Option<String>, Error> {
-    while !stop.is_requested() {
-        if let Some(to) = client.decided(day, aircraft)? {
-            return Ok(Some(to));
-        }
-        thread::sleep(LOOK);
-    }
-    Ok(None)
 }
 
 #[derive(Deserialize)]

@@ -1,6 +1,6 @@
 //! The operator's way to the service: every write has a key and is sent again until it is answered.
 
-use std::collections::HashMap;
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 use std::thread;
@@ -19,6 +19,8 @@ use crate::event::{Event, What};
 
 /// A write is tried again for this long when the service does not answer.
 const PATIENCE: Duration = Duration::from_secs(30);
+/// Events that are sent at once.
+const MOST_EVENTS: usize = 1_000;
 
 #[derive(Deserialize)]
 struct TakenDecision {
@@ -34,6 +36,37 @@ struct EventPage {
 struct TakenEvent {
     seq: u64,
     event: Event,
+}
+
+#[derive(Deserialize)]
+struct Taken {
+    seq: u64,
+}
+
+/// What others did on the day.
+pub(super) enum Heard {
+    /// They decided where an aircraft flies.
+    Decided {
+        /// The aircraft.
+        aircraft: String,
+        /// The vertiport.
+        to: String,
+    },
+    /// They took the latest decision of an aircraft back.
+    Undone {
+        /// The aircraft.
+        aircraft: String,
+    },
+    /// They reported something else.
+    Other,
+}
+
+/// Everything that becomes known up to a time.
+fn events_until(reporter: &mut Reporter, until: Time) -> Vec<Event> {
+    let scenario = Arc::clone(reporter.day().scenario());
+    std::iter::from_fn(|| reporter.next_report(until))
+        .map(|(time, report)| Event { time: Some(time.into()), what: What::of(&report, &scenario) })
+        .collect()
 }
 
 /// The certificates in a PEM file.
@@ -61,9 +94,9 @@ pub(super) struct Client {
     run: String,
     sent: u64,
     pub(super) sent_again: u64,
-    /// The number of the latest event that was heard of, and the decisions of others that have not been asked for.
+    /// The number of the latest event that was heard of, and the later ones that are the operator's own.
     heard: u64,
-    decided: HashMap<String, String>,
+    own: BTreeSet<u64>,
     /// The value of the header that carries the token.
     bearer: Option<String>,
 }
@@ -91,7 +124,7 @@ impl Client {
             sent: 0,
             sent_again: 0,
             heard: 0,
-            decided: HashMap::new(),
+            own: BTreeSet::new(),
             bearer: operation.token.as_ref().map(|token| format!("Bearer {token}")),
         })
     }
@@ -103,15 +136,32 @@ impl Client {
         reporter: &mut Reporter,
         until: Time,
     ) -> Result<(), Error> {
-        let scenario = Arc::clone(reporter.day().scenario());
-        let mut events = Vec::new();
-        while let Some((time, report)) = reporter.next_report(until) {
-            events.push(Event { time: Some(time.into()), what: What::of(&report, &scenario) });
-        }
-        for events in events.chunks(1_000) {
+        for events in events_until(reporter, until).chunks(MOST_EVENTS) {
             let IgnoredAny = self.post(&format!("/v1/days/{day}/events"), &events)?;
         }
         Ok(())
+    }
+
+    /// Sends everything that becomes known up to a time, and that it is that time now, unless others have done something that
+    /// has not been heard of. Returns whether it was sent.
+    pub(super) fn report_as_heard(
+        &mut self,
+        day: &str,
+        reporter: &mut Reporter,
+        until: Time,
+    ) -> Result<bool, Error> {
+        let mut events = events_until(reporter, until);
+        events.push(Event { time: Some(until.into()), what: What::Clock });
+        let path = format!("/v1/days/{day}/events");
+        let mut heard = Some(self.heard);
+        for events in events.chunks(MOST_EVENTS) {
+            let taken: Option<Taken> = self.post_if(&path, &events, heard)?;
+            let Some(Taken { seq }) = taken else { return Ok(false) };
+            self.own.extend(seq + 1 - events.len() as u64..=seq);
+            // What the first of them tells cannot be taken back.
+            heard = None;
+        }
+        Ok(true)
     }
 
     /// Has the service decide, and returns where the aircraft flies.
@@ -126,30 +176,23 @@ impl Client {
         Ok(taken.to)
     }
 
-    /// Moves the clock of the day on.
-    pub(super) fn tell_time(&mut self, day: &str, time: Time) -> Result<(), Error> {
-        let event = Event { time: Some(time.into()), what: What::Clock };
-        let IgnoredAny = self.post(&format!("/v1/days/{day}/events"), &event)?;
-        Ok(())
-    }
-
-    /// Where others have decided that an aircraft flies, if they have.
-    pub(super) fn decided(&mut self, day: &str, aircraft: &str) -> Result<Option<String>, Error> {
+    /// What others have done since this was last asked, in its order.
+    pub(super) fn heard(&mut self, day: &str) -> Result<Vec<Heard>, Error> {
         let page = format!("/v1/days/{day}/events?after={}&limit=1000", self.heard);
         let page: EventPage = self.get(&page)?;
+        let mut heard = Vec::new();
         for TakenEvent { seq, event } in page.events {
             self.heard = seq;
-            match event.what {
-                What::Decided { aircraft, to, .. } => {
-                    self.decided.insert(aircraft, to);
-                }
-                What::Undone { aircraft, .. } => {
-                    self.decided.remove(&aircraft);
-                }
-                _ => {}
+            if self.own.remove(&seq) {
+                continue;
             }
+            heard.push(match event.what {
+                What::Decided { aircraft, to, .. } => Heard::Decided { aircraft, to },
+                What::Undone { aircraft, .. } => Heard::Undone { aircraft },
+                _ => Heard::Other,
+            });
         }
-        Ok(self.decided.remove(aircraft))
+        Ok(heard)
     }
 
     pub(super) fn post<T: DeserializeOwned>(
@@ -157,6 +200,17 @@ impl Client {
         path: &str,
         body: &impl Serialize,
     ) -> Result<T, Error> {
+        let answer = self.post_if(path, body, None)?;
+        answer.ok_or_else(|| self.wrong("an answer to a condition that was not made"))
+    }
+
+    /// Posts if the day is at an event still, if one is given. Returns `None` if it has gone on.
+    fn post_if<T: DeserializeOwned>(
+        &mut self,
+        path: &str,
+        body: &impl Serialize,
+        expected: Option<u64>,
+    ) -> Result<Option<T>, Error> {
         self.sent += 1;
         let key = format!("{}-{}", self.run, self.sent);
         let url = format!("{}{path}", self.url);
@@ -168,11 +222,16 @@ impl Client {
                 Some(bearer) => request.header("authorization", bearer),
                 None => request,
             };
+            let request = match expected {
+                Some(seq) => request.header("if-match", seq.to_string()),
+                None => request,
+            };
             let sent = request.header("content-type", "application/json").send(&body);
             match sent.and_then(|mut answer| {
                 Ok((answer.status().as_u16(), answer.body_mut().read_to_vec()?))
             }) {
-                Ok((status, answer)) if status < 300 => return self.read(&answer),
+                Ok((status, answer)) if status < 300 => return self.read(&answer).map(Some),
+                Ok((412, _)) if expected.is_some() => return Ok(None),
                 // The service is starting, stopping or busy with this very request.
                 Ok((409 | 503, _)) | Err(_) if begun.elapsed() < PATIENCE => {
                     self.sent_again += 1;

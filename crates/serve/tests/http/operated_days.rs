@@ -67,6 +67,58 @@ fn a_day_that_others_decide_is_the_simulated_day_to_the_cent() {
     assert_eq!(report.totals, simulated(&day, "greedy"));
 }
 
+#[test]
+fn people_decide_in_an_order_of_their_own_and_change_their_minds() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let service = Running::start(folder.path());
+    // Few stands, so that it matters who is sent off first.
+    let text =
+        include_str!("../../../../networks/paper.toml").replacen("stands = 6", "stands = 5", 5);
+    let network = Network::from_toml(&text, "fewer stands").expect("a network");
+    let day = Arc::new(network.draw(DaySeed::validation(2003).expect("a seed")));
+    let operation = Operation { by_hand: true, ..operation(&service, &day, "greedy") };
+    let stop = Stop::default();
+    let report = std::thread::scope(|scope| {
+        let operator = scope.spawn(|| operate(&operation, &stop, |_, _| ()));
+        let mut looks = 0;
+        while !operator.is_finished() {
+            looks += 1;
+            decide_backwards(&service, looks);
+        }
+        operator.join().expect("no panic")
+    });
+    let report = report.expect("the service answers").expect("nobody stops it");
+    assert!(report.totals.flights > 100, "{report:?}");
+    let state = service.get(&format!("/v1/days/{}/state", report.day)).json;
+    assert_eq!(state["notices"], json!([]), "every flight departed and landed as it should");
+}
+
+/// Decides for all who wait, the last first. Now and then it takes a decision back and lets the aircraft hold.
+fn decide_backwards(service: &Running, look: u32) {
+    let days = service.get("/v1/days").json;
+    let Some(id) = days["days"][0]["id"].as_str() else { return };
+    let state = service.get(&format!("/v1/days/{id}/state")).json;
+    if state["seq"] == 0 {
+        return;
+    }
+    let aircraft = state["aircraft"].as_array().expect("a list");
+    for waiting in aircraft.iter().rev().filter(|one| one["needs_decision"] == true) {
+        let aircraft = &waiting["id"];
+        let decide =
+            |body: serde_json::Value| service.post(&format!("/v1/days/{id}/decisions"), &body);
+        assert_eq!(decide(json!({ "aircraft": aircraft })).status, 201);
+        if look.is_multiple_of(5) {
+            let undone = json!({ "type": "undone", "aircraft": aircraft });
+            // The operator may have been quicker, and have said that it departed.
+            if service.post(&format!("/v1/days/{id}/events"), &undone).status == 201 {
+                let held =
+                    json!({ "aircraft": aircraft, "to": waiting["place"], "reason": "wait" });
+                decide(held);
+            }
+        }
+    }
+}
+
 /// Decides for every aircraft that is ready, as the policy of the only day would.
 fn decide_all(service: &Running) {
     let days = service.get("/v1/days").json;

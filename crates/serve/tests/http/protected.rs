@@ -160,8 +160,11 @@ fn a_body_of_most_requests_is_short() {
     let (_folder, service) = limited(Limits::default());
     let day = service.new_day("greedy");
     let mut long = connect(&service);
-    write!(long, "POST {day}/events HTTP/1.1\r\nhost: localhost\r\ncontent-length: 5000000\r\n\r\n[")
-        .expect("it is sent");
+    write!(
+        long,
+        "POST {day}/events HTTP/1.1\r\nhost: localhost\r\ncontent-length: 5000000\r\n\r\n["
+    )
+    .expect("it is sent");
     let mut said = [0; 12];
     long.read_exact(&mut said).expect("an answer");
     assert_eq!(&said, b"HTTP/1.1 413");
@@ -262,8 +265,8 @@ fn tokens_have_names_of_their_own_and_answers_say_how_to_ask() {
     let location = Location::Folder(folder.path().to_owned());
     let tokens = Tokens::open(&location).expect("a store");
     let token = tokens.make("console", Role::Read).expect("a token");
-    let taken = tokens.make("console", Role::Admin).expect_err("one of this name is in force");
-    assert_eq!(taken.code().to_string(), "V629");
+    let refused = tokens.make("console", Role::Admin).expect_err("one of this name is in force");
+    assert_eq!(refused.code().to_string(), "V629");
     let service = Running::start_at(location);
     let config = ureq::Agent::config_builder().http_status_as_error(false).build();
     let agent: ureq::Agent = config.into();

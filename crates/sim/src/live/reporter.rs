@@ -7,13 +7,13 @@ use std::sync::Arc;
 use vertifleet_core::{AircraftIx, Matrix, Scenario, Time, VertiportIx};
 
 use super::report::{Report, Routes};
-use crate::{DayTotals, Decision, Refusal, Simulation};
+use crate::{DayTotals, Decision, Refusal, Simulation, TraceRow};
 
 /// Plays a day that is known, and reports what happens on it.
 ///
 /// A live day that is told these reports, each before any decision that is later, sees at every decision what a policy
 /// sees in the simulation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Reporter {
     day: Simulation,
     /// What will be reported, with its time; of several with one time, the first entered comes first.
@@ -95,13 +95,17 @@ impl Reporter {
 
     /// The next report that becomes known up to a time.
     pub fn next_report(&mut self, until: Time) -> Option<(Time, Report)> {
-        let &Reverse((time, _, at)) = self.later.peek()?;
-        if time > until {
-            return None;
+        loop {
+            let &Reverse((time, _, at)) = self.later.peek()?;
+            if time > until {
+                return None;
+            }
+            self.later.pop();
+            // What was taken back is not reported.
+            if let Some(report) = self.reports[at].take() {
+                return Some((time, report));
+            }
         }
-        self.later.pop();
-        let report = self.reports[at].take().expect("each report is entered once");
-        Some((time, report))
     }
 
     /// Carries the decision out that is taken now. What it leads to is reported when it becomes known.
@@ -110,6 +114,61 @@ impl Reporter {
     /// The errors of [`Simulation::apply`].
     pub fn apply(&mut self, choice: VertiportIx) -> Result<(), Refusal> {
         let row = self.day.apply(choice)?;
+        self.enter(&row);
+        Ok(())
+    }
+
+    /// Carries out what people have decided for an aircraft at a time, in whatever order they decide and whatever the rules
+    /// of the simulated day say: they may know of things that it does not. Returns where the aircraft stood.
+    ///
+    /// # Errors
+    /// Returns [`Refusal::NoSuchVertiport`].
+    pub fn decide(
+        &mut self,
+        time: Time,
+        aircraft: AircraftIx,
+        to: VertiportIx,
+    ) -> Result<VertiportIx, Refusal> {
+        let vertiports = self.day.scenario().vertiports.len();
+        if to.at() >= vertiports {
+            return Err(Refusal::NoSuchVertiport { position: to.0, vertiports });
+        }
+        let at = self.day.place[aircraft.at()];
+        let decision = Decision { time, aircraft, at, index: self.day.ledger.decisions() };
+        let row = match self.day.carry_out(&decision, to) {
+            Ok(row) => row,
+            Err(_) => self.day.fly(&decision, to),
+        };
+        self.enter(&row);
+        Ok(at)
+    }
+
+    /// Takes back what people have decided for an aircraft, before it has departed.
+    pub fn take_back(&mut self, aircraft: AircraftIx, from: VertiportIx, ready: Time) {
+        let is_of_flight = |report: &Report| match report {
+            Report::Delayed { aircraft: one, .. }
+            | Report::Departed { aircraft: one, .. }
+            | Report::Landed { aircraft: one, .. } => *one == aircraft,
+            _ => false,
+        };
+        for report in &mut self.reports {
+            if report.as_ref().is_some_and(is_of_flight) {
+                *report = None;
+            }
+        }
+        self.day.stands.leave(aircraft, self.day.place[aircraft.at()]);
+        self.day.stands.take(aircraft, from, false);
+        self.day.place[aircraft.at()] = from;
+        self.set_ready(aircraft, ready);
+    }
+
+    /// Says when an aircraft is ready, where people know it better.
+    pub fn set_ready(&mut self, aircraft: AircraftIx, ready: Time) {
+        self.day.queue.set(aircraft, ready);
+    }
+
+    /// Has what follows from a decision reported.
+    fn enter(&mut self, row: &TraceRow) {
         if row.from != row.to {
             let (aircraft, time) = (row.aircraft, row.time);
             let kind = self.day.scenario().aircraft[aircraft.at()].kind;
@@ -123,7 +182,6 @@ impl Reporter {
             self.report(row.arrival, Report::Landed { aircraft, at: None });
             self.report_outages(aircraft, time, row.arrival);
         }
-        Ok(())
     }
 
     /// Reports the outages that keep an aircraft on the ground after a landing, each when it is known.

@@ -1,0 +1,151 @@
+//! A day on which people decide: the operator tells what happens, and time stands still until all who wait have a decision.
+//!
+//! People decide in an order of their own, take decisions back as long as the aircraft has not departed, and report what they
+//! know. The simulated day follows them.
+
+use std::collections::HashMap;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde::Deserialize;
+use vertifleet_core::{AircraftIx, Stop, Stopped, Time, VertiportIx};
+use vertifleet_sim::live::Reporter;
+
+use super::Operation;
+use super::client::{Client, Heard};
+use crate::error::Error;
+use crate::moment::Moment;
+
+/// How often the operator looks whether others have done something.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Those who decide, and the day that follows them.
+pub(super) struct People<'a> {
+    operation: &'a Operation,
+    day: &'a str,
+    client: &'a mut Client,
+    stop: &'a Stop,
+    /// Where each aircraft stood before the latest decision that people took for it.
+    stood: HashMap<AircraftIx, VertiportIx>,
+}
+
+/// An aircraft as the service knows it.
+#[derive(Deserialize)]
+struct Known {
+    id: String,
+    phase: String,
+    ready: Moment,
+    needs_decision: bool,
+}
+
+#[derive(Deserialize)]
+struct Fleet {
+    aircraft: Vec<Known>,
+}
+
+impl<'a> People<'a> {
+    pub(super) fn new(
+        operation: &'a Operation,
+        day: &'a str,
+        client: &'a mut Client,
+        stop: &'a Stop,
+    ) -> Self {
+        Self { operation, day, client, stop, stood: HashMap::new() }
+    }
+
+    /// Plays the day until its last decision. `watch` is called with the time of each decision and how long people took.
+    ///
+    /// # Errors
+    /// Returns [`Error::NoAnswer`] if the service does not answer.
+    pub(super) fn play(
+        mut self,
+        reporter: &mut Reporter,
+        mut watch: impl FnMut(Time, Duration),
+    ) -> Result<Result<(), Stopped>, Error> {
+        let start = self.operation.day.operations.start;
+        let mut now = None;
+        // The clock of the day as it would run if nobody were waited for.
+        let mut begun = Instant::now();
+        let mut asked = begun;
+        while let Some(decision) = reporter.next_decision() {
+            if self.stop.is_requested() {
+                return Ok(Err(Stopped));
+            }
+            let at = now.unwrap_or(start);
+            if now == Some(decision.time) {
+                let look = Instant::now();
+                thread::sleep(LOOK);
+                if self.follow(reporter, at)? {
+                    watch(at, asked.elapsed());
+                    asked = Instant::now();
+                }
+                begun += look.elapsed();
+                continue;
+            }
+            // While time goes on to the next decision, those before can still be taken back.
+            if !self.is_due(begun, decision.time.since(start)) {
+                thread::sleep(LOOK);
+                if now.is_some() {
+                    self.follow(reporter, at)?;
+                }
+                continue;
+            }
+            // What happens next follows from what people have done so far.
+            let before = reporter.clone();
+            if !self.client.report_as_heard(self.day, reporter, decision.time)? {
+                *reporter = before;
+                self.follow(reporter, at)?;
+                continue;
+            }
+            now = Some(decision.time);
+            asked = Instant::now();
+        }
+        Ok(Ok(()))
+    }
+
+    fn is_due(&self, begun: Instant, day_s: u32) -> bool {
+        let speed = self.operation.speed;
+        speed.is_none_or(|speed| begun.elapsed().as_secs_f64() >= f64::from(day_s) / speed)
+    }
+
+    /// Has the day follow what people have done since the last look. Returns whether they have decided something.
+    fn follow(&mut self, reporter: &mut Reporter, now: Time) -> Result<bool, Error> {
+        let heard = self.client.heard(self.day)?;
+        let (mut decides, mut is_otherwise) = (false, false);
+        for heard in heard {
+            match heard {
+                Heard::Decided { aircraft, to } => {
+                    let aircraft = self.operation.aircraft(&aircraft, self.client)?;
+                    let to = self.operation.vertiport(&to, self.client)?;
+                    let stood = reporter.decide(now, aircraft, to);
+                    let stood = stood.map_err(|refusal| self.client.wrong(&refusal.to_string()))?;
+                    self.stood.insert(aircraft, stood);
+                    decides = true;
+                }
+                Heard::Undone { aircraft } => {
+                    let aircraft = self.operation.aircraft(&aircraft, self.client)?;
+                    if let Some(stood) = self.stood.remove(&aircraft) {
+                        reporter.take_back(aircraft, stood, now);
+                    }
+                    is_otherwise = true;
+                }
+                Heard::Other => is_otherwise = true,
+            }
+        }
+        if is_otherwise {
+            self.ask_who_is_ready(reporter, now)?;
+        }
+        Ok(decides)
+    }
+
+    /// Learns from the service who is ready when, since people have told it what the simulated day does not know.
+    fn ask_who_is_ready(&self, reporter: &mut Reporter, now: Time) -> Result<(), Error> {
+        let fleet: Fleet = self.client.get(&format!("/v1/days/{}/state", self.day))?;
+        for known in fleet.aircraft.iter().filter(|known| known.phase == "standing") {
+            let aircraft = self.operation.aircraft(&known.id, self.client)?;
+            let ready = if known.needs_decision { now } else { known.ready.time() };
+            reporter.set_ready(aircraft, ready);
+        }
+        Ok(())
+    }
+}
