@@ -1,8 +1,21 @@
 import { describe, expect, it } from 'vitest'
 import { fleetRows, standRows, type Bar } from './bars'
 import { greedy, prices } from './fixtures/tiny'
-import { Occupancy, roomOf } from './occupancy'
+import { roomOf, staysOf } from './occupancy'
+import type { DayRecord } from './record'
 import { clock, timeOf } from './time'
+
+/** Aircraft that stand at a vertiport, and those that are promised a stand there. */
+function occupancyOf(record: DayRecord) {
+  const stays = staysOf(record)
+  const count = (is: (stay: (typeof stays)[number]) => boolean) => stays.filter(is).length
+  return {
+    taken: (vertiport: number, time: number) =>
+      count((stay) => stay.vertiport === vertiport && stay.arrives <= time && time < stay.leaves),
+    promised: (vertiport: number, time: number) =>
+      count((stay) => stay.vertiport === vertiport && stay.promised <= time && time < stay.arrives),
+  }
+}
 
 function shown({ kind, begins, ends }: Bar): string {
   return `${kind} ${clock(begins)}-${clock(ends)}`
@@ -56,7 +69,7 @@ describe('rows of stands', () => {
   })
 
   it('agree with the occupancy at every minute', () => {
-    const occupancy = new Occupancy(record)
+    const occupancy = occupancyOf(record)
     for (let time = record.start; time <= record.end; time += 60) {
       record.vertiports.forEach((one, vertiport) => {
         const bars = rows.filter((row) => row.vertiport === vertiport).flatMap((row) => row.bars)
@@ -86,7 +99,7 @@ it('counts chargers beside stands', () => {
 
 it('counts no aircraft twice', () => {
   const record = prices()
-  const occupancy = new Occupancy(record)
+  const occupancy = occupancyOf(record)
   const time = timeOf('08:20:00')
   const all = record.vertiports.map((_, one) => occupancy.taken(one, time) + occupancy.promised(one, time))
   expect(all.reduce((sum, number) => sum + number)).toBe(record.aircraft.length)

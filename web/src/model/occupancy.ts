@@ -1,7 +1,7 @@
-// Who stands where, and how many stands are taken and promised. A stand is promised at the decision to fly towards a vertiport
+// Who stands where and when. A stand is promised at the decision to fly towards a vertiport
 // and free again at the decision to leave it (Eq. 16), so each stay of an aircraft holds one stand without a gap.
 
-import { at, countUpTo } from './arrays'
+import { at } from './arrays'
 import { NONE } from './motion'
 import type { DayRecord, Seconds } from './record'
 import { isHold } from './record'
@@ -52,32 +52,4 @@ function stayAtStart(aircraft: number, vertiport: number): Stay {
 /** How many aircraft a vertiport has room for. */
 export function roomOf({ stands, chargers }: { stands: number; chargers?: number }): number {
   return stands + (chargers ?? 0)
-}
-
-/** The number of aircraft at every vertiport and on their way to it, at any moment. */
-export class Occupancy {
-  readonly #promised: Float64Array[]
-  readonly #arrived: Float64Array[]
-  readonly #left: Float64Array[]
-
-  constructor(record: DayRecord, stays: readonly Stay[] = staysOf(record)) {
-    const times = (of: (stay: Stay) => Seconds) => {
-      const lists: Seconds[][] = record.vertiports.map(() => [])
-      for (const stay of stays) at(lists, stay.vertiport).push(of(stay))
-      return lists.map((list) => Float64Array.from(list).sort())
-    }
-    this.#promised = times((stay) => stay.promised)
-    this.#arrived = times((stay) => stay.arrives)
-    this.#left = times((stay) => stay.leaves)
-  }
-
-  /** Aircraft that stand at a vertiport. */
-  taken(vertiport: number, time: Seconds): number {
-    return countUpTo(at(this.#arrived, vertiport), time) - countUpTo(at(this.#left, vertiport), time)
-  }
-
-  /** Aircraft that are on their way to it, for which a stand is kept. */
-  promised(vertiport: number, time: Seconds): number {
-    return countUpTo(at(this.#promised, vertiport), time) - countUpTo(at(this.#arrived, vertiport), time)
-  }
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { clock, clockMinutes, duration, instantOf, isoOf, parseTime, timeOf, timeOfInstant } from './time'
+import { clock, clockMinutes, duration, parseTime, timeOf } from './time'
 
 describe('times of a day', () => {
   it('are read as hours, minutes and seconds, which may pass midnight', () => {
@@ -30,26 +30,5 @@ describe('times of a day', () => {
       '1 h 05 min',
       '5 min',
     ])
-  })
-})
-
-describe('times of a day with a date', () => {
-  const zone = 'America/New_York'
-
-  it('carry the offset of the place', () => {
-    expect(isoOf(timeOf('07:10:00'), '2026-11-23', zone)).toBe('2026-11-23T07:10:00-05:00')
-    expect(isoOf(timeOf('07:10:00'), '2026-07-01', zone)).toBe('2026-07-01T07:10:00-04:00')
-    expect(isoOf(timeOf('25:10:00'), '2026-11-23', zone)).toBe('2026-11-24T01:10:00-05:00')
-  })
-
-  it('mean ten past seven on the clocks of the place also when these change', () => {
-    expect(isoOf(timeOf('07:10:00'), '2026-03-08', zone)).toBe('2026-03-08T07:10:00-04:00')
-    expect(isoOf(timeOf('07:10:00'), '2026-11-01', zone)).toBe('2026-11-01T07:10:00-05:00')
-  })
-
-  it('come back from the instant that they are', () => {
-    const time = timeOf('18:30:15')
-    const instant = new Date(instantOf(time, '2026-03-08', zone))
-    expect(timeOfInstant(instant, '2026-03-08', zone)).toBe(time)
   })
 })

@@ -1,9 +1,7 @@
 // The texts of the network editor and of studies, in English. They are a part of en.ts in a file of its own, since planners read
 // many words.
 
-const plural = (number: number, one: string, more: string) =>
-  `${number.toLocaleString('en-US')} ${number === 1 ? one : more}`
-const whole = (number: number) => Math.round(number).toLocaleString('en-US')
+import { plural, whole } from './numbers'
 
 export const editor = {
   title: 'Networks',

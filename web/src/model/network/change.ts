@@ -1,7 +1,7 @@
 // Changes of the demand of a network: one pair, one period, one weight, or the whole model.
 
 import { at } from '../arrays'
-import { asDaily, byPair, byPeriod, rounded } from './demand'
+import { asDaily, byPeriod, rounded } from './demand'
 import { demandMembers, draftOf, member, type DemandDraft, type Draft } from './draft'
 import { addTable, append, apply, remove, set, type Splice } from './edits'
 import type { Literal } from './literals'
@@ -104,9 +104,4 @@ function scalePeriod(
     const amount = rounded((pair.passengers[period] ?? 0) * factor, PASSENGER_DIGITS)
     return set(file, ['hourly_demand', 'pairs', index, 'passengers', period], amount)
   })
-}
-
-/** The largest cell of a table of pairs, for its scale of colours. */
-export function largestPair(draft: Draft): number {
-  return byPair(draft).reduce((most, row) => row.reduce((one, other) => Math.max(one, other), most), 0)
 }
