@@ -57,6 +57,7 @@ CALLS: dict[str, tuple[str, tuple[Any, ...]]] = {
     "make_study": ("client.make_study", ("paper", ["greedy"], 1)),
     "read_study": ("client.study", ("s",)),
     "study_report": ("client.study_report", ("s",)),
+    "study_replay": ("client.study_replay", ("s",)),
     "delete_study": ("client.delete_study", ("s",)),
     "service_info": ("client.info", ()),
     "healthz": ("client.is_running", ()),

@@ -224,7 +224,14 @@ fn a_report_is_a_folder_with_a_page_figures_and_tables() {
         assert!(folder.path().join("out").join(name).exists(), "{name}");
     }
     let page = fs::read_to_string(folder.path().join("out/report.html")).expect("a page");
-    assert!(page.contains(r#"<a href="replay.html">Watch the first 3 days</a>"#), "{page}");
+    assert!(page.contains("The first 3 days as each policy played them"), "{page}");
+    // The replay is within the page, so that the page can be sent to somebody by itself.
+    let (_, frame) = page.split_once(r#"<iframe class="replay""#).expect("a frame");
+    let (_, within) = frame.split_once("srcdoc=\"").expect("its page");
+    let within = within.split('"').next().expect("its end");
+    let within = within.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"");
+    let replay = fs::read_to_string(folder.path().join("out/replay.html")).expect("a page");
+    assert_eq!(within.replace("&amp;", "&"), replay);
     for figure in ["figure-3-learning-curves", "figure-4-reward", "figure-5-profit"] {
         for kind in ["svg", "png"] {
             let name = format!("{figure}.{kind}");

@@ -73,6 +73,7 @@ pub(crate) fn router(service: Arc<Service>, console: Console) -> Router {
         .route("/v1/studies", get(studies::list).post(studies::create))
         .route("/v1/studies/{study}", get(studies::read).delete(studies::delete))
         .route("/v1/studies/{study}/report", get(studies::report))
+        .route("/v1/studies/{study}/replay", get(studies::replay))
         .route("/v1", get(service::info))
         .route("/healthz", get(service::healthz))
         .route("/readyz", get(service::readyz))

@@ -28,7 +28,7 @@ use crate::problem::Problem;
 /// Studies that wait for their turn.
 const MOST_WAITING: usize = 8;
 /// Studies that have ended and are kept; the oldest make room for new ones.
-const MOST_ENDED: usize = 100;
+const MOST_ENDED: usize = 20;
 /// The least claim to a core that Linux knows.
 #[cfg(target_os = "linux")]
 const LAST_IN_TURN: i32 = 19;
@@ -120,7 +120,7 @@ struct Study {
 enum Stage {
     Waiting(Box<Asked>),
     Playing(Progress),
-    Finished { report: Box<ComparisonReport>, took_s: f64 },
+    Finished { report: Box<ComparisonReport>, replay: String, took_s: f64 },
     Failed(Problem),
 }
 
@@ -191,6 +191,17 @@ impl Studies {
     pub(crate) fn page(&self, id: &str) -> Result<String, Error> {
         let page = self.find(id)?.of_report(ComparisonReport::page);
         page.ok_or_else(|| Error::not_found("report of study", id))
+    }
+
+    /// The first days of a study as each policy played them, as JSON.
+    ///
+    /// # Errors
+    /// Returns [`Error::NotFound`] if there is no such study, or if it has not finished.
+    pub(crate) fn replay(&self, id: &str) -> Result<String, Error> {
+        match &*lock(&self.find(id)?.stage) {
+            Stage::Finished { replay, .. } => Ok(replay.clone()),
+            _ => Err(Error::not_found("replay of study", id)),
+        }
     }
 
     /// Stops a study, if it has not ended, and forgets it.
@@ -301,19 +312,19 @@ impl Study {
         let begun = Instant::now();
         let command = self.info.command.clone();
         let watched = Watched(Arc::clone(self));
-        let play = || -> Result<ComparisonReport, Error> {
+        let play = || -> Result<(ComparisonReport, String), Error> {
             let records = threads()
                 .map_err(|cause| Error::Internal { cause: cause.to_string() })?
                 .install(|| asked.comparison(&self.stop)?.run(command, &self.stop, &watched))?;
-            Ok(ComparisonReport::of(&records)?)
+            Ok((ComparisonReport::of(&records)?, records.replay()))
         };
         let outcome = catch_unwind(AssertUnwindSafe(play)).unwrap_or_else(|_| {
             Err(Error::Internal { cause: "the study failed; the log has more".to_owned() })
         });
         *lock(&self.stage) = match outcome {
-            Ok(report) => {
+            Ok((report, replay)) => {
                 let took_s = begun.elapsed().as_secs_f64();
-                Stage::Finished { report: Box::new(report), took_s }
+                Stage::Finished { report: Box::new(report), replay, took_s }
             }
             Err(error) => Stage::Failed(Problem::of(&error)),
         };

@@ -177,6 +177,13 @@ impl Comparison {
     }
 }
 
+impl ComparisonRecords {
+    /// The first days as each policy played them, as the JSON that the replay of the console reads.
+    pub fn replay(&self) -> String {
+        replay::json(&self.replayed)
+    }
+}
+
 impl Records for ComparisonRecords {
     fn text(&self) -> Result<String, Error> {
         Ok(table::text(&ComparisonReport::of(self)?))
@@ -189,18 +196,16 @@ impl Records for ComparisonRecords {
     fn files(&self) -> Result<Vec<File>, Error> {
         let summary = ComparisonReport::of(self)?;
         let figures = figure::all(&summary);
+        let replayed = (!self.replayed.is_empty()).then(|| replay::page(&self.replayed));
+        let within = replayed.as_ref().map(|page| page::Replay { days: self.replayed.len(), page });
+        let page = page::text(&summary, &figures, within.as_ref(), true);
         let mut files = pictures(&figures);
         files.extend([
             ("days.csv".to_owned(), days_csv::text(self).into_bytes()),
             ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
-            (
-                "report.html".to_owned(),
-                page::text(&summary, &figures, Some(self.replayed.len())).into_bytes(),
-            ),
+            ("report.html".to_owned(), page.into_bytes()),
         ]);
-        if !self.replayed.is_empty() {
-            files.push(("replay.html".to_owned(), replay::page(&self.replayed).into_bytes()));
-        }
+        files.extend(replayed.map(|page| ("replay.html".to_owned(), page.into_bytes())));
         Ok(files)
     }
 }

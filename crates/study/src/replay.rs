@@ -76,7 +76,6 @@ impl Play {
     }
 }
 
-/// The days of a page, as `web/src/replay/days.ts` reads them.
 #[derive(Serialize)]
 struct Shown {
     days: Vec<ShownDay>,
@@ -96,10 +95,15 @@ struct ShownPlay {
     profit_usd: f64,
 }
 
+/// The days as `web/src/replay/days.ts` reads them.
+pub(crate) fn json(days: &[ReplayedDay]) -> String {
+    let shown = Shown { days: days.iter().map(ShownDay::of).collect() };
+    serde_json::to_string(&shown).expect("days can always be written")
+}
+
 /// The page that replays these days.
 pub fn page(days: &[ReplayedDay]) -> String {
-    let shown = Shown { days: days.iter().map(ShownDay::of).collect() };
-    let text = serde_json::to_string(&shown).expect("days can always be written");
+    let text = json(days);
     let vertiports = days.iter().flat_map(|day| day.scenario.vertiports.iter());
     let places: Vec<(f64, f64)> = vertiports
         .filter_map(|vertiport| vertiport.degrees)

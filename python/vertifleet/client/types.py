@@ -1087,3 +1087,32 @@ class NewStudy(TypedDict):
     """Whose days are played."""
     toml: NotRequired[str | None]
     """The text of a network file in place of a name. It is not kept."""
+
+
+class Play(TypedDict):
+    """What a policy did on a day, in the description."""
+
+    policy: str
+    """The policy."""
+    trace: str
+    """The trace, as its file has it, with amounts to the cent."""
+    profit_usd: float
+    """The profit of the day, dollars."""
+
+
+class ReplayedDay(TypedDict):
+    """A day of a replay in the description."""
+
+    name: str
+    """The name of its scenario."""
+    scenario: Mapping[str, object]
+    """The scenario, as its file has it."""
+    plays: list[Play]
+    """What each policy did."""
+
+
+class StudyReplay(TypedDict):
+    """The replay of a study in the description."""
+
+    days: list[ReplayedDay]
+    """The days."""

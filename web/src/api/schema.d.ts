@@ -470,7 +470,7 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Lists the studies that were asked for since the service began, the latest first. It keeps the last 100 that have ended,
+         * Lists the studies that were asked for since the service began, the latest first. It keeps the last 20 that have ended,
          *     in memory: what a study says follows from what it was asked for, so it can be had again.
          */
         get: operations["list_studies"];
@@ -499,6 +499,26 @@ export interface paths {
         post?: never;
         /** Ends a study if it plays or waits, and forgets it. */
         delete: operations["delete_study"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/studies/{study}/replay": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The first days of a study as each policy played them: the scenarios, and a trace for each policy. The console replays
+         *     them. At most three days, and only the first where they are large.
+         */
+        get: operations["study_replay"];
+        put?: never;
+        post?: never;
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -1183,6 +1203,18 @@ export interface components {
          * @enum {string}
          */
         PhaseName: "standing" | "sent_off" | "in_the_air";
+        /** @description What a policy did on a day, in the description. */
+        Play: {
+            /** @description The policy. */
+            policy: string;
+            /**
+             * Format: double
+             * @description The profit of the day, dollars.
+             */
+            profit_usd: number;
+            /** @description The trace, as its file has it, with amounts to the cent. */
+            trace: string;
+        };
         /** @description A policy. */
         PolicyInfo: {
             /** @description Whether the program has it; the others were uploaded. */
@@ -1323,6 +1355,15 @@ export interface components {
             /** @description SHA-256 of its weight file, if it is a learned policy. */
             weights_sha256?: string | null;
         };
+        /** @description A day of a replay in the description. */
+        ReplayedDay: {
+            /** @description The name of its scenario. */
+            name: string;
+            /** @description What each policy did. */
+            plays: components["schemas"]["Play"][];
+            /** @description The scenario, as its file has it. */
+            scenario: Record<string, never>;
+        };
         /**
          * @description What a token permits. Each role permits what those before it do.
          * @enum {string}
@@ -1431,6 +1472,11 @@ export interface components {
              * @description The share of all that is to be played that has been, 0 to 1; every policy counts the same.
              */
             share: number;
+        };
+        /** @description The replay of a study in the description. */
+        StudyReplay: {
+            /** @description The days. */
+            days: components["schemas"]["ReplayedDay"][];
         };
         /** @description What came out of a study. Amounts and counts are means a day. */
         StudyResult: {
@@ -2837,6 +2883,37 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description What is wrong (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    study_replay: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                study: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description As it was asked */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyReplay"];
+                };
             };
             /** @description What is wrong (RFC 9457) */
             default: {

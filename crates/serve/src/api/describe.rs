@@ -33,7 +33,7 @@ use crate::problem::Problem;
         days::scenario, days::trace, demand::demand, ledger::ledger, events::list, events::append, decisions::propose, decisions::decide,
         outlooks::outlook, outlooks::what_if, stream::stream, networks::list, networks::read,
         networks::put, networks::delete, networks::validate, policies::list, policies::read,
-        policies::put, policies::delete, policies::validate, studies::list, studies::create, studies::read, studies::report,
+        policies::put, policies::delete, policies::validate, studies::list, studies::create, studies::read, studies::report, studies::replay,
         studies::delete
     ),
     tags(

@@ -25,7 +25,7 @@ pub(crate) struct StudyList {
     studies: Vec<StudyInfo>,
 }
 
-/// Lists the studies that were asked for since the service began, the latest first. It keeps the last 100 that have ended,
+/// Lists the studies that were asked for since the service began, the latest first. It keeps the last 20 that have ended,
 /// in memory: what a study says follows from what it was asked for, so it can be had again.
 #[utoipa::path(operation_id = "list_studies", get, path = "/v1/studies", tag = "studies", responses((status = 200, body = StudyList)))]
 pub(super) async fn list(State(service): State<Arc<Service>>) -> Response {
@@ -74,6 +74,50 @@ pub(super) async fn report(
         (header::CONTENT_SECURITY_POLICY, policy_of(&page)),
     ];
     Ok((headers, page).into_response())
+}
+
+/// The first days of a study as each policy played them: the scenarios, and a trace for each policy. The console replays
+/// them. At most three days, and only the first where they are large.
+#[utoipa::path(operation_id = "study_replay", get, path = "/v1/studies/{study}/replay", tag = "studies", params(("study" = String, Path)), responses((status = 200, body = StudyReplay)))]
+pub(super) async fn replay(
+    State(service): State<Arc<Service>>,
+    Named(study): Named<String>,
+) -> Result<Response, Error> {
+    let replay = service.studies.replay(&study)?;
+    Ok(([(header::CONTENT_TYPE, "application/json")], replay).into_response())
+}
+
+/// The replay of a study in the description.
+#[derive(ToSchema)]
+#[expect(dead_code, reason = "the study writes it, and this describes it")]
+pub(crate) struct StudyReplay {
+    /// The days.
+    days: Vec<ReplayedDay>,
+}
+
+/// A day of a replay in the description.
+#[derive(ToSchema)]
+#[expect(dead_code, reason = "the study writes it, and this describes it")]
+pub(crate) struct ReplayedDay {
+    /// The name of its scenario.
+    name: String,
+    /// The scenario, as its file has it.
+    #[schema(value_type = Object)]
+    scenario: (),
+    /// What each policy did.
+    plays: Vec<Play>,
+}
+
+/// What a policy did on a day, in the description.
+#[derive(ToSchema)]
+#[expect(dead_code, reason = "the study writes it, and this describes it")]
+pub(crate) struct Play {
+    /// The policy.
+    policy: String,
+    /// The trace, as its file has it, with amounts to the cent.
+    trace: String,
+    /// The profit of the day, dollars.
+    profit_usd: f64,
 }
 
 /// Ends a study if it plays or waits, and forgets it.

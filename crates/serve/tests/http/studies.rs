@@ -76,6 +76,19 @@ fn a_study_has_the_numbers_of_compare() {
     let page = page.json.as_str().expect("a page").to_owned();
     assert!(page.starts_with("<!DOCTYPE html>") && page.contains("greedy earns"), "{page}");
     assert!(!page.contains("summary.json"), "nothing stands beside it");
+    let replay = service.get(&format!("{study}/replay")).json;
+    let plays = replay["days"][0]["plays"].as_array().expect("what each policy did");
+    let names: Vec<&Value> = plays.iter().map(|play| &play["policy"]).collect();
+    assert_eq!(
+        names,
+        result["policies"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|one| &one["name"])
+            .collect::<Vec<_>>()
+    );
+    assert!(plays[0]["trace"].as_str().is_some_and(|trace| trace.lines().count() > 100));
 }
 
 #[test]

@@ -13,24 +13,32 @@ use crate::origin::NetworkOrigin;
 use crate::page::{document, estimate, links, picture};
 use crate::published::{NOTE, PublishedResult};
 
-/// The page as HTML. The files of the report stand beside it, among them the replay of so many days; or it is all that
-/// there is.
+/// The replay of days, which is shown within the page.
+#[derive(Debug)]
+pub(crate) struct Replay<'a> {
+    /// The number of days.
+    pub(crate) days: usize,
+    /// The page that replays them.
+    pub(crate) page: &'a str,
+}
+
+/// The page as HTML. The other files of the report stand beside it, or it is all that there is.
 pub(crate) fn text(
     summary: &ComparisonReport,
     figures: &[Figure],
-    days_beside: Option<usize>,
+    replayed: Option<&Replay<'_>>,
+    has_files: bool,
 ) -> String {
-    let replayed = days_beside.filter(|&days| days > 0);
     let body = html! {
         (opening(summary))
         (results(summary))
-        @if let Some(days) = replayed { (replay(days)) }
+        @if let Some(replayed) = replayed { (replay(replayed)) }
         h2 { "Figures" }
         @for figure in figures { (picture(figure)) }
         @if !summary.comparisons.is_empty() { (tests(summary)) }
         @if !summary.trainings.is_empty() { (trainings(summary)) }
         @if !summary.published.is_empty() { (published(summary)) }
-        (closing(days_beside.is_some().then_some(figures)))
+        (closing(has_files.then_some(figures)))
     };
     document(&format!("Vertifleet comparison: {}", summary.network), &body)
 }
@@ -273,15 +281,16 @@ fn published_cells(summary: &ComparisonReport, result: &PublishedResult) -> Mark
     }
 }
 
-/// A link to the days that can be watched.
-fn replay(days: usize) -> Markup {
+/// The days that can be watched, in a frame of their own, which keeps their style and their scripts apart from the page.
+fn replay(&Replay { days, page }: &Replay<'_>) -> Markup {
     let which =
-        if days == 1 { "the first day".to_owned() } else { format!("the first {days} days") };
+        if days == 1 { "The first day".to_owned() } else { format!("The first {days} days") };
     html! {
         h2 { "Replay" }
-        p { a href="replay.html" { "Watch " (which) } " as each policy played "
-            (if days == 1 { "it" } else { "them" }) ": on a map, along the day, and two policies side by side with their "
-            "first difference." }
+        p { (which) " as each policy played " (if days == 1 { "it" } else { "them" })
+            ": on a map, along the day, and two policies side by side with their first difference. The file "
+            a href="replay.html" { "replay.html" } " shows the same in a whole window." }
+        iframe.replay title="Replay" loading="lazy" srcdoc=(page) {}
     }
 }
 

@@ -248,7 +248,7 @@ impl ComparisonReport {
 
     /// The page of the report by itself, as HTML.
     pub fn page(&self) -> String {
-        super::page::text(self, &crate::figure::all(self), None)
+        super::page::text(self, &crate::figure::all(self), None, false)
     }
 
     /// The tables of policies and tests as HTML for notebooks.

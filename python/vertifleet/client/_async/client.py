@@ -26,6 +26,7 @@ from vertifleet.client.types import (
     PolicyList,
     ServiceInfo,
     StudyInfo,
+    StudyReplay,
     StudyList,
     WeightsInfo,
 )
@@ -319,6 +320,14 @@ class AsyncClient:
             ServiceError: V602 if there is no such study, or if it has not finished.
         """
         return (await self._connection.answer(reading("studies", study, "report"))).text
+
+    async def study_replay(self, study: str) -> StudyReplay:
+        """The first days of a study as each policy played them: at most three scenarios, and a trace for each policy.
+
+        Raises:
+            ServiceError: V602 if there is no such study, or if it has not finished.
+        """
+        return await self._connection.object(StudyReplay, reading("studies", study, "replay"))
 
     async def delete_study(self, study: str) -> None:
         """Ends a study if it plays or waits, and forgets it.

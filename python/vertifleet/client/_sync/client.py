@@ -28,6 +28,7 @@ from vertifleet.client.types import (
     ServiceInfo,
     StudyInfo,
     StudyList,
+    StudyReplay,
     WeightsInfo,
 )
 
@@ -320,6 +321,14 @@ class Client:
             ServiceError: V602 if there is no such study, or if it has not finished.
         """
         return (self._connection.answer(reading("studies", study, "report"))).text
+
+    def study_replay(self, study: str) -> StudyReplay:
+        """The first days of a study as each policy played them: at most three scenarios, and a trace for each policy.
+
+        Raises:
+            ServiceError: V602 if there is no such study, or if it has not finished.
+        """
+        return self._connection.object(StudyReplay, reading("studies", study, "replay"))
 
     def delete_study(self, study: str) -> None:
         """Ends a study if it plays or waits, and forgets it.
