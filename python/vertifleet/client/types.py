@@ -1090,7 +1090,7 @@ class NewStudy(TypedDict):
 
 
 class Play(TypedDict):
-    """What a policy did on a day, in the description."""
+    """What a policy did on a day."""
 
     policy: str
     """The policy."""
@@ -1101,7 +1101,7 @@ class Play(TypedDict):
 
 
 class ReplayedDay(TypedDict):
-    """A day of a replay in the description."""
+    """A day that policies played."""
 
     name: str
     """The name of its scenario."""
@@ -1112,7 +1112,7 @@ class ReplayedDay(TypedDict):
 
 
 class StudyReplay(TypedDict):
-    """The replay of a study in the description."""
+    """The first days of a study as each policy played them."""
 
     days: list[ReplayedDay]
     """The days."""

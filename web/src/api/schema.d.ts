@@ -1203,7 +1203,7 @@ export interface components {
          * @enum {string}
          */
         PhaseName: "standing" | "sent_off" | "in_the_air";
-        /** @description What a policy did on a day, in the description. */
+        /** @description What a policy did on a day. */
         Play: {
             /** @description The policy. */
             policy: string;
@@ -1355,7 +1355,7 @@ export interface components {
             /** @description SHA-256 of its weight file, if it is a learned policy. */
             weights_sha256?: string | null;
         };
-        /** @description A day of a replay in the description. */
+        /** @description A day that policies played. */
         ReplayedDay: {
             /** @description The name of its scenario. */
             name: string;
@@ -1473,7 +1473,7 @@ export interface components {
              */
             share: number;
         };
-        /** @description The replay of a study in the description. */
+        /** @description The first days of a study as each policy played them. */
         StudyReplay: {
             /** @description The days. */
             days: components["schemas"]["ReplayedDay"][];

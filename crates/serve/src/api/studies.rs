@@ -87,7 +87,7 @@ pub(super) async fn replay(
     Ok(([(header::CONTENT_TYPE, "application/json")], replay).into_response())
 }
 
-/// The replay of a study in the description.
+/// The first days of a study as each policy played them.
 #[derive(ToSchema)]
 #[expect(dead_code, reason = "the study writes it, and this describes it")]
 pub(crate) struct StudyReplay {
@@ -95,7 +95,7 @@ pub(crate) struct StudyReplay {
     days: Vec<ReplayedDay>,
 }
 
-/// A day of a replay in the description.
+/// A day that policies played.
 #[derive(ToSchema)]
 #[expect(dead_code, reason = "the study writes it, and this describes it")]
 pub(crate) struct ReplayedDay {
@@ -108,7 +108,7 @@ pub(crate) struct ReplayedDay {
     plays: Vec<Play>,
 }
 
-/// What a policy did on a day, in the description.
+/// What a policy did on a day.
 #[derive(ToSchema)]
 #[expect(dead_code, reason = "the study writes it, and this describes it")]
 pub(crate) struct Play {

@@ -26,8 +26,8 @@ from vertifleet.client.types import (
     PolicyList,
     ServiceInfo,
     StudyInfo,
-    StudyReplay,
     StudyList,
+    StudyReplay,
     WeightsInfo,
 )
 
@@ -322,7 +322,7 @@ class AsyncClient:
         return (await self._connection.answer(reading("studies", study, "report"))).text
 
     async def study_replay(self, study: str) -> StudyReplay:
-        """The first days of a study as each policy played them: at most three scenarios, and a trace for each policy.
+        """The first days of a study as each policy played them: scenarios, with a trace for each policy.
 
         Raises:
             ServiceError: V602 if there is no such study, or if it has not finished.
