@@ -4,15 +4,8 @@
 import type { Page } from '@playwright/test'
 import type { NetworkInfo } from '../src/api/types'
 import { smallNetwork } from './support/fleet'
+import { screens, TOLERANCE } from './support/screens'
 import { expect, expectAccessible, test } from './support/test'
-
-const TOLERANCE = { maxDiffPixelRatio: 0.02 }
-
-const sizes = {
-  desk: { width: 1280, height: 800 },
-  wall: { width: 1920, height: 1080 },
-  phone: { width: 390, height: 844 },
-}
 
 async function openNetwork(page: Page, console: string, name: string | RegExp): Promise<void> {
   await page.goto(`${console}/#/editor`)
@@ -253,7 +246,7 @@ for (const scheme of ['light', 'dark'] as const) {
   for (const screen of ['desk', 'wall', 'phone'] as const) {
     test(`the editor looks as it did (${screen}, ${scheme})`, async ({ page, program }) => {
       await page.emulateMedia({ colorScheme: scheme })
-      await page.setViewportSize(sizes[screen])
+      await page.setViewportSize(screens[screen])
       await openNetwork(page, program.console, /new-york/)
       await page.waitForLoadState('networkidle')
       await expect(page).toHaveScreenshot(`editor-${screen}-${scheme}.png`, TOLERANCE)

@@ -2,8 +2,7 @@
 // aircraft move on a machine without a graphics processor.
 
 import { expect, expectAccessible, frameTimes, test, withoutProcessor } from './support/pictures'
-
-const TOLERANCE = { maxDiffPixelRatio: 0.02 }
+import { screens, TOLERANCE } from './support/screens'
 
 test.use({ launchOptions: withoutProcessor })
 
@@ -12,26 +11,20 @@ test.beforeAll(({ days }) => {
   days.make('disrupted', 'disrupted')
 })
 
-const sizes = {
-  desk: { width: 1280, height: 800 },
-  wall: { width: 1920, height: 1080 },
-  phone: { width: 390, height: 844 },
-}
-
 /** What is looked at, on which screens: New York has coasts, and a smaller network has less in its timelines to keep. */
 const pictures = [
-  { picture: 'map', day: 'new-york', screens: ['desk', 'wall', 'phone'] },
-  { picture: 'fleet', day: 'disrupted', screens: ['desk', 'phone'] },
-  { picture: 'stands', day: 'disrupted', screens: ['desk', 'phone'] },
+  { picture: 'map', day: 'new-york', on: ['desk', 'wall', 'phone'] },
+  { picture: 'fleet', day: 'disrupted', on: ['desk', 'phone'] },
+  { picture: 'stands', day: 'disrupted', on: ['desk', 'phone'] },
 ] as const
 
 test.describe('pictures', () => {
-  for (const { picture, day, screens } of pictures) {
-    for (const screen of screens) {
+  for (const { picture, day, on } of pictures) {
+    for (const screen of on) {
       for (const scheme of ['light', 'dark'] as const) {
         test(`the ${picture} looks as it did (${screen}, ${scheme})`, async ({ page, show }) => {
           await page.emulateMedia({ colorScheme: scheme })
-          await page.setViewportSize(sizes[screen])
+          await page.setViewportSize(screens[screen])
           await show(`picture=${picture}&day=${day}&at=13:20:00`)
           await expect(page).toHaveScreenshot(`${picture}-${screen}-${scheme}.png`, TOLERANCE)
         })

@@ -10,8 +10,7 @@ import {
   test,
   withoutProcessor,
 } from './support/pictures'
-
-const TOLERANCE = { maxDiffPixelRatio: 0.02 }
+import { screens, TOLERANCE } from './support/screens'
 
 test.use({ launchOptions: withoutProcessor })
 
@@ -158,17 +157,13 @@ test('the page carries the notices of those whose work is in it', async ({ page 
   expect(notices).toContain('Natural Earth')
 })
 
-for (const { name, width, height } of [
-  { name: 'desk', width: 1280, height: 800 },
-  { name: 'wall', width: 1920, height: 1080 },
-  { name: 'phone', width: 390, height: 844 },
-]) {
+for (const [name, size] of Object.entries(screens)) {
   for (const scheme of ['light', 'dark'] as const) {
     test(`the replay looks as it did, and axe finds nothing serious (${name}, ${scheme})`, async ({
       page,
     }) => {
       await page.emulateMedia({ colorScheme: scheme })
-      await page.setViewportSize({ width, height })
+      await page.setViewportSize(size)
       await page.goto(`${address}#policy=prices&with=greedy&at=07:41:00`)
       await page.waitForTimeout(800)
       await expect(page).toHaveScreenshot(`replay-${name}-${scheme}.png`, TOLERANCE)

@@ -4,15 +4,8 @@ import { readFile } from 'node:fs/promises'
 import type { Page } from '@playwright/test'
 import type { StudyInfo } from '../src/api/types'
 import { Fleet, smallNetwork } from './support/fleet'
+import { screens, TOLERANCE } from './support/screens'
 import { expect, expectAccessible, test } from './support/test'
-
-const TOLERANCE = { maxDiffPixelRatio: 0.02 }
-
-const sizes = {
-  desk: { width: 1280, height: 800 },
-  wall: { width: 1920, height: 1080 },
-  phone: { width: 390, height: 844 },
-}
 
 /** A study that has finished. */
 async function played(url: string): Promise<void> {
@@ -121,7 +114,7 @@ for (const scheme of ['light', 'dark'] as const) {
     await page.emulateMedia({ colorScheme: scheme })
     await played(program.url)
     for (const screen of ['desk', 'wall', 'phone'] as const) {
-      await page.setViewportSize(sizes[screen])
+      await page.setViewportSize(screens[screen])
       await open(page, program.console)
       await expect(page.getByText(/earns \$/)).toBeVisible()
       const mask = [page.locator('time')]

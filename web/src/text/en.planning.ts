@@ -75,7 +75,7 @@ export const editor = {
       `${id}, ${stands === undefined ? 'no stands' : plural(stands, 'stand', 'stands')}, ${place}`,
     degrees: (latitude: string, longitude: string) => `${latitude}° north, ${longitude}° east`,
     miles: (x: string, y: string) => `${x} miles east, ${y} miles north`,
-    way: (miles: string) => `${miles} mi`,
+    distance: (miles: string) => `${miles} mi`,
     added: (id: string) => `${id} is added.`,
     removed: (id: string) => `${id} is removed with all that refers to it.`,
     noPlaces: 'No vertiport has a place yet.',
