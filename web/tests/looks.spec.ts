@@ -1,39 +1,14 @@
 // What the views of a day look like, on a day of New York that went wrong a little and stands still.
 
 import type { Page } from '@playwright/test'
-import { Fleet } from './support/fleet'
+import type { Fleet } from './support/fleet'
+import { morning, standStill } from './support/morning'
 import type { Program } from './support/program'
+import { screens, TOLERANCE } from './support/screens'
 import { expect, open, panel, test } from './support/test'
 
-/** Nothing moves here, so that a line of text that is missing is seen. */
-const TOLERANCE = { maxDiffPixelRatio: 0.001 }
-
-const sizes = {
-  desk: { width: 1280, height: 800 },
-  wall: { width: 1920, height: 1080 },
-  phone: { width: 390, height: 844 },
-}
-
-/** A morning with a closure, an aircraft out of service and a late one; some aircraft wait for a decision. */
-async function morning(program: Program): Promise<Fleet> {
-  const fleet = await Fleet.onNewDay(program.url, {
-    network: 'new-york',
-    seed: 3,
-    policy: 'prices',
-    date: '2026-06-01',
-  })
-  await fleet.playUntil('06:40:00')
-  await fleet.report(
-    { type: 'closed', routes: { from: 'JFK', to: 'LGA' }, until: '09:00:00', reason: 'thunderstorm' },
-    { type: 'out_of_service', aircraft: 'A07', until: '08:30:00', reason: 'a rotor is looked at' },
-  )
-  await fleet.playUntil('07:20:00')
-  return fleet
-}
-
-/** Shows a day without a clock that goes on: for whoever looks ten minutes later, nothing has happened for long. */
-async function standStill(page: Page): Promise<void> {
-  await page.clock.setFixedTime(Date.now() + 600_000)
+/** Pictures have the font that comes with Debian's Chromium, whatever the machine prefers. */
+async function useOneFont(page: Page): Promise<void> {
   await page.addInitScript(() => {
     document.addEventListener('DOMContentLoaded', () => {
       const sheet = new CSSStyleSheet()
@@ -90,8 +65,9 @@ for (const scheme of ['light', 'dark'] as const) {
     await page.emulateMedia({ colorScheme: scheme })
     const fleet = await morning(program)
     await standStill(page)
+    await useOneFont(page)
     for (const screen of ['desk', 'wall', 'phone'] as const) {
-      await page.setViewportSize(sizes[screen])
+      await page.setViewportSize(screens[screen])
       for (const [view, show] of Object.entries(views)) {
         // A view begins anew only on a page that was left.
         await page.goto('about:blank')

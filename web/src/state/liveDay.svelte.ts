@@ -123,6 +123,12 @@ export class LiveDay {
     await this.#readState()
   }
 
+  /** Takes the latest decision of an aircraft back. */
+  async takeBack(aircraft: string): Promise<void> {
+    await this.#service.report(this.id, { type: 'undone', aircraft })
+    this.refresh()
+  }
+
   /** When an aircraft is or was ready. */
   readyOf(aircraft: string): Seconds {
     return timeOf(this.state?.aircraft.find((one) => one.id === aircraft)?.ready ?? 0)

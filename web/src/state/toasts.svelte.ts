@@ -44,7 +44,8 @@ class Toasts {
 
   #add(toast: Omit<Toast, 'id'>): number {
     const id = this.#next++
-    const others = this.list.filter((one) => one.title !== toast.title || one.kind !== 'error')
+    // Of what was done only the latest is said, and no error is said twice: what is worked with stays in view.
+    const others = this.list.filter((one) => one.kind === 'error' && one.title !== toast.title)
     this.list = [...others, { ...toast, id }].slice(-MOST)
     return id
   }
