@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo check test soak database console lint deny bench train suites notebooks python python-light python-test wheel sdist prepare tools
+.PHONY: demo check test soak database console console-ready console-test lint deny bench train suites notebooks python python-light python-test wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network.
 demo: prepare
@@ -18,10 +18,11 @@ check: prepare database python-light
 # Rust's tests first: they take minutes, and need nothing to be downloaded but crates.
 test: prepare database
 	cargo test --workspace --locked
+	$(MAKE) console-test
 	$(MAKE) python-test
 
 # What CI adds to the tests.
-lint: prepare python tools
+lint: prepare python tools console-ready
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
@@ -30,6 +31,7 @@ lint: prepare python tools
 	python/.venv/bin/typos
 	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
 	shellcheck .ci/run scripts/*
+	cd web && npm run check
 
 # The Python package with all its extras, in python/.venv; and with those alone that install in seconds.
 python: prepare
@@ -42,9 +44,16 @@ database:
 	@scripts/database
 
 # Builds the console from web/ into web/dist, which is in the tree: only those who change it need Node.
-console:
-	@scripts/console build
+console: console-ready
 	cd web && npm run build
+console-ready: prepare
+	@scripts/console build
+
+# The console in headless Chromium, with the program as `cargo test` has built it; and whether web/dist is what web/ builds.
+console-test: prepare
+	@scripts/console test
+	cargo test --workspace --locked --no-run
+	cd web && npm test && npm run dist-test && npm run e2e
 
 # How often the service survives: 1,000 kills while clients write, with each kind of store, and where writes fail too.
 soak: prepare database

@@ -171,6 +171,24 @@ fn the_architecture_page_names_every_crate_and_every_dependency() {
 }
 
 #[test]
+fn the_architecture_page_names_every_package_of_the_console() {
+    let page = text("docs/src/architecture.md");
+    let (_, section) = page.split_once("## The console").expect("a section on the console");
+    let section = section.split("\n## ").next().expect("the section");
+    let tables = section.split("| package |").skip(1);
+    let rows = tables.flat_map(str::lines).filter(|line| line.starts_with("| `"));
+    let named: Names = rows
+        .flat_map(|row| row.split('|').nth(1).expect("a first cell").split('`').skip(1).step_by(2))
+        .map(str::to_owned)
+        .collect();
+    let manifest: serde_json::Value =
+        serde_json::from_str(&text("web/package.json")).expect("a manifest");
+    let kinds = ["dependencies", "devDependencies"].map(|kind| manifest[kind].as_object());
+    let asked = kinds.into_iter().flat_map(|kind| kind.expect("an object").keys().cloned());
+    assert_eq!(named, asked.collect());
+}
+
+#[test]
 fn the_benchmark_page_shows_the_latest_figures_of_the_history() {
     let page = text("docs/src/benchmarks.md");
     let history = root().join("benches/history/criterion.csv");
