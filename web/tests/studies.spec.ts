@@ -49,6 +49,13 @@ test('a study is made, followed and read', async ({ page, context, program }) =>
   const command = 'vertifleet compare --network small.toml --policies random,prices,greedy --days 8 --seed 1'
   await expect(page.getByText(/^vertifleet compare/)).toContainText(command.slice(0, 45))
 
+  await page.getByRole('link', { name: 'Replay', exact: true }).last().click()
+  await expect(page.getByLabel('Day', { exact: true })).toHaveValue('small-1')
+  await page.getByLabel('Policy', { exact: true }).selectOption('greedy')
+  await page.getByLabel('Beside it').selectOption('random')
+  await expect(page.getByText(/First difference at/)).toBeVisible()
+  await page.goBack()
+
   const report = context.waitForEvent('page')
   await page.getByRole('link', { name: 'Report' }).click()
   await expect((await report).getByRole('heading', { level: 1 })).toHaveText(/3 policies on 8 unseen days/)

@@ -3,6 +3,7 @@
 
 import createClient, { type Client } from 'openapi-fetch'
 import type { Scenario } from '../model/scenario'
+import type { ReplayDay } from '../replay/days'
 import { noAnswer, problemOf } from './problem'
 import type { paths } from './schema'
 import type {
@@ -198,6 +199,13 @@ export class Service {
   async studyReport(study: string): Promise<string> {
     const params = { path: { study } }
     return answer(await this.#client.GET('/v1/studies/{study}/report', { params, parseAs: 'text' }))
+  }
+
+  /** The first days of a study as each policy played them. */
+  async studyReplay(study: string): Promise<ReplayDay[]> {
+    const params = { path: { study } }
+    const { days } = answer(await this.#client.GET('/v1/studies/{study}/replay', { params }))
+    return days as unknown as ReplayDay[]
   }
 
   /** Ends a study if it plays or waits, and forgets it. */

@@ -290,6 +290,8 @@ export const studies = {
   forget: 'Forget',
   forgotten: 'The study is forgotten.',
   ended: 'The study is stopped.',
+  replay: 'Replay',
+  replayHint: 'The first days as each policy played them',
   report: 'Report',
   reportHint: 'A page of its own, with all numbers and figures',
   saveReport: 'Save the report',
