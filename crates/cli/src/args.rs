@@ -13,7 +13,7 @@ use vertifleet_study::PolicySource;
 use crate::typed::{
     Speed, parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_role,
     parse_seconds, parse_seed, parse_seed_of_a_run, parse_share, parse_speed, parse_split,
-    parse_steps, parse_threads,
+    parse_steps, parse_threads, parse_token_name,
 };
 
 /// Decides where every electric air taxi of an urban fleet flies next.
@@ -117,7 +117,7 @@ pub(crate) enum TokenAction {
     /// Make a token and print it; it cannot be printed again
     Make {
         /// What the token is called in the record of who did what
-        #[arg(long, value_parser = parse_name)]
+        #[arg(long, value_parser = parse_token_name)]
         name: String,
         /// What it permits
         #[arg(long, value_parser = parse_role)]

@@ -19,6 +19,14 @@ pub(crate) fn parse_model(text: &str) -> Result<(String, PolicySource), String> 
     parse_pair(text).map(|(name, path)| (name, PolicySource::File(path.into())))
 }
 
+/// What a token is called.
+pub(crate) fn parse_token_name(text: &str) -> Result<String, String> {
+    match text.trim() {
+        "" => Err("expected a name, by which people know who did what".to_owned()),
+        name => Ok(name.to_owned()),
+    }
+}
+
 /// A policy's name. Blanks around it are removed, since users put them after commas.
 pub(crate) fn parse_name(text: &str) -> Result<String, String> {
     match text.trim() {

@@ -104,9 +104,14 @@ impl NewDay {
             for table in &mut day.demand {
                 *table = Matrix::from_fn(table.size(), |_, _| 0);
             }
-            for ForecastRow { period, from, to, passengers } in rows {
+            for (at, ForecastRow { period, from, to, passengers }) in rows.iter().enumerate() {
+                let wrong =
+                    |what: &str| Error::BadRequest { rule: format!("forecast[{at}] {what}") };
                 let period = ids.period(period.time())?;
                 let pair = (ids.vertiport(from)?, ids.vertiport(to)?);
+                if pair.0 == pair.1 {
+                    return Err(wrong("leads from a vertiport to itself"));
+                }
                 let cell = &mut day.demand[period][pair];
                 *cell = cell.saturating_add(*passengers);
             }
