@@ -1,6 +1,7 @@
 // Every view of the shell: reached by key, readable by everybody, and within its bounds on a phone.
 
-import { expect, expectAccessible, open, test, waiting } from './support/test'
+import { Fleet, smallNetwork } from './support/fleet'
+import { expect, expectAccessible, open, panel, test, waiting } from './support/test'
 
 const views = ['now', 'timeline', 'what-if', 'log', 'replay'] as const
 
@@ -44,6 +45,15 @@ test('views are reached by keys, and the palette does what it says', async ({ pa
   await page.getByRole('combobox', { name: /Find a command/ }).fill('what')
   await page.keyboard.press('Enter')
   await expect(page.getByRole('heading', { level: 1, name: 'What if' })).toBeVisible()
+})
+
+test('an aircraft is found by its name', async ({ page, program, fleet }) => {
+  await open(page, program, fleet)
+  await page.keyboard.press('Control+k')
+  await expect(page.getByRole('option', { name: /A04/ })).toHaveCount(0)
+  await page.getByRole('combobox', { name: /Find a command/ }).fill('a04')
+  await page.keyboard.press('Enter')
+  await expect(panel(page).getByRole('heading', { name: /^A04/ })).toBeVisible()
 })
 
 test('single keys can be switched off', async ({ page, program, fleet }) => {
@@ -165,4 +175,25 @@ test('no view is wider than a phone', async ({ page, program, fleet }) => {
     })
     expect(wide, view).toBeLessThanOrEqual(390)
   }
+})
+
+test('with reduced motion the picture of a day changes once a second', async ({ page, program }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' })
+  void program.operate(smallNetwork, '--policy', 'prices', '--speed', '60')
+  const fleet = await Fleet.onDayOfOthers(program.url)
+  await open(page, program, fleet)
+  const changes = () =>
+    page.evaluate(
+      () =>
+        new Promise<number>((done) => {
+          const clock = document.querySelector('header .clock')
+          if (clock === null) throw new Error('there is no clock')
+          let changes = 0
+          const observer = new MutationObserver(() => (changes += 1))
+          observer.observe(clock, { characterData: true, subtree: true, childList: true })
+          setTimeout(() => done(changes), 4000)
+        }),
+    )
+  await expect.poll(changes, { timeout: 20_000 }).toBeGreaterThan(1)
+  expect(await changes()).toBeLessThanOrEqual(5)
 })

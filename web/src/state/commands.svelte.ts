@@ -13,6 +13,8 @@ export interface Command {
   group: string
   /** Keys as `model/keys.ts` writes them; any of them will do. */
   keys?: string[]
+  /** Whether the palette lists it only for those who look for its name: there are hundreds like it. */
+  isByName?: boolean
   /** Whether it can be done now; a command without is always possible. */
   isPossible?: () => boolean
   run: () => void

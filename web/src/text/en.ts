@@ -26,7 +26,7 @@ export const en = {
     loading: 'Loading…',
     failedToLoad: 'This part of the console could not be loaded.',
     tryAgain: 'Try again',
-    groups: { go: 'Go to', console: 'Console', decide: 'Decide', day: 'Day', view: 'View' },
+    groups: { go: 'Go to', select: 'Select', console: 'Console', decide: 'Decide', day: 'Day', view: 'View' },
   },
 
   views: {
@@ -94,6 +94,8 @@ export const en = {
     backToDays: 'All days',
     archived: 'Archived: nothing about this day can change any more.',
     timeZone: (zone: string) => `Times are those of ${zone}.`,
+    aircraft: (id: string) => `Aircraft ${id}`,
+    vertiport: (id: string) => `Vertiport ${id}`,
     ownClock: 'the day’s own clock',
     clockOnly: 'The day has no date: times are on its own clock.',
   },
