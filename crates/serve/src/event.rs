@@ -81,10 +81,10 @@ pub(crate) enum What {
         aircraft: String,
         /// The vertiport.
         to: String,
-        /// The policy that proposed it; absent if a person chose.
+        /// The policy that proposed it; absent if a person chose. The service alone says it.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         policy: Option<String>,
-        /// What the policy would have chosen, if a person overruled it.
+        /// What the policy would have chosen, if a person overruled it. The service alone says it.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         instead_of: Option<String>,
         /// Why a person chose.

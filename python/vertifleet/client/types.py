@@ -279,9 +279,9 @@ class DecidedEvent(TypedDict):
     to: str
     """The vertiport."""
     instead_of: NotRequired[str | None]
-    """What the policy would have chosen, if a person overruled it."""
+    """What the policy would have chosen, if a person overruled it. The service alone says it."""
     policy: NotRequired[str | None]
-    """The policy that proposed it; absent if a person chose."""
+    """The policy that proposed it; absent if a person chose. The service alone says it."""
     reason: NotRequired[str | None]
     """Why a person chose."""
     time: NotRequired[Moment | None]

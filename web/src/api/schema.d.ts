@@ -774,9 +774,9 @@ export interface components {
         } | {
             /** @description The aircraft. */
             aircraft: string;
-            /** @description What the policy would have chosen, if a person overruled it. */
+            /** @description What the policy would have chosen, if a person overruled it. The service alone says it. */
             instead_of?: string | null;
-            /** @description The policy that proposed it; absent if a person chose. */
+            /** @description The policy that proposed it; absent if a person chose. The service alone says it. */
             policy?: string | null;
             /** @description Why a person chose. */
             reason?: string | null;
