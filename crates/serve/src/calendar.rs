@@ -40,6 +40,12 @@ impl Calendar {
         Ok(Self { zone, begin })
     }
 
+    /// Today's date in a time zone; `None` if there is no such time zone.
+    pub(crate) fn today(time_zone: &str) -> Option<String> {
+        let zone = TimeZone::get(time_zone).ok()?;
+        Some(Timestamp::now().to_zoned(zone).date().to_string())
+    }
+
     /// The time of the day at an instant in ISO 8601, with its offset (`2026-11-23T07:10:00-05:00`); whole seconds.
     pub(crate) fn read(&self, text: &str) -> Option<Time> {
         let instant: Timestamp = text.parse().ok()?;

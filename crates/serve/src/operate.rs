@@ -16,6 +16,7 @@ use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::Reporter;
 
 use self::client::Client;
+use crate::calendar::Calendar;
 use crate::error::Error;
 
 /// A day to be operated.
@@ -25,6 +26,8 @@ pub struct Operation {
     pub url: String,
     /// The day, with everything that will happen on it.
     pub day: Arc<Scenario>,
+    /// The time zone of the day, if it is to have one; it is today there.
+    pub time_zone: Option<String>,
     /// The policy that decides.
     pub policy: String,
     /// The token of the operator, if the service asks for one.
@@ -134,7 +137,13 @@ pub fn operate(
 fn new_day(operation: &Operation) -> Value {
     let scenario: Value = serde_json::from_str(&operation.day.expected().to_json())
         .expect("a scenario is written as JSON");
-    json!({ "scenario": scenario, "policy": operation.policy })
+    let mut day = json!({ "scenario": scenario, "policy": operation.policy });
+    let zone = operation.time_zone.as_deref();
+    if let Some((zone, date)) = zone.and_then(|zone| Some((zone, Calendar::today(zone)?))) {
+        day["date"] = date.into();
+        day["time_zone"] = zone.into();
+    }
+    day
 }
 
 /// Waits until a time of the day has come.

@@ -7,7 +7,7 @@ mod library;
 mod open;
 mod tokens;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -336,16 +336,23 @@ impl Store {
         transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
         events: &[(&str, &StoredEvent)],
     ) -> Result<(), Error> {
-        let select = if self.is_shared {
-            "SELECT archived FROM days WHERE id = $1 FOR SHARE"
-        } else {
-            "SELECT archived FROM days WHERE id = $1"
-        };
         let days: BTreeSet<&str> = events.iter().map(|(day, _)| *day).collect();
+        let places: Vec<String> = (1..=days.len()).map(|place| format!("${place}")).collect();
+        let lock = if self.is_shared { " FOR SHARE" } else { "" };
+        // One question for all of them, because each has to be handed to the thread of the database and back.
+        let places = places.join(", ");
+        let select =
+            format!("SELECT id, archived FROM days WHERE id IN ({places}) ORDER BY id{lock}");
+        let mut select = query(AssertSqlSafe(select));
+        for day in &days {
+            select = select.bind(*day);
+        }
+        let mut found = HashMap::new();
+        for row in select.fetch_all(&mut **transaction).await? {
+            found.insert(row.try_get::<String, _>("id")?, row.try_get::<i64, _>("archived")?);
+        }
         for day in days {
-            let found: Option<i64> =
-                query_scalar(select).bind(day).fetch_optional(&mut **transaction).await?;
-            match found {
+            match found.get(day) {
                 Some(0) => {}
                 Some(_) => return Err(Error::Archived { id: day.to_owned() }),
                 None => return Err(Error::not_found("day", day)),

@@ -27,7 +27,8 @@ pub(crate) fn run(arguments: &OperateArguments) -> Result<ExitCode, Failure> {
     let trusted = arguments.trust.clone();
     let token = std::env::var("VERTIFLEET_TOKEN").ok();
     let by_hand = arguments.by_hand;
-    let operation = Operation { url, day, policy, token, trusted, speed, by_hand };
+    let time_zone = network.time_zone().map(str::to_owned);
+    let operation = Operation { url, day, time_zone, policy, token, trusted, speed, by_hand };
     let bar = Bar::new(u64::from(end.since(start) / 60), "minutes of the day");
     let mut shown = 0;
     let report = operate(&operation, &stop, |now, _| {

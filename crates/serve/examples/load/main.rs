@@ -73,6 +73,7 @@ impl Load {
             let operation = Operation {
                 url: self.url.clone(),
                 day: Arc::new(network.draw(seed)),
+                time_zone: None,
                 policy: self.policy.clone(),
                 token: None,
                 trusted: None,

@@ -32,7 +32,16 @@ pub(crate) fn operated(service: &Running, day: &Arc<Scenario>, policy: &str) -> 
 fn operation(service: &Running, day: &Arc<Scenario>, policy: &str) -> Operation {
     let (url, policy) = (service.url.clone(), policy.to_owned());
     let day = Arc::clone(day);
-    Operation { url, day, policy, token: None, trusted: None, speed: None, by_hand: false }
+    Operation {
+        url,
+        day,
+        time_zone: None,
+        policy,
+        token: None,
+        trusted: None,
+        speed: None,
+        by_hand: false,
+    }
 }
 
 #[test]

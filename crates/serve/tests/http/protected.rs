@@ -53,6 +53,7 @@ fn it_speaks_tls_with_a_certificate_of_ones_own() {
     let operation = |trusted| Operation {
         url: format!("https://localhost:{port}"),
         day: Arc::new(network.draw(DaySeed::comparison(1).expect("a seed"))),
+        time_zone: None,
         policy: "greedy".to_owned(),
         token: None,
         trusted,
@@ -83,6 +84,7 @@ fn a_certificate_that_nobody_vouches_for_is_not_trusted() {
     let operation = Operation {
         url: "https://localhost:1".to_owned(),
         day: Arc::new(network.draw(DaySeed::comparison(1).expect("a seed"))),
+        time_zone: None,
         policy: "greedy".to_owned(),
         token: None,
         trusted: Some(folder.path().join("none.pem")),

@@ -46,6 +46,7 @@ fn operate_days(address: SocketAddr, stop: &Stop) -> Result<(), Failure> {
         let operation = Operation {
             url: format!("http://{address}"),
             day: Arc::new(network.draw(DaySeed::comparison(seed)?)),
+            time_zone: network.time_zone().map(str::to_owned),
             policy: "gcaps-x".to_owned(),
             token: None,
             trusted: None,
