@@ -34,7 +34,10 @@ impl Service {
         let started = command.stderr(Stdio::piped()).spawn();
         let mut child = started.map_err(|error| format!("{command:?}: {error}"))?;
         let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines();
-        let first = lines.next().and_then(Result::ok).unwrap_or_default();
+        // On a busy machine it may warn of a slow statement before; those lines are JSON.
+        let mut said =
+            lines.by_ref().map_while(Result::ok).skip_while(|line| line.starts_with('{'));
+        let first = said.next().unwrap_or_default();
         let address =
             first.strip_prefix("listening on http://").and_then(|at| at.split(',').next());
         let mut service = Self { child, address: String::new() };
