@@ -114,6 +114,9 @@ fn results_that_stdout_does_not_take_are_no_success() {
     }
 }
 
+/// The room of a small disk: enough for one report with its replay, and not for two.
+const DISK_KIB: u32 = 2_048;
+
 /// A small file system that is mounted at this path until the value is dropped.
 struct SmallDisk(PathBuf);
 
@@ -139,7 +142,7 @@ impl Drop for SmallDisk {
 fn where_the_disk_is_full_everything_is_as_it_was() {
     let folder = prepared();
     let at = folder.path();
-    let Some(disk) = SmallDisk::mount(&at.join("disk"), 512) else {
+    let Some(disk) = SmallDisk::mount(&at.join("disk"), DISK_KIB) else {
         println!("skipped: this user may mount nothing");
         return;
     };
@@ -149,7 +152,7 @@ fn where_the_disk_is_full_everything_is_as_it_was() {
     // The remaining room is enough for some of a report's files, but not for a day.
     let used: usize =
         contents(&disk.0).values().map(|bytes| bytes.len().div_ceil(4096) * 4096).sum();
-    let room: usize = (512 << 10) - used;
+    let room: usize = ((DISK_KIB as usize) << 10) - used;
     assert!(room > 8192, "the disk takes one report and a day: {used} bytes");
     std::fs::write(disk.0.join("filling"), vec![1; room - 8192]).expect("room");
     let before = contents(&disk.0);

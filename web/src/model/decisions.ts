@@ -142,3 +142,8 @@ function decidedOf({ seq, actor }: TakenEvent, event: DecidedEvent, goneOn: Set<
     canBeUndone: !goneOn.has(event.aircraft),
   }
 }
+
+/** Who did something: the person, by the name of the token, and the policy that they followed. Without tokens nobody has a name. */
+export function byWhom(actor: string, policy: string | null | undefined): string {
+  return [actor, policy].filter(Boolean).join(' · ')
+}

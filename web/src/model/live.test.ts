@@ -87,6 +87,23 @@ describe('the record of a live day', () => {
     expect(legs.slice(1).every((leg) => leg.decided >= timeOf('07:52:21'))).toBe(true)
   })
 
+  it('forgets a flight that was taken back before there is another outlook', () => {
+    const undone: DayState = {
+      ...state,
+      aircraft: state.aircraft.map((one) =>
+        one.id === 'A03'
+          ? { ...one, phase: 'standing', place: 'East', arrival: '06:00:00', flight: null }
+          : one,
+      ),
+    }
+    const isSentOff = (state: DayState) => {
+      const { legs } = liveRecord({ scenario, reports: new Reports(scenario), state, outlook, flown: [] })
+      return legs.some((leg) => leg.aircraft === a03 && leg.to === north && !leg.is_expected)
+    }
+    expect(isSentOff(state)).toBe(true)
+    expect(isSentOff(undone)).toBe(false)
+  })
+
   it('knows who is out of service, and until when', () => {
     expect(record.outages).toEqual([
       { aircraft: a04, since: timeOf('06:13:00'), until: timeOf('07:30:00'), reason: 'bird strike' },

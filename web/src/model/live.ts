@@ -1,6 +1,6 @@
 // A live day as a record: its scenario, what its events said, and how the service expects it to go on.
 
-import type { DayState, Leg, Outlook } from '../api/types'
+import type { AircraftState, DayState, Leg, Outlook } from '../api/types'
 import type { AircraftRecord, DayRecord, DemandRecord, LegRecord, Seconds, VertiportRecord } from './record'
 import { indexed, known, type Reports } from './reports'
 import type { Scenario } from './scenario'
@@ -97,7 +97,7 @@ function legOf(leg: Leg, aircraft: Map<string, number>, vertiports: Map<string, 
 
 /** The legs of an outlook, brought up to date by what was reported and by the state. */
 class Legs {
-  readonly #legs: LegRecord[]
+  #legs: LegRecord[]
   /** The latest decision of each aircraft. */
   readonly #latest = new Map<number, LegRecord>()
 
@@ -119,8 +119,7 @@ class Legs {
       const times = { arrives: timeOf(one.arrival), ready: timeOf(one.ready) }
       const latest = this.#latest.get(aircraft)
       if (one.flight == null) {
-        const isSame = latest !== undefined && latest.from !== latest.to && !one.out_of_service
-        if (isSame) Object.assign(latest, times)
+        this.#stands(one, latest, times)
         continue
       }
       const { passengers } = one.flight
@@ -134,6 +133,17 @@ class Legs {
       }
     }
     return more.length === 0 ? this.#legs : this.#with(more)
+  }
+
+  /** An aircraft that stands has landed. If it has stood there since before its latest flight was decided, that was taken back. */
+  #stands(
+    one: AircraftState,
+    latest: LegRecord | undefined,
+    times: { arrives: Seconds; ready: Seconds },
+  ): void {
+    if (latest === undefined || latest.from === latest.to) return
+    if (times.arrives <= latest.decided) this.#legs = this.#legs.filter((leg) => leg !== latest)
+    else if (!one.out_of_service) Object.assign(latest, times)
   }
 
   /** With legs of which the outlook knows nothing yet. What it expected of these aircraft before they are ready is void. */

@@ -24,6 +24,25 @@ describe('the clock of a day', () => {
     expect(pace.at(10_500)).toBeCloseTo(22_230, -1)
   })
 
+  it('stands still on a simulated day while aircraft wait for people', () => {
+    const pace = new Pace()
+    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    expect(pace.at(10_900)).toBeGreaterThan(22_200)
+    pace.isAwaited = true
+    expect(pace.at(11_000)).toBe(22_200)
+    expect(pace.at(30_000)).toBe(22_200)
+    pace.isAwaited = false
+    pace.hear(22_260, 30_500)
+    expect(pace.at(30_500)).toBeGreaterThan(22_200)
+  })
+
+  it('goes on while aircraft wait on a day that happens', () => {
+    const pace = new Pace()
+    for (let second = 0; second <= 10; second++) pace.hear(21_600 + second, 1000 * second)
+    pace.isAwaited = true
+    expect(pace.at(11_000)).toBeCloseTo(21_611, 0)
+  })
+
   it('neither jumps nor runs back when events come in bursts', () => {
     const pace = new Pace()
     const shown: number[] = []

@@ -1,5 +1,6 @@
 // How fast a day passes. Events say what time it was when they came; between them the clock goes on at the speed that was
-// observed, so that movement is smooth. It never runs back, and waits for news if none comes.
+// observed, so that movement is smooth. It waits for news if none comes, and never runs back unless it turns out that time stands
+// still.
 
 import type { Seconds } from './record'
 
@@ -26,6 +27,8 @@ interface News {
 export class Pace {
   #news: News[] = []
   #shown: News | undefined
+  /** Whether aircraft wait for people. A simulated day then stands still; a day that happens does not. */
+  isAwaited = false
 
   /** Takes the news that the day was at a time. News of the same or an earlier time says nothing. */
   hear(time: Seconds, at_ms: number): void {
@@ -51,6 +54,11 @@ export class Pace {
 
   /** The time to show. */
   at(now_ms: number): Seconds {
+    const latest = this.#news.at(-1)
+    if (this.isAwaited && this.speed > SIMULATED && latest !== undefined) {
+      this.#shown = { time: latest.time, at_ms: now_ms }
+      return latest.time
+    }
     const target = this.#expected(now_ms)
     const shown = this.#shown
     if (shown === undefined || this.#isFarBehind(shown, target)) {

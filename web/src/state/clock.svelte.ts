@@ -30,6 +30,11 @@ export class Clock {
     this.speed = 0
   }
 
+  /** Says whether aircraft wait for people. */
+  await(isAwaited: boolean): void {
+    this.#pace.isAwaited = isAwaited
+  }
+
   /** Holds the clock while the connection is away. */
   hold(isHeld: boolean): void {
     this.#isHeld = isHeld

@@ -204,6 +204,7 @@ export class LiveDay {
   #takeState(state: DayState): void {
     this.state = state
     const now = timeOf(state.now)
+    this.clock.await(state.aircraft.some((one) => one.needs_decision))
     if (this.#isOver(state)) this.clock.end(now)
     else this.clock.hear(now)
   }

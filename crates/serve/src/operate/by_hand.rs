@@ -139,7 +139,7 @@ impl<'a> People<'a> {
     }
 
     /// Learns from the service who is ready when, since people have told it what the simulated day does not know.
-    fn ask_who_is_ready(&self, reporter: &mut Reporter, now: Time) -> Result<(), Error> {
+    fn ask_who_is_ready(&mut self, reporter: &mut Reporter, now: Time) -> Result<(), Error> {
         let fleet: Fleet = self.client.get(&format!("/v1/days/{}/state", self.day))?;
         for known in fleet.aircraft.iter().filter(|known| known.phase == "standing") {
             let aircraft = self.operation.aircraft(&known.id, self.client)?;

@@ -246,15 +246,30 @@ impl Client {
         }
     }
 
-    pub(super) fn get<T: DeserializeOwned>(&self, path: &str) -> Result<T, Error> {
-        let request = self.agent.get(format!("{}{path}", self.url));
-        let request = match &self.bearer {
-            Some(bearer) => request.header("authorization", bearer),
-            None => request,
-        };
-        let answer = request.call();
-        let answer = answer.and_then(|mut answer| answer.body_mut().read_to_vec());
-        self.read(&answer.map_err(|error| self.wrong(&error.to_string()))?)
+    pub(super) fn get<T: DeserializeOwned>(&mut self, path: &str) -> Result<T, Error> {
+        let begun = Instant::now();
+        loop {
+            let request = self.agent.get(format!("{}{path}", self.url));
+            let request = match &self.bearer {
+                Some(bearer) => request.header("authorization", bearer),
+                None => request,
+            };
+            let answer = request.call().and_then(|mut answer| {
+                Ok((answer.status().as_u16(), answer.body_mut().read_to_vec()?))
+            });
+            match answer {
+                Ok((status, answer)) if status < 300 => return self.read(&answer),
+                Ok((503, _)) | Err(_) if begun.elapsed() < PATIENCE => {
+                    self.sent_again += 1;
+                    thread::sleep(Duration::from_millis(50));
+                }
+                Ok((status, answer)) => {
+                    let text = String::from_utf8_lossy(&answer);
+                    return Err(self.wrong(&format!("{path}: {status} {text}")));
+                }
+                Err(error) => return Err(self.wrong(&error.to_string())),
+            }
+        }
     }
 
     fn read<T: DeserializeOwned>(&self, answer: &[u8]) -> Result<T, Error> {

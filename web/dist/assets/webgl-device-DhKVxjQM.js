@@ -1,0 +1,1 @@
+export{t as WebGLDevice}from"./deck-3skYAQ4x.js";
