@@ -446,6 +446,7 @@ impl Coded for Error {
             Self::Study(error) => error.hint(),
             Self::InList { cause, .. } => cause.hint(),
             Self::Moved { .. } => Some("read the day again, and decide anew"),
+            Self::Unfit(_) => Some("if it is so in reality, report first what led there"),
             Self::NoSuchEvent { .. } => {
                 Some("the day may have been put back from a copy: read its state again")
             }
