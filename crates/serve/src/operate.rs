@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use vertifleet_core::{AircraftIx, Scenario, Stop, Stopped, Time, VertiportIx};
+use vertifleet_core::{Scenario, Stop, Stopped, Time};
 use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::Reporter;
 
@@ -39,22 +39,6 @@ pub struct Operation {
     /// Whether others decide, as people at their consoles do. The operator tells the service the time of each decision, and
     /// the day waits until it is taken.
     pub by_hand: bool,
-}
-
-impl Operation {
-    /// The vertiport with an id.
-    fn vertiport(&self, id: &str, client: &Client) -> Result<VertiportIx, Error> {
-        let mut all = VertiportIx::all(self.day.vertiports.len()).zip(&self.day.vertiports);
-        let found = all.find(|(_, vertiport)| vertiport.id == id).map(|(at, _)| at);
-        found.ok_or_else(|| client.wrong("an answer with an unknown vertiport"))
-    }
-
-    /// The aircraft with an id.
-    fn aircraft(&self, id: &str, client: &Client) -> Result<AircraftIx, Error> {
-        let mut all = AircraftIx::all(self.day.aircraft.len()).zip(&self.day.aircraft);
-        let found = all.find(|(_, aircraft)| aircraft.id == id).map(|(at, _)| at);
-        found.ok_or_else(|| client.wrong("an answer with an unknown aircraft"))
-    }
 }
 
 /// What came of a day.
@@ -110,7 +94,7 @@ pub fn operate(
         let taken = client.decide(&made.id, aircraft, decision.time)?;
         let asked = asked.elapsed();
         took.push(asked.as_secs_f64() * 1e3);
-        let to = operation.vertiport(&taken, &client)?;
+        let to = client.vertiport(&taken)?;
         reporter.apply(to).map_err(|refusal| client.wrong(&refusal.to_string()))?;
         watch(decision.time, asked);
     }

@@ -115,15 +115,15 @@ impl<'a> People<'a> {
         for heard in heard {
             match heard {
                 Heard::Decided { aircraft, to } => {
-                    let aircraft = self.operation.aircraft(&aircraft, self.client)?;
-                    let to = self.operation.vertiport(&to, self.client)?;
+                    let aircraft = self.client.aircraft(&aircraft)?;
+                    let to = self.client.vertiport(&to)?;
                     let stood = reporter.decide(now, aircraft, to);
                     let stood = stood.map_err(|refusal| self.client.wrong(&refusal.to_string()))?;
                     self.stood.insert(aircraft, stood);
                     decides = true;
                 }
                 Heard::Undone { aircraft } => {
-                    let aircraft = self.operation.aircraft(&aircraft, self.client)?;
+                    let aircraft = self.client.aircraft(&aircraft)?;
                     if let Some(stood) = self.stood.remove(&aircraft) {
                         reporter.take_back(aircraft, stood, now);
                     }
@@ -142,7 +142,7 @@ impl<'a> People<'a> {
     fn ask_who_is_ready(&mut self, reporter: &mut Reporter, now: Time) -> Result<(), Error> {
         let fleet: Fleet = self.client.get(&format!("/v1/days/{}/state", self.day))?;
         for known in fleet.aircraft.iter().filter(|known| known.phase == "standing") {
-            let aircraft = self.operation.aircraft(&known.id, self.client)?;
+            let aircraft = self.client.aircraft(&known.id)?;
             let ready = if known.needs_decision { now } else { known.ready.time() };
             reporter.set_ready(aircraft, ready);
         }

@@ -9,13 +9,15 @@ use std::time::{Duration, Instant};
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
+use ureq::http::Response;
 use ureq::tls::{Certificate, PemItem, RootCerts, TlsConfig, parse_pem};
-use vertifleet_core::Time;
+use ureq::{Body, RequestBuilder};
+use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_sim::live::Reporter;
 
 use super::Operation;
 use crate::error::Error;
-use crate::event::{Event, What};
+use crate::event::{Event, Ids, What};
 
 /// A write is tried again for this long when the service does not answer.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -69,6 +71,13 @@ fn events_until(reporter: &mut Reporter, until: Time) -> Vec<Event> {
         .collect()
 }
 
+fn with_token<B>(request: RequestBuilder<B>, bearer: Option<&str>) -> RequestBuilder<B> {
+    match bearer {
+        Some(bearer) => request.header("authorization", bearer),
+        None => request,
+    }
+}
+
 /// The certificates in a PEM file.
 fn trusted(file: &Path) -> Result<Vec<Certificate<'static>>, Error> {
     let bad = |rule: String| Error::BadCertificate { file: file.to_owned(), rule };
@@ -99,6 +108,7 @@ pub(super) struct Client {
     own: BTreeSet<u64>,
     /// The value of the header that carries the token.
     bearer: Option<String>,
+    ids: Ids,
 }
 
 impl Client {
@@ -126,6 +136,7 @@ impl Client {
             heard: 0,
             own: BTreeSet::new(),
             bearer: operation.token.as_ref().map(|token| format!("Bearer {token}")),
+            ids: Ids::of(&operation.day),
         })
     }
 
@@ -215,66 +226,70 @@ impl Client {
         let key = format!("{}-{}", self.run, self.sent);
         let url = format!("{}{path}", self.url);
         let body = serde_json::to_vec(body).expect("plain data can be written");
-        let begun = Instant::now();
-        loop {
-            let request = self.agent.post(&url).header("idempotency-key", &key);
-            let request = match &self.bearer {
-                Some(bearer) => request.header("authorization", bearer),
-                None => request,
-            };
+        let (status, answer) = self.answer(|agent, bearer| {
+            let request = with_token(agent.post(&url), bearer).header("idempotency-key", &key);
             let request = match expected {
                 Some(seq) => request.header("if-match", seq.to_string()),
                 None => request,
             };
-            let sent = request.header("content-type", "application/json").send(&body);
+            request.header("content-type", "application/json").send(&body)
+        })?;
+        if status == 412 && expected.is_some() {
+            return Ok(None);
+        }
+        self.read(path, status, &answer).map(Some)
+    }
+
+    pub(super) fn get<T: DeserializeOwned>(&mut self, path: &str) -> Result<T, Error> {
+        let url = format!("{}{path}", self.url);
+        let (status, answer) =
+            self.answer(|agent, bearer| with_token(agent.get(&url), bearer).call())?;
+        self.read(path, status, &answer)
+    }
+
+    /// Sends a request again as long as the service is starting, stopping or busy with this very request.
+    fn answer(
+        &mut self,
+        ask: impl Fn(&ureq::Agent, Option<&str>) -> Result<Response<Body>, ureq::Error>,
+    ) -> Result<(u16, Vec<u8>), Error> {
+        let begun = Instant::now();
+        loop {
+            let sent = ask(&self.agent, self.bearer.as_deref());
             match sent.and_then(|mut answer| {
                 Ok((answer.status().as_u16(), answer.body_mut().read_to_vec()?))
             }) {
-                Ok((status, answer)) if status < 300 => return self.read(&answer).map(Some),
-                Ok((412, _)) if expected.is_some() => return Ok(None),
-                // The service is starting, stopping or busy with this very request.
                 Ok((409 | 503, _)) | Err(_) if begun.elapsed() < PATIENCE => {
                     self.sent_again += 1;
                     thread::sleep(Duration::from_millis(50));
                 }
-                Ok((status, answer)) => {
-                    let text = String::from_utf8_lossy(&answer);
-                    return Err(self.wrong(&format!("{path}: {status} {text}")));
-                }
+                Ok(answer) => return Ok(answer),
                 Err(error) => return Err(self.wrong(&error.to_string())),
             }
         }
     }
 
-    pub(super) fn get<T: DeserializeOwned>(&mut self, path: &str) -> Result<T, Error> {
-        let begun = Instant::now();
-        loop {
-            let request = self.agent.get(format!("{}{path}", self.url));
-            let request = match &self.bearer {
-                Some(bearer) => request.header("authorization", bearer),
-                None => request,
-            };
-            let answer = request.call().and_then(|mut answer| {
-                Ok((answer.status().as_u16(), answer.body_mut().read_to_vec()?))
-            });
-            match answer {
-                Ok((status, answer)) if status < 300 => return self.read(&answer),
-                Ok((503, _)) | Err(_) if begun.elapsed() < PATIENCE => {
-                    self.sent_again += 1;
-                    thread::sleep(Duration::from_millis(50));
-                }
-                Ok((status, answer)) => {
-                    let text = String::from_utf8_lossy(&answer);
-                    return Err(self.wrong(&format!("{path}: {status} {text}")));
-                }
-                Err(error) => return Err(self.wrong(&error.to_string())),
-            }
+    fn read<T: DeserializeOwned>(
+        &self,
+        path: &str,
+        status: u16,
+        answer: &[u8],
+    ) -> Result<T, Error> {
+        let text = || String::from_utf8_lossy(answer);
+        if status >= 300 {
+            return Err(self.wrong(&format!("{path}: {status} {}", text())));
         }
-    }
-
-    fn read<T: DeserializeOwned>(&self, answer: &[u8]) -> Result<T, Error> {
         serde_json::from_slice(answer)
-            .map_err(|error| self.wrong(&format!("{error} in {}", String::from_utf8_lossy(answer))))
+            .map_err(|error| self.wrong(&format!("{error} in {}", text())))
+    }
+
+    /// The vertiport with an id in an answer.
+    pub(super) fn vertiport(&self, id: &str) -> Result<VertiportIx, Error> {
+        self.ids.vertiport(id).map_err(|_| self.wrong("an answer with an unknown vertiport"))
+    }
+
+    /// The aircraft with an id in an answer.
+    pub(super) fn aircraft(&self, id: &str) -> Result<AircraftIx, Error> {
+        self.ids.aircraft(id).map_err(|_| self.wrong("an answer with an unknown aircraft"))
     }
 
     pub(super) fn wrong(&self, rule: &str) -> Error {
