@@ -13,7 +13,7 @@ use std::borrow::Cow;
 
 use rust_embed::RustEmbed;
 
-pub use replay::{REPLAY_OPENING, replay_page};
+pub use replay::{REPLAY_OPENING, replay_page, replay_script_and_style};
 
 #[derive(RustEmbed)]
 #[folder = "../../web/dist"]

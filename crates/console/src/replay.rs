@@ -41,6 +41,19 @@ pub fn replay_page(days: &str, places: &[(f64, f64)]) -> String {
     format!("{REPLAY_OPENING}{head}{BASEMAP}{map}</script>\n    {DATA}{days}</script>{tail}")
 }
 
+/// What the replay page runs, and what it looks by: its script and its style sheet. Whoever serves the page and forbids
+/// other scripts and styles has to allow these.
+///
+/// # Panics
+/// Panics if the page was built without them, which a test of this crate rules out.
+pub fn replay_script_and_style() -> [&'static str; 2] {
+    let between = |start, end| {
+        let (_, rest) = PAGE.split_once(start).expect("the page has its script and its style");
+        rest.split_once(end).expect("elements have an end").0
+    };
+    [between(r#"<script type="module">"#, "</script>"), between("<style>", "</style>")]
+}
+
 /// A sector of the base map: its cells by their names, as they are.
 type Sector = BTreeMap<String, Box<RawValue>>;
 
@@ -105,6 +118,18 @@ mod tests {
         for outside in ["src=\"", "href=\"", "@import", "url(http"] {
             assert!(!page.contains(outside), "{outside}");
         }
+    }
+
+    #[test]
+    fn the_page_runs_one_script_and_has_one_style_sheet() {
+        let page = replay_page("{}", &[]);
+        let [script, style] = replay_script_and_style();
+        let others = page.replacen(script, "", 1).replacen(style, "", 1);
+        let data = others.matches(r#"<script type="application/json""#).count();
+        let texts = others.matches(r#"<script type="text/plain""#).count();
+        assert_eq!(others.matches("<script").count(), data + texts + 1);
+        assert_eq!(others.matches("<style").count(), 1);
+        assert!(script.len() > 1_000 && style.len() > 1_000);
     }
 
     #[test]

@@ -15,6 +15,7 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use serde::Serialize;
 use utoipa::ToSchema;
 use vertifleet_core::Stop;
+use vertifleet_study::replay::{self, ReplayedDay};
 use vertifleet_study::{ComparisonReport, NetworkOrigin};
 
 pub(crate) use self::asked::{Asked, NewStudy, Split};
@@ -120,7 +121,7 @@ struct Study {
 enum Stage {
     Waiting(Box<Asked>),
     Playing(Progress),
-    Finished { report: Box<ComparisonReport>, replay: String, took_s: f64 },
+    Finished { report: Box<ComparisonReport>, replayed: Vec<ReplayedDay>, took_s: f64 },
     Failed(Problem),
 }
 
@@ -180,7 +181,9 @@ impl Studies {
     pub(crate) fn read(&self, id: &str) -> Result<StudyInfo, Error> {
         let study = self.find(id)?;
         let mut info = study.info();
-        info.result = study.of_report(|report| StudyResult::of(report, &study.info.policies));
+        if let Stage::Finished { report, .. } = &*lock(&study.stage) {
+            info.result = Some(StudyResult::of(report, &study.info.policies));
+        }
         Ok(info)
     }
 
@@ -189,8 +192,10 @@ impl Studies {
     /// # Errors
     /// Returns [`Error::NotFound`] if there is no such study, or if it has not finished.
     pub(crate) fn page(&self, id: &str) -> Result<String, Error> {
-        let page = self.find(id)?.of_report(ComparisonReport::page);
-        page.ok_or_else(|| Error::not_found("report of study", id))
+        match &*lock(&self.find(id)?.stage) {
+            Stage::Finished { report, replayed, .. } => Ok(report.page(replayed)),
+            _ => Err(Error::not_found("report of study", id)),
+        }
     }
 
     /// The first days of a study as each policy played them, as JSON.
@@ -199,7 +204,7 @@ impl Studies {
     /// Returns [`Error::NotFound`] if there is no such study, or if it has not finished.
     pub(crate) fn replay(&self, id: &str) -> Result<String, Error> {
         match &*lock(&self.find(id)?.stage) {
-            Stage::Finished { replay, .. } => Ok(replay.clone()),
+            Stage::Finished { replayed, .. } => Ok(replay::json(replayed)),
             _ => Err(Error::not_found("replay of study", id)),
         }
     }
@@ -288,13 +293,6 @@ impl Study {
         info
     }
 
-    fn of_report<T>(&self, say: impl Fn(&ComparisonReport) -> T) -> Option<T> {
-        match &*lock(&self.stage) {
-            Stage::Finished { report, .. } => Some(say(report)),
-            _ => None,
-        }
-    }
-
     /// Begins, if it waits: says what was asked for, and that it plays.
     fn begin(&self) -> Option<Box<Asked>> {
         let mut stage = lock(&self.stage);
@@ -312,19 +310,19 @@ impl Study {
         let begun = Instant::now();
         let command = self.info.command.clone();
         let watched = Watched(Arc::clone(self));
-        let play = || -> Result<(ComparisonReport, String), Error> {
+        let play = || -> Result<(ComparisonReport, Vec<ReplayedDay>), Error> {
             let records = threads()
                 .map_err(|cause| Error::Internal { cause: cause.to_string() })?
                 .install(|| asked.comparison(&self.stop)?.run(command, &self.stop, &watched))?;
-            Ok((ComparisonReport::of(&records)?, records.replay()))
+            Ok((ComparisonReport::of(&records)?, records.replayed))
         };
         let outcome = catch_unwind(AssertUnwindSafe(play)).unwrap_or_else(|_| {
             Err(Error::Internal { cause: "the study failed; the log has more".to_owned() })
         });
         *lock(&self.stage) = match outcome {
-            Ok((report, replay)) => {
+            Ok((report, replayed)) => {
                 let took_s = begun.elapsed().as_secs_f64();
-                Stage::Finished { report: Box::new(report), replay, took_s }
+                Stage::Finished { report: Box::new(report), replayed, took_s }
             }
             Err(error) => Stage::Failed(Problem::of(&error)),
         };

@@ -167,6 +167,15 @@ impl LiveDay {
         self.now
     }
 
+    /// Whether nothing is left to decide and every aircraft is on the ground.
+    pub fn is_over(&self) -> bool {
+        let end = self.scenario().operations.end;
+        let decides_no_more = |aircraft: AircraftNow| {
+            aircraft.phase == Phase::Standing && (self.now > end || aircraft.ready > end)
+        };
+        self.aircraft().all(decides_no_more)
+    }
+
     /// Every aircraft.
     pub fn aircraft(&self) -> impl Iterator<Item = AircraftNow> + '_ {
         AircraftIx::all(self.aircraft.len()).map(|aircraft| self.aircraft_now(aircraft))

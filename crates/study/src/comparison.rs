@@ -177,13 +177,6 @@ impl Comparison {
     }
 }
 
-impl ComparisonRecords {
-    /// The first days as each policy played them, as the JSON that the replay of the console reads.
-    pub fn replay(&self) -> String {
-        replay::json(&self.replayed)
-    }
-}
-
 impl Records for ComparisonRecords {
     fn text(&self) -> Result<String, Error> {
         Ok(table::text(&ComparisonReport::of(self)?))

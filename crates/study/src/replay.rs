@@ -96,7 +96,7 @@ struct ShownPlay {
 }
 
 /// The days as `web/src/replay/days.ts` reads them.
-pub(crate) fn json(days: &[ReplayedDay]) -> String {
+pub fn json(days: &[ReplayedDay]) -> String {
     let shown = Shown { days: days.iter().map(ShownDay::of).collect() };
     serde_json::to_string(&shown).expect("days can always be written")
 }

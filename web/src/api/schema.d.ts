@@ -238,7 +238,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** The rest of the day as it is expected, if a policy takes every decision from now on. */
+        /** The rest of the day as it is expected, now or after any of its events, if a policy takes every decision from then on. */
         get: operations["day_outlook"];
         put?: never;
         post?: never;
@@ -653,6 +653,7 @@ export interface components {
             name: string;
             /** @description The policy that decides when none is asked for. */
             policy: string;
+            progress?: components["schemas"]["DayProgress"] | null;
             /**
              * Format: int64
              * @description The number of its events, for a day that was asked for by its id.
@@ -667,6 +668,20 @@ export interface components {
             days: components["schemas"]["DayInfo"][];
             /** @description The cursor of the next page, if there is one. */
             next?: string | null;
+        };
+        /** @description How far a day is. */
+        DayProgress: {
+            /** @description Whether nothing is left to decide and every aircraft is on the ground. */
+            is_over: boolean;
+            /** @description The latest time that it has heard of. */
+            now: components["schemas"]["Moment"];
+            /**
+             * Format: double
+             * @description Profit of the flights that have been sent off, less what the fleet costs all day; dollars.
+             */
+            profit_usd: number;
+            /** @description Aircraft that wait for a decision. */
+            waiting: number;
         };
         /** @description What is known of a day. */
         DayState: {
@@ -1802,6 +1817,11 @@ export interface operations {
                 after?: string;
                 /** @description The number of entries, at most 1,000; without it, 100. */
                 limit?: number;
+                /**
+                 * @description Whether each day that is not archived comes with how far it is. A day that has not been used for long is read
+                 *     for it.
+                 */
+                progress?: boolean;
             };
             header?: never;
             path?: never;
@@ -2208,6 +2228,11 @@ export interface operations {
             query?: {
                 /** @description The policy that decides from now on; without it, the day's. */
                 policy?: string;
+                /**
+                 * @description The number of the event after which the outlook is asked for: 0 asks for the plan of the morning. Without it, the
+                 *     latest. If the day has no such event, that is answered by 404 (V602).
+                 */
+                seq?: number;
                 /** @description How times are written in the answer. */
                 times?: components["schemas"]["Times"];
             };

@@ -47,6 +47,22 @@ pub(crate) struct DayInfo {
     /// The number of its events, for a day that was asked for by its id.
     #[serde(skip_serializing_if = "Option::is_none")]
     seq: Option<u64>,
+    /// How far it is, for days that are listed with their progress and are not archived.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    progress: Option<DayProgress>,
+}
+
+/// How far a day is.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct DayProgress {
+    /// The latest time that it has heard of.
+    now: Moment,
+    /// Whether nothing is left to decide and every aircraft is on the ground.
+    is_over: bool,
+    /// Aircraft that wait for a decision.
+    waiting: usize,
+    /// Profit of the flights that have been sent off, less what the fleet costs all day; dollars.
+    profit_usd: f64,
 }
 
 /// A list of days.
@@ -58,17 +74,21 @@ pub(crate) struct DayList {
     next: Option<String>,
 }
 
-/// A page of a list.
+/// Which days are listed, and with what.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Page {
+pub(crate) struct Listed {
     /// The cursor that an earlier page ended with.
     #[serde(default)]
     after: String,
     /// The number of entries, at most 1,000; without it, 100.
     #[param(inline)]
     limit: Option<PageSize<1_000>>,
+    /// Whether each day that is not archived comes with how far it is. A day that has not been used for long is read
+    /// for it.
+    #[serde(default)]
+    progress: bool,
 }
 
 /// What is known of a day.
@@ -173,21 +193,51 @@ impl DayInfo {
         let StoredDay { id, name, created_ms, archived, policy, date, time_zone } = stored.clone();
         let [date, time_zone] =
             [date, time_zone].map(|text| Some(text).filter(|text| !text.is_empty()));
-        Self { id, name, date, time_zone, created_ms, archived, policy, seq }
+        Self { id, name, date, time_zone, created_ms, archived, policy, seq, progress: None }
+    }
+}
+
+impl DayProgress {
+    fn of(live: &mut LiveDay) -> Self {
+        Self {
+            now: live.now().into(),
+            is_over: live.is_over(),
+            waiting: live.aircraft().filter(|aircraft| aircraft.needs_decision).count(),
+            profit_usd: live.totals().profit_usd,
+        }
     }
 }
 
 /// Lists the days.
-#[utoipa::path(operation_id = "list_days", get, path = "/v1/days", tag = "days", params(Page), responses((status = 200, body = DayList)))]
+#[utoipa::path(operation_id = "list_days", get, path = "/v1/days", tag = "days", params(Listed), responses((status = 200, body = DayList)))]
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
-    Asked(page): Asked<Page>,
+    Asked(Listed { after, limit, progress }): Asked<Listed>,
 ) -> Result<Response, Error> {
-    let PageSize(limit) = page.limit.unwrap_or(PageSize(100));
-    let days = service.days.store().days(&page.after, limit).await?;
-    let next = (days.len() == limit as usize).then(|| days[days.len() - 1].id.clone());
-    let days = days.iter().map(|day| DayInfo::of(day, None)).collect();
+    let PageSize(limit) = limit.unwrap_or(PageSize(100));
+    let stored = service.days.store().days(&after, limit).await?;
+    let next = (stored.len() == limit as usize).then(|| stored[stored.len() - 1].id.clone());
+    let mut days: Vec<_> = stored.iter().map(|day| DayInfo::of(day, None)).collect();
+    if progress {
+        for day in days.iter_mut().filter(|day| !day.archived) {
+            day.progress = progress_of(&service, &day.id).await?;
+        }
+    }
     Ok(json(StatusCode::OK, &DayList { days, next }))
+}
+
+/// How far a day is; `None` if somebody has deleted it meanwhile, or if it is damaged, which its own address answers.
+async fn progress_of(service: &Service, id: &str) -> Result<Option<DayProgress>, Error> {
+    let day = match service.days.get(id).await {
+        Err(Error::NotFound { .. } | Error::BadData { .. }) => return Ok(None),
+        found => found?,
+    };
+    let (seq, progress) = {
+        let mut state = day.state();
+        (state.seq(), DayProgress::of(state.live_mut()))
+    };
+    day.stored_up_to(seq).await?;
+    Ok(Some(progress))
 }
 
 /// Makes a day.

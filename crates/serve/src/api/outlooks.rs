@@ -10,7 +10,7 @@ use utoipa::IntoParams;
 
 use super::answer::{Times, Written, at_event, json};
 use super::events::MOST_EVENTS;
-use super::extract::{Asked, Body, Named};
+use super::extract::{Asked, Body, EventNumber, Named};
 use crate::days::DayCell;
 use crate::error::Error;
 use crate::moment::by_calendar;
@@ -24,12 +24,16 @@ use crate::service::{Service, in_turn, parse};
 pub(crate) struct By {
     /// The policy that decides from now on; without it, the day's.
     policy: Option<String>,
+    /// The number of the event after which the outlook is asked for: 0 asks for the plan of the morning. Without it, the
+    /// latest. If the day has no such event, that is answered by 404 (V602).
+    #[param(inline)]
+    seq: Option<EventNumber>,
     /// How times are written in the answer.
     #[serde(default)]
     times: Times,
 }
 
-/// The rest of the day as it is expected, if a policy takes every decision from now on.
+/// The rest of the day as it is expected, now or after any of its events, if a policy takes every decision from then on.
 #[utoipa::path(
     operation_id = "day_outlook", get, path = "/v1/days/{day}/outlook", tag = "outlooks", params(("day" = String, Path), By),
     responses((status = 200, body = Outlook))
@@ -37,10 +41,13 @@ pub(crate) struct By {
 pub(super) async fn outlook(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Asked(By { policy, times }): Asked<By>,
+    Asked(By { policy, seq, times }): Asked<By>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
-    let mut state = day.state().clone();
+    let mut state = match seq {
+        None => day.state().clone(),
+        Some(EventNumber(seq)) => service.days.at(&day, seq).await?,
+    };
     let policy = named(&service, &day, policy).await?;
     let outlook =
         in_turn(&service.turns.outlooks, move || Outlook::of(&mut state, &policy)).await?;

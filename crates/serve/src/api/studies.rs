@@ -83,7 +83,8 @@ pub(super) async fn replay(
     State(service): State<Arc<Service>>,
     Named(study): Named<String>,
 ) -> Result<Response, Error> {
-    let replay = service.studies.replay(&study)?;
+    let turns = Arc::clone(&service.turns.outlooks);
+    let replay = in_turn(&turns, move || service.studies.replay(&study)).await?;
     Ok(([(header::CONTENT_TYPE, "application/json")], replay).into_response())
 }
 
@@ -130,12 +131,17 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// What a page may use: its own style sheet, and nothing else.
+/// What a page may use: its own style sheet, and the script and the style sheet of the replay within it, which inherits
+/// this. Nothing of it belongs to the service: it cannot read what the console keeps.
 fn policy_of(page: &str) -> HeaderValue {
     let style = page.split_once("<style>").and_then(|(_, rest)| rest.split_once("</style>"));
-    let sum = BASE64_STANDARD.encode(Sha256::digest(style.map_or("", |(style, _)| style)));
+    let style = style.map_or("", |(style, _)| style);
+    let [replay, look] = vertifleet_console::replay_script_and_style();
+    let [style, replay, look] =
+        [style, replay, look].map(|text| BASE64_STANDARD.encode(Sha256::digest(text)));
     let policy = format!(
-        "default-src 'none'; style-src 'sha256-{sum}'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; sandbox"
+        "default-src 'none'; style-src 'sha256-{style}' 'sha256-{look}'; script-src 'sha256-{replay}'; \
+         base-uri 'none'; form-action 'none'; frame-ancestors 'none'; sandbox allow-scripts"
     );
     HeaderValue::try_from(policy).expect("letters and marks are a header")
 }

@@ -199,36 +199,6 @@ fn the_stream_goes_on_where_a_reader_left() {
 }
 
 #[test]
-fn an_outlook_is_the_simulated_day_and_what_if_leaves_the_day_alone() {
-    let (_folder, service) = service();
-    let day = service.new_day("greedy");
-    let outlook = service.get(&format!("{day}/outlook")).json;
-    let asked = json!({
-        "events": [{"type": "closed", "routes": {"vertiport": "V1"}, "until": "20:00:00"}],
-    });
-    let compared = service.post(&format!("{day}/what-if"), &asked).json;
-    assert_eq!(compared["as_it_is"]["totals"], outlook["totals"]);
-    assert!(compared["difference_usd"].as_f64().is_some_and(|usd| usd < -1_000.0), "{compared}");
-    let legs = compared["what_if"]["legs"].as_array().expect("a list");
-    assert!(
-        legs.iter()
-            .all(|leg| leg["from"] == leg["to"] || (leg["from"] != "V1" && leg["to"] != "V1"))
-    );
-    let more =
-        json!({"aircraft": [{"id": "A99", "at": "V2"}], "stands": {"V2": 12}, "policy": "gcaps-x"});
-    let compared = service.post(&format!("{day}/what-if"), &more).json;
-    assert!(compared["difference_usd"].as_f64().is_some_and(|usd| usd > 0.0), "{compared}");
-    assert!(
-        compared["what_if"]["legs"]
-            .as_array()
-            .expect("a list")
-            .iter()
-            .any(|leg| leg["aircraft"] == "A99")
-    );
-    assert_eq!(service.get(&day).json["seq"], 0);
-}
-
-#[test]
 fn an_archived_day_is_read_only_and_a_deleted_one_is_gone() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");

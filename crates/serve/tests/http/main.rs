@@ -8,6 +8,7 @@ mod days_of_ones_own;
 mod described_requests;
 mod malformed;
 mod operated_days;
+mod outlooks;
 #[cfg(unix)]
 mod postgres;
 mod protected;

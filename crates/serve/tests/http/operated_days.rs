@@ -59,6 +59,29 @@ fn a_live_day_is_the_simulated_day_to_the_cent() {
 }
 
 #[test]
+fn a_list_of_days_says_how_far_each_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let service = Running::start(folder.path());
+    let over = operated(&service, &day("disrupted", 2004), "greedy");
+    let begun = service.new_day("greedy");
+    assert_eq!(
+        service.post(&format!("{begun}/decisions"), &json!({"aircraft": "A01"})).status,
+        201
+    );
+    let archived = service.new_day("greedy");
+    assert_eq!(service.send("POST", &format!("{archived}/archive"), &[], b"").status, 204);
+    let days = service.get("/v1/days?progress=true").json;
+    let progress = |day: usize| &days["days"][day]["progress"];
+    assert_eq!(progress(0)["is_over"], true);
+    assert_eq!(progress(0)["profit_usd"].as_f64(), Some(over.totals.profit_usd));
+    assert_eq!((&progress(1)["is_over"], &progress(1)["waiting"]), (&json!(false), &json!(39)));
+    assert_eq!(progress(1)["now"], "06:00:00");
+    assert_eq!(days["days"][2].get("progress"), None, "an archived day");
+    let plain = service.get("/v1/days").json;
+    assert_eq!(plain["days"][0].get("progress"), None, "nobody asked");
+}
+
+#[test]
 fn a_day_that_others_decide_is_the_simulated_day_to_the_cent() {
     let folder = tempfile::tempdir().expect("a folder");
     let service = Running::start(folder.path());

@@ -32,7 +32,7 @@ pub(crate) fn text(
     let body = html! {
         (opening(summary))
         (results(summary))
-        @if let Some(replayed) = replayed { (replay(replayed)) }
+        @if let Some(replayed) = replayed { (replay(replayed, has_files)) }
         h2 { "Figures" }
         @for figure in figures { (picture(figure)) }
         @if !summary.comparisons.is_empty() { (tests(summary)) }
@@ -282,14 +282,16 @@ fn published_cells(summary: &ComparisonReport, result: &PublishedResult) -> Mark
 }
 
 /// The days that can be watched, in a frame of their own, which keeps their style and their scripts apart from the page.
-fn replay(&Replay { days, page }: &Replay<'_>) -> Markup {
+fn replay(&Replay { days, page }: &Replay<'_>, has_files: bool) -> Markup {
     let which =
         if days == 1 { "The first day".to_owned() } else { format!("The first {days} days") };
     html! {
         h2 { "Replay" }
         p { (which) " as each policy played " (if days == 1 { "it" } else { "them" })
-            ": on a map, along the day, and two policies side by side with their first difference. The file "
-            a href="replay.html" { "replay.html" } " shows the same in a whole window." }
+            ": on a map, along the day, and two policies side by side with their first difference."
+            @if has_files {
+                " The file " a href="replay.html" { "replay.html" } " shows the same in a whole window."
+            } }
         iframe.replay title="Replay" loading="lazy" srcdoc=(page) {}
     }
 }

@@ -12,6 +12,7 @@ use crate::record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
     check_records,
 };
+use crate::replay::ReplayedDay;
 use crate::sees::Sees;
 use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
 
@@ -246,9 +247,11 @@ impl ComparisonReport {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
 
-    /// The page of the report by itself, as HTML.
-    pub fn page(&self) -> String {
-        super::page::text(self, &crate::figure::all(self), None, false)
+    /// The page of the report by itself, as HTML, with the replay of these days in it.
+    pub fn page(&self, replayed: &[ReplayedDay]) -> String {
+        let replay = (!replayed.is_empty()).then(|| crate::replay::page(replayed));
+        let within = replay.as_ref().map(|page| super::page::Replay { days: replayed.len(), page });
+        super::page::text(self, &crate::figure::all(self), within.as_ref(), false)
     }
 
     /// The tables of policies and tests as HTML for notebooks.
