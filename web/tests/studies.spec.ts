@@ -56,9 +56,14 @@ test('a study is made, followed and read', async ({ page, context, program }) =>
   await expect(page.getByText(/First difference at/)).toBeVisible()
   await page.goBack()
 
-  const report = context.waitForEvent('page')
+  const opened = context.waitForEvent('page')
   await page.getByRole('link', { name: 'Report' }).click()
-  await expect((await report).getByRole('heading', { level: 1 })).toHaveText(/3 policies on 8 unseen days/)
+  const report = await opened
+  await expect(report.getByRole('heading', { level: 1 })).toHaveText(/3 policies on 8 unseen days/)
+  await report.getByTitle('Replay').scrollIntoViewIfNeeded()
+  const replay = report.frameLocator('iframe[title=Replay]')
+  await expect(replay.getByLabel('Day', { exact: true })).toHaveValue('small-1')
+  await expect(replay.getByRole('region', { name: 'Map' }).first()).toBeVisible()
 
   await page.getByRole('button', { name: 'Forget' }).click()
   await expect(page.getByText('There is no study yet.')).toBeVisible()
