@@ -76,12 +76,12 @@ export class Service {
     return answer(await this.#client.GET('/v1'))
   }
 
-  /** All days, the latest first. */
-  async days(): Promise<DayInfo[]> {
+  /** All days, the latest first; with `progress`, how far those are that can still change. */
+  async days({ progress = false } = {}): Promise<DayInfo[]> {
     const days: DayInfo[] = []
     let after: string | null | undefined
     do {
-      const query = after == null ? {} : { after }
+      const query = { ...(after == null ? {} : { after }), ...(progress ? { progress } : {}) }
       const page: DayList = answer(await this.#client.GET('/v1/days', { params: { query } }))
       days.push(...page.days)
       after = page.next
@@ -146,8 +146,9 @@ export class Service {
     )
   }
 
-  async outlook(day: string, policy?: string): Promise<Outlook> {
-    const query = policy === undefined ? {} : { policy }
+  /** How the day is expected to go on; with `seq`, how it was after that event, and in the morning with 0. */
+  async outlook(day: string, policy?: string, seq?: number): Promise<Outlook> {
+    const query = { ...(policy === undefined ? {} : { policy }), ...(seq === undefined ? {} : { seq }) }
     return answer(await this.#client.GET('/v1/days/{day}/outlook', { params: { path: { day }, query } }))
   }
 

@@ -16,8 +16,10 @@ it('shows times in links as people read them', () => {
   expect(hashOf({ view: 'now', day: 'd', params: { at: '07:10:00' } })).toBe('#/day/d/now?at=07:10:00')
 })
 
-it('leads to the days from anywhere unknown, and to now from an unknown view of a day', () => {
-  for (const hash of ['', '#', '#/', '#/nowhere', '#/day', '#/day/', '#/%E0%A4%A'])
-    expect(parseRoute(hash)).toEqual(home)
-  expect(parseRoute('#/day/d/nowhere')).toEqual({ view: 'now', day: 'd', params: {} })
+it('leads to the days from anywhere unknown, and to now from an unknown view of a day, and knows that it does', () => {
+  for (const hash of ['', '#', '#/']) expect(parseRoute(hash)).toEqual(home)
+  for (const hash of ['#/nowhere', '#/day', '#/day/', '#/%E0%A4%A'])
+    expect(parseRoute(hash)).toEqual({ ...home, isUnknown: true })
+  expect(parseRoute('#/day/d')).toEqual({ view: 'now', day: 'd', params: {} })
+  expect(parseRoute('#/day/d/nowhere')).toEqual({ view: 'now', day: 'd', params: {}, isUnknown: true })
 })

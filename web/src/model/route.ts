@@ -7,24 +7,26 @@ export const otherViews = ['days', 'replay', 'editor', 'studies'] as const
 export type DayView = (typeof dayViews)[number]
 export type OtherView = (typeof otherViews)[number]
 
-/** A view of a day, or one that needs none, with what it wants to remember. */
+/** A view of a day, or one that needs none, with what it wants to remember; `isUnknown` if the address named no view that there is. */
 export type Route =
-  | { view: DayView; day: string; params: Readonly<Record<string, string>> }
-  | { view: OtherView; day?: undefined; params: Readonly<Record<string, string>> }
+  | { view: DayView; day: string; params: Readonly<Record<string, string>>; isUnknown?: boolean }
+  | { view: OtherView; day?: undefined; params: Readonly<Record<string, string>>; isUnknown?: boolean }
 
 export const home: Route = { view: 'days', params: {} }
 
-/** Reads a hash; what cannot be understood leads to the list of days. */
+/** Reads a hash; what cannot be understood leads to the list of days, or to what the day is now. */
 export function parseRoute(hash: string): Route {
   const [path = '', query = ''] = hash.replace(/^#\/?/, '').split('?', 2)
   const [first = '', second = '', third = ''] = path.split('/').map(decoded)
   const params = Object.fromEntries(new URLSearchParams(query))
   if (first === 'day' && second !== '') {
     const view = dayViews.find((one) => one === third)
-    return { view: view ?? 'now', day: second, params }
+    const route = { view: view ?? 'now', day: second, params } as const
+    return view === undefined && third !== '' ? { ...route, isUnknown: true } : route
   }
   const view = otherViews.find((one) => one === first)
-  return view === undefined ? home : { view, params }
+  if (view !== undefined) return { view, params }
+  return path === '' ? home : { ...home, isUnknown: true }
 }
 
 /** The hash of a route. */

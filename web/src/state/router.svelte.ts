@@ -25,9 +25,9 @@ class Router {
   remember(params: Record<string, string | undefined>): void {
     const merged = Object.entries({ ...this.route.params, ...params })
     const kept = Object.fromEntries(merged.filter((one): one is [string, string] => one[1] !== undefined))
-    const route = { ...this.route, params: kept }
-    history.replaceState(history.state, '', hashOf(route))
-    this.route = route
+    const hash = hashOf({ ...this.route, params: kept })
+    history.replaceState(history.state, '', hash)
+    this.route = parseRoute(hash)
   }
 }
 

@@ -24,6 +24,7 @@ export const en = {
     theme: 'Appearance',
     themes: { system: 'As the system', light: 'Light', dark: 'Dark' },
     loading: 'Loading…',
+    unknownAddress: (view: string) => `There is no page at this address. This is “${view}” instead.`,
     failedToLoad: 'This part of the console could not be loaded.',
     tryAgain: 'Try again',
     groups: { go: 'Go to', select: 'Select', console: 'Console', decide: 'Decide', day: 'Day', view: 'View' },
@@ -47,6 +48,8 @@ export const en = {
     lost: 'Connection lost',
     lostHint:
       'What you see is as it was. It goes on by itself when the service is back; nothing that you typed is lost.',
+    refused: (why: string) =>
+      `What you see is as it was: the service sends no more of this day. Its answer was “${why}”.`,
   },
 
   errors: {
@@ -72,8 +75,19 @@ export const en = {
     none: 'There is no day yet.',
     noneHint: 'Make one from a network, or let the simulated operator play one:',
     make: 'New day',
-    columns: { name: 'Day', date: 'Date', policy: 'Policy', made: 'Made' },
-    archived: 'archived',
+    columns: {
+      name: 'Day',
+      state: 'State',
+      waiting: 'Needs a decision',
+      profit: 'Profit so far',
+      date: 'Date',
+      policy: 'Policy',
+      made: 'Made',
+    },
+    states: { running: 'Running', over: 'Over', archived: 'Archived' },
+    waiting: (aircraft: number) => plural(aircraft, 'aircraft', 'aircraft'),
+    nobodyWaits: 'none',
+    madeHint: (zone: string) => `On the clock of this computer, in the time zone ${zone}`,
     network: 'Network',
     seed: 'Seed',
     seedHint: 'Draws the forecast and where aircraft stand in the morning.',
@@ -115,7 +129,10 @@ export const en = {
     repositioning: (number: number) =>
       number === 0 ? 'none empty' : `${number.toLocaleString('en-US')} empty`,
     loadFactor: (share: string) => `${share} of seats taken`,
-    speed: 'How much faster than real time the day passes, about',
+    speed:
+      'How much faster than real time the day passes, about. Between two events the clock goes on at this speed, for two minutes of the day at most.',
+    still: 'stands still',
+    stillHint: 'Nothing more is heard of this day. The clock shows the time of its latest event.',
     times: (speed: number) => `×${speed}`,
     map: 'Map',
     fleet: 'Fleet timeline',
@@ -129,6 +146,7 @@ export const en = {
     ready: (time: string) => `ready ${time}`,
     waits: (duration: string) => `waits ${duration}`,
     in: (duration: string) => `in ${duration}`,
+    now: 'now',
     full: 'every stand is taken',
     decided: 'decided',
     nextCommand: 'Next aircraft that waits',
@@ -156,7 +174,7 @@ export const en = {
     showNewer: 'Show',
     showNewerCommand: 'Show the newer proposal',
     gone: (aircraft: string) => `${aircraft} no longer waits.`,
-    goneDecided: (aircraft: string, to: string, who: string) => `${aircraft} was sent to ${to} by ${who}.`,
+    goneDecided: (aircraft: string, to: string, who: string) => `${aircraft} was sent to ${to} (${who}).`,
     goOn: 'Next',
     passengers: (number: number) => `${number} ${number === 1 ? 'passenger' : 'passengers'}`,
     lands: (time: string) => `lands ${time}`,
@@ -164,7 +182,7 @@ export const en = {
     alternatives: 'Alternatives',
     columns: {
       to: 'To',
-      value: 'Value',
+      values: { dollars: 'Value, $', dollars_per_hour: 'Value, $/h', none: 'Score' },
       worth: 'Worth',
       profit: 'Profit',
       passengers: 'Pass.',
@@ -172,7 +190,13 @@ export const en = {
       stands: 'Stands',
     },
     columnHints: {
-      value: 'What the policy compares its choices by.',
+      values: {
+        dollars:
+          'What the policy compares its choices by: what the rest of the day is worth with each, dollars.',
+        dollars_per_hour:
+          'What the policy compares its choices by: the profit of the flight, dollars an hour.',
+        none: 'What the policy compares its choices by: a number without a unit, the higher the better.',
+      },
       worth: 'What the choice is worth at the day’s bid prices.',
       profit: 'What the flight itself earns.',
       stands: 'Stands that are taken or promised, of all.',
@@ -219,8 +243,11 @@ export const en = {
     title: 'Decided lately',
     none: 'Nothing was decided yet.',
     hold: 'hold',
-    by: (who: string) => `by ${who}`,
+    you: 'you',
     somebody: 'a person',
+    asAdvised: (policy: string) => `as ${policy} advised`,
+    nobodyHint:
+      'The service asks for no tokens, so it does not know who this was: somebody who accepted the advice, or a program.',
     insteadOf: (to: string) => `instead of ${to}`,
   },
 
@@ -252,8 +279,8 @@ export const en = {
       delayed: 'An aircraft is delayed',
       out_of_service: 'An aircraft is out of service',
       back_in_service: 'An aircraft is back in service',
-      closed: 'Routes are closed',
-      reopened: 'Routes are open again',
+      closed: 'A vertiport or routes are closed',
+      reopened: 'A vertiport or routes are open again',
       booked: 'More passengers want to fly',
       stands: 'A vertiport has other stands',
       clock: 'Nothing; the clock goes on',
@@ -321,8 +348,12 @@ export const en = {
       `They first differ at ${time}: ${one}; what if: ${other}.`,
     same: 'Both rests of the day are the same.',
     nothing: 'nothing',
-    holds: (aircraft: string, at: string) => `${aircraft} holds at ${at}`,
-    flies: (aircraft: string, to: string) => `${aircraft} flies to ${to}`,
+    holds: (aircraft: string, at: string, time: string) => `${aircraft} holds at ${at} at ${time}`,
+    flies: (aircraft: string, to: string, time: string, passengers: number) =>
+      `${aircraft} flies to ${to} at ${time} with ${plural(passengers, 'passenger', 'passengers')}`,
+    showFirst: 'Show the first difference',
+    differing: (differing: number, all: number) =>
+      `marks what differs: ${differing.toLocaleString('en-US')} of ${plural(all, 'flight or hold', 'flights and holds')} to come`,
   },
 
   log: {
