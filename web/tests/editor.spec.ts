@@ -57,11 +57,46 @@ test('a vertiport is added, put right, saved and played', async ({ page, program
   await expect(earn.getByText('The network has changed since.')).toBeVisible()
   await expect(page.getByText(/^Sound:/)).toBeVisible()
   await earn.getByRole('button', { name: 'Play it again' }).click()
-  await expect(earn.getByText(/since the last time, on the same days/)).toBeVisible()
+  await expect(earn.getByText('Difference to region as it is saved')).toBeVisible()
+  await expect(
+    earn.getByText(/^± \$[\d,]+ \(95 %, the same policy, 3 days of the same seeds\)/),
+  ).toBeVisible()
   await earn.getByRole('link', { name: 'All numbers' }).click()
   await expect(page.getByText(/greedy earns/)).toBeVisible()
   await page.goBack()
   await expect(page.getByLabel('Stands of V1')).toHaveValue('9')
+})
+
+test('a new network is compared with itself before the latest change, and one that is not changed with nothing', async ({
+  page,
+  program,
+}) => {
+  await openNetwork(page, program.console, /plane of miles/)
+  await page.getByRole('button', { name: 'What would a day earn?' }).click()
+  const earn = page.getByRole('region', { name: 'What would a day earn?' })
+  await earn.getByRole('spinbutton', { name: 'Days' }).fill('2')
+  await earn.getByRole('combobox', { name: 'Policy' }).selectOption('greedy')
+  await earn.getByRole('button', { name: 'Play it' }).click()
+  await expect(earn.getByText(/95 %, 2 days/)).toBeVisible()
+  await expect(earn.getByText(/Difference to/)).toHaveCount(0)
+  await page.getByLabel('Stands of East').fill('9')
+  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await earn.getByRole('button', { name: 'Play it again' }).click()
+  await expect(earn.getByText('Difference to what you played before')).toBeVisible()
+})
+
+test('a field without its number says so, and the file keeps the former one', async ({ page, program }) => {
+  await openNetwork(page, program.console, /paper/)
+  const stands = page.getByLabel('Stands of V1')
+  await stands.fill('')
+  await expect(stands).toHaveAccessibleDescription('A number is needed here. The file keeps 6 until then.')
+  await expect(page.getByRole('alert')).toBeVisible()
+  await expectAccessible(page)
+  await page.keyboard.press('Tab')
+  await expect(stands).toHaveValue('6')
+  await expect(page.getByRole('alert')).toHaveCount(0)
+  await expect(page.getByLabel('Chargers of V1')).toHaveAttribute('placeholder', 'all')
+  await expect(page.getByLabel('Chargers of V1')).toHaveAccessibleDescription(/Empty if all have one/)
 })
 
 test('vertiports are added, moved and removed by keyboard, and all of it is taken back', async ({

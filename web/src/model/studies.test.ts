@@ -1,6 +1,14 @@
 import { expect, it } from 'vitest'
 import type { PolicyResult, StudyResult } from '../api/types'
-import { axisAround, dailyDifferences, estimate, headlineOf, pStatement } from './studies'
+import {
+  axisAround,
+  dailyDifferences,
+  estimate,
+  headlineOf,
+  isMoreThanChance,
+  pairedDifference,
+  pStatement,
+} from './studies'
 
 function policy(name: string, mean: number, more: Partial<PolicyResult> = {}): PolicyResult {
   return {
@@ -106,4 +114,26 @@ it('has axes with round steps', () => {
   })
   expect(axisAround([-3, 0, 4], 4).ticks).toEqual([-5, 0, 5])
   expect(axisAround([7], 4)).toMatchObject({ from: 5, to: 10 })
+})
+
+it('pairs the days of two studies, with the interval that the service would give', () => {
+  // Student's t for 2 degrees of freedom is 4.3027; divided by the root of 3 days it is 2.4841.
+  const profit_usd = { mean: 200, standard_deviation: 100, half_width_95: 248.41 }
+  const before = policy('greedy', 200, { profit_usd, daily_profit_usd: [100, 200, 300] })
+  const now = policy('greedy', 210, { daily_profit_usd: [109, 210, 311], profit_usd: { mean: 210 } })
+  const difference = pairedDifference(now, before)
+  expect(difference?.mean).toBeCloseTo(10)
+  expect(difference?.half_width_95).toBeCloseTo(2.4841)
+  expect(difference && isMoreThanChance(difference)).toBe(true)
+  const backwards = pairedDifference(policy('greedy', 0, { daily_profit_usd: [311, 210, 109] }), before)
+  expect(backwards && isMoreThanChance(backwards)).toBe(false)
+  expect(pairedDifference(now, policy('greedy', 1, { daily_profit_usd: [1] }))).toBeUndefined()
+})
+
+it('says nothing of chance after a single day', () => {
+  const day = (profit: number) =>
+    policy('greedy', profit, { profit_usd: { mean: profit }, daily_profit_usd: [profit] })
+  const difference = pairedDifference(day(12), day(10))
+  expect(difference).toEqual({ mean: 2, half_width_95: null })
+  expect(difference && isMoreThanChance(difference)).toBe(false)
 })

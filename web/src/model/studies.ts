@@ -1,4 +1,5 @@
-// What a study says, as it is put into words and pictures. All statistics come from the service; nothing here computes one.
+// What a study says, as it is put into words and pictures. Statistics come from the service, but for the difference of two studies,
+// which it does not know to belong together.
 
 import type { PolicyResult, StudyResult } from '../api/types'
 import { dollarDifference, dollars, percent } from './money'
@@ -84,6 +85,38 @@ export function pValue(p: number | null | undefined): string {
 export function estimate({ mean, half_width_95 }: PolicyResult['profit_usd'], isDifference = false): string {
   const text = isDifference ? dollarDifference(mean) : dollars(mean)
   return half_width_95 == null ? text : `${text} ± ${Math.round(half_width_95).toLocaleString('en-US')}`
+}
+
+/** A mean with half of its 95 % interval, which is null for one day. */
+export interface Interval {
+  mean: number
+  half_width_95: number | null
+}
+
+/** What a policy earns more a day in one study than in another with days of the same seeds, which pair them; undefined if the days are
+ *  not as many. Student's factor for so many days is the one that the service has used: the half width that it gives over the standard
+ *  deviation that it gives. */
+export function pairedDifference(one: PolicyResult, other: PolicyResult): Interval | undefined {
+  const differences = one.daily_profit_usd.map((profit, day) => profit - (other.daily_profit_usd[day] ?? NaN))
+  if (one.daily_profit_usd.length !== other.daily_profit_usd.length || differences.length === 0)
+    return undefined
+  const mean = differences.reduce((sum, each) => sum + each, 0) / differences.length
+  const squares = differences.reduce((sum, each) => sum + (each - mean) ** 2, 0)
+  const deviation = Math.sqrt(squares / (differences.length - 1))
+  const factor = studentsFactor(one) ?? studentsFactor(other)
+  return { mean, half_width_95: factor === undefined ? null : factor * deviation }
+}
+
+function studentsFactor({
+  profit_usd: { half_width_95, standard_deviation },
+}: PolicyResult): number | undefined {
+  if (half_width_95 == null || standard_deviation == null || standard_deviation === 0) return undefined
+  return half_width_95 / standard_deviation
+}
+
+/** Whether a mean differs from 0 by more than what chance makes in one of 20 studies. */
+export function isMoreThanChance({ mean, half_width_95 }: Interval): boolean {
+  return half_width_95 !== null && Math.abs(mean) > half_width_95
 }
 
 /** What one policy earned more than another on each day, the best day first. Days are numbered from 0. */

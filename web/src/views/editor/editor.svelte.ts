@@ -1,8 +1,8 @@
-// The network that is being edited: its text, what the service says of it, and what a day of it would earn. It outlives the view, so
-// that a look at a day loses nothing, and the tab keeps it until it is closed.
+// The network that is being edited: its text, and what the service says of it. It outlives the view, so that a look at a day loses
+// nothing, and the tab keeps it until it is closed.
 
 import { ProblemError } from '../../api/problem'
-import type { NetworkInfo, StudyInfo } from '../../api/types'
+import type { NetworkInfo } from '../../api/types'
 import { draftOf, member, type Draft } from '../../model/network/draft'
 import { apply, remove, set, type Splice } from '../../model/network/edits'
 import { findingAt, findingOf, findingOfWarning, type Finding } from '../../model/network/findings'
@@ -41,11 +41,18 @@ export interface Opened {
   isOwn: boolean
 }
 
+/** A network by its text. */
+export interface NetworkText {
+  name: string
+  toml: string
+}
+
 interface Kept {
   text: string
   saved: string
   source: string
   isOwn: boolean
+  origin?: NetworkText | undefined
 }
 
 class Editor {
@@ -56,6 +63,8 @@ class Editor {
   /** The network of the service that it was read from or saved as; empty if it is not there. */
   source = $state('')
   isOwn = $state(false)
+  /** The saved network that it came from, and that its changes are measured against; a new one has none until it is saved. */
+  origin = $state.raw<NetworkText>()
   tab = $state<Tab>('places')
   /** Whether the text stands beside the forms, or takes a tab of its own where there is no room. */
   showsText = $state(true)
@@ -71,11 +80,6 @@ class Editor {
   problem = $state.raw<ProblemError>()
   /** The member that is to be shown in the text. */
   shown = $state.raw<{ path: Path }>()
-  study = $state.raw<StudyInfo>()
-  /** The text that the study plays. */
-  playedText = $state('')
-  /** What a day earned before the latest change, for comparison. */
-  formerStudy = $state.raw<StudyInfo>()
   #timer: ReturnType<typeof setTimeout> | undefined
   #asked = 0
   #lastFile: TomlFile | undefined
@@ -88,6 +92,7 @@ class Editor {
     this.#saved = kept.saved
     this.source = kept.source
     this.isOwn = kept.isOwn
+    this.origin = kept.origin
   }
 
   get isOpen(): boolean {
@@ -155,10 +160,9 @@ class Editor {
     this.#saved = toml
     this.source = source
     this.isOwn = isOwn
+    this.origin = source === '' ? undefined : { name: source, toml }
     this.opened += 1
     this.vertiport = undefined
-    this.study = undefined
-    this.formerStudy = undefined
     this.info = undefined
     this.#said = []
     this.shown = undefined
@@ -259,6 +263,9 @@ class Editor {
       this.#saved = text
       this.source = info.name
       this.isOwn = true
+      // A copy under another name still came from the network that it was copied from.
+      if (this.origin === undefined || this.origin.name === info.name)
+        this.origin = { name: info.name, toml: text }
       this.#keep()
       return info
     } catch (cause) {
@@ -298,7 +305,8 @@ class Editor {
   }
 
   #keep(): void {
-    const kept: Kept = { text: this.text, saved: this.#saved, source: this.source, isOwn: this.isOwn }
+    const { text, source, isOwn, origin } = this
+    const kept: Kept = { text, saved: this.#saved, source, isOwn, origin }
     try {
       if (kept.text.length <= MOST_KEPT) sessionStorage.setItem(KEY, JSON.stringify(kept))
       else sessionStorage.removeItem(KEY)

@@ -1,0 +1,125 @@
+// What a day of the edited network would earn, and what the network that it came from earns on days of the same seeds. It outlives the
+// view as the network does.
+
+import { untrack } from 'svelte'
+import { ProblemError } from '../../api/problem'
+import type { PolicyResult, StudyInfo } from '../../api/types'
+import { session } from '../../state/session.svelte'
+import { toasts } from '../../state/toasts.svelte'
+import { follow, hasEnded } from '../studies/follow'
+import type { NetworkText } from './editor.svelte'
+
+const SEED = 1
+const NOT_FOUND = 404
+
+/** What is asked for: days of the same seeds, by one policy. */
+interface Asked {
+  policy: string
+  days: number
+}
+
+/** A study of one network. */
+class Played {
+  study = $state.raw<StudyInfo>()
+  readonly id: string
+
+  private constructor(
+    readonly network: NetworkText,
+    readonly asked: Asked,
+    study: StudyInfo,
+  ) {
+    this.study = study
+    this.id = study.id
+  }
+
+  static async begin(network: NetworkText, asked: Asked): Promise<Played> {
+    const { policy, days } = asked
+    const body = { toml: network.toml, policies: [policy], days, seed: SEED }
+    return new Played(network, asked, await session.service.makeStudy(body))
+  }
+
+  get isPlaying(): boolean {
+    return this.study !== undefined && !hasEnded(this.study)
+  }
+
+  get result(): PolicyResult | undefined {
+    return this.study?.result?.policies[0]
+  }
+
+  /** Whether it is a result of these days, which can be compared one by one. */
+  isResultOf({ policy, days }: Asked): boolean {
+    return this.result !== undefined && this.asked.policy === policy && this.asked.days === days
+  }
+}
+
+class Earning {
+  /** The edited network. */
+  now = $state.raw<Played>()
+  /** What it is compared with: the network that it came from or, for a new one, itself before the latest change. */
+  before = $state.raw<Played>()
+  problem = $state.raw<ProblemError>()
+  isAsking = $state(false)
+
+  get isPlaying(): boolean {
+    return this.now?.isPlaying === true || this.before?.isPlaying === true
+  }
+
+  forget(): void {
+    this.now = undefined
+    this.before = undefined
+    this.problem = undefined
+  }
+
+  /** Plays the edited network, and then the one that it came from unless its result is there already. */
+  async play(network: NetworkText, origin: NetworkText | undefined, asked: Asked): Promise<void> {
+    const former = [this.now, this.before].filter((one) => one !== undefined)
+    const known = former.filter((one) => one.isResultOf(asked) && one.network.toml !== network.toml)
+    this.isAsking = true
+    this.problem = undefined
+    try {
+      this.now = await Played.begin(network, asked)
+      this.before = known.find((one) => origin === undefined || one.network.toml === origin.toml)
+      if (this.before === undefined && origin !== undefined && origin.toml !== network.toml)
+        this.before = await Played.begin(origin, asked)
+    } catch (cause) {
+      if (!(cause instanceof ProblemError)) throw cause
+      this.problem = cause
+    } finally {
+      this.isAsking = false
+    }
+  }
+
+  /** Follows what plays until the returned function is called. */
+  follow(): () => void {
+    const played = [this.now, this.before].filter((one) => one !== undefined)
+    // An answer must not begin all of this again.
+    const playing = untrack(() => played.filter((one) => one.isPlaying))
+    const stops = playing.map((one) => this.#followOne(one))
+    return () => stops.forEach((stop) => stop())
+  }
+
+  /** Ends what plays; what has been found out stays. */
+  async stop(): Promise<void> {
+    const ended = [this.now, this.before].filter((one) => one?.isPlaying === true)
+    if (this.now?.isPlaying === true) this.now = undefined
+    if (this.before?.isPlaying === true) this.before = undefined
+    try {
+      for (const one of ended) if (one !== undefined) await session.service.endStudy(one.id)
+    } catch (cause) {
+      toasts.fail(cause)
+    }
+  }
+
+  #followOne(played: Played): () => void {
+    return follow(
+      played.id,
+      (study) => (played.study = study),
+      (problem) => {
+        this.problem = problem
+        if (problem.status === NOT_FOUND) played.study = undefined
+      },
+    )
+  }
+}
+
+export const earning = new Earning()
