@@ -33,6 +33,17 @@ test('what happened while the connection was away is there afterwards', async ({
   await expect(page.getByRole('cell', { name: /^A01 is to go to/ })).toHaveCount(1)
 })
 
+test('a service that sends no more of a day says why', async ({ page, program, fleet }) => {
+  await open(page, program, fleet, 'log')
+  await fleet.ask('POST', `/v1/days/${fleet.day}/archive`)
+  await fleet.ask('DELETE', `/v1/days/${fleet.day}`)
+  await program.kill()
+  await program.run()
+  await expect(page.getByRole('alert')).toContainText(
+    /the service sends no more of this day\. Its answer was “/,
+  )
+})
+
 test('two consoles on one day see each other', async ({ page, context, program, fleet }) => {
   const other = await context.newPage()
   await open(page, program, fleet)

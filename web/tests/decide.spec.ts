@@ -8,18 +8,51 @@ test('an acceptance is the decision of the policy', async ({ page, program, flee
   await open(page, program, fleet)
   await expect(waiting(page)).toHaveCount(6)
   await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
-  await page.waitForTimeout(400)
   await page.keyboard.press('a')
   await expect(page.getByText(/^A01 (flies to|holds at) /)).toBeVisible()
   await expect(waiting(page)).toHaveCount(5)
   const [decided] = await fleet.events()
   expect(decided?.event).toMatchObject({ type: 'decided', aircraft: 'A01', policy: 'prices' })
+
+  // Without tokens the service knows no person: this console knows what it did itself, and nothing more of others.
+  await fleet.decide('A02')
+  const lately = page.getByRole('region', { name: 'Decided lately' }).getByRole('listitem')
+  await expect(lately.filter({ hasText: 'A01' })).toContainText('you · prices')
+  await expect(lately.filter({ hasText: 'A02' })).toContainText('as prices advised')
+})
+
+test('advice that came up only now cannot be accepted yet, which its button shows', async ({
+  page,
+  program,
+  fleet,
+}) => {
+  await page.addInitScript(() => {
+    const seen: boolean[] = []
+    Object.assign(window, { seen })
+    new MutationObserver(() => {
+      const button = document.querySelector<HTMLButtonElement>('.advice .first')
+      if (button !== null && seen.at(-1) !== button.disabled) seen.push(button.disabled)
+    }).observe(document, { childList: true, subtree: true, attributes: true })
+  })
+  await open(page, program, fleet)
+  await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
+  expect(await page.evaluate(() => (window as unknown as { seen: boolean[] }).seen)).toEqual([true, false])
+})
+
+test('the way back goes when the aircraft departs', async ({ page, program, fleet }) => {
+  await open(page, program, fleet)
+  await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
+  await page.keyboard.press('a')
+  const toast = page.getByRole('status').filter({ hasText: /A01 (flies to|holds at) / })
+  await expect(toast.getByRole('button', { name: 'Undo' })).toBeVisible()
+  await fleet.report({ type: 'departed', aircraft: 'A01' })
+  await expect(toast.getByRole('button', { name: 'Undo' })).toBeHidden()
+  await expect(toast).toBeVisible()
 })
 
 test('a key that is pressed twice decides for one aircraft', async ({ page, program, fleet }) => {
   await open(page, program, fleet)
   await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
-  await page.waitForTimeout(400)
   await page.keyboard.press('Enter')
   await page.keyboard.press('Enter')
   await page.keyboard.press('Enter')
@@ -101,7 +134,6 @@ test('a decision is taken back as long as the aircraft has not departed', async 
 }) => {
   await open(page, program, fleet)
   await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
-  await page.waitForTimeout(400)
   await page.keyboard.press('a')
   await expect(panel(page).getByRole('heading', { name: /^A02/ })).toBeVisible()
   await page.keyboard.press('u')

@@ -1,5 +1,6 @@
 // Every view of the shell: reached by key, readable by everybody, and within its bounds on a phone.
 
+import { dollars } from '../src/model/money'
 import { Fleet, smallNetwork } from './support/fleet'
 import { expect, expectAccessible, open, panel, test, waiting } from './support/test'
 
@@ -86,6 +87,46 @@ test('a day is made in the console', async ({ page, program, fleet }) => {
   await page.getByRole('button', { name: 'Make the day' }).click()
   await expect(waiting(page)).toHaveCount(6)
   expect(page.url()).not.toContain(fleet.day)
+})
+
+test('the list of days says how far each is and who waits', async ({ page, program, fleet }) => {
+  const archived = await Fleet.onSmallDay(program.url)
+  await archived.ask('POST', `/v1/days/${archived.day}/archive`)
+  await page.goto(program.console)
+  const row = (day: string) => page.getByRole('row').filter({ has: page.locator(`a[href*="${day}"]`) })
+  await expect(row(fleet.day)).toContainText('Running')
+  await expect(row(fleet.day)).toContainText('06:00')
+  await expect(row(fleet.day)).toContainText('6 aircraft')
+  await expect(row(archived.day)).toContainText('Archived')
+  await fleet.playUntil('07:00:00')
+  const { totals } = await fleet.state()
+  await expect(row(fleet.day)).toContainText(dollars(totals.profit_usd))
+  while (await fleet.goOn()) for (const aircraft of await fleet.waiting()) await fleet.decide(aircraft)
+  await expect(row(fleet.day)).toContainText('Over')
+  await page.setViewportSize({ width: 390, height: 844 })
+  await expect(row(fleet.day).getByText('Over')).toBeInViewport()
+  await expectAccessible(page)
+})
+
+test('an unknown address says that it is', async ({ page, program, fleet }) => {
+  await page.goto(`${program.console}/#/nowhere`)
+  await expect(page.getByText('There is no page at this address. This is “Days” instead.')).toBeVisible()
+  await page.goto(`${program.console}/#/day/${fleet.day}/nowhere`)
+  await expect(page.getByText('There is no page at this address. This is “Now” instead.')).toBeVisible()
+  await page.goto(`${program.console}/#/studies`)
+  await expect(page.getByText('There is no page at this address')).toHaveCount(0)
+})
+
+test('the log says where departures lead and landings are', async ({ page, program, fleet }) => {
+  await fleet.decide('A01', { to: 'East', reason: 'a test' })
+  await fleet.report(
+    { type: 'departed', aircraft: 'A01' },
+    { type: 'landed', aircraft: 'A01', time: '06:50:00' },
+  )
+  await open(page, program, fleet, 'log?type=landed')
+  await expect(page.getByRole('cell', { name: 'A01 has landed at East' })).toBeVisible()
+  await open(page, program, fleet, 'log?vertiport=East')
+  await expect(page.getByRole('cell', { name: 'A01 has departed for East' })).toBeVisible()
 })
 
 test('a what-if compares both rests of the day and can be reported', async ({ page, program, fleet }) => {

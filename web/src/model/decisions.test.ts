@@ -1,6 +1,16 @@
 import { describe, expect, it } from 'vitest'
 import type { DayState, Proposal, TakenEvent } from '../api/types'
-import { decidedLately, isSameAdvice, nextOf, ranked, Steady, waitingOf, worthOf } from './decisions'
+import {
+  canBeTakenBack,
+  decidedLately,
+  isSameAdvice,
+  nextOf,
+  ranked,
+  Steady,
+  unitOfValues,
+  waitingOf,
+  worthOf,
+} from './decisions'
 import answers from './fixtures/live-day.json'
 
 const state = answers.state as DayState
@@ -69,6 +79,8 @@ describe('those who wait', () => {
 
   it('are followed by those who are ready next', () => {
     expect(nextOf(state, 2).map((one) => one.id)).toEqual(['A01', 'A02'])
+    const evening = { ...state, now: '07:10:00' }
+    expect(nextOf(evening, 2).map((one) => one.id)).toEqual(['A02', 'A03'])
   })
 })
 
@@ -85,6 +97,17 @@ describe('a proposal', () => {
     const { possible, impossible } = ranked(proposal)
     expect(possible.map((one) => one.to)).toEqual(['V2', 'V1', 'V4', 'V5'])
     expect(impossible.map((one) => one.to)).toEqual(['V3'])
+  })
+
+  it('has values in dollars where the policy has prices, and in what it says otherwise', () => {
+    const unpriced = {
+      ...proposal,
+      policy: 'mlp-paper',
+      alternatives: [{ to: 'V2', value: 1.5, flight_profit_usd: 5, passengers: 4, ...there('07:00:00') }],
+    }
+    expect(unitOfValues(proposal)).toBe('dollars')
+    expect(unitOfValues(unpriced)).toBe('none')
+    expect(unitOfValues({ ...unpriced, policy: 'greedy' })).toBe('dollars_per_hour')
   })
 
   it('advises the same as long as the choice, its rank and the rules are the same', () => {
@@ -130,5 +153,8 @@ describe('decisions of late', () => {
 
   it('can be undone while nothing has happened since', () => {
     expect(decidedLately(events, 10).map((one) => one.canBeUndone)).toEqual([true, false, false, false])
+    expect(canBeTakenBack(events, 'A03', 16)).toBe(true)
+    expect(canBeTakenBack(events, 'A01', 1)).toBe(false)
+    expect(canBeTakenBack(events, 'A05', 17)).toBe(true)
   })
 })

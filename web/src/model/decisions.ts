@@ -18,9 +18,11 @@ export function waitingOf(state: DayState): Waiting[] {
   return waiting.sort((one, other) => one.ready - other.ready || Number(other.isFull) - Number(one.isFull))
 }
 
-/** Who is ready next, of those who fly or charge. */
+/** Who is ready next, of those who fly or charge. Who stands ready and does not wait has nothing more to do on this day. */
 export function nextOf(state: DayState, most: number): Waiting[] {
-  const later = state.aircraft.filter((one) => !one.needs_decision && !one.out_of_service)
+  const now = timeOf(state.now)
+  const isDone = (one: AircraftState) => one.phase === 'standing' && timeOf(one.ready) <= now
+  const later = state.aircraft.filter((one) => !one.needs_decision && !one.out_of_service && !isDone(one))
   const waiting = later.map((one) => waitingAt(state, one)).sort((one, other) => one.ready - other.ready)
   return waiting.slice(0, most)
 }
@@ -62,6 +64,12 @@ export function ranked(proposal: Proposal): { possible: Alternative[]; impossibl
   const rank = (one: Alternative) => (one.to === proposal.to ? Infinity : (one.value ?? -Infinity))
   possible.sort((one, other) => rank(other) - rank(one) || one.to.localeCompare(other.to))
   return { possible, impossible: proposal.alternatives.filter((one) => one.impossible != null) }
+}
+
+/** What the values of a proposal are: dollars for policies that price the rest of the day, and nothing that has a unit for networks. */
+export function unitOfValues({ policy, alternatives }: Proposal): 'dollars' | 'dollars_per_hour' | 'none' {
+  if (policy === 'greedy') return 'dollars_per_hour'
+  return alternatives.some(({ worth_usd }) => worth_usd != null) ? 'dollars' : 'none'
 }
 
 /** Whether two proposals advise the same: the same choice, and the same order of what else is possible. */
@@ -127,6 +135,17 @@ export function decidedLately(events: readonly TakenEvent[], most: number): Deci
   return decided
 }
 
+/** What ends the time in which a decision can be taken back. */
+const AFTERWARDS = ['decided', 'undone', 'departed', 'landed']
+
+/** Whether the decision by an event can still be taken back, as far as events say; its own may not have come yet. */
+export function canBeTakenBack(events: readonly TakenEvent[], aircraft: string, seq: number): boolean {
+  const latest = events.findLast(
+    ({ event }) => 'aircraft' in event && event.aircraft === aircraft && AFTERWARDS.includes(event.type),
+  )
+  return latest === undefined || latest.seq <= seq
+}
+
 type DecidedEvent = Extract<TakenEvent['event'], { type: 'decided' }>
 
 function decidedOf({ seq, actor }: TakenEvent, event: DecidedEvent, goneOn: Set<string>): Decided {
@@ -141,9 +160,4 @@ function decidedOf({ seq, actor }: TakenEvent, event: DecidedEvent, goneOn: Set<
     reason: event.reason ?? undefined,
     canBeUndone: !goneOn.has(event.aircraft),
   }
-}
-
-/** Who did something: the person, by the name of the token, and the policy that they followed. Without tokens nobody has a name. */
-export function byWhom(actor: string, policy: string | null | undefined): string {
-  return [actor, policy].filter(Boolean).join(' · ')
 }

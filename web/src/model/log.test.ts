@@ -4,9 +4,12 @@ import { everything, eventTypes, isWanted, vertiportsOf, type LogFilter } from '
 import answers from './fixtures/live-day.json'
 
 const events = answers.events.events as unknown as TakenEvent[]
-const words = ({ event }: TakenEvent) => `${event.type} ${'reason' in event ? (event.reason ?? '') : ''}`
+const said = ({ seq, event }: TakenEvent) => ({
+  words: `${event.type} ${'reason' in event ? (event.reason ?? '') : ''}`,
+  place: seq === 12 ? 'East' : undefined,
+})
 const wanted = (filter: Partial<LogFilter>) =>
-  events.filter((one) => isWanted(one, { ...everything, ...filter }, words)).map((one) => one.seq)
+  events.filter((one) => isWanted(one, { ...everything, ...filter }, said)).map((one) => one.seq)
 
 describe('the log', () => {
   it('has everything as long as nothing is looked for', () => {
@@ -18,6 +21,7 @@ describe('the log', () => {
     expect(wanted({ aircraft: 'A04' })).toEqual([9])
     expect(wanted({ vertiport: 'South' })).toEqual([3, 10, 11, 14, 15])
     expect(wanted({ vertiport: 'South', type: 'closed' })).toEqual([10, 15])
+    expect(wanted({ vertiport: 'East', type: 'landed' })).toEqual([12])
     expect(wanted({ actor: 'somebody' })).toEqual([])
   })
 

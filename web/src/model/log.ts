@@ -32,19 +32,26 @@ export interface LogFilter {
 
 export const everything: LogFilter = { text: '', type: '', aircraft: '', vertiport: '', actor: '' }
 
-/** Whether an event is looked for. `words` is what a person reads of it. */
-export function isWanted(
-  taken: TakenEvent,
-  filter: LogFilter,
-  words: (taken: TakenEvent) => string,
-): boolean {
+/** What a person reads of an event, and the vertiport of a departure or a landing, which its event need not name. */
+export interface Said {
+  words: string
+  place?: string | undefined
+}
+
+/** Whether an event is looked for. */
+export function isWanted(taken: TakenEvent, filter: LogFilter, saidOf: (taken: TakenEvent) => Said): boolean {
   const { event, actor } = taken
   if (filter.type !== '' && event.type !== filter.type) return false
   if (filter.actor !== '' && actor !== filter.actor) return false
   if (filter.aircraft !== '' && !('aircraft' in event && event.aircraft === filter.aircraft)) return false
-  if (filter.vertiport !== '' && !vertiportsOf(event).includes(filter.vertiport)) return false
+  if (
+    filter.vertiport !== '' &&
+    saidOf(taken).place !== filter.vertiport &&
+    !vertiportsOf(event).includes(filter.vertiport)
+  )
+    return false
   if (filter.text === '') return true
-  const said = `${words(taken)} ${actor} ${taken.notices.join(' ')} ${taken.seq}`.toLowerCase()
+  const said = `${saidOf(taken).words} ${actor} ${taken.notices.join(' ')} ${taken.seq}`.toLowerCase()
   return filter.text
     .toLowerCase()
     .split(/\s+/)

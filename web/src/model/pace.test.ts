@@ -59,13 +59,29 @@ describe('the clock of a day', () => {
 
   it('waits when no news comes', () => {
     const pace = new Pace()
-    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    for (let second = 0; second <= 10; second++) pace.hear(21_600 + second, 1000 * second)
     pace.at(10_000)
     frames(pace, 10_000, 20_000)
     const late = pace.at(20_000)
     frames(pace, 20_000, 60_000)
     expect(pace.at(60_000)).toBeCloseTo(late)
-    expect(late).toBeLessThan(22_200 + 60 * 2)
+    expect(late).toBeLessThan(21_610 + 2)
+    expect(pace.isStill(60_000)).toBe(false)
+  })
+
+  it('goes back to the latest known time on a simulated day of which nothing more is heard', () => {
+    const pace = new Pace()
+    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    pace.at(10_000)
+    frames(pace, 10_000, 13_000)
+    expect(pace.at(13_000)).toBeGreaterThan(22_200)
+    expect(pace.at(13_000)).toBeLessThan(22_200 + 60 * 2)
+    expect(pace.isStill(13_000)).toBe(false)
+    expect(pace.at(15_100)).toBe(22_200)
+    expect(pace.isStill(15_100)).toBe(true)
+    pace.hear(22_260, 20_000)
+    expect(pace.isStill(20_000)).toBe(false)
+    expect(pace.at(20_000)).toBeGreaterThan(22_200)
   })
 
   it('never runs far ahead of a simulated day that waits for people', () => {

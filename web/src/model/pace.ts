@@ -1,6 +1,6 @@
 // How fast a day passes. Events say what time it was when they came; between them the clock goes on at the speed that was
 // observed, so that movement is smooth. It waits for news if none comes, and never runs back unless it turns out that time stands
-// still.
+// still: a simulated day waits for people, or nothing more is heard of it. The clock then is at the latest time that is known.
 
 import type { Seconds } from './record'
 
@@ -18,6 +18,9 @@ const LEAST_PATIENCE_MS = 1_500
 /** A day that passes faster than this is simulated, and waits where people are to decide: its clock goes on for less long. */
 const SIMULATED = 2
 const MOST_AHEAD_S = 120
+/** A day of which nothing is heard for so many times as long as the clock goes on without news stands still. */
+const STILL = 3
+const LEAST_STILL_MS = 5_000
 
 interface News {
   time: Seconds
@@ -52,10 +55,17 @@ export class Pace {
     this.#shown = { time, at_ms }
   }
 
+  /** Whether a simulated day has said nothing for so long that its time evidently does not pass. */
+  isStill(now_ms: number): boolean {
+    const latest = this.#news.at(-1)
+    if (latest === undefined || this.speed <= SIMULATED) return false
+    return now_ms - latest.at_ms > Math.max(LEAST_STILL_MS, STILL * this.#patience())
+  }
+
   /** The time to show. */
   at(now_ms: number): Seconds {
     const latest = this.#news.at(-1)
-    if (this.isAwaited && this.speed > SIMULATED && latest !== undefined) {
+    if (latest !== undefined && this.speed > SIMULATED && (this.isAwaited || this.isStill(now_ms))) {
       this.#shown = { time: latest.time, at_ms: now_ms }
       return latest.time
     }

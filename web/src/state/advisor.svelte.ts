@@ -31,7 +31,9 @@ export class Advisor {
   isBusy = $state(false)
   /** Whether somebody points at the advice or has the focus in it. */
   isEngaged = $state(false)
-  #shownAt = 0
+  /** Whether the advice has been shown for long enough to be meant by whoever takes it. */
+  #isSeen = $state(false)
+  #seeing: ReturnType<typeof setTimeout> | undefined
   #asked = 0
   readonly #refresher = new Refresher(PACE, () => this.#refresh())
 
@@ -42,6 +44,7 @@ export class Advisor {
 
   stop(): void {
     this.#refresher.stop()
+    clearTimeout(this.#seeing)
   }
 
   /** Asks for advice about an aircraft, in the place of what is shown. */
@@ -72,14 +75,13 @@ export class Advisor {
   }
 
   get canAccept(): boolean {
-    return this.proposal !== undefined && !this.isBusy && this.newer === undefined
+    return this.proposal !== undefined && this.#isSeen && !this.isBusy && this.newer === undefined
   }
 
   /** Takes the advice that is shown, and no other: if the policy has come to another by now, that is shown instead. */
   async accept(): Promise<Outcome> {
     const shown = this.proposal
-    if (shown === undefined || !this.canAccept || performance.now() - this.#shownAt < SEEN_MS)
-      return { kind: 'none' }
+    if (shown === undefined || !this.canAccept) return { kind: 'none' }
     return this.#busy(async () => {
       let seq = shown.seq
       for (let left = TRIES; left > 0; left--) {
@@ -146,7 +148,9 @@ export class Advisor {
 
   #show(proposal: Proposal): void {
     this.#update(proposal)
-    this.#shownAt = performance.now()
+    this.#isSeen = false
+    clearTimeout(this.#seeing)
+    this.#seeing = setTimeout(() => (this.#isSeen = true), SEEN_MS)
   }
 
   #fail(problem: unknown): void {

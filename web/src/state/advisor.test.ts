@@ -92,6 +92,7 @@ describe('an acceptance', () => {
   })
 
   it('is not meant for advice that came up only now', async () => {
+    expect(advisor.canAccept).toBe(false)
     expect(await advisor.accept()).toEqual({ kind: 'none' })
     expect(service.decisions).toEqual([])
   })

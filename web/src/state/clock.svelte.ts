@@ -11,6 +11,8 @@ export class Clock {
   time = $state<Seconds>(0)
   /** Seconds of the day that pass in a second, about. */
   speed = $state(0)
+  /** Whether a simulated day has said nothing for so long that its time evidently does not pass. */
+  isStill = $state(false)
   readonly #pace = new Pace()
   #frame = 0
   #isHeld = false
@@ -28,6 +30,7 @@ export class Clock {
     this.#pace.end(time, performance.now())
     this.#show(performance.now())
     this.speed = 0
+    this.isStill = false
   }
 
   /** Says whether aircraft wait for people. */
@@ -54,5 +57,6 @@ export class Clock {
   #show(now: number): void {
     this.#shown_ms = now
     this.time = this.#pace.at(now)
+    this.isStill = this.#pace.isStill(now)
   }
 }

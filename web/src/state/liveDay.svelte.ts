@@ -13,6 +13,7 @@ import { Reports } from '../model/reports'
 import type { Scenario } from '../model/scenario'
 import { timeOf } from '../model/time'
 import { recordOf } from '../model/traces'
+import { Whereabouts } from '../model/whereabouts'
 import { Clock } from './clock.svelte'
 import { Refresher } from './refresher'
 
@@ -79,6 +80,9 @@ export class LiveDay {
   /** Numbers of the events by which this console decided, so that it can take back what it did. */
   readonly ownDecisions = new SvelteSet<number>()
 
+  /** Where departures lead and landings are. */
+  whereabouts = new Whereabouts()
+
   /** Reads the day and follows it until it is closed. */
   async open(): Promise<void> {
     try {
@@ -143,6 +147,7 @@ export class LiveDay {
     if (this.#isClosed || this.#scenario === undefined) return
     this.#flown = recordOf(this.#scenario, trace).legs
     this.#reports = new Reports(this.#scenario)
+    this.whereabouts = new Whereabouts()
     this.events = []
     this.#take(events)
     this.#takeState(state)
@@ -177,7 +182,10 @@ export class LiveDay {
   }
 
   #take(events: TakenEvent[]): void {
-    for (const event of events) this.#reports?.take(event)
+    for (const event of events) {
+      this.#reports?.take(event)
+      this.whereabouts.take(event)
+    }
     const all = [...this.events, ...events]
     this.events = all.length > MOST_KEPT_EVENTS ? all.slice(-MOST_KEPT_EVENTS) : all
     this.#reported += events.length

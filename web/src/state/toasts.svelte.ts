@@ -10,8 +10,8 @@ export interface Toast {
   detail?: string
   hint?: string
   code?: string
-  /** What takes it back, for a while. */
-  action?: { title: string; run: () => void }
+  /** What takes it back, for a while and as long as that is possible. */
+  action?: { title: string; run: () => void; isPossible?: () => boolean }
 }
 
 const SHOWN_MS = 6_000

@@ -1,10 +1,11 @@
-// What a person reads of an event, in a sentence without its time.
+// What a person reads of an event, in a sentence without its time. `place` is where a departure leads or a landing is, if the event does
+// not say so itself.
 
 import type { Event, RouteNames } from '../api/types'
 import { clock, timeOf } from '../model/time'
 import { text } from './text'
 
-export function sentence(event: Event): string {
+export function sentence(event: Event, place?: string): string {
   const says = text.events
   switch (event.type) {
     case 'decided':
@@ -12,9 +13,9 @@ export function sentence(event: Event): string {
     case 'undone':
       return says.undone(event.aircraft)
     case 'departed':
-      return says.departed(event.aircraft, event.to ?? undefined, event.passengers ?? undefined)
+      return says.departed(event.aircraft, event.to ?? place, event.passengers ?? undefined)
     case 'landed':
-      return says.landed(event.aircraft, event.at ?? undefined)
+      return says.landed(event.aircraft, event.at ?? place)
     case 'charging':
       return says.charging(event.aircraft, clock(timeOf(event.ready)))
     case 'ready':

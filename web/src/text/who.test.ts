@@ -1,0 +1,23 @@
+import { expect, it } from 'vitest'
+import { whoDecided, whoDid, whyNobody } from './who'
+
+it('names the person by the token, and the policy whose advice was taken', () => {
+  expect(whoDecided({ actor: 'anna', policy: 'prices' })).toBe('anna · prices')
+  expect(whoDecided({ actor: 'anna', policy: undefined, isOwn: true })).toBe('anna')
+})
+
+it('does not say who took the advice where nobody can know', () => {
+  expect(whoDecided({ actor: '', policy: 'prices' })).toBe('as prices advised')
+  expect(whyNobody({ actor: '', policy: 'prices' })).toMatch(/asks for no tokens/)
+})
+
+it('knows what was done at this console', () => {
+  expect(whoDecided({ actor: '', policy: 'prices', isOwn: true })).toBe('you · prices')
+  expect(whoDecided({ actor: '', policy: undefined, isOwn: true })).toBe('you')
+  expect(whyNobody({ actor: '', isOwn: true })).toBeUndefined()
+})
+
+it('knows that a decision without a policy is that of a person', () => {
+  expect(whoDecided({ actor: '' })).toBe('a person')
+  expect(whoDid({ actor: '' })).toBe('')
+})
