@@ -19,7 +19,7 @@ const LEAST_PATIENCE_MS = 1_500
 const SIMULATED = 2
 const MOST_AHEAD_S = 120
 /** A day of which nothing is heard for so many times as long as the clock goes on without news stands still. */
-const STILL = 3
+const STILL = 2
 const LEAST_STILL_MS = 5_000
 
 interface News {

@@ -13,6 +13,8 @@ export class Clock {
   speed = $state(0)
   /** Whether a simulated day has said nothing for so long that its time evidently does not pass. */
   isStill = $state(false)
+  /** Whether aircraft wait for people, which is why a simulated day says nothing. */
+  isAwaited = $state(false)
   readonly #pace = new Pace()
   #frame = 0
   #isHeld = false
@@ -35,6 +37,7 @@ export class Clock {
 
   /** Says whether aircraft wait for people. */
   await(isAwaited: boolean): void {
+    this.isAwaited = isAwaited
     this.#pace.isAwaited = isAwaited
   }
 

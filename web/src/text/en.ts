@@ -132,6 +132,7 @@ export const en = {
     speed:
       'How much faster than real time the day passes, about. Between two events the clock goes on at this speed, for two minutes of the day at most.',
     still: 'stands still',
+    stillAwaited: 'This simulated day goes on when the aircraft that wait for a decision have been decided.',
     stillHint: 'Nothing more is heard of this day. The clock shows the time of its latest event.',
     times: (speed: number) => `×${speed}`,
     map: 'Map',
@@ -192,7 +193,7 @@ export const en = {
     columnHints: {
       values: {
         dollars:
-          'What the policy compares its choices by: what the rest of the day is worth with each, dollars.',
+          'What the policy compares its choices by: what each is worth until the end of the day, dollars.',
         dollars_per_hour:
           'What the policy compares its choices by: the profit of the flight, dollars an hour.',
         none: 'What the policy compares its choices by: a number without a unit, the higher the better.',
