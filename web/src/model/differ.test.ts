@@ -1,36 +1,81 @@
-import { expect, it } from 'vitest'
-import { firstDifference } from './differ'
+import { describe, expect, it } from 'vitest'
+import { differences, firstDifference } from './differ'
 import { greedy, prices } from './fixtures/tiny'
+import type { DayRecord, LegRecord } from './record'
 
-it('finds the first decision in which two days differ, and its worth', () => {
-  const difference = firstDifference(greedy(), prices())
-  expect(difference).toBeDefined()
-  const { one, other, index, atDecision_usd, atEnd_usd } = difference ?? {}
-  expect(one?.aircraft).toBe(other?.aircraft)
-  expect(one?.to).not.toBe(other?.to)
-  expect(
-    greedy()
-      .legs.slice(0, index)
-      .map((leg) => leg.to),
-  ).toEqual(
-    prices()
-      .legs.slice(0, index)
-      .map((leg) => leg.to),
-  )
-  expect(atDecision_usd).toBeCloseTo((one?.profit_usd ?? 0) - (other?.profit_usd ?? 0), 9)
-  expect(atEnd_usd).toBeCloseTo(3142.4 - 2860.02, 1)
+function changed(record: DayRecord, position: number, more: Partial<LegRecord>): DayRecord {
+  return {
+    ...record,
+    legs: record.legs.map((leg, index) => (index === position ? { ...leg, ...more } : leg)),
+  }
+}
+
+describe('the first difference', () => {
+  it('is a decision, and has its worth', () => {
+    const difference = firstDifference(greedy(), prices())
+    expect(difference).toBeDefined()
+    const { one, other, time = 0, atDecision_usd, atEnd_usd } = difference ?? {}
+    expect(one?.aircraft).toBe(other?.aircraft)
+    expect(one?.to).not.toBe(other?.to)
+    const before = ({ legs }: DayRecord) => legs.filter((leg) => leg.decided < time).map((leg) => leg.to)
+    expect(before(greedy())).toEqual(before(prices()))
+    expect(atDecision_usd).toBeCloseTo((one?.profit_usd ?? 0) - (other?.profit_usd ?? 0), 9)
+    expect(atEnd_usd).toBeCloseTo(3142.4 - 2860.02, 1)
+  })
+
+  it('is none between a day and itself', () => {
+    expect(firstDifference(prices(), prices())).toBeUndefined()
+  })
+
+  it('is the end of one day where it ends earlier', () => {
+    const whole = prices()
+    const cut = { ...whole, legs: whole.legs.slice(0, 5) }
+    expect(firstDifference(cut, whole)).toMatchObject({ one: undefined, other: whole.legs[5] })
+    expect(firstDifference(cut, whole)?.time).toBe(whole.legs[5]?.decided)
+  })
+
+  it('is not that people decide later, and in another order', () => {
+    const record = prices()
+    const [first, second, ...more] = changed(record, 0, { decided: 25_230 }).legs
+    if (first === undefined || second === undefined) throw new Error('the day has legs')
+    expect(firstDifference(record, { ...record, legs: [second, first, ...more] })).toBeUndefined()
+  })
 })
 
-it('finds nothing between a day and itself', () => {
-  expect(firstDifference(prices(), prices())).toBeUndefined()
-})
+describe('differences', () => {
+  it('are none between a day and itself', () => {
+    const { one, other, first } = differences(prices(), prices())
+    expect([one.size, other.size, first]).toEqual([0, 0, undefined])
+  })
 
-it('takes the end of one day as a difference', () => {
-  const whole = prices()
-  const cut = { ...whole, legs: whole.legs.slice(0, 5) }
-  expect(firstDifference(cut, whole)).toMatchObject({
-    index: 5,
-    one: undefined,
-    time: whole.legs[5]?.decided,
+  it('are the legs that the other day does not have, and what is there instead', () => {
+    const record = prices()
+    const [flight] = record.legs
+    const { one, other, first } = differences(record, changed(record, 0, { to: flight?.from ?? 0 }))
+    expect([...one.keys()]).toEqual([0])
+    expect(one.get(0)).toMatchObject({ to: flight?.from })
+    expect(other.get(0)).toBe(flight)
+    expect(first).toMatchObject({ time: flight?.decided, one: flight })
+  })
+
+  it('are other times and other loads too, and no seconds', () => {
+    const record = prices()
+    const leg = record.legs[3]
+    if (leg === undefined) throw new Error('the day has legs')
+    const differing = (more: Partial<LegRecord>) => [
+      ...differences(record, changed(record, 3, more)).one.keys(),
+    ]
+    expect(differing({ passengers: leg.passengers + 1 })).toEqual([3])
+    expect(differing({ decided: leg.decided + 300 })).toEqual([3])
+    expect(differing({ decided: leg.decided + 30 })).toEqual([])
+  })
+
+  it('of an aircraft that only one day has are with nothing', () => {
+    const record = prices()
+    const fewer = { ...record, legs: record.legs.filter((leg) => leg.aircraft !== 2) }
+    const { one, other } = differences(record, fewer)
+    expect([...one.values()].every((twin) => twin === undefined)).toBe(true)
+    expect(one.size).toBe(record.legs.filter((leg) => leg.aircraft === 2).length)
+    expect(other.size).toBe(0)
   })
 })

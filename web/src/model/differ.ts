@@ -1,41 +1,112 @@
-// Where two policies first decide differently on the same day, and what that was worth. Up to there both days are the same, so
-// the first difference is a choice between two legs from one situation.
+// Where two plays of the same day differ. Two plays of policies are the same up to the first decision in which they differ, so that
+// one is a choice between two legs from one situation. Plays of people differ in the order and the second of their decisions too,
+// so legs are compared aircraft by aircraft.
 
 import type { DayRecord, LegRecord, Seconds } from './record'
 
-export interface FirstDifference {
-  /** Position in both records' legs. */
-  index: number
+/** What each day did at a time; undefined where the aircraft has decided nothing. */
+export interface Difference {
   time: Seconds
-  /** What each day did there; undefined if its trace has ended. */
   one: LegRecord | undefined
   other: LegRecord | undefined
+}
+
+export interface FirstDifference extends Difference {
   /** The first day's profit of this leg less the other's. */
   atDecision_usd: number
   /** The first day's profit of the whole day less the other's: the worth of this and of all that followed. */
   atEnd_usd: number
 }
 
-/** The first decision in which two plays of the same day differ; undefined if they are the same to the end. */
+/** The first decision in which an aircraft is sent elsewhere; undefined if all go the same ways all day. */
 export function firstDifference(one: DayRecord, other: DayRecord): FirstDifference | undefined {
-  const longest = Math.max(one.legs.length, other.legs.length)
-  for (let index = 0; index < longest; index++) {
-    const [a, b] = [one.legs[index], other.legs[index]]
-    if (a !== undefined && b !== undefined && isSameDecision(a, b)) continue
-    return {
-      index,
-      time: Math.min(a?.decided ?? Infinity, b?.decided ?? Infinity),
-      one: a,
-      other: b,
-      atDecision_usd: (a?.profit_usd ?? 0) - (b?.profit_usd ?? 0),
-      atEnd_usd: sumOf(one) - sumOf(other),
-    }
+  const [ones, others] = [byAircraft(one), byAircraft(other)]
+  const aircraft = [...new Set([...ones.keys(), ...others.keys()])]
+  const first = earliest(aircraft.flatMap((id) => partings(ones.get(id) ?? [], others.get(id) ?? [])))
+  if (first === undefined) return undefined
+  return {
+    ...first,
+    atDecision_usd: (first.one?.profit_usd ?? 0) - (first.other?.profit_usd ?? 0),
+    atEnd_usd: sumOf(one) - sumOf(other),
   }
-  return undefined
 }
 
-function isSameDecision(one: LegRecord, other: LegRecord): boolean {
-  return one.decided === other.decided && one.aircraft === other.aircraft && one.to === other.to
+/** Where the legs of an aircraft first lead elsewhere, as a list of one or of none. */
+function partings(ones: readonly LegRecord[], others: readonly LegRecord[]): Difference[] {
+  const longer = ones.length > others.length ? ones : others
+  const position = longer.findIndex((_, leg) => ones[leg]?.to !== others[leg]?.to)
+  if (position === -1) return []
+  const [one, other] = [ones[position], others[position]]
+  return [{ time: Math.min(one?.decided ?? Infinity, other?.decided ?? Infinity), one, other }]
+}
+
+/** Legs that another day does not have, by their positions in the record, each with what the aircraft does there meanwhile. */
+export type Otherwise = ReadonlyMap<number, LegRecord | undefined>
+
+export interface Differences {
+  one: Otherwise
+  other: Otherwise
+  first: Difference | undefined
+}
+
+/** All that differs for people who look at two timelines: where aircraft fly, when, and with how many passengers. */
+export function differences(one: DayRecord, other: DayRecord): Differences {
+  const [inOne, inOther] = [otherwise(one, other), otherwise(other, one)]
+  const first = earliest([
+    ...[...inOne].map(([leg, twin]) => differenceOf(one.legs[leg], twin)),
+    ...[...inOther].map(([leg, twin]) => swapped(differenceOf(other.legs[leg], twin))),
+  ])
+  return { one: inOne, other: inOther, first }
+}
+
+/** Timelines are read to the minute: decisions that are closer are the same. */
+const SAME_S = 60
+
+function otherwise(record: DayRecord, other: DayRecord): Otherwise {
+  const others = byAircraft(other)
+  const found = new Map<number, LegRecord | undefined>()
+  record.legs.forEach((leg, position) => {
+    const twins = others.get(leg.aircraft) ?? []
+    if (twins.some((twin) => isAlike(leg, twin))) return
+    found.set(
+      position,
+      twins.findLast((twin) => twin.decided < leg.decided + SAME_S),
+    )
+  })
+  return found
+}
+
+function isAlike(one: LegRecord, other: LegRecord): boolean {
+  return (
+    one.from === other.from &&
+    one.to === other.to &&
+    one.passengers === other.passengers &&
+    Math.abs(one.decided - other.decided) < SAME_S
+  )
+}
+
+function differenceOf(leg: LegRecord | undefined, twin: LegRecord | undefined): Difference {
+  return { time: leg?.decided ?? Infinity, one: leg, other: twin }
+}
+
+function swapped({ time, one, other }: Difference): Difference {
+  return { time, one: other, other: one }
+}
+
+/** The earliest; of several at one time the first in the list. */
+function earliest(list: readonly Difference[]): Difference | undefined {
+  return list.toSorted((one, other) => one.time - other.time)[0]
+}
+
+/** The legs of each aircraft, those first that decide first. */
+function byAircraft({ legs }: DayRecord): Map<number, LegRecord[]> {
+  const lists = new Map<number, LegRecord[]>()
+  for (const leg of legs) {
+    const list = lists.get(leg.aircraft)
+    if (list === undefined) lists.set(leg.aircraft, [leg])
+    else list.push(leg)
+  }
+  return lists
 }
 
 function sumOf(record: DayRecord): number {

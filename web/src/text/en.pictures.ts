@@ -102,6 +102,9 @@ export const timeline = {
   ready: (time: string) => `ready ${time}`,
   passengers: (number: number, seats: number) => `${number} of ${seats} seats`,
   decidedBy: (policy: string) => `decided by ${policy}`,
+  otherwise: (other: string, what: string, time: string, passengers: number | undefined) =>
+    `differs from “${other}”: there ${what} since ${time}${passengers === undefined ? '' : ` with ${plural(passengers, 'passenger', 'passengers')}`}`,
+  nothingThere: (other: string) => `differs from “${other}”: nothing there yet`,
   stand: (stand: string) => `stand ${stand}`,
   over: 'no stand for it',
 }
@@ -132,7 +135,7 @@ export const replay = {
   legend: {
     profit: 'profit so far',
     difference: (one: string, other: string, most: string) =>
-      `profit of ${one} less that of ${other}: ${most} now`,
+      `profit of “${one}” less that of “${other}”: ${most} now`,
     carried: 'passengers carried',
     wanted: 'passengers who want to fly',
   },
@@ -149,15 +152,28 @@ export const replay = {
   passengers: (number: number) => plural(number, 'passenger', 'passengers'),
   worth: (atDecision: string, atEnd: string) =>
     `Worth ${atDecision} at once, and ${atEnd} by the end of the day.`,
-  same: (one: string, other: string) => `${one} and ${other} decide alike all day.`,
+  worthSoFar: (atDecision: string, soFar: string) => `Worth ${atDecision} at once, and ${soFar} so far.`,
+  same: (one: string, other: string) => `“${one}” and “${other}” send every aircraft the same ways.`,
   goToDifference: 'To the first difference',
   explanation:
     'Drop a scenario file and one or more traces of it here, or choose them. Nothing is sent anywhere: they are read by this page.',
   make: 'The program writes both:',
   choose: 'Choose files',
   add: 'Add files',
+  addHint:
+    'Shows other policies on this day, from files: one or more traces of it (.csv). With the scenario file of another day (.json) and traces of that, they take the place of what is shown. You can also drop files anywhere on this page. They are not sent anywhere.',
+  addMake: 'The program writes the scenario and the traces:',
+  addWrong:
+    'If a file is something else, or a trace is of another day, the page says which file and which line, and goes on showing what it shows.',
   asItWas: 'As it was',
+  planned: (policy: string) => `${policy}, as planned in the morning`,
+  plannedExplanation: (policy: string) =>
+    `What ${policy} would have done if the day had gone as it was forecast in the morning.`,
+  besideHint:
+    'Shows beside the day what a policy would have done if the day had gone as it was forecast in the morning.',
+  planning: (policy: string) => `${policy} plans the day…`,
   daysOfService: 'Days of this service',
+  inFile: (file: string, fault: string) => `${file}: ${fault}`,
   faults: {
     'no-scenario': 'One of the files must be a scenario file, and no more than one.',
     'no-trace': 'At least one of the files must be the trace of a day, as simulate --trace writes it.',

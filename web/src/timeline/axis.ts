@@ -9,12 +9,14 @@ import { TICK_PX } from './paint'
 import type { GanttRow } from './rows'
 import { pixelOf, ticks, type Span } from './span'
 
+/** The place of the names of rows, which is as wide as the four buttons above it. */
+export const GUTTER_PX = 97
+
 export interface AxisPicture {
   span: Span
   time: Seconds
   /** Of the plot; the names of rows are to its left. */
   size: Size
-  gutter: number
   colours: Record<ColourName, Rgb>
   /** Whether the time is now, so that what is yet to come is only expected, and drawn like that. */
   isLive: boolean
@@ -29,7 +31,7 @@ const FLAG_PX = 28
 /** The times above the rows, and the time that is shown in a flag of its own. */
 export function paintAxis(
   context: CanvasRenderingContext2D,
-  { span, time, size, gutter, colours }: AxisPicture,
+  { span, time, size, colours }: AxisPicture,
 ): void {
   const family = getComputedStyle(context.canvas).fontFamily
   context.textBaseline = 'middle'
@@ -42,10 +44,10 @@ export function paintAxis(
   for (const tick of ticks(span, size.width, TICK_PX)) {
     const x = pixelOf(span, size.width, tick)
     const isFree = x > 18 && x < size.width - 18 && (!isInView || Math.abs(x - now) > FLAG_PX + 18)
-    if (isFree) context.fillText(clockMinutes(tick), gutter + x, middle)
+    if (isFree) context.fillText(clockMinutes(tick), GUTTER_PX + x, middle)
   }
   if (!isInView) return
-  const x = gutter + now
+  const x = GUTTER_PX + now
   context.fillStyle = css(colours['accent-ground'])
   context.beginPath()
   context.roundRect(x - FLAG_PX, 3, 2 * FLAG_PX, size.height - 6, 4)
@@ -58,11 +60,11 @@ export function paintAxis(
 /** What is yet to come is paler, and now is a line. */
 export function paintNow(
   context: CanvasRenderingContext2D,
-  { span, time, size, gutter, colours, isLive }: AxisPicture,
+  { span, time, size, colours, isLive }: AxisPicture,
 ): void {
-  const x = gutter + Math.max(0, Math.min(size.width, pixelOf(span, size.width, time)))
+  const x = GUTTER_PX + Math.max(0, Math.min(size.width, pixelOf(span, size.width, time)))
   context.fillStyle = css(colours.surface, isLive ? VEIL.overExpected : VEIL.overKnown)
-  context.fillRect(x, 0, gutter + size.width - x, size.height)
+  context.fillRect(x, 0, GUTTER_PX + size.width - x, size.height)
   if (time < span.from || time > span.to) return
   context.fillStyle = css(colours.accent)
   context.fillRect(Math.round(x) - 0.75, 0, 1.5, size.height)
@@ -73,18 +75,17 @@ export interface NamesPicture {
   rowHeight: number
   scrollTop: number
   size: Size
-  gutter: number
   colours: Record<ColourName, Rgb>
 }
 
 /** Names of rows; of a group, the name stands at its first row or where its rows come into view. */
 export function paintNames(context: CanvasRenderingContext2D, picture: NamesPicture): void {
-  const { rows, rowHeight, scrollTop, size, gutter, colours } = picture
+  const { rows, rowHeight, scrollTop, size, colours } = picture
   const family = getComputedStyle(context.canvas).fontFamily
   context.fillStyle = css(colours.surface)
-  context.fillRect(0, 0, gutter, size.height)
+  context.fillRect(0, 0, GUTTER_PX, size.height)
   context.fillStyle = css(colours.line)
-  context.fillRect(gutter - 1, 0, 1, size.height)
+  context.fillRect(GUTTER_PX - 1, 0, 1, size.height)
   context.textBaseline = 'middle'
   const first = Math.max(0, Math.floor(scrollTop / rowHeight))
   const end = Math.min(rows.length, Math.ceil((scrollTop + size.height) / rowHeight))
@@ -96,10 +97,10 @@ export function paintNames(context: CanvasRenderingContext2D, picture: NamesPict
     context.fillStyle = css(row.isOver ? colours.bad : hasGroups ? colours['ink-soft'] : colours.ink)
     context.font = `${hasGroups ? 400 : 500} ${hasGroups ? px * 0.85 : px}px ${family}`
     context.textAlign = hasGroups ? 'right' : 'left'
-    context.fillText(row.label, hasGroups ? gutter - 6 : 8, top + rowHeight / 2 + 0.5)
+    context.fillText(row.label, hasGroups ? GUTTER_PX - 6 : 8, top + rowHeight / 2 + 0.5)
     if (row.group !== undefined) {
       context.fillStyle = css(colours.line)
-      context.fillRect(0, Math.round(top), gutter, 1)
+      context.fillRect(0, Math.round(top), GUTTER_PX, 1)
     }
   }
   paintGroups(context, picture, first, end, `600 ${Math.min(12, px)}px ${family}`)
@@ -112,7 +113,7 @@ function paintGroups(
   end: number,
   font: string,
 ): void {
-  const { rows, rowHeight, scrollTop, gutter, colours } = picture
+  const { rows, rowHeight, scrollTop, colours } = picture
   context.font = font
   context.textAlign = 'left'
   context.fillStyle = css(colours.ink)
@@ -124,7 +125,7 @@ function paintGroups(
     const next = rows.findIndex((row, other) => other > index && row.group !== undefined)
     const bottom = (next === -1 ? rows.length : next) * rowHeight - scrollTop
     const top = Math.min(Math.max(index * rowHeight - scrollTop, 0), bottom - rowHeight)
-    context.fillText(shortened(context, group, gutter - 28), 8, top + rowHeight / 2 + 0.5)
+    context.fillText(shortened(context, group, GUTTER_PX - 28), 8, top + rowHeight / 2 + 0.5)
   }
 }
 

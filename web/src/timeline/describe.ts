@@ -2,29 +2,39 @@
 
 import { at } from '../model/arrays'
 import type { Bar } from '../model/bars'
+import type { Otherwise } from '../model/differ'
 import { dollarsAndCents } from '../model/money'
 import { isHold, type DayRecord, type LegRecord } from '../model/record'
 import { clock } from '../model/time'
 import { text } from '../text/text'
 
-export function describeBar(record: DayRecord, bar: Bar): string[] {
+/** Another play of the same day, which a timeline is compared with. */
+export interface Beside {
+  title: string
+  /** The legs of this play that the other does not have. */
+  otherwise: Otherwise
+}
+
+export function describeBar(record: DayRecord, bar: Bar, beside?: Beside): string[] {
   const { id } = at(record.aircraft, bar.aircraft)
   const isEndless = bar.ends === Infinity
   const begins = clock(Math.max(bar.begins, record.start))
   const times = isEndless ? text.timeline.since(begins) : text.timeline.times(begins, clock(bar.ends))
   const leg = record.legs[bar.leg]
   const own = `${text.timeline.kinds[bar.kind]} ${times}`
-  return leg === undefined ? [id, own] : [`${id} · ${nameOf(record, leg)}`, own, ...details(record, leg)]
+  return leg === undefined
+    ? [id, own]
+    : [`${id} · ${nameOf(record, leg)}`, own, ...details(record, leg, beside)]
 }
 
 /** The whole of a leg in one sentence, for people who hear it. */
-export function describeLeg(record: DayRecord, leg: LegRecord): string {
+export function describeLeg(record: DayRecord, leg: LegRecord, beside?: Beside): string {
   const { id } = at(record.aircraft, leg.aircraft)
   const times = text.timeline.times(
     clock(isHold(leg) ? leg.decided : leg.departs),
     clock(isHold(leg) ? leg.ready : leg.arrives),
   )
-  return [`${id} ${nameOf(record, leg)}`, times, ...details(record, leg)].join(', ')
+  return [`${id} ${nameOf(record, leg)}`, times, ...details(record, leg, beside)].join(', ')
 }
 
 export function nameOf({ vertiports }: DayRecord, leg: LegRecord): string {
@@ -32,7 +42,24 @@ export function nameOf({ vertiports }: DayRecord, leg: LegRecord): string {
   return isHold(leg) ? text.timeline.hold(from) : text.timeline.flight(from, to)
 }
 
-function details(record: DayRecord, leg: LegRecord): string[] {
+/** Whether a leg is only expected, and what another play has in its place. */
+export function notesOf(record: DayRecord, leg: LegRecord, beside?: Beside): string[] {
+  const position = beside === undefined ? -1 : record.legs.indexOf(leg)
+  const isOtherwise = beside?.otherwise.has(position) ?? false
+  return [
+    ...(leg.is_expected ? [text.timeline.expected] : []),
+    ...(isOtherwise && beside !== undefined ? [insteadOf(record, beside, position)] : []),
+  ]
+}
+
+function insteadOf(record: DayRecord, { title, otherwise }: Beside, position: number): string {
+  const twin = otherwise.get(position)
+  if (twin === undefined) return text.timeline.nothingThere(title)
+  const load = isHold(twin) ? undefined : twin.passengers
+  return text.timeline.otherwise(title, nameOf(record, twin), clock(twin.decided), load)
+}
+
+function details(record: DayRecord, leg: LegRecord, beside: Beside | undefined): string[] {
   const lines: string[] = []
   if (!isHold(leg)) {
     const load = text.timeline.passengers(leg.passengers, at(record.aircraft, leg.aircraft).seats)
@@ -42,7 +69,6 @@ function details(record: DayRecord, leg: LegRecord): string[] {
     const { departs, arrives, ready } = leg.planned
     lines.push(text.timeline.planned(clock(departs), clock(arrives), clock(ready)))
   }
-  if (leg.is_expected) lines.push(text.timeline.expected)
-  else if (leg.policy !== undefined) lines.push(text.timeline.decidedBy(leg.policy))
-  return lines
+  if (!leg.is_expected && leg.policy !== undefined) lines.push(text.timeline.decidedBy(leg.policy))
+  return [...lines, ...notesOf(record, leg, beside)]
 }

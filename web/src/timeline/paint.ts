@@ -3,10 +3,12 @@
 
 import { at } from '../model/arrays'
 import type { Bar, BarKind } from '../model/bars'
+import type { Otherwise } from '../model/differ'
 import type { DayRecord } from '../model/record'
 import { aircraftMeant, vertiportMeant, type Target } from '../model/target'
 import { css, type ColourName, type Rgb } from '../parts/colours'
 import type { Size } from '../parts/sheet'
+import { Labels, runsOf, type Label, type Run } from './labels'
 import { barsWithin, type GanttRow } from './rows'
 import { pixelOf, ticks, type Span } from './span'
 import { isOfLeg } from './steps'
@@ -22,16 +24,20 @@ export interface GanttPicture {
   colours: Record<ColourName, Rgb>
   hovered: Target | undefined
   selected: Target | undefined
+  /** Legs that another play does not have; they are marked. */
+  otherwise: Otherwise | undefined
 }
 
 /** Pixels between two names on the axis, at least. */
 export const TICK_PX = 64
 /** How strong what is only expected is drawn, but for its text. */
 const EXPECTED = 0.5
-/** Bars that are narrower than this have no text in them. */
-const LEAST_TEXT_PX = 18
 /** Dashes around narrower bars would be noise. */
 const LEAST_DASHED_PX = 14
+/** How wide the ground behind letters is that run over several bars. */
+const HALO_PX = 3
+/** How wide the line is that marks what differs. */
+const MARK_PX = 1.5
 
 interface Look {
   colour: ColourName
@@ -78,18 +84,23 @@ function paintGrid(context: CanvasRenderingContext2D, { span, size, colours }: G
 }
 
 class RowPainter {
-  readonly #font: string
-  readonly #widths = new Map<string, number>()
+  readonly #labels: Labels
 
   constructor(
     private readonly context: CanvasRenderingContext2D,
     private readonly picture: GanttPicture,
   ) {
     const px = Math.max(9, Math.min(11, picture.rowHeight * 0.5))
-    this.#font = `500 ${px}px ${getComputedStyle(context.canvas).fontFamily}`
     context.textBaseline = 'middle'
     context.textAlign = 'left'
-    context.font = this.#font
+    context.font = `500 ${px}px ${getComputedStyle(context.canvas).fontFamily}`
+    const { record, span, size } = picture
+    const end = pixelOf(span, size.width, span.to)
+    this.#labels = new Labels(
+      record,
+      (text) => context.measureText(text).width,
+      (bar) => [Math.max(this.#x(bar.begins), 0), Math.min(this.#x(bar.ends), end)],
+    )
   }
 
   paintGround({ target, group, isOver }: GanttRow, top: number): void {
@@ -111,16 +122,47 @@ class RowPainter {
   paintRow(row: GanttRow, top: number): void {
     const [first, end] = barsWithin(row, this.picture.span)
     for (let index = first; index < end; index++) this.#paintBar(at(row.bars, index), row, top)
+    const runs = runsOf(row.bars, first, end)
+    for (const run of runs) this.#paintLabel(run, row, top)
+    this.#paintMarks(runs, top)
     for (const outage of row.outages) this.#paintBar(outage, row, top)
     for (const plan of row.plans) this.#paintPlan(plan.departs, plan.arrives, top)
   }
 
+  #paintLabel(run: Run, row: GanttRow, top: number): void {
+    const label = this.#labels.of(run, row)
+    if (label === undefined) return
+    const { place, height } = this.#lookOf(label.bar, row)
+    const { rowHeight } = this.picture
+    this.#write(label, top + 1 + (place + height / 2 - place * height) * (rowHeight - 2))
+  }
+
+  /** A line stands above what differs from another play, and goes down where that begins, as a bracket. */
+  #paintMarks(runs: readonly Run[], top: number): void {
+    const { context, picture } = this
+    const differs = (run: Run | undefined) => run !== undefined && picture.otherwise?.has(run[0].leg) === true
+    context.fillStyle = css(picture.colours.ink)
+    runs.forEach((run, index) => {
+      if (!differs(run)) return
+      const former = runs[index - 1]
+      const begins = this.#x(run[0].begins)
+      const left = differs(former) ? this.#x(former?.at(-1)?.ends ?? run[0].begins) : begins
+      const right = this.#x(run.at(-1)?.ends ?? run[0].ends)
+      context.fillRect(left, top + 1, right - left, MARK_PX)
+      if (!differs(former)) context.fillRect(left - 1, top + 1, MARK_PX + 1, picture.rowHeight - 2)
+    })
+  }
+
+  #lookOf(bar: Bar, row: GanttRow): Look {
+    return bar.kind === 'charge' && row.target.kind === 'vertiport' ? chargingOnStand : looks[bar.kind]
+  }
+
   #paintBar(bar: Bar, row: GanttRow, top: number): void {
     const { context, picture } = this
-    const { span, size, rowHeight, colours } = picture
+    const { size, rowHeight, colours } = picture
     const [left, right] = [this.#x(bar.begins), this.#x(bar.ends)]
     if (right < 0 || left > size.width) return
-    const look = bar.kind === 'charge' && row.target.kind === 'vertiport' ? chargingOnStand : looks[bar.kind]
+    const look = this.#lookOf(bar, row)
     const height = Math.max(2, look.height * (rowHeight - 2))
     const y = top + 1 + look.place * (rowHeight - 2 - height)
     const width = Math.max(1, right - left - 0.5)
@@ -134,16 +176,6 @@ class RowPainter {
     if (look.hasLine && width > 2) this.#outline(bar, width, css(colour), isChosen)
     context.globalAlpha = 1
     if (bar.kind === 'outage') this.#hatch(left, y, width, height, css(colour, 0.5))
-    const text = this.#textOf(bar, row)
-    const isDark = bar.kind === 'flight' && bar.load > 0.6 && !bar.isExpected
-    if (text !== '' && width > LEAST_TEXT_PX)
-      this.#write(
-        text,
-        Math.max(left, 0),
-        Math.min(right, pixelOf(span, size.width, span.to)),
-        y + height / 2,
-        isDark,
-      )
   }
 
   #outline(bar: Bar, width: number, colour: string, isChosen: boolean): void {
@@ -184,24 +216,42 @@ class RowPainter {
     context.restore()
   }
 
-  /** A flight says where it goes, a stay who stays. */
-  #textOf(bar: Bar, { target }: GanttRow): string {
-    const { record } = this.picture
-    if (bar.kind === 'outage') return ''
-    if (target.kind === 'vertiport') return at(record.aircraft, bar.aircraft).id
-    return bar.kind === 'flight' ? at(record.vertiports, at(record.legs, bar.leg).to).id : ''
+  /** Writes in the middle of a bar, or from the left on over the next ones, where letters need a ground of their own. */
+  #write({ text, left, right, bar, isLonger }: Label, y: number): void {
+    const { context, picture } = this
+    const { colours, size } = picture
+    const isOnDark = bar.kind === 'flight' && bar.load > 0.6 && !bar.isExpected
+    const onBar = css(isOnDark ? colours.surface : colours.ink)
+    if (!isLonger) {
+      context.fillStyle = onBar
+      context.fillText(text, left + (right - left - this.#labels.widthOf(text)) / 2, y + 0.5)
+      return
+    }
+    const end = this.#x(bar.ends)
+    this.#within(0, end, () => {
+      context.fillStyle = onBar
+      context.fillText(text, left, y + 0.5)
+    })
+    this.#within(end, size.width, () => {
+      context.strokeStyle = css(colours.surface, 0.85)
+      context.lineWidth = HALO_PX
+      context.lineJoin = 'round'
+      context.strokeText(text, left, y + 0.5)
+      context.fillStyle = css(colours.ink)
+      context.fillText(text, left, y + 0.5)
+    })
   }
 
-  #write(text: string, left: number, right: number, y: number, isDark: boolean): void {
+  /** Draws from one pixel along the day to another and nowhere else. */
+  #within(from: number, to: number, draw: () => void): void {
     const { context, picture } = this
-    let width = this.#widths.get(text)
-    if (width === undefined) {
-      width = context.measureText(text).width
-      this.#widths.set(text, width)
-    }
-    if (width + 6 > right - left) return
-    context.fillStyle = css(isDark ? picture.colours.surface : picture.colours.ink)
-    context.fillText(text, left + (right - left - width) / 2, y + 0.5)
+    if (to <= from) return
+    context.save()
+    context.beginPath()
+    context.rect(from, 0, to - from, picture.size.height)
+    context.clip()
+    draw()
+    context.restore()
   }
 
   #x(time: number): number {

@@ -3,14 +3,13 @@
 import { changed } from '../map/painters/changes'
 import type { Seconds } from '../model/record'
 import { Sheet } from '../parts/sheet'
-import { paintAxis, paintNames, paintNow } from './axis'
+import { GUTTER_PX, paintAxis, paintNames, paintNow } from './axis'
 import { paintRows, type GanttPicture } from './paint'
 
 export const AXIS_PX = 26
 
 export interface TimelinePicture extends GanttPicture {
   time: Seconds
-  gutter: number
   isLive: boolean
 }
 
@@ -29,7 +28,7 @@ export class Sheets {
       colours,
       hovered,
       selected,
-      gutter,
+      otherwise,
     }: TimelinePicture) => [
       record,
       rows,
@@ -40,7 +39,7 @@ export class Sheets {
       colours,
       hovered,
       selected,
-      gutter,
+      otherwise,
     ],
   )
 
@@ -51,8 +50,8 @@ export class Sheets {
   }
 
   paint(picture: TimelinePicture): void {
-    const { size, gutter } = picture
-    const whole = { width: gutter + size.width, height: size.height }
+    const { size } = picture
+    const whole = { width: GUTTER_PX + size.width, height: size.height }
     if (this.#hasChanged(picture)) this.#paintRows(picture, whole)
     paintNow(this.#now.begin(whole), picture)
     const axis = { width: size.width, height: AXIS_PX }
@@ -68,9 +67,9 @@ export class Sheets {
     const context = this.#rows.begin(whole)
     context.save()
     context.beginPath()
-    context.rect(picture.gutter, 0, picture.size.width, picture.size.height)
+    context.rect(GUTTER_PX, 0, picture.size.width, picture.size.height)
     context.clip()
-    context.translate(picture.gutter, 0)
+    context.translate(GUTTER_PX, 0)
     paintRows(context, picture)
     context.restore()
     paintNames(context, picture)

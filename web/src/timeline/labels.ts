@@ -1,0 +1,107 @@
+// What is written on the bars of a row: where a flight goes, or who holds a stand. Bars of one leg follow each other, and a name
+// that its bar has no room for runs on over those that follow, which are the same aircraft's. A name that does not fit even there
+// is cut off, though never so short that it could be that of another; else the bar says who it is only when it is pointed at.
+
+import { at } from '../model/arrays'
+import type { Bar } from '../model/bars'
+import type { DayRecord } from '../model/record'
+import type { GanttRow } from './rows'
+
+/** Bars that are one leg of an aircraft, or its standing at the start of the day, one after the other. */
+export type Run = readonly [Bar, ...Bar[]]
+
+/** A name and the pixels that it may take. */
+export interface Label {
+  text: string
+  left: number
+  right: number
+  /** The bar that is named. */
+  bar: Bar
+  /** Whether the name is longer than its bar and runs on over the next ones. */
+  isLonger: boolean
+}
+
+/** Pixels between a name and either end of its bar, at least. */
+const MARGIN_PX = 1
+
+/** The runs of a row's bars from one position to before another. */
+export function runsOf(bars: readonly Bar[], first: number, end: number): Run[] {
+  const runs: [Bar, ...Bar[]][] = []
+  for (const bar of bars.slice(first, end)) {
+    const run = runs.at(-1)
+    if (run?.[0].leg === bar.leg && run[0].aircraft === bar.aircraft) run.push(bar)
+    else runs.push([bar])
+  }
+  return runs
+}
+
+/** Writes names as far as there is room for them, which depends on the letters and on where bars are. */
+export class Labels {
+  readonly #widths = new Map<string, number>()
+  readonly #shortest = new Map<string, number>()
+
+  constructor(
+    private readonly record: DayRecord,
+    private readonly width: (text: string) => number,
+    /** Where a bar is, as far as it is in view. */
+    private readonly place: (bar: Bar) => readonly [left: number, right: number],
+  ) {}
+
+  /** The label of a run; undefined if it has none, or no room for one. */
+  of(run: Run, row: GanttRow): Label | undefined {
+    const isFleet = row.target.kind !== 'vertiport'
+    const named: readonly Bar[] = isFleet ? run.filter((bar) => bar.kind === 'flight') : run
+    const [first] = named
+    if (first === undefined) return undefined
+    const text = isFleet ? this.#destinationOf(first) : at(this.record.aircraft, first.aircraft).id
+    const own = named.find((bar) => this.#fits(text, ...this.place(bar)))
+    if (own !== undefined) return { text, ...this.#room(...this.place(own)), bar: own, isLonger: false }
+    const [left] = this.place(first)
+    const [, right] = this.place(run.at(-1) ?? first)
+    const fitting = this.#shortened(text, right - left - 2 * MARGIN_PX, isFleet)
+    if (fitting === undefined) return undefined
+    return { text: fitting, ...this.#room(left, right), bar: first, isLonger: true }
+  }
+
+  widthOf(text: string): number {
+    const known = this.#widths.get(text)
+    if (known !== undefined) return known
+    const width = this.width(text)
+    this.#widths.set(text, width)
+    return width
+  }
+
+  #destinationOf({ leg }: Bar): string {
+    return at(this.record.vertiports, at(this.record.legs, leg).to).id
+  }
+
+  #fits(text: string, left: number, right: number): boolean {
+    return this.widthOf(text) <= right - left - 2 * MARGIN_PX
+  }
+
+  #room(left: number, right: number) {
+    return { left: left + MARGIN_PX, right: right - MARGIN_PX }
+  }
+
+  #shortened(text: string, room: number, isVertiport: boolean): string | undefined {
+    if (this.widthOf(text) <= room) return text
+    const names = isVertiport ? this.record.vertiports : this.record.aircraft
+    const least = this.#shortestOf(text, names)
+    for (let end = text.length - 2; end >= least; end--) {
+      const cut = `${text.slice(0, end)}…`
+      if (this.widthOf(cut) <= room) return cut
+    }
+    return undefined
+  }
+
+  /** How many letters tell a name from all others. */
+  #shortestOf(text: string, names: readonly { id: string }[]): number {
+    const known = this.#shortest.get(text)
+    if (known !== undefined) return known
+    const others = names.filter(({ id }) => id !== text)
+    let length = 1
+    while (length < text.length && others.some(({ id }) => id.startsWith(text.slice(0, length)))) length++
+    this.#shortest.set(text, length)
+    return length
+  }
+}
