@@ -70,7 +70,7 @@ function whatIsKnown(
 const readLegs = new WeakMap<Outlook, LegRecord[]>()
 
 /** The legs of an outlook, in its order, which is that of decisions. */
-function legsOf(outlook: Outlook, scenario: Scenario): LegRecord[] {
+export function legsOf(outlook: Outlook, scenario: Scenario): LegRecord[] {
   const former = readLegs.get(outlook)
   if (former !== undefined) return former
   const [aircraft, vertiports] = [indexed(scenario.aircraft), indexed(scenario.vertiports)]

@@ -17,7 +17,11 @@ export type FileFault =
 
 /** A file of a person that cannot be shown. */
 export class FileError extends Error {
-  constructor(readonly fault: FileFault) {
+  constructor(
+    readonly fault: FileFault,
+    /** What the file is called, where it is one of several. */
+    readonly file?: string,
+  ) {
     super(JSON.stringify(fault))
     this.name = 'FileError'
   }
