@@ -14,6 +14,8 @@ export default defineConfig({
   outputDir: 'test-results',
   use: {
     viewport: { width: 1280, height: 800 },
+    // Times of the computer are told with their zone.
+    timezoneId: 'UTC',
     launchOptions: {
       executablePath: process.env['VERTIFLEET_CHROMIUM'] ?? '/usr/bin/chromium',
       // Software drawing is many times faster without an emulated graphics processor.
