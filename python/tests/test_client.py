@@ -215,6 +215,7 @@ def test_an_outlook_is_compared_with_what_it_would_be(client: Client) -> None:
     day = client.make_day("paper", seed=1)
     outlook = day.outlook("greedy")
     assert outlook["policy"] == "greedy"
+    assert day.outlook("greedy", seq=0) == outlook
     closed: Event = {"type": "closed", "routes": {"vertiport": "V1"}, "until": "12:00:00"}
     compared = day.what_if(closed, policy="greedy", stands={"V2": 9}, aircraft=[{"id": "B01", "at": "V2"}])
     assert len({leg["aircraft"] for leg in compared["what_if"]["legs"]}) == 1 + len(
@@ -326,6 +327,9 @@ def test_all_pages_of_a_list_are_read(client: Client) -> None:
     made = [client.make_day("paper", seed=seed).id for seed in range(1, 6)]
     listed = [day.id for day in client.days(page_size=2)]
     assert listed[-5:] == made
+    assert [day.info.get("progress") for day in client.days(after=made[3])] == [None]
+    [last] = client.days(after=made[3], progress=True)
+    assert last.info["progress"] == {"now": "06:00:00", "is_over": False, "waiting": 40, "profit_usd": 0.0}
     assert [day.id for day in client.days(after=made[1], page_size=3)] == made[2:]
     day = client.day(made[0])
     day.report(*(clock(f"06:{minute:02}:00") for minute in range(1, 8)))

@@ -44,6 +44,25 @@ class ServiceInfo(TypedDict):
     """The name of the token that the request came with; null without tokens."""
 
 
+Moment: TypeAlias = str | int
+"""A time of the day, as HH:MM:SS or as seconds since midnight, before 100:00:00; or in ISO 8601 with an
+offset, if the day has a date.
+"""
+
+
+class DayProgress(TypedDict):
+    """How far a day is."""
+
+    now: Moment
+    """The latest time that it has heard of."""
+    is_over: bool
+    """Whether nothing is left to decide and every aircraft is on the ground."""
+    waiting: int
+    """Aircraft that wait for a decision."""
+    profit_usd: float
+    """Profit of the flights that have been sent off, less what the fleet costs all day; dollars."""
+
+
 class DayInfo(TypedDict):
     """A day."""
 
@@ -59,6 +78,8 @@ class DayInfo(TypedDict):
     """The policy that decides when none is asked for."""
     date: NotRequired[str | None]
     """Its date, if it has one."""
+    progress: NotRequired[DayProgress | None]
+    """How far it is, for days that are listed with their progress and are not archived."""
     seq: NotRequired[int | None]
     """The number of its events, for a day that was asked for by its id."""
     time_zone: NotRequired[str | None]
@@ -73,11 +94,6 @@ class DayList(TypedDict):
     next: NotRequired[str | None]
     """The cursor of the next page, if there is one."""
 
-
-Moment: TypeAlias = str | int
-"""A time of the day, as HH:MM:SS or as seconds since midnight, before 100:00:00; or in ISO 8601 with an
-offset, if the day has a date.
-"""
 
 ForecastRow = TypedDict(
     "ForecastRow",

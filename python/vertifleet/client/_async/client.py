@@ -157,15 +157,19 @@ class AsyncClient:
         """
         return AsyncDay(self._connection, await self._connection.object(DayInfo, reading("days", day)))
 
-    async def days(self, *, after: str | None = None, page_size: int = 100) -> AsyncGenerator[AsyncDay, None]:
+    async def days(
+        self, *, after: str | None = None, page_size: int = 100, progress: bool = False
+    ) -> AsyncGenerator[AsyncDay, None]:
         """All days, in the order in which they were made.
 
         Args:
             after: the id of a day; only days that were made after it are listed.
             page_size: how many days are asked for at once, at most 1,000.
+            progress: whether the ``info`` of each day that is not archived has its ``progress``: the clock, the
+                profit so far, how many aircraft wait for a decision, and whether the day is over.
         """
         while True:
-            asked = reading("days", after=after, limit=page_size)
+            asked = reading("days", after=after, limit=page_size, progress="true" if progress else None)
             page = await self._connection.object(DayList, asked)
             for info in page["days"]:
                 yield AsyncDay(self._connection, info)

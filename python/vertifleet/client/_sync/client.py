@@ -158,15 +158,19 @@ class Client:
         """
         return Day(self._connection, self._connection.object(DayInfo, reading("days", day)))
 
-    def days(self, *, after: str | None = None, page_size: int = 100) -> Generator[Day, None, None]:
+    def days(
+        self, *, after: str | None = None, page_size: int = 100, progress: bool = False
+    ) -> Generator[Day, None, None]:
         """All days, in the order in which they were made.
 
         Args:
             after: the id of a day; only days that were made after it are listed.
             page_size: how many days are asked for at once, at most 1,000.
+            progress: whether the ``info`` of each day that is not archived has its ``progress``: the clock, the
+                profit so far, how many aircraft wait for a decision, and whether the day is over.
         """
         while True:
-            asked = reading("days", after=after, limit=page_size)
+            asked = reading("days", after=after, limit=page_size, progress="true" if progress else None)
             page = self._connection.object(DayList, asked)
             for info in page["days"]:
                 yield Day(self._connection, info)

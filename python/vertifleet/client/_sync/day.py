@@ -257,14 +257,21 @@ class Day:
         asked = writing(*path, body=chosen | how, if_match=if_match, idempotency_key=idempotency_key)
         return self._connection.object(TakenDecision, asked)
 
-    def outlook(self, policy: str | None = None, *, times: Times | None = None) -> Outlook:
+    def outlook(
+        self, policy: str | None = None, seq: int | None = None, *, times: Times | None = None
+    ) -> Outlook:
         """How the day is expected to go on, flight by flight, if a policy takes every decision from now on.
 
         Args:
             policy: the policy; without it, the day's.
+            seq: the number of an event; what was expected after it is told, in place of what is expected now. 0 is
+                the morning.
             times: how times are written.
+
+        Raises:
+            ServiceError: V602 if there is no such event.
         """
-        asked = reading("days", self.id, "outlook", policy=policy, times=times)
+        asked = reading("days", self.id, "outlook", policy=policy, seq=seq, times=times)
         return self._connection.object(Outlook, asked)
 
     def what_if(
