@@ -263,8 +263,8 @@ class AsyncDay:
 
         Args:
             policy: the policy; without it, the day's.
-            seq: the number of an event; what was expected after it is told, in place of what is expected now. 0 is
-                the morning.
+            seq: the number of an event; what was expected after it is told, in place of what is expected now.
+                0 is the morning.
             times: how times are written.
 
         Raises:

@@ -166,8 +166,8 @@ class Client:
         Args:
             after: the id of a day; only days that were made after it are listed.
             page_size: how many days are asked for at once, at most 1,000.
-            progress: whether the ``info`` of each day that is not archived has its ``progress``: the clock, the
-                profit so far, how many aircraft wait for a decision, and whether the day is over.
+            progress: whether the ``info`` of each day that is not archived has its ``progress``: the clock,
+                the profit so far, how many aircraft wait for a decision, and whether the day is over.
         """
         while True:
             asked = reading("days", after=after, limit=page_size, progress="true" if progress else None)
