@@ -83,6 +83,9 @@ test('a new network is compared with itself before the latest change, and one th
   await expect(page.getByText(/^Sound:/)).toBeVisible()
   await earn.getByRole('button', { name: 'Play it again' }).click()
   await expect(earn.getByText('Difference to what you played before')).toBeVisible()
+  await page.getByRole('button', { name: 'Save', exact: true }).click()
+  await expect(page.getByText('region is saved.')).toBeVisible()
+  await expect(earn.getByText('Difference to what you played before')).toBeVisible()
 })
 
 test('a field without its number says so, and the file keeps the former one', async ({ page, program }) => {
