@@ -20,7 +20,7 @@ test.beforeAll(({ days }) => {
 })
 
 test('a day is played to its end', async ({ page }) => {
-  await page.goto(`${address}#policy=prices`)
+  await page.goto(`${address}#policy=prices&with=`)
   const scrubber = page.getByRole('slider', { name: 'Time of the day' })
   await expect(scrubber).toHaveAttribute('aria-valuetext', /^07:00:00/)
   await page.getByLabel('Speed, seconds').last().selectOption('3,600 ×')
@@ -32,7 +32,7 @@ test('a day is played to its end', async ({ page }) => {
 })
 
 test('time is moved along the scrubber, by key and by pointer', async ({ page }) => {
-  await page.goto(`${address}#policy=prices`)
+  await page.goto(`${address}#policy=prices&with=`)
   const scrubber = page.getByRole('slider', { name: 'Time of the day' })
   await scrubber.focus()
   await page.keyboard.press('ArrowRight')
@@ -51,7 +51,7 @@ test('time is moved along the scrubber, by key and by pointer', async ({ page })
 })
 
 test('steps lead from decision to decision', async ({ page }) => {
-  await page.goto(`${address}#policy=prices`)
+  await page.goto(`${address}#policy=prices&with=`)
   const clock = page.getByRole('time')
   await page.getByRole('button', { name: 'To the next decision' }).click()
   await expect(clock).toHaveText('07:19:21')
@@ -63,9 +63,21 @@ test('steps lead from decision to decision', async ({ page }) => {
   await expect(clock).toHaveText('07:19:21')
 })
 
-test('what earned most is looked at first', async ({ page }) => {
+test('what earned most is looked at first, beside the next best', async ({ page }) => {
   await page.goto(address)
   await expect(page.getByLabel('Policy', { exact: true })).toHaveValue('greedy')
+  await expect(page.getByLabel('Beside it')).toHaveValue('prices')
+  await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
+})
+
+test('one policy stays alone for whoever has the link', async ({ page }) => {
+  await page.goto(address)
+  await page.getByLabel('Beside it').selectOption('')
+  await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
+  await expect(page).toHaveURL(/with=(&|$)/)
+  await page.reload()
+  await expect(page.getByLabel('Beside it')).toHaveValue('')
+  await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
 })
 
 test('a link leads to the moment', async ({ page }) => {
@@ -78,7 +90,7 @@ test('a link leads to the moment', async ({ page }) => {
 })
 
 test('two policies are compared, with where they first differ and what it was worth', async ({ page }) => {
-  await page.goto(`${address}#policy=prices`)
+  await page.goto(`${address}#policy=prices&with=`)
   await page.getByLabel('Beside it').selectOption('greedy')
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
   const difference = page.getByRole('region', { name: 'Where they first differ' })
@@ -101,6 +113,13 @@ test('files of a day are chosen, and wrong ones are named', async ({ page, days 
   await files.setInputFiles({ name: 'wrong.csv', mimeType: 'text/csv', buffer: Buffer.from(wrong) })
   await expect(page.getByRole('alert')).toBeVisible()
   await files.setInputFiles([
+    { name: 'wrong.csv', mimeType: 'text/csv', buffer: Buffer.from(wrong) },
+    { name: 'day.json', mimeType: 'application/json', buffer: readFileSync(fixture('tiny-1.json')) },
+  ])
+  await expect(page.getByRole('alert')).toContainText(
+    'wrong.csv: Line 3 of the trace: the scenario has no “B02”',
+  )
+  await files.setInputFiles([
     fixture('tiny-1.json'),
     fixture('tiny-1-greedy.csv'),
     fixture('tiny-1-prices.csv'),
@@ -110,7 +129,7 @@ test('files of a day are chosen, and wrong ones are named', async ({ page, days 
 })
 
 test('what is selected on a timeline is selected on the map', async ({ page }) => {
-  await page.goto(`${address}#policy=prices&at=07:05:00`)
+  await page.goto(`${address}#policy=prices&with=&at=07:05:00`)
   await page.getByRole('application', { name: /Timeline of the fleet/ }).focus()
   await page.keyboard.press('ArrowRight')
   const map = page.getByRole('region', { name: 'Map' })

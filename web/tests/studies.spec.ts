@@ -51,6 +51,7 @@ test('a study is made, followed and read', async ({ page, context, program }) =>
 
   await page.getByRole('link', { name: 'Replay', exact: true }).last().click()
   await expect(page.getByLabel('Day', { exact: true })).toHaveValue('small-1')
+  await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
   await page.getByLabel('Policy', { exact: true }).selectOption('greedy')
   await page.getByLabel('Beside it').selectOption('random')
   await expect(page.getByText(/First difference at/)).toBeVisible()

@@ -137,7 +137,7 @@ test('a what-if compares both rests of the day and can be reported', async ({ pa
   await page.getByRole('button', { name: 'Compare', exact: true }).click()
   const profit = page.getByRole('row', { name: /^Profit/ })
   await expect(profit).toContainText('−$')
-  await expect(page.getByText(/They first differ at/)).toBeVisible()
+  await expect(page.getByText(/They first differ at 06:00:00: A0\d .*; what if: A0\d .*/)).toBeVisible()
   expect(await fleet.events()).toHaveLength(0)
   await page.getByRole('button', { name: 'Report it' }).click()
   await expect(page.getByText('1 event is reported to the day.')).toBeVisible()

@@ -1,0 +1,148 @@
+// What a day is compared with: in a what-if the other rest of it, in the replay of a live day the plan of a policy.
+
+import type { Page } from '@playwright/test'
+import { fixture } from './support/pictures'
+import { expect, expectAccessible, open, test } from './support/test'
+
+/** Compares a day with a closure of South. */
+async function closeSouth(page: Page): Promise<void> {
+  await page.getByRole('combobox', { name: 'From' }).selectOption('South')
+  await page.getByRole('textbox', { name: /Until/ }).fill('08:00')
+  await page.getByRole('button', { name: 'Add the change' }).click()
+  await page.getByRole('button', { name: 'Compare', exact: true }).click()
+  await expect(page.getByText(/They first differ at/)).toBeVisible()
+}
+
+const sides = ['As it is', 'What if'] as const
+
+test('both rests of a day are in view at once, and say how much differs', async ({
+  page,
+  program,
+  fleet,
+}) => {
+  await open(page, program, fleet, 'what-if')
+  await closeSouth(page)
+  for (const side of sides) {
+    const timeline = page.getByRole('region', { name: side, exact: true })
+    await expect(timeline.getByRole('application')).toBeInViewport({ ratio: 0.99 })
+    await expect(timeline.getByText(/marks what differs: \d+ of \d+ flights and holds to come/)).toBeVisible()
+  }
+  await expectAccessible(page)
+})
+
+test('the first difference is shown in both rests, by button and by key', async ({
+  page,
+  program,
+  fleet,
+}) => {
+  await open(page, program, fleet, 'what-if')
+  await closeSouth(page)
+  const said = await page.getByText(/They first differ at/).textContent()
+  const [, aircraft = ''] = /: (A\d+) /.exec(said ?? '') ?? []
+  for (const show of [
+    () => page.getByRole('button', { name: 'Show the first' }).click(),
+    () => page.keyboard.press('d'),
+  ]) {
+    await show()
+    for (const side of sides) {
+      const timeline = page.getByRole('region', { name: side, exact: true })
+      await timeline.getByRole('button', { name: 'As a table' }).click()
+      await expect(timeline.getByLabel('Aircraft', { exact: true })).toHaveValue(
+        String(Number(aircraft.slice(1)) - 1),
+      )
+      const other = side === 'As it is' ? 'What if' : 'As it is'
+      await expect(timeline.getByText(`differs from “${other}”`).first()).toBeVisible()
+      await timeline.getByRole('button', { name: 'As a table' }).click()
+    }
+  }
+})
+
+test('a day without a difference says so', async ({ page, program, fleet }) => {
+  await open(page, program, fleet, 'what-if')
+  await page.getByRole('button', { name: 'Compare', exact: true }).click()
+  await expect(page.getByText('Both rests of the day are the same.')).toBeVisible()
+  await expect(page.getByText(/marks what differs/)).toHaveCount(0)
+})
+
+test.describe('the replay of a live day', () => {
+  test.beforeEach(async ({ fleet }) => fleet.playUntil('07:00:00'))
+
+  test('has the plan of a policy beside it, which a link shows too', async ({ page, program, fleet }) => {
+    await open(page, program, fleet, 'replay')
+    await page.getByLabel('Beside it').selectOption('greedy')
+    await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
+    const planned = 'greedy, as planned in the morning'
+    await expect(page.getByRole('definition').filter({ hasText: planned })).toBeVisible()
+    await expect(
+      page.getByText(/^What greedy would have done if the day had gone as it was forecast/),
+    ).toBeVisible()
+    await expect(page.getByText(/so far\.$/)).toBeVisible()
+    await expect(page).toHaveURL(/with=greedy/)
+    await expectAccessible(page)
+    const address = page.url()
+    await page.goto('about:blank')
+    await page.goto(address)
+    await expect(page.getByLabel('Beside it')).toHaveValue('greedy')
+    await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
+    await page.getByLabel('Beside it').selectOption('')
+    await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
+    await expect(page).not.toHaveURL(/with=/)
+  })
+
+  test('says why a policy has no plan', async ({ page, program, fleet }) => {
+    await page.route(/outlook\?.*policy=rolling/, (route) =>
+      route.fulfill({
+        status: 409,
+        contentType: 'application/problem+json',
+        body: JSON.stringify({
+          code: 'V307',
+          detail: 'it cannot play this day',
+          hint: 'ask another',
+          status: 409,
+          title: '',
+          type: '',
+        }),
+      }),
+    )
+    await open(page, program, fleet, 'replay')
+    await page.getByLabel('Beside it').selectOption('rolling')
+    await expect(page.getByText('Error V307')).toBeVisible()
+    await expect(page.getByText('ask another')).toBeVisible()
+    await expect(page.getByLabel('Beside it')).toHaveValue('')
+    await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
+  })
+
+  test('has one clock, which is that of the moment', async ({ page, program, fleet }) => {
+    await open(page, program, fleet, 'replay')
+    await expect(page.getByRole('time')).toHaveText('06:00:00')
+    await expect(page.locator('header .clock')).toHaveCount(0)
+  })
+
+  test('says which files it wants, and which one is wrong', async ({ page, program, fleet }) => {
+    await open(page, program, fleet, 'replay')
+    const add = page.getByRole('button', { name: 'Add files' })
+    await expect(add).toHaveAccessibleDescription(
+      /one or more traces of it \(\.csv\).*vertifleet simulate day\.json/,
+    )
+    const hint = page.getByRole('tooltip')
+    await expect(hint).toBeHidden()
+    await add.focus()
+    await expect(hint).toBeVisible()
+    await expectAccessible(page)
+    await page.keyboard.press('Escape')
+    await expect(hint).toBeHidden()
+    await page.getByLabel('Choose files').setInputFiles([fixture('tiny-1-greedy.csv')])
+    await expect(page.getByRole('alert')).toContainText(/^tiny-1-greedy\.csv: Line \d+ of the trace/)
+    await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
+  })
+})
+
+test('the buttons of a timeline can be hit', async ({ page, program, fleet }) => {
+  await open(page, program, fleet, 'timeline')
+  for (const tools of await page.getByRole('group', { name: 'Tools of the timeline' }).all()) {
+    for (const button of await tools.getByRole('button').all()) {
+      const box = await button.boundingBox()
+      expect(Math.min(box?.width ?? 0, box?.height ?? 0)).toBeGreaterThanOrEqual(24)
+    }
+  }
+})
