@@ -55,6 +55,7 @@ impl Observations {
             nodes: &self.nodes[..batch * vertiports * node_features],
             aircraft: &self.aircraft[..batch * aircraft_features],
             mask: &self.mask[..batch * vertiports],
+            edges: &[],
             clock: &self.clock[..batch],
         }
     }

@@ -21,7 +21,10 @@ mod relu;
 mod slope_tests;
 mod value_head;
 
-pub use architecture::{Architecture, GcapsSettings, MlpSettings, Shape};
+pub use architecture::{
+    Adjacency, Architecture, EncoderKind, GcapsSettings, GraphSettings, Laplacian, MlpSettings,
+    Shape,
+};
 pub use batch::{Inputs, Slopes};
 pub use layout::{Layout, Tensor};
 pub use network::{Gradient, NeuralNetwork, Weights, Workspace};

@@ -2,7 +2,8 @@
 //! only by their features, and gradients of chunks add up.
 
 use vertifleet_learn::nn::{
-    Architecture, GcapsSettings, Inputs, MlpSettings, NeuralNetwork, Shape, Slopes,
+    Architecture, GcapsSettings, GraphSettings, Inputs, Laplacian, MlpSettings, NeuralNetwork,
+    Shape, Slopes,
 };
 
 const SHAPE: Shape = Shape { vertiports: 8, node_features: 20, aircraft_features: 18 };
@@ -45,6 +46,7 @@ impl Decisions {
             nodes: &self.nodes[first * node_entries..][..batch * node_entries],
             aircraft: &self.aircraft[first * aircraft_features..][..batch * aircraft_features],
             mask: &self.mask[first * vertiports..][..batch * vertiports],
+            edges: &[],
             clock: &self.clock[first..][..batch],
         }
     }
@@ -225,7 +227,7 @@ fn tensors_fill_the_layout_and_have_names_of_their_own() {
 
 #[test]
 fn sizes_that_do_not_fit_are_refused() {
-    let gcaps = |width, heads| Architecture::Gcaps(GcapsSettings { width, heads });
+    let gcaps = |width, heads| Architecture::Gcaps(GcapsSettings::of_sizes(width, heads));
     let mlp = |width, layers| Architecture::Mlp(MlpSettings { width, layers, value_width: 8 });
     for (architecture, shape, word) in [
         (gcaps(30, 4), SHAPE, "multiple"),
@@ -259,4 +261,33 @@ fn an_architecture_is_written_and_read_back() {
     serde_json::from_str::<Architecture>(r#"{"kind":"gcaps","width":256,"heads":8,"depth":2}"#)
         .expect_err("an unknown member");
     assert_eq!(Architecture::named("greedy"), None);
+}
+
+/// On the complete graph of N vertiports, I - D^-1 A is N / (N - 1) times (D - A) / N, so weights that make up for that
+/// give the same logits, by encoders that share no code.
+#[test]
+fn the_encoder_of_any_graph_is_that_of_the_paper_on_the_complete_graph() {
+    let settings = GcapsSettings::of_sizes(32, 4);
+    let general = GraphSettings { laplacian: Laplacian::Normalised, ..GraphSettings::default() };
+    let general = GcapsSettings { graph: general, ..settings.clone() };
+    let [paper, general] = [settings, general]
+        .map(|settings| NeuralNetwork::new(Architecture::Gcaps(settings), SHAPE).expect("sizes"));
+    let of_paper = weights(&paper);
+    let mut of_general = vec![0.0; general.layout().len()];
+    let shrink = (SHAPE.vertiports - 1) as f32 / SHAPE.vertiports as f32;
+    for tensor in general.layout().tensors() {
+        let same = paper.layout().tensors().iter().find(|same| same.name == tensor.name);
+        let from = &of_paper[same.expect("the same tensors").offset..][..tensor.len()];
+        let hops = tensor
+            .name
+            .split_once(".hop_")
+            .map_or(0, |(_, rest)| rest[..1].parse::<i32>().expect("a number of hops"));
+        let to = &mut of_general[tensor.offset..][..tensor.len()];
+        to.iter_mut().zip(from).for_each(|(to, from)| *to = from * shrink.powi(hops));
+    }
+    let decisions = Decisions::new(5);
+    let (logits, values) = answers(&paper, &of_paper, decisions.inputs(0, 5));
+    let (same_logits, same_values) = answers(&general, &of_general, decisions.inputs(0, 5));
+    assert_close(&same_logits, &logits, 1e-4);
+    assert_close(&same_values, &values, 1e-4);
 }

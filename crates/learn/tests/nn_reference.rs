@@ -77,6 +77,7 @@ fn check_case(net: &NeuralNetwork, case: &Value) {
         nodes: &noise("nodes", batch * vertiports * node_features),
         aircraft: &noise("aircraft", batch * aircraft_features),
         mask: &mask,
+        edges: &[],
         clock: &noise("clock", batch),
     };
     let params: Vec<f32> = net.layout().tensors().iter().flat_map(weight).collect();

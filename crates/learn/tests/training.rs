@@ -14,7 +14,7 @@ fn paper() -> Arc<Network> {
 }
 
 fn small_gcaps() -> Architecture {
-    Architecture::Gcaps(GcapsSettings { width: 16, heads: 4 })
+    Architecture::Gcaps(GcapsSettings::of_sizes(16, 4))
 }
 
 fn small_mlp() -> Architecture {
@@ -22,7 +22,7 @@ fn small_mlp() -> Architecture {
 }
 
 fn small_gcaps_x() -> Architecture {
-    Architecture::GcapsX(GcapsSettings { width: 8, heads: 2 })
+    Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
 }
 
 /// A short run of a policy, with these settings changed.
@@ -159,7 +159,7 @@ fn former_file(name: &str) -> PathBuf {
 #[test]
 fn a_checkpoint_of_an_earlier_version_goes_on_to_the_weights_that_it_would_have_left() {
     let mlp = Architecture::Mlp(MlpSettings { width: 4, layers: 1, value_width: 2 });
-    let gcaps_x = Architecture::GcapsX(GcapsSettings { width: 4, heads: 2 });
+    let gcaps_x = Architecture::GcapsX(GcapsSettings::of_sizes(4, 2));
     for (policy, checkpoint, weights) in [
         (mlp, "checkpoint-1.safetensors", "weights-1-end.safetensors"),
         (gcaps_x, "checkpoint-any-1.safetensors", "weights-any-1-end.safetensors"),
@@ -184,11 +184,7 @@ fn a_checkpoint_of_another_run_is_refused() {
     let path = folder.path().join("checkpoint.safetensors");
     for (policy, other, setting) in [
         (small_gcaps(), small_mlp(), ("gamma", "0.5")),
-        (
-            small_gcaps_x(),
-            Architecture::GcapsX(GcapsSettings { width: 16, heads: 2 }),
-            ("passes", "3"),
-        ),
+        (small_gcaps_x(), Architecture::GcapsX(GcapsSettings::of_sizes(16, 2)), ("passes", "3")),
     ] {
         let asked = plan(policy.clone());
         asked.clone().start().expect("a plan").write_checkpoint(&path).expect("a file");

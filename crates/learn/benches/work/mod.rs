@@ -73,6 +73,7 @@ impl Decisions {
                 [..batch * vertiports * node_features],
             aircraft: &self.aircraft[first * aircraft_features..][..batch * aircraft_features],
             mask: &self.mask[first * vertiports..][..batch * vertiports],
+            edges: &[],
             clock: &self.clock[first..][..batch],
         }
     }

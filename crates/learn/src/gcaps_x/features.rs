@@ -173,6 +173,7 @@ impl Rows {
             nodes: &self.nodes,
             aircraft: &self.aircraft,
             mask: &self.mask,
+            edges: &[],
             clock: &self.clock,
         }
     }

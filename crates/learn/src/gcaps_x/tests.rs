@@ -14,7 +14,7 @@ use crate::gcaps_x::scorer::network;
 use crate::nn::{Architecture, GcapsSettings, Inputs, Weights};
 
 fn small() -> Architecture {
-    Architecture::GcapsX(GcapsSettings { width: 8, heads: 2 })
+    Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
 }
 
 /// First weights with a last layer that is made large enough to change choices.
@@ -118,7 +118,14 @@ fn vertiports_in_another_order_get_their_logits_in_that_order() {
         .copied()
         .collect();
     let logits = |nodes: &[f32]| {
-        let inputs = Inputs { batch: 1, nodes, aircraft: &aircraft, mask: &[1; 7], clock: &[0.0] };
+        let inputs = Inputs {
+            batch: 1,
+            nodes,
+            aircraft: &aircraft,
+            mask: &[1; 7],
+            edges: &[],
+            clock: &[0.0],
+        };
         let mut workspace = net.workspace(1);
         net.forward(&weights, inputs, &mut workspace);
         workspace.logits().to_vec()

@@ -28,7 +28,7 @@ pub enum Architecture {
     GcapsX(GcapsSettings),
 }
 
-/// Sizes of a `gcaps` network. P = 2, K = 2 and `L_e` = 1 are fixed (Table 3).
+/// Sizes of a `gcaps` network.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GcapsSettings {
@@ -36,6 +36,67 @@ pub struct GcapsSettings {
     pub width: usize,
     /// `h_e`, the number of attention heads; it divides the width.
     pub heads: usize,
+    /// How the vertiports are related to each other.
+    #[serde(default, skip_serializing_if = "GraphSettings::is_of_the_paper")]
+    pub graph: GraphSettings,
+}
+
+/// How a `gcaps` network relates the vertiports to each other. The default is the paper's (Table 3), on the complete
+/// graph; the others are what it can be compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GraphSettings {
+    /// What makes embeddings of the features of vertiports.
+    pub encoder: EncoderKind,
+    /// P, the highest moment of the graph capsules.
+    pub moments: usize,
+    /// K, the highest power of the Laplacian; with 0 there is no graph, and with 1 on the complete graph the layers are
+    /// those of deep sets.
+    pub hops: usize,
+    /// `L_e`, the number of layers of the encoder.
+    pub layers: usize,
+    /// What makes vertiports neighbours.
+    pub adjacency: Adjacency,
+    /// How the Laplacian follows from the adjacency.
+    pub laplacian: Laplacian,
+    /// Whether the decoder attends to the vertiports (Eq. 20); without it, it reads their mean.
+    pub attention: bool,
+}
+
+/// What makes embeddings of the features of vertiports.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum EncoderKind {
+    /// Graph capsules (Eq. 18 and 19).
+    Capsules,
+    /// Self-attention of all vertiports (Vaswani et al., 2017), which knows no graph.
+    Transformer,
+}
+
+/// What makes vertiports neighbours: the weight of the edge from one to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Adjacency {
+    /// 1 for every pair.
+    Complete,
+    /// 1 / (1 + flight time in hours), for pairs that can be flown.
+    Distance,
+    /// 1 / (1 + the distance between the features), as the code of the paper's authors has it.
+    Similarity,
+    /// 1 for every pair that the deciding aircraft's type can fly now.
+    Reachable,
+    /// The profit per hour of a flight, in hourly profits of a typical full flight, with the passengers who wait now.
+    Profit,
+}
+
+/// How the Laplacian follows from the adjacency A, with the degrees D of A on the diagonal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Laplacian {
+    /// (D - A) / N.
+    Plain,
+    /// I - D^-1 A.
+    Normalised,
 }
 
 /// Sizes of an `mlp` network.
@@ -50,10 +111,65 @@ pub struct MlpSettings {
     pub value_width: usize,
 }
 
+impl GcapsSettings {
+    /// A network of the paper with other sizes.
+    pub fn of_sizes(width: usize, heads: usize) -> Self {
+        Self { width, heads, graph: GraphSettings::default() }
+    }
+}
+
 impl Default for GcapsSettings {
     /// The sizes of Table 3.
     fn default() -> Self {
-        Self { width: 256, heads: 8 }
+        Self::of_sizes(256, 8)
+    }
+}
+
+impl Default for GraphSettings {
+    /// Table 3, on the complete graph.
+    fn default() -> Self {
+        Self {
+            encoder: EncoderKind::Capsules,
+            moments: 2,
+            hops: 2,
+            layers: 1,
+            adjacency: Adjacency::Complete,
+            laplacian: Laplacian::Plain,
+            attention: true,
+        }
+    }
+}
+
+impl GraphSettings {
+    /// Whether these are the settings of the paper.
+    pub fn is_of_the_paper(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Whether the encoder is the paper's, whatever the decoder is.
+    pub(crate) fn encoder_is_of_the_paper(&self) -> bool {
+        Self { attention: true, ..*self }.is_of_the_paper()
+    }
+
+    /// Checks that the sizes are such as can be meant.
+    ///
+    /// # Errors
+    /// Returns the rule that is broken.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        let within = |name: &str, size: usize, low: usize, high: usize| {
+            let rule = || format!("{name} must be from {low} to {high}, found {size}");
+            (low..=high).contains(&size).then_some(()).ok_or_else(rule)
+        };
+        within("moments", self.moments, 1, 4)?;
+        within("hops", self.hops, 0, 4)?;
+        within("layers", self.layers, 1, 8)
+    }
+}
+
+impl Adjacency {
+    /// Whether the weights come with the observation, and do not follow from the features of the vertiports.
+    pub fn is_observed(self) -> bool {
+        matches!(self, Self::Distance | Self::Reachable | Self::Profit)
     }
 }
 
@@ -70,8 +186,19 @@ impl Architecture {
         match name {
             "gcaps" => Some(Self::Gcaps(GcapsSettings::default())),
             "mlp" => Some(Self::Mlp(MlpSettings::default())),
-            "gcaps-x" => Some(Self::GcapsX(GcapsSettings { width: 32, heads: 4 })),
+            "gcaps-x" => Some(Self::GcapsX(GcapsSettings::of_sizes(32, 4))),
             _ => None,
+        }
+    }
+
+    /// Whether the network needs the weights of edges with each observation.
+    pub fn observes_edges(&self) -> bool {
+        match self {
+            Self::Gcaps(settings) | Self::GcapsX(settings) => {
+                let GraphSettings { encoder, adjacency, .. } = settings.graph;
+                encoder == EncoderKind::Capsules && adjacency.is_observed()
+            }
+            Self::Mlp(_) => false,
         }
     }
 

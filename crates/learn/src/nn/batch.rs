@@ -11,6 +11,9 @@ pub struct Inputs<'a> {
     pub aircraft: &'a [f32],
     /// [B x N]: 0 where the vertiport may not be chosen. Every row has at least one that may.
     pub mask: &'a [u8],
+    /// Weights of the edges between vertiports [B x N x N], in the direction of flights; empty if the network's graph
+    /// needs none.
+    pub edges: &'a [f32],
     /// Share of the day that is left `[B]`; only the value head sees it.
     pub clock: &'a [f32],
 }

@@ -234,6 +234,9 @@ impl NeuralNetwork {
         );
         assert_eq!(inputs.mask.len(), batch * vertiports, "mask of the batch");
         assert_eq!(inputs.clock.len(), batch, "clocks of the batch");
+        if self.architecture.observes_edges() {
+            assert_eq!(inputs.edges.len(), batch * vertiports * vertiports, "edges of the batch");
+        }
     }
 }
 

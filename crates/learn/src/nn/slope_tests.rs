@@ -163,7 +163,14 @@ fn value_head() {
 /// Queries, pointers, what is collected, means and logits are all checked as functions of capsules and queries.
 #[test]
 fn attention_pointer_and_means() {
-    let reads = Reads { vertiports: 5, heads: 2, width: 6, score_scale: 0.7, logit_scale: 0.4 };
+    let reads = Reads {
+        vertiports: 5,
+        heads: 2,
+        width: 6,
+        score_scale: 0.7,
+        logit_scale: 0.4,
+        attention: true,
+    };
     let (batch, block) = (2, 6);
     let capsules = numbers(batch * 5 * block, 1);
     // Each sample has two queries, a pointer, and a shift of its logits.
@@ -232,7 +239,8 @@ fn identity(size: usize) -> Vec<f32> {
     (0..size * size).map(|at| if at % (size + 1) == 0 { 1.0 } else { 0.0 }).collect()
 }
 
-fn check_network(architecture: Architecture, seed: u64) {
+/// Checks a whole network with weights of a size: 1 for weights that keep signals on one scale.
+pub(crate) fn check_network(architecture: Architecture, seed: u64, size: f32) {
     let shape = Shape { vertiports: 5, node_features: 14, aircraft_features: 12 };
     let batch = 2;
     let net = NeuralNetwork::new(architecture, shape).expect("sizes that fit");
@@ -240,7 +248,7 @@ fn check_network(architecture: Architecture, seed: u64) {
     let mut params = net.init(seed);
     for tensor in net.layout().tensors() {
         let part = &mut params[tensor.offset..][..tensor.len()];
-        let reach = (3.0 / tensor.shape[0] as f32).sqrt();
+        let reach = size * (3.0 / tensor.shape[0] as f32).sqrt();
         for (param, noise) in part.iter_mut().zip(numbers(tensor.len(), seed + 1)) {
             *param = if tensor.init == Init::One { 1.0 } else { 0.0 } + reach * noise;
         }
@@ -250,7 +258,16 @@ fn check_network(architecture: Architecture, seed: u64) {
     let draws = numbers(batch * 5, seed + 5);
     let mask: Vec<u8> =
         draws.iter().enumerate().map(|(at, x)| u8::from(*x > -0.2 || at % 5 == 0)).collect();
-    let inputs = Inputs { batch, nodes: &nodes, aircraft: &aircraft, mask: &mask, clock: &clock };
+    let edges: Vec<f32> =
+        numbers(batch * 5 * 5, seed + 8).iter().map(|weight| weight.max(0.0)).collect();
+    let inputs = Inputs {
+        batch,
+        nodes: &nodes,
+        aircraft: &aircraft,
+        mask: &mask,
+        edges: &edges,
+        clock: &clock,
+    };
     let (of_logits, of_values) = (numbers(batch * 5, seed + 6), numbers(batch, seed + 7));
 
     let loss = |params: &[f32]| {
@@ -285,7 +302,7 @@ fn check_network(architecture: Architecture, seed: u64) {
 #[test]
 fn gcaps_whole() {
     for seed in [10, 20, 30] {
-        check_network(Architecture::Gcaps(GcapsSettings { width: 16, heads: 4 }), seed);
+        check_network(Architecture::Gcaps(GcapsSettings::of_sizes(16, 4)), seed, 1.0);
     }
 }
 
@@ -295,6 +312,7 @@ fn mlp_whole() {
         check_network(
             Architecture::Mlp(MlpSettings { width: 16, layers: 3, value_width: 8 }),
             seed,
+            1.0,
         );
     }
 }

@@ -306,7 +306,7 @@ mod tests {
         let mut settings = PpoSettings::tuned();
         (settings.n_envs, settings.n_steps) = (1, 600);
         (settings.reward, settings.reward_scale) = (reward, 1.0);
-        let architecture = Architecture::Gcaps(GcapsSettings { width: 16, heads: 2 });
+        let architecture = Architecture::Gcaps(GcapsSettings::of_sizes(16, 2));
         let net = Net::new(architecture, shape(8)).expect("a network");
         let weights = net.weights(net.init(1));
         let day = DayInProgress { number: 0, choices: Vec::new() };

@@ -169,7 +169,8 @@ impl Decoder {
         repeat(tensors.part(self.products.hidden_shift), rows.hidden);
         let hidden = MatrixMut::new(rows.hidden, batch, width);
         multiply(hidden, Write::Add, y, tensors.matrix(self.head.features()));
-        let means = Matrix::new(&rows.reads.means[..batch * 2 * width], batch, 2 * width);
+        let means =
+            Matrix::new(&rows.reads.means[..batch * self.reads.width], batch, self.reads.width);
         let hidden = MatrixMut::new(rows.hidden, batch, width);
         multiply(hidden, Write::Add, means, tensors.matrix(self.products.means).transposed());
         self.head.forward(tensors, inputs.clock, rows.hidden, &mut outputs.values[..batch]);
@@ -250,7 +251,8 @@ impl Decoder {
         add_rows(hidden_slopes, self.products.hidden_shift.part_mut(gradient));
         add_weight_slopes(self.head.features(), rows.y, hidden_slopes, gradient);
         let hidden_slopes = Matrix::new(hidden_slopes, batch, width);
-        let means = Matrix::new(&rows.reads.means[..batch * 2 * width], batch, 2 * width);
+        let means =
+            Matrix::new(&rows.reads.means[..batch * self.reads.width], batch, self.reads.width);
         let to = self.products.means.matrix_mut(gradient);
         multiply(to, Write::Add, hidden_slopes.transposed(), means);
         let to = self.reads.mean_slopes(rows.reads, batch);

@@ -1,4 +1,4 @@
-//! The graph-capsule encoder (§IV.A.1, Eq. 18 and 19) on the complete graph.
+//! The paper's graph-capsule encoder (§IV.A.1, Eq. 18 and 19) on the complete graph, with P = 2, K = 2 and one layer.
 //!
 //! The convolutions use powers of L / N instead of L = D - A. This gives the same family of functions (W_pa = V_pa /
 //! N^a) with all terms on one scale. On the complete graph, L / N subtracts the mean over the nodes, and subtracting
@@ -10,10 +10,10 @@
 //!
 //! which is one product for all nodes and one for their mean. For p = 1, F is linear in the features, so that
 //! branch reads the features themselves: X (W_0 S) - mean(X) (W_0 T) + b_0 V_10. The products of weights are
-//! in [`Products`](super::products::Products).
+//! in [`EncoderProducts`](super::products::EncoderProducts).
 
 use crate::nn::batch::Inputs;
-use crate::nn::gcaps::products::Products;
+use crate::nn::gcaps::products::EncoderProducts;
 use crate::nn::layout::Tensors;
 use crate::nn::linear::{Linear, add, add_rows, repeat, sum_groups};
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
@@ -43,7 +43,7 @@ pub(crate) struct Encoder {
     pub(crate) width: usize,
     /// W_0, b_0.
     pub(crate) node: Linear,
-    pub(crate) products: Products,
+    pub(crate) products: EncoderProducts,
 }
 
 impl EncoderSpace {

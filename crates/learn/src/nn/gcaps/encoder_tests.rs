@@ -4,7 +4,7 @@
 use crate::nn::GcapsSettings;
 use crate::nn::architecture::Shape;
 use crate::nn::batch::Inputs;
-use crate::nn::gcaps::Gcaps;
+use crate::nn::gcaps::{AnyEncoder, Gcaps};
 use crate::nn::layout::{Layout, Slot, Tensors};
 use crate::nn::slope_tests::{check, numbers, weighted};
 
@@ -25,7 +25,7 @@ impl Case {
     fn new() -> Self {
         let shape =
             Shape { vertiports: VERTIPORTS, node_features: FEATURES, aircraft_features: 12 };
-        let settings = GcapsSettings { width: WIDTH, heads: 2 };
+        let settings = GcapsSettings::of_sizes(WIDTH, 2);
         let (gcaps, layout, products, _) = Gcaps::new(&settings, shape).expect("sizes that fit");
         let params = numbers(layout.len(), 1).iter().map(|x| 0.5 * x).collect();
         let nodes = numbers(BATCH * VERTIPORTS * FEATURES, 2);
@@ -33,7 +33,14 @@ impl Case {
     }
 
     fn inputs(&self) -> Inputs<'_> {
-        Inputs { batch: BATCH, nodes: &self.nodes, aircraft: &[], mask: &[], clock: &[] }
+        Inputs {
+            batch: BATCH,
+            nodes: &self.nodes,
+            aircraft: &[],
+            mask: &[],
+            edges: &[],
+            clock: &[],
+        }
     }
 
     fn derived(&self, params: &[f32]) -> Vec<f32> {
@@ -47,7 +54,7 @@ impl Case {
         let derived = self.derived(params);
         let tensors = Tensors { params, derived: &derived };
         self.gcaps.encoder.forward(tensors, self.inputs(), &mut space.encoder);
-        space.encoder.capsules
+        self.gcaps.encoder.read(&space.encoder, BATCH).to_vec()
     }
 }
 
@@ -90,7 +97,10 @@ fn eq_18(power: i32, f_0: &Rows, hops: [Slot; 3], params: &[f32]) -> Rows {
 #[test]
 fn capsules_are_those_of_equations_18_and_19() {
     let case = Case::new();
-    let weights = &case.gcaps.weights;
+    let AnyEncoder::OfThePaper(paper) = &case.gcaps.encoder else {
+        panic!("these are the settings of the paper")
+    };
+    let weights = &paper.1;
     let found = case.capsules(&case.params);
     let w_0 = rows(weights.node.weight.part(&case.params), WIDTH);
     let b_0 = weights.node.bias.part(&case.params);

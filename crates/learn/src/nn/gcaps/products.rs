@@ -1,14 +1,14 @@
 //! Products of weights that the network uses instead of the weights themselves, taken once per change of the weights.
 
-use crate::nn::gcaps::Weights;
+use crate::nn::gcaps::{DecoderWeights, EncoderWeights};
 use crate::nn::init::Init;
 use crate::nn::layout::{Layout, Slot};
 use crate::nn::linear::add;
 use crate::nn::product::{Write, multiply};
 
-/// The places of the products, which follow the weights.
+/// The places of the products of the paper's encoder, which follow the weights.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Products {
+pub(crate) struct EncoderProducts {
     /// W_0 S_1 with S_p = V_p0 + V_p1 + V_p2.
     pub(crate) first_node: Slot,
     /// W_0 T_1 with T_p = V_p1 + V_p2.
@@ -19,6 +19,11 @@ pub(crate) struct Products {
     pub(crate) second_node: Slot,
     /// T_2.
     pub(crate) second_mean: Slot,
+}
+
+/// The places of the products of the decoder, which follow the weights.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Products {
     /// (W_f W_K)^T, (W_f W_V)^T, and the shift b_f W_V of the latter. The part of a head is a block of rows.
     pub(crate) key: Slot,
     pub(crate) value: Slot,
@@ -31,9 +36,9 @@ pub(crate) struct Products {
     pub(crate) hidden_shift: Slot,
 }
 
-impl Products {
+impl EncoderProducts {
     /// Adds the products to a layout that begins where the weights end.
-    pub(crate) fn new(layout: &mut Layout, weights: &Weights) -> Self {
+    pub(crate) fn new(layout: &mut Layout, weights: &EncoderWeights) -> Self {
         let (features, width) = (weights.node.weight.rows, weights.node.weight.columns);
         let mut matrix = |name, rows, columns| layout.matrix(name, (rows, columns), Init::Zero);
         Self {
@@ -42,31 +47,11 @@ impl Products {
             first_shift: matrix("first_shift", 1, width),
             second_node: matrix("second_node", width, width),
             second_mean: matrix("second_mean", width, width),
-            key: matrix("key", width, 2 * width),
-            value: matrix("value", width, 2 * width),
-            value_shift: matrix("value_shift", 1, width),
-            pointer: matrix("pointer", width, 2 * width),
-            pointer_shift: matrix("pointer_shift", 1, width),
-            means: matrix("means", width, 2 * width),
-            hidden_shift: matrix("hidden_shift", 1, width),
         }
     }
-}
 
-impl Products {
     /// Computes the products.
-    pub(crate) fn prepare(&self, weights: &Weights, params: &[f32], derived: &mut [f32]) {
-        self.prepare_encoder(weights, params, derived);
-        self.prepare_decoder(weights, params, derived);
-    }
-
-    /// Computes the slopes of the weights from those of the products, which follow them in `gradient`.
-    pub(crate) fn finish(&self, weights: &Weights, params: &[f32], gradient: &mut [f32]) {
-        self.finish_encoder(weights, params, gradient);
-        self.finish_decoder(weights, params, gradient);
-    }
-
-    fn prepare_encoder(&self, weights: &Weights, params: &[f32], derived: &mut [f32]) {
+    pub(crate) fn prepare(&self, weights: &EncoderWeights, params: &[f32], derived: &mut [f32]) {
         let here = |slot: Slot| slot.counted_from(params.len());
         let node = weights.node.weight.matrix(params);
         let [at_node, once, twice] = weights.first.map(|hop| hop.matrix(params));
@@ -90,7 +75,8 @@ impl Products {
         add(twice, to);
     }
 
-    fn finish_encoder(&self, weights: &Weights, params: &[f32], gradient: &mut [f32]) {
+    /// Computes the slopes of the weights from those of the products, which follow them in `gradient`.
+    pub(crate) fn finish(&self, weights: &EncoderWeights, params: &[f32], gradient: &mut [f32]) {
         let (own, behind) = gradient.split_at_mut(params.len());
         let here = |slot: Slot| slot.counted_from(params.len());
         let node_slopes = here(self.first_node).matrix(behind);
@@ -124,8 +110,26 @@ impl Products {
         add_part(at_node, once, own);
         copy_part(once, twice, own);
     }
+}
 
-    fn prepare_decoder(&self, weights: &Weights, params: &[f32], derived: &mut [f32]) {
+impl Products {
+    /// Adds the products to a layout that begins where the weights end.
+    pub(crate) fn new(layout: &mut Layout, weights: &DecoderWeights) -> Self {
+        let (capsule, width) = (weights.embed.weight.rows, weights.embed.weight.columns);
+        let mut matrix = |name, rows, columns| layout.matrix(name, (rows, columns), Init::Zero);
+        Self {
+            key: matrix("key", width, capsule),
+            value: matrix("value", width, capsule),
+            value_shift: matrix("value_shift", 1, width),
+            pointer: matrix("pointer", width, capsule),
+            pointer_shift: matrix("pointer_shift", 1, width),
+            means: matrix("means", width, capsule),
+            hidden_shift: matrix("hidden_shift", 1, width),
+        }
+    }
+
+    /// Computes the products.
+    pub(crate) fn prepare(&self, weights: &DecoderWeights, params: &[f32], derived: &mut [f32]) {
         let here = |slot: Slot| slot.counted_from(params.len());
         let embed = weights.embed.weight.matrix(params);
         let bias = weights.embed.bias.matrix(params);
@@ -148,7 +152,8 @@ impl Products {
         multiply(to, Write::Set, bias, pointer.transposed());
     }
 
-    fn finish_decoder(&self, weights: &Weights, params: &[f32], gradient: &mut [f32]) {
+    /// Computes the slopes of the weights from those of the products, which follow them in `gradient`.
+    pub(crate) fn finish(&self, weights: &DecoderWeights, params: &[f32], gradient: &mut [f32]) {
         let (own, behind) = gradient.split_at_mut(params.len());
         let slopes = |slot: Slot| slot.counted_from(params.len()).matrix(behind);
         let embed = weights.embed.weight.matrix(params);

@@ -26,6 +26,8 @@ pub(crate) struct Reads {
     pub(crate) score_scale: f32,
     /// The factor of the logits, 1 / sqrt(h).
     pub(crate) logit_scale: f32,
+    /// Whether the heads attend; otherwise each collects the mean.
+    pub(crate) attention: bool,
 }
 
 /// The rows and factors of the table above, and what the attention collected; sizes for one sample in brackets.
@@ -131,9 +133,13 @@ impl Reads {
             let attention = &mut factors[..heads * vertiports];
             let scores = MatrixMut::new(attention, heads, vertiports);
             multiply(scores, Write::Set, queries, nodes.transposed());
-            attention
-                .chunks_exact_mut(vertiports)
-                .for_each(|scores| softmax(scores, self.score_scale));
+            if self.attention {
+                attention
+                    .chunks_exact_mut(vertiports)
+                    .for_each(|scores| softmax(scores, self.score_scale));
+            } else {
+                attention.fill(1.0 / vertiports as f32);
+            }
             let attention = Matrix::new(attention, heads, vertiports);
             multiply(MatrixMut::new(collected, heads, width), Write::Set, attention, nodes);
         }
@@ -226,7 +232,8 @@ impl Reads {
             let of_heads =
                 attention.chunks_exact(vertiports).zip(scores.chunks_exact_mut(vertiports));
             of_heads.for_each(|(attention, slopes)| {
-                softmax_backward(attention, slopes, self.score_scale);
+                let scale = if self.attention { self.score_scale } else { 0.0 };
+                softmax_backward(attention, slopes, scale);
             });
             let to = MatrixMut::new(&mut to[..heads * width], heads, width);
             multiply(to, Write::Set, Matrix::new(scores, heads, vertiports), nodes);
@@ -239,7 +246,7 @@ impl Reads {
 }
 
 /// Replaces the scores by the softmax of `scale` times the scores.
-fn softmax(scores: &mut [f32], scale: f32) {
+pub(crate) fn softmax(scores: &mut [f32], scale: f32) {
     let highest = scores.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let mut total = 0.0;
     for score in &mut *scores {
@@ -252,7 +259,7 @@ fn softmax(scores: &mut [f32], scale: f32) {
 }
 
 /// Replaces the slopes of the softmax by those of its scores.
-fn softmax_backward(softmax: &[f32], slopes: &mut [f32], scale: f32) {
+pub(crate) fn softmax_backward(softmax: &[f32], slopes: &mut [f32], scale: f32) {
     let mean: f32 = softmax.iter().zip(&*slopes).map(|(weight, slope)| weight * slope).sum();
     for (slope, weight) in slopes.iter_mut().zip(softmax) {
         *slope = scale * weight * (*slope - mean);
