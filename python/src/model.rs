@@ -109,8 +109,14 @@ impl Model {
         let clock = entries("clock", clock, [batch, 1])?;
         let mask = entries("mask", mask, [batch, size])?;
         let mask: Vec<u8> = mask.iter().map(|&feasible| u8::from(feasible != 0.0)).collect();
-        let inputs =
-            Inputs { batch, nodes: &nodes, aircraft: &aircraft, mask: &mask, clock: &clock };
+        let inputs = Inputs {
+            batch,
+            nodes: &nodes,
+            aircraft: &aircraft,
+            mask: &mask,
+            edges: &[],
+            clock: &clock,
+        };
         let space = py.detach(|| pass(&net, &self.model.weights(), inputs));
         let logits = table(py, space.logits().iter().copied(), [batch, size])?;
         Ok((logits, PyArray1::from_slice(py, space.values()).into_any()))
