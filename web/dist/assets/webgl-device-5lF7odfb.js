@@ -1,0 +1,1 @@
+export{t as WebGLDevice}from"./deck-D3tcFqIo.js";

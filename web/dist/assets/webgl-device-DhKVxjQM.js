@@ -1,1 +1,0 @@
-export{t as WebGLDevice}from"./deck-3skYAQ4x.js";
