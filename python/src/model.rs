@@ -185,22 +185,22 @@ pub(crate) fn settings<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let policy = Architecture::named("gcaps").expect("a policy with sizes");
     let mut settings = TrainingSettings::preset(&policy, preset).map_err(Failure::from)?;
-    if let Some(changes) = changes {
-        change(&mut settings, changes.as_mapping())?;
+    if let Some(named) = changes {
+        let named = self::changes(named.as_mapping())?;
+        settings.set(borrowed(&named)).map_err(Failure::from)?;
     }
     plain(py, &settings)
 }
 
-/// Changes settings as `vertifleet train --set` does.
-pub(crate) fn change(
-    settings: &mut TrainingSettings,
-    changes: &Bound<'_, PyMapping>,
-) -> PyResult<()> {
-    let members = members("settings", changes)?;
-    let pairs: Vec<_> =
-        members.into_iter().map(|(name, value)| (name, whole(value).to_string())).collect();
-    let pairs = pairs.iter().map(|(name, value)| (name.as_str(), value.as_str()));
-    Ok(settings.set(pairs).map_err(Failure::from)?)
+/// The changes of settings that a mapping asks for, as `vertifleet train --set` takes them.
+pub(crate) fn changes(mapping: &Bound<'_, PyMapping>) -> PyResult<Vec<(String, String)>> {
+    let members = members("settings", mapping)?;
+    Ok(members.into_iter().map(|(name, value)| (name, whole(value).to_string())).collect())
+}
+
+/// The changes as pairs of borrowed texts.
+pub(crate) fn borrowed(changes: &[(String, String)]) -> impl Iterator<Item = (&str, &str)> {
+    changes.iter().map(|(name, value)| (name.as_str(), value.as_str()))
 }
 
 /// Turns a float without a fraction into a whole number, because users of Python write `1e6` for a million.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 use serde_json::{Map, Value};
-use vertifleet_core::{Outputs, Stop};
+use vertifleet_core::{Outputs, Stop, World};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{
     Curve, Error, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
@@ -16,7 +16,7 @@ use vertifleet_progress::Bar;
 use crate::failure::{Failure, warn};
 use crate::frames::{Columns, frame, plain};
 use crate::interruptible::{self, interruptible};
-use crate::model::{Model, change};
+use crate::model::{Model, borrowed, changes};
 use crate::network::Network;
 use crate::policy_source::OwnCalls;
 use crate::whole_number::WholeNumber;
@@ -88,6 +88,22 @@ fn rows(curve: &Curve) -> Vec<Map<String, Value>> {
     serde_json::from_value(rows.expect("rows are plain data")).expect("rows have columns")
 }
 
+/// A network, or the name of networks that are drawn, a new one for each day.
+#[derive(FromPyObject)]
+pub(crate) enum WorldArgument {
+    Drawn(String),
+    Network(Network),
+}
+
+impl WorldArgument {
+    fn world(self) -> Result<World, Failure> {
+        match self {
+            Self::Drawn(name) => Ok(World::find(&name)?),
+            Self::Network(network) => Ok(network.network.into()),
+        }
+    }
+}
+
 /// Trains a policy on a network. Ctrl-C ends the run with a checkpoint, from which `resume` continues it.
 #[pyfunction]
 #[pyo3(signature = (
@@ -97,7 +113,7 @@ fn rows(curve: &Curve) -> Vec<Map<String, Value>> {
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
 pub(crate) fn train(
     py: Python<'_>,
-    network: &Network,
+    network: WorldArgument,
     policy: &str,
     out: PathBuf,
     preset: &str,
@@ -108,16 +124,18 @@ pub(crate) fn train(
     threads: Option<WholeNumber>,
     watch: Option<Py<PyAny>>,
 ) -> PyResult<Training> {
-    let policy = Architecture::named(policy).ok_or_else(|| {
-        let rule = format!("policy must be gcaps, mlp or gcaps-x, found {policy:?}");
+    let mut policy = Architecture::named(policy).ok_or_else(|| {
+        let rule =
+            format!("policy must be gcaps, mlp, gcaps-x, gcaps-full or mlp-full, found {policy:?}");
         Failure::argument(rule)
     })?;
     let mut of_run = TrainingSettings::preset(&policy, preset).map_err(Failure::from)?;
     if let Some(settings) = settings {
-        change(&mut of_run, settings)?;
+        let named = changes(settings)?;
+        vertifleet_learn::set(&mut policy, &mut of_run, borrowed(&named)).map_err(Failure::from)?;
     }
     let plan = TrainingRequest {
-        network: Arc::clone(&network.network),
+        world: network.world()?,
         policy,
         settings: of_run,
         seed: seed.map_or(Ok(1), |seed| seed.of("seed"))?,

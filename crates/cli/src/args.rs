@@ -262,6 +262,10 @@ pub(crate) enum Trainable {
     Mlp,
     /// One network for networks of any size, beside the day's prices
     GcapsX,
+    /// One network for networks of any size, with the forecast and the fleet and without prices
+    GcapsFull,
+    /// The same observation flattened, for networks of one size
+    MlpFull,
 }
 
 impl Trainable {
@@ -271,13 +275,16 @@ impl Trainable {
             Self::Gcaps => "gcaps",
             Self::Mlp => "mlp",
             Self::GcapsX => "gcaps-x",
+            Self::GcapsFull => "gcaps-full",
+            Self::MlpFull => "mlp-full",
         }
     }
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct TrainArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER;
+    /// random or random-places:SIZE for a new network each day
     #[arg(long)]
     pub(crate) network: String,
     /// Kind of policy

@@ -15,7 +15,7 @@ pub(crate) mod train;
 use std::path::Path;
 
 use anstream::eprintln;
-use vertifleet_core::{Network, Outputs, Scenario};
+use vertifleet_core::{Network, Outputs, Scenario, World};
 use vertifleet_study::PolicySource;
 use vertifleet_study::report::{self, Records};
 
@@ -33,6 +33,17 @@ fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
         outputs.reads(file);
     }
     Ok(network)
+}
+
+/// Finds the world of a name, and protects the files that were read from being written to.
+fn find_world(name: &str, outputs: &mut Outputs) -> Result<World, Failure> {
+    let world = World::find(name)?;
+    if let World::Network(network) = &world {
+        for file in network.files() {
+            outputs.reads(file);
+        }
+    }
+    Ok(world)
 }
 
 /// Protects the weight files that are read from being written to.

@@ -126,7 +126,7 @@ fn small_training(at: &Path) -> TrainingRequest {
     let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
     settings.set(SETTINGS.into_iter().chain([("total_steps", "800")])).expect("good settings");
     let network = Arc::new(Network::read(at.join("small.toml")).expect("our network"));
-    TrainingRequest { network, policy, settings, seed: 1, commit: String::new() }
+    TrainingRequest { world: network.into(), policy, settings, seed: 1, commit: String::new() }
 }
 
 #[test]

@@ -53,6 +53,7 @@ mod stop;
 mod tariffs;
 mod time;
 mod warning;
+mod world;
 mod write;
 
 pub use closed_times::{ClosedSpan, ClosedTimes};
@@ -77,3 +78,4 @@ pub use seeds::{DaySeed, Purpose};
 pub use stop::{Stop, Stopped};
 pub use time::Time;
 pub use warning::{Cause, Warning};
+pub use world::World;

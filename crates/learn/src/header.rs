@@ -8,7 +8,7 @@ use vertifleet_core::FeatureScales;
 use crate::nn::{self, Architecture, Shape};
 use crate::run::TrainingRequest;
 use crate::settings::TrainingSettings;
-use crate::{features, gcaps_x};
+use crate::{features, full, gcaps_x};
 
 /// The format of the files that are written.
 pub(crate) const FORMAT: &str = "vertifleet-weights/2";
@@ -29,7 +29,7 @@ pub struct Header {
     pub policy: Architecture,
     /// The number of vertiports and the numbers of features.
     pub shape: FeatureShape,
-    /// What the features are divided by; `None` for `gcaps-x`, whose features are relative to the day.
+    /// What the features are divided by; `None` for policies whose features are relative to the day.
     pub feature_scales: Option<FeatureScales>,
     /// The training settings; `None` if another program trained the weights in a way that these settings cannot
     /// describe.
@@ -84,7 +84,7 @@ impl Header {
     ) -> Self {
         Self {
             format: FORMAT,
-            network: plan.network.name().to_owned(),
+            network: plan.world.name(),
             policy: plan.policy.clone(),
             shape,
             feature_scales,
@@ -135,26 +135,20 @@ impl Header {
     fn check(&self) -> Result<(), String> {
         // Absurd sizes must be refused before any arithmetic with them.
         self.network_of_layers(1)?;
-        let fits_any = matches!(self.policy, Architecture::GcapsX(_));
-        if fits_any == self.shape.vertiports.is_some() {
+        if self.policy.fits_any_size() == self.shape.vertiports.is_some() {
             let kind = self.policy.name();
             return Err(format!(
                 "{kind} and {:?} vertiports do not go together",
                 self.shape.vertiports
             ));
         }
-        let ours = match self.shape.vertiports {
-            Some(vertiports) => features::shape(vertiports),
-            None => gcaps_x::features::shape(0),
-        };
+        let ours = shape_of(&self.policy, self.shape.vertiports.unwrap_or_default());
         let sizes = (self.shape.node_features, self.shape.aircraft_features);
         if sizes != (ours.node_features, ours.aircraft_features) {
             return Err(format!("{:?} is not the shape of our features", self.shape));
         }
-        if fits_any == self.feature_scales.is_some() {
-            return Err(
-                "feature_scales are of policies that fit one number of vertiports".to_owned()
-            );
+        if self.policy.learns_by_imitation() == self.feature_scales.is_some() {
+            return Err("feature_scales are of gcaps and mlp".to_owned());
         }
         Ok(())
     }
@@ -165,6 +159,15 @@ impl Header {
         let vertiports = fits.unwrap_or(vertiports);
         let shape = Shape { vertiports, node_features, aircraft_features };
         nn::NeuralNetwork::new(self.policy.clone(), shape)
+    }
+}
+
+/// The shape of what a policy sees of a day with so many vertiports.
+pub(crate) fn shape_of(policy: &Architecture, vertiports: usize) -> Shape {
+    match policy {
+        Architecture::Gcaps(_) | Architecture::Mlp(_) => features::shape(vertiports),
+        Architecture::GcapsX(_) => gcaps_x::features::shape(vertiports),
+        Architecture::GcapsFull(_) | Architecture::MlpFull(_) => full::features::shape(vertiports),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Imitation of roll-outs, by which `gcaps-x` learns: the decisions of played days are rolled out, and the network
+//! Imitation of roll-outs, by which all policies but `gcaps` and `mlp` learn: the decisions of played days are rolled out, and the network
 //! learns to choose what the roll-outs say is best (DAgger: S. Ross, G. Gordon, D. Bagnell, *A reduction of imitation
 //! learning and structured prediction to no-regret online learning*, 2011).
 
@@ -6,6 +6,7 @@ mod dataset;
 mod row;
 mod run;
 mod settings;
+mod teacher;
 mod update;
 
 pub use row::ImitationRow;

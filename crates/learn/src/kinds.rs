@@ -29,10 +29,7 @@ const IMITATION_CURVE: OutputKind =
 
 /// The kind of learning curve that a run of this policy writes.
 pub(crate) fn curve(policy: &Architecture) -> &'static OutputKind {
-    match policy {
-        Architecture::GcapsX(_) => &IMITATION_CURVE,
-        Architecture::Gcaps(_) | Architecture::Mlp(_) => &PPO_CURVE,
-    }
+    if policy.learns_by_imitation() { &IMITATION_CURVE } else { &PPO_CURVE }
 }
 
 #[cfg(test)]

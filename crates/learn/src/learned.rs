@@ -25,7 +25,7 @@ impl Learned {
     /// The policy of a model.
     ///
     /// # Panics
-    /// Panics if the model fits any number of vertiports; [`GcapsX`](crate::GcapsX) decides by such a model.
+    /// Panics if the model is not of `gcaps` or `mlp`.
     pub fn new(model: &Model) -> Self {
         let header = model.header();
         let vertiports = header.shape.vertiports.expect("weights of one number of vertiports");
@@ -101,7 +101,7 @@ impl Policy for Learned {
 }
 
 /// The vertiport with the highest logit, the first among equals.
-fn highest(logits: &[f32]) -> VertiportIx {
+pub(crate) fn highest(logits: &[f32]) -> VertiportIx {
     let mut best = 0;
     for (at, logit) in logits.iter().enumerate() {
         if *logit > logits[best] {

@@ -26,9 +26,7 @@
 //! Training, an update at a time:
 //!
 //! ```
-//! use std::sync::Arc;
-//!
-//! use vertifleet_core::{Network, Stop};
+//! use vertifleet_core::{Stop, World};
 //! use vertifleet_learn::nn::Architecture;
 //! use vertifleet_learn::{TrainingRequest, TrainingSettings};
 //!
@@ -36,8 +34,8 @@
 //! let policy = Architecture::named("mlp").ok_or("a kind of policy")?;
 //! let mut settings = TrainingSettings::preset(&policy, "default")?;
 //! settings.set([("total_steps", "200"), ("n_envs", "4"), ("n_steps", "25"), ("batch_size", "100"), ("eval_days", "1")])?;
-//! let network = Arc::new(Network::find("paper")?);
-//! let request = TrainingRequest { network, policy, settings, seed: 1, commit: String::new() };
+//! let world = World::find("paper")?;
+//! let request = TrainingRequest { world, policy, settings, seed: 1, commit: String::new() };
 //! let mut run = request.start()?;
 //! while !run.is_done() {
 //!     run.advance(&Stop::default(), &|_| ())?;
@@ -55,6 +53,7 @@
 mod adam;
 mod error;
 mod features;
+mod full;
 mod gcaps_x;
 mod header;
 mod imitation;
@@ -63,6 +62,7 @@ mod learned;
 mod model;
 pub mod nn;
 mod ppo;
+mod rows;
 mod run;
 mod settings;
 mod shipped;
@@ -70,6 +70,7 @@ mod tensor_file;
 
 pub use error::Error;
 pub use features::{Observations, Scales, shape};
+pub use full::FullPolicy;
 pub use gcaps_x::{GcapsX, PricedObservation, PricedObserver};
 pub use header::{FeatureShape, Header};
 pub use imitation::{ImitationRow, ImitationSettings};
@@ -77,5 +78,5 @@ pub use learned::Learned;
 pub use model::Model;
 pub use ppo::{LearningRateSchedule, PpoRow, PpoSettings, Reward};
 pub use run::{Curve, RunFolder, TrainingRequest, TrainingRun, TrainingWatch, Work};
-pub use settings::TrainingSettings;
+pub use settings::{TrainingSettings, set};
 pub use shipped::{Shipped, shipped};

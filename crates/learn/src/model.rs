@@ -1,8 +1,8 @@
 //! A trained policy and its file: the weights, a description of them, and where they came from.
 //!
 //! A file is complete in itself: architecture, features and settings are in its header, so the policy runs without the
-//! network file that it was trained on. Weights of `gcaps` and `mlp` fit networks with one number of vertiports;
-//! weights of `gcaps-x` fit any number.
+//! network file that it was trained on. Weights of `gcaps`, `mlp` and `mlp-full` fit networks with one number of
+//! vertiports; those of `gcaps-x` and `gcaps-full` fit any number.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -13,10 +13,11 @@ use vertifleet_core::Scenario;
 use vertifleet_policy::Policy;
 
 use crate::error::Error;
+use crate::full::FullPolicy;
 use crate::gcaps_x::GcapsX;
 use crate::header::Header;
 use crate::learned::Learned;
-use crate::nn;
+use crate::nn::{self, Architecture};
 use crate::tensor_file;
 
 /// Larger files are not read. No weight file of this program comes near this size.
@@ -58,7 +59,7 @@ impl Model {
         &self.header
     }
 
-    /// The name of the policy's kind: `gcaps`, `mlp` or `gcaps-x`.
+    /// The name of the policy's kind: `gcaps`, `mlp`, `gcaps-x`, `gcaps-full` or `mlp-full`.
     pub fn kind(&self) -> &'static str {
         self.header.policy.name()
     }
@@ -93,9 +94,12 @@ impl Model {
     /// A policy that decides by this model. With `most_rolled_out` of 2 or more, `gcaps-x` rolls that many of its best
     /// choices out before it decides; with 1 it decides at once, as the other kinds always do.
     pub fn policy(&self, most_rolled_out: usize) -> Box<dyn Policy> {
-        match self.header.shape.vertiports {
-            Some(_) => Box::new(Learned::new(self)),
-            None => Box::new(GcapsX::new(self, most_rolled_out)),
+        match self.header.policy {
+            Architecture::Gcaps(_) | Architecture::Mlp(_) => Box::new(Learned::new(self)),
+            Architecture::GcapsX(_) => Box::new(GcapsX::new(self, most_rolled_out)),
+            Architecture::GcapsFull(_) | Architecture::MlpFull(_) => {
+                Box::new(FullPolicy::new(self))
+            }
         }
     }
 

@@ -1,7 +1,6 @@
 //! A training run: what it is asked to do, how it advances, and what it leaves.
 //!
-//! There are two ways to learn, [PPO](crate::ppo) for policies of one network and [imitation](crate::imitation) for
-//! `gcaps-x`. Callers see one interface: a [`TrainingRun`] is advanced until it is done, and can be set aside and
+//! There are two ways to learn, [PPO](crate::ppo) for `gcaps` and `mlp` and [imitation](crate::imitation) for the others. Callers see one interface: a [`TrainingRun`] is advanced until it is done, and can be set aside and
 //! resumed. A [`RunFolder`] does that and writes the files.
 //!
 //! Training days, validation days and comparison days come from disjoint ranges of seeds (`DaySeed`), so no run can
@@ -13,10 +12,9 @@ mod event_file;
 mod folder;
 
 use std::path::Path;
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use vertifleet_core::{DaySeed, Network, Stop};
+use vertifleet_core::{DaySeed, Purpose, Stop, World};
 
 pub use curve::Curve;
 pub use folder::{RunFolder, TrainingWatch};
@@ -31,8 +29,8 @@ use crate::settings::TrainingSettings;
 /// What a training run is asked to do.
 #[derive(Debug, Clone)]
 pub struct TrainingRequest {
-    /// The network whose days are learned from; imitation also learns from days of random networks.
-    pub network: Arc<Network>,
+    /// What the days that are learned from are drawn from; imitation also learns from days of random networks.
+    pub world: World,
     /// The kind of the policy, with its sizes.
     pub policy: Architecture,
     /// The settings of the way to learn that this policy uses.
@@ -105,21 +103,21 @@ impl TrainingRequest {
     fn begin(self, checkpoint: Option<&Path>) -> Result<Box<dyn TrainingRun>, Error> {
         self.settings.check()?;
         let asked = RunIdentity {
-            network: self.network.name().to_owned(),
-            network_fingerprint: network_fingerprint(&self.network)?,
+            network: self.world.name(),
+            network_fingerprint: network_fingerprint(&self.world)?,
             policy: self.policy.clone(),
             settings: self.settings.clone(),
             seed: self.seed,
         };
-        Ok(match (&self.policy, &self.settings) {
-            (Architecture::GcapsX(_), TrainingSettings::Imitation(settings)) => {
+        Ok(match (self.policy.learns_by_imitation(), &self.settings) {
+            (true, TrainingSettings::Imitation(settings)) => {
                 Box::new(ImitationRun::new(&self, asked, settings.clone(), checkpoint)?)
             }
-            (Architecture::Gcaps(_) | Architecture::Mlp(_), TrainingSettings::Ppo(settings)) => {
+            (false, TrainingSettings::Ppo(settings)) => {
                 Box::new(PpoRun::new(&self, asked, settings.clone(), checkpoint)?)
             }
-            (policy, _) => {
-                let rule = format!("{} does not learn with these settings", policy.name());
+            _ => {
+                let rule = format!("{} does not learn with these settings", self.policy.name());
                 return Err(Error::BadSetting { name: "policy".to_owned(), rule });
             }
         })
@@ -139,7 +137,8 @@ pub(crate) struct RunIdentity {
 }
 
 /// A number that changes when the network's days do: a checksum of one of them and of the feature scales.
-fn network_fingerprint(network: &Network) -> Result<u32, Error> {
+fn network_fingerprint(world: &World) -> Result<u32, Error> {
+    let network = world.network(Purpose::Validation, 0);
     let day = network.draw(DaySeed::validation(0)?);
     let scales = serde_json::to_string(&network.feature_scales()).expect("numbers");
     Ok(crc32c::crc32c_append(crc32c::crc32c(day.to_json().as_bytes()), scales.as_bytes()))

@@ -9,7 +9,7 @@ use crate::imitation::ImitationSettings;
 use crate::nn::Architecture;
 use crate::ppo::PpoSettings;
 
-/// The settings of a training run: those of PPO for a policy of one network, those of imitation for `gcaps-x`.
+/// The settings of a training run: those of PPO for `gcaps` and `mlp`, those of imitation for the others.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum TrainingSettings {
@@ -25,14 +25,19 @@ impl TrainingSettings {
     /// # Errors
     /// Returns an error if there is no such preset.
     pub fn preset(policy: &Architecture, name: &str) -> Result<Self, Error> {
-        let known = match (policy, name) {
-            (Architecture::GcapsX(_), "default") => Self::Imitation(ImitationSettings::default()),
-            (Architecture::GcapsX(_), _) => {
+        let known = match (policy.learns_by_imitation(), name) {
+            (true, "default") => {
+                let settings = ImitationSettings::default();
+                // Random networks are of all sizes.
+                let share = if policy.fits_any_size() { settings.random_share } else { 0.0 };
+                Self::Imitation(ImitationSettings { random_share: share, ..settings })
+            }
+            (true, _) => {
                 return Err(Error::UnknownPreset { name: name.to_owned(), known: "\"default\"" });
             }
-            (_, "default") => Self::Ppo(PpoSettings::tuned()),
-            (_, "paper") => Self::Ppo(PpoSettings::paper()),
-            _ => {
+            (false, "default") => Self::Ppo(PpoSettings::tuned()),
+            (false, "paper") => Self::Ppo(PpoSettings::paper()),
+            (false, _) => {
                 let known = "\"default\" and \"paper\"";
                 return Err(Error::UnknownPreset { name: name.to_owned(), known });
             }
@@ -62,9 +67,10 @@ impl TrainingSettings {
 
     /// Parses the settings of a policy's training from a file.
     pub(crate) fn read(policy: &Architecture, value: Value) -> Result<Self, String> {
-        let read = match policy {
-            Architecture::GcapsX(_) => serde_json::from_value(value).map(Self::Imitation),
-            _ => serde_json::from_value(value).map(Self::Ppo),
+        let read = if policy.learns_by_imitation() {
+            serde_json::from_value(value).map(Self::Imitation)
+        } else {
+            serde_json::from_value(value).map(Self::Ppo)
         };
         let settings = read.map_err(|error| format!("settings: {error}"))?;
         settings.check().map_err(|error| error.to_string())?;
@@ -77,6 +83,50 @@ impl TrainingSettings {
             Self::Imitation(settings) => settings.check(),
         }
     }
+}
+
+/// Changes the sizes of a policy and the settings of its training by name, as `--set name=value` does. If one does not
+/// fit, none is changed.
+///
+/// # Errors
+/// Returns an error if there is no such setting, or if a value does not fit it or the other settings.
+pub fn set<'a>(
+    policy: &mut Architecture,
+    settings: &mut TrainingSettings,
+    pairs: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Result<(), Error> {
+    let (mut sized, mut of_training) = (policy.clone(), Vec::new());
+    for (name, value) in pairs {
+        if !set_size(&mut sized, name, value)? {
+            of_training.push((name, value));
+        }
+    }
+    settings.set(of_training)?;
+    *policy = sized;
+    Ok(())
+}
+
+/// Changes a size of a policy; returns false if it has none of this name.
+fn set_size(policy: &mut Architecture, name: &str, value: &str) -> Result<bool, Error> {
+    let has = |sizes: &Map<String, Value>| sizes.contains_key(name);
+    match policy {
+        Architecture::Gcaps(sizes)
+        | Architecture::GcapsX(sizes)
+        | Architecture::GcapsFull(sizes) => {
+            if has(&members(&sizes.graph)) {
+                sizes.graph = with_member(&sizes.graph, name, value)?;
+            } else if name != "graph" && has(&members(sizes)) {
+                *sizes = with_member(sizes, name, value)?;
+            } else {
+                return Ok(false);
+            }
+        }
+        Architecture::Mlp(sizes) | Architecture::MlpFull(sizes) if has(&members(sizes)) => {
+            *sizes = with_member(sizes, name, value)?;
+        }
+        Architecture::Mlp(_) | Architecture::MlpFull(_) => return Ok(false),
+    }
+    Ok(true)
 }
 
 /// The settings with one of them changed by name.
@@ -125,8 +175,8 @@ pub(crate) fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), 
 
 #[cfg(test)]
 mod tests {
-    use super::TrainingSettings;
-    use crate::nn::Architecture;
+    use super::{TrainingSettings, set};
+    use crate::nn::{Adjacency, Architecture};
     use vertifleet_core::Coded;
 
     fn default_of(policy: &str) -> TrainingSettings {
@@ -144,6 +194,23 @@ mod tests {
         settings.set([("rounds", "3"), ("rollouts", "5")]).expect("settings");
         let value = serde_json::to_value(&settings).expect("plain data");
         assert_eq!((&value["rounds"], &value["rollouts"]), (&3.into(), &5.into()));
+    }
+
+    #[test]
+    fn sizes_of_a_policy_change_by_their_names_too() {
+        let mut policy = Architecture::named("gcaps-full").expect("a policy with sizes");
+        let mut settings = default_of("gcaps-full");
+        let pairs = [("width", "32"), ("adjacency", "profit"), ("hops", "1"), ("rounds", "2")];
+        set(&mut policy, &mut settings, pairs).expect("sizes and settings");
+        let Architecture::GcapsFull(sizes) = &policy else { panic!("{policy:?}") };
+        assert_eq!((sizes.width, sizes.graph.hops), (32, 1));
+        assert_eq!(sizes.graph.adjacency, Adjacency::Profit);
+        let before = (policy.clone(), settings.clone());
+        for (name, value) in [("adjacency", "near"), ("width", "-1"), ("graph", "1"), ("wide", "1")]
+        {
+            set(&mut policy, &mut settings, [("hops", "0"), (name, value)]).expect_err(name);
+        }
+        assert_eq!((policy, settings), before);
     }
 
     #[test]

@@ -50,7 +50,7 @@ fn plan_with(policy: Architecture, changes: &[(&str, &str)]) -> TrainingRequest 
         ],
     };
     settings.set(short.iter().chain(changes).copied()).expect("settings within their bounds");
-    TrainingRequest { network: paper(), policy, settings, seed: 3, commit: "test".to_owned() }
+    TrainingRequest { world: paper().into(), policy, settings, seed: 3, commit: "test".to_owned() }
 }
 
 fn plan(policy: Architecture) -> TrainingRequest {
@@ -149,7 +149,13 @@ fn former(policy: Architecture) -> TrainingRequest {
     };
     let mut all = TrainingSettings::preset(&policy, "default").expect("a preset");
     all.set(settings.iter().copied()).expect("settings within their bounds");
-    TrainingRequest { network, policy, settings: all, seed: 3, commit: "v0".to_owned() }
+    TrainingRequest {
+        world: network.into(),
+        policy,
+        settings: all,
+        seed: 3,
+        commit: "v0".to_owned(),
+    }
 }
 
 fn former_file(name: &str) -> PathBuf {
@@ -199,11 +205,13 @@ fn a_checkpoint_of_another_run_is_refused() {
             .replace("stands = 6\nbusy = true", "stands = 7\nbusy = true");
         let network = Arc::new(Network::from_toml(&text, "changed").expect("a network"));
         assert!(
-            refused(TrainingRequest { network, ..asked.clone() }, &path).contains("has changed")
+            refused(TrainingRequest { world: network.into(), ..asked.clone() }, &path)
+                .contains("has changed")
         );
         let network = Arc::new(Network::shipped("new-york").expect("a shipped network"));
         assert!(
-            refused(TrainingRequest { network, ..asked.clone() }, &path).contains("network paper")
+            refused(TrainingRequest { world: network.into(), ..asked.clone() }, &path)
+                .contains("network paper")
         );
         assert!(asked.resume(&path).is_ok());
     }

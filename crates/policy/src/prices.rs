@@ -22,7 +22,7 @@ use vertifleet_sim::{Decision, Imagined, View};
 use base_rule::BaseRule;
 pub(crate) use base_rule::is_repositioning;
 use relaxation::Relaxation;
-use units::units_usd;
+pub use units::units_usd;
 use volume::{Effort, Volume};
 
 /// Effort where there are no prices yet. Days of up to about 60 vertiports have all these passes, and those of up to 30

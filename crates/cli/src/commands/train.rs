@@ -1,10 +1,9 @@
 //! `vertifleet train`: runs a training, shows its progress, and writes weights, learning curve and checkpoint.
 
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use anstream::eprintln;
-use vertifleet_core::{DaySeed, Network, Outputs};
+use vertifleet_core::{DaySeed, Outputs, Purpose, World};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{
     Curve, Error, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
@@ -12,17 +11,18 @@ use vertifleet_learn::{
 use vertifleet_progress::Bar;
 
 use crate::args::TrainArguments;
-use crate::commands::{find_network, warn_of_days};
+use crate::commands::{find_world, warn_of_days};
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
 
 pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     let mut outputs = Outputs::new(arguments.force);
-    let network = find_network(&arguments.network, &mut outputs)?;
-    // The network's first training day stands for all of them in the warnings.
-    warn_of_days([&network.draw(DaySeed::training(arguments.seed, 0)?)]);
-    let plan = plan(arguments, network)?;
+    let world = find_world(&arguments.network, &mut outputs)?;
+    // The first training day stands for all of them in the warnings.
+    let seed = DaySeed::training(arguments.seed, 0)?;
+    warn_of_days([&world.network(Purpose::Training, seed.get()).draw(seed)]);
+    let plan = plan(arguments, world)?;
     let folder = RunFolder::of(&plan.policy, &arguments.out);
     let mut run = folder.begin(plan, arguments.resume, &mut outputs)?;
     let stop = stop_on_interrupt()?;
@@ -33,12 +33,12 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn plan(arguments: &TrainArguments, network: Network) -> Result<TrainingRequest, Failure> {
-    let policy = Architecture::named(arguments.policy.name())
+fn plan(arguments: &TrainArguments, world: World) -> Result<TrainingRequest, Failure> {
+    let mut policy = Architecture::named(arguments.policy.name())
         .expect("every kind that can be trained has its sizes");
-    if arguments.steps.is_some() && matches!(policy, Architecture::GcapsX(_)) {
+    if arguments.steps.is_some() && policy.learns_by_imitation() {
         return Err(Failure::usage(
-            "--steps is not for gcaps-x, which learns in rounds".to_owned(),
+            format!("--steps is not for {}, which learns in rounds", policy.name()),
             "change its settings with --set, as --set rounds=4",
         ));
     }
@@ -46,9 +46,9 @@ fn plan(arguments: &TrainArguments, network: Network) -> Result<TrainingRequest,
     let steps = arguments.steps.map(|steps| steps.to_string());
     let steps = steps.iter().map(|steps| ("total_steps", steps.as_str()));
     let named = arguments.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
-    settings.set(steps.chain(named))?;
+    vertifleet_learn::set(&mut policy, &mut settings, steps.chain(named))?;
     Ok(TrainingRequest {
-        network: Arc::new(network),
+        world,
         policy,
         settings,
         seed: arguments.seed,
@@ -106,12 +106,13 @@ fn tell(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failure> {
             let mean = rows.last().and_then(|row| row.mean_reward);
             lines.push(format!("mean reward        {}", reward_text(mean)));
         }
-        Curve::Imitation(rows) => lines.extend(rows.last().iter().flat_map(|row| {
-            [
-                format!("gain over prices   {:.2} %", 100.0 * row.gain),
-                format!("  random networks  {:.2} %", 100.0 * row.random_gain),
-            ]
-        })),
+        Curve::Imitation(rows) => {
+            if let Some(row) = rows.last() {
+                lines.push(format!("gain over prices   {:.2} %", 100.0 * row.gain));
+                let random = row.random_gain.map(|gain| 100.0 * gain);
+                lines.extend(random.map(|gain| format!("  random networks  {gain:.2} %")));
+            }
+        }
     }
     lines.extend([
         format!("validation reward  {}", reward_text(kept)),

@@ -9,7 +9,8 @@ use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_policy::{DayPrices, PricedChoice};
 use vertifleet_sim::{Decision, View};
 
-use crate::nn::{Inputs, Shape};
+use crate::nn::Shape;
+use crate::rows::Rows;
 
 /// F, the number of node features.
 pub(crate) const NODE_FEATURES: usize = 24;
@@ -99,14 +100,9 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Rows of features, side by side. The allocation grows with the number of rows and is kept.
-#[derive(Debug, Clone)]
-pub(crate) struct Rows {
-    vertiports: usize,
-    nodes: Vec<f32>,
-    aircraft: Vec<f32>,
-    mask: Vec<u8>,
-    clock: Vec<f32>,
+/// Writes rows. It keeps its memory from row to row.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Writer {
     /// The other aircraft as the row being written counts them, by vertiport.
     seen: Vec<Seen>,
 }
@@ -125,95 +121,31 @@ struct Seen {
     contention: f64,
 }
 
-impl Rows {
-    pub(crate) fn new(vertiports: usize) -> Self {
-        Self {
-            vertiports,
-            nodes: Vec::new(),
-            aircraft: Vec::new(),
-            mask: Vec::new(),
-            clock: Vec::new(),
-            seen: vec![Seen::default(); vertiports],
-        }
-    }
-
-    /// Rows with the node and aircraft features of earlier [`inputs`](Self::inputs).
-    pub(crate) fn of(vertiports: usize, nodes: Vec<f32>, aircraft: Vec<f32>) -> Self {
-        let clock = vec![0.0; aircraft.len() / AIRCRAFT_FEATURES];
-        // A node's first feature says whether it is on the list.
-        let listed = nodes.iter().step_by(NODE_FEATURES);
-        let mask = listed.map(|&listed| u8::from(listed == 1.0)).collect();
-        Self { nodes, aircraft, mask, clock, ..Self::new(vertiports) }
-    }
-
-    pub(crate) fn vertiports(&self) -> usize {
-        self.vertiports
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.clock.len()
-    }
-
-    pub(crate) fn clear(&mut self) {
-        self.truncate(0);
-    }
-
-    /// Drops all rows after the first `len`.
-    pub(crate) fn truncate(&mut self, len: usize) {
-        self.nodes.truncate(len * self.vertiports * NODE_FEATURES);
-        self.aircraft.truncate(len * AIRCRAFT_FEATURES);
-        self.mask.truncate(len * self.vertiports);
-        self.clock.truncate(len);
-    }
-
-    /// All rows as the input of a network.
-    pub(crate) fn inputs(&self) -> Inputs<'_> {
-        Inputs {
-            batch: self.len(),
-            nodes: &self.nodes,
-            aircraft: &self.aircraft,
-            mask: &self.mask,
-            edges: &[],
-            clock: &self.clock,
-        }
-    }
-
-    /// Adds a copy of a row of `from`.
-    pub(crate) fn push_copy(&mut self, from: &Self, row: usize) {
-        let nodes = self.vertiports * NODE_FEATURES;
-        self.nodes.extend(&from.nodes[row * nodes..][..nodes]);
-        self.aircraft.extend(&from.aircraft[row * AIRCRAFT_FEATURES..][..AIRCRAFT_FEATURES]);
-        self.mask.extend(&from.mask[row * self.vertiports..][..self.vertiports]);
-        self.clock.push(from.clock[row]);
-    }
-
+impl Writer {
     /// Adds the row of a decision between the choices of a list, which starts with the best and has the worth of each
     /// at the prices.
-    pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) {
-        let count = self.vertiports;
-        let first = self.mask.len();
-        self.mask.resize(first + count, 0);
-        for &PricedChoice { to, .. } in listed {
-            self.mask[first + to.at()] = 1;
-        }
-        // Only the value head reads the clock, and `gcaps-x` does not use the value head.
-        self.clock.push(0.0);
+    pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice], rows: &mut Rows) {
         let queue = self.look_around(scene);
         let best_usd = listed[0].worth_usd;
         let second_usd = listed.get(1).map_or(f64::NEG_INFINITY, |second| second.worth_usd);
         let lead = (best_usd - second_usd) / scene.unit_usd;
-        self.aircraft.extend(aircraft(scene, queue, lead, listed.len()).map(|value| value as f32));
-        let from = self.nodes.len();
-        self.nodes.resize(from + count * NODE_FEATURES, 0.0);
-        for to in VertiportIx::all(count) {
-            let node = node(scene, to, best_usd, self.seen[to.at()]);
-            let listed = f32::from(self.mask[first + to.at()]);
-            let row = &mut self.nodes[from + to.at() * NODE_FEATURES..][..NODE_FEATURES];
-            row[0] = listed;
-            for (feature, value) in row[1..].iter_mut().zip(node) {
-                *feature = value as f32;
+        // Only the value head reads the clock, and `gcaps-x` does not use the value head.
+        rows.push(|row| {
+            for (to, value) in
+                row.aircraft.iter_mut().zip(aircraft(scene, queue, lead, listed.len()))
+            {
+                *to = value as f32;
             }
-        }
+            for &PricedChoice { to, .. } in listed {
+                row.nodes[to.at() * NODE_FEATURES] = 1.0;
+            }
+            for (at, to) in row.nodes.chunks_exact_mut(NODE_FEATURES).enumerate() {
+                let node = node(scene, VertiportIx::new(at), best_usd, self.seen[at]);
+                for (to, value) in to[1..].iter_mut().zip(node) {
+                    *to = value as f32;
+                }
+            }
+        });
     }
 
     /// Counts the other aircraft at each vertiport. Returns how many of them are ready at the deciding aircraft's own
@@ -222,12 +154,13 @@ impl Rows {
         let Scene { view, decision, .. } = scene;
         let kind = view.kind(decision.aircraft);
         let legs = view.legs_from(kind, decision.at);
+        self.seen.resize(legs.len(), Seen::default());
         for (to, (seen, leg)) in self.seen.iter_mut().zip(legs).enumerate() {
             let stays = to == decision.at.at();
             let block_s = if stays { view.hold_s() } else { leg.block_s() };
             *seen = Seen { ready: decision.time + block_s, ..Seen::default() };
         }
-        let most_competitors = (MOST_ASKED / self.vertiports).min(MOST_COMPETITORS);
+        let most_competitors = (MOST_ASKED / legs.len()).min(MOST_COMPETITORS);
         let (mut queue, mut competitors) = ([0; 3], 0);
         for (other, place) in AircraftIx::all(view.places().len()).zip(view.places()) {
             if other == decision.aircraft {

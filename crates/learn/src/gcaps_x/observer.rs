@@ -3,8 +3,9 @@
 use vertifleet_policy::{PriceMemory, Shortlist};
 use vertifleet_sim::{Decision, View};
 
-use crate::gcaps_x::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Rows, Scene};
+use crate::gcaps_x::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Scene, Writer, shape};
 use crate::gcaps_x::scorer::LOGITS_A_UNIT;
+use crate::rows::Rows;
 
 /// Shows decisions as `gcaps-x` sees them. It remembers the bid prices of the day that it showed last, so each day that
 /// is played side by side with others should have an observer of its own.
@@ -12,6 +13,7 @@ use crate::gcaps_x::scorer::LOGITS_A_UNIT;
 pub struct PricedObserver {
     prices: PriceMemory,
     shortlist: Shortlist,
+    writer: Writer,
     rows: Rows,
     worth: Vec<f32>,
 }
@@ -33,7 +35,8 @@ impl Default for PricedObserver {
         Self {
             prices: PriceMemory::default(),
             shortlist: Shortlist::default(),
-            rows: Rows::new(0),
+            writer: Writer::default(),
+            rows: Rows::new(shape(0), false),
             worth: Vec::new(),
         }
     }
@@ -54,10 +57,10 @@ impl PricedObserver {
         let scene = Scene::of(view, decision, prices);
         let vertiports = view.vertiports();
         if self.rows.vertiports() != vertiports {
-            self.rows = Rows::new(vertiports);
+            self.rows = Rows::new(shape(vertiports), false);
         }
         self.rows.clear();
-        self.rows.push(scene, listed);
+        self.writer.push(scene, listed, &mut self.rows);
         self.worth.clear();
         self.worth.resize(vertiports, 0.0);
         for choice in listed {

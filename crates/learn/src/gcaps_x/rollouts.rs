@@ -136,7 +136,7 @@ impl Rollout {
     /// Adds the decision to the scorer's rows.
     fn show(&self, scorer: &mut Scorer, prices: &DayPrices) {
         let decision = self.next.as_ref().expect(ASKED);
-        scorer.rows.push(Scene::of(self.simulation.view(), decision, prices), &self.listed);
+        scorer.push(Scene::of(self.simulation.view(), decision, prices), &self.listed);
     }
 
     /// Takes the choice that a row of the scorer gives.

@@ -14,8 +14,9 @@ use vertifleet_core::VertiportIx;
 use vertifleet_policy::{PricedChoice, Shortlist};
 
 use crate::gcaps_x::ROLLOUTS;
-use crate::gcaps_x::features::{Rows, Scene, shape};
+use crate::gcaps_x::features::{Scene, Writer, shape};
 use crate::nn::{self, Architecture, Weights, Workspace};
+use crate::rows::Rows;
 
 /// A logit of 1 is worth the unit divided by this.
 pub(crate) const LOGITS_A_UNIT: f64 = 20.0;
@@ -27,6 +28,7 @@ pub(crate) struct Scorer {
     net: nn::NeuralNetwork,
     weights: Arc<Weights>,
     workspace: Workspace,
+    writer: Writer,
     pub(crate) rows: Rows,
 }
 
@@ -40,7 +42,8 @@ impl Scorer {
     ) -> Self {
         let net = network(architecture, vertiports);
         let workspace = net.workspace(BATCH);
-        Self { net, weights, workspace, rows: Rows::new(vertiports) }
+        let rows = Rows::new(shape(vertiports), false);
+        Self { net, weights, workspace, writer: Writer::default(), rows }
     }
 
     pub(crate) fn vertiports(&self) -> usize {
@@ -60,8 +63,13 @@ impl Scorer {
     /// Scores one decision, in row 0.
     pub(crate) fn score(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) {
         self.rows.clear();
-        self.rows.push(scene, listed);
+        self.push(scene, listed);
         self.forward();
+    }
+
+    /// Adds a decision to the rows.
+    pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) {
+        self.writer.push(scene, listed, &mut self.rows);
     }
 
     /// Scores all rows.

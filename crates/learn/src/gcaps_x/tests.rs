@@ -8,10 +8,12 @@ use vertifleet_sim::{Simulation, Trace, check::check};
 
 use crate::GcapsX;
 use crate::gcaps_x::features::{
-    AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Rows, Scene,
+    AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Scene, Writer,
+    shape,
 };
 use crate::gcaps_x::scorer::network;
 use crate::nn::{Architecture, GcapsSettings, Inputs, Weights};
+use crate::rows::Rows;
 
 fn small() -> Architecture {
     Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
@@ -157,13 +159,14 @@ fn the_page_names_every_feature_in_its_order() {
 fn features_are_bounded_on_every_network() {
     for day in days() {
         let mut simulation = Simulation::new(Arc::clone(&day));
-        let mut rows = Rows::new(day.vertiports.len());
+        let mut rows = Rows::new(shape(day.vertiports.len()), false);
+        let mut writer = Writer::default();
         let (mut shortlist, mut prices) = (Shortlist::default(), None);
         while let Some(decision) = simulation.next_decision() {
             let view = simulation.view();
             let prices = prices.get_or_insert_with(|| DayPrices::of(view, decision.time));
             let listed = shortlist.rank(prices, view, &decision);
-            rows.push(Scene::of(view, &decision, prices), listed);
+            writer.push(Scene::of(view, &decision, prices), listed, &mut rows);
             let choice: VertiportIx = listed[0].to;
             simulation.apply(choice).expect("a choice from the mask");
         }

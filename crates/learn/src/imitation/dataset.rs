@@ -1,45 +1,54 @@
 //! The dataset of imitation: decisions of played days, each with the values of its choices by roll-outs.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use safetensors::tensor::SafeTensors;
-use vertifleet_policy::PricedChoice;
+use vertifleet_core::VertiportIx;
 
-use crate::gcaps_x::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Rows, Scene};
+use crate::header::shape_of;
+use crate::nn::{Architecture, Shape};
+use crate::rows::Rows;
 use crate::run::checkpoint::tensor;
 
 /// Samples from days with one number of vertiports.
 #[derive(Debug, Clone)]
 pub(crate) struct Samples {
     pub(crate) rows: Rows,
-    /// For each row and vertiport, in [`Scene::addition_usd`]: `priced` is the choice's worth at the prices less that
-    /// of the best choice, and `values` is its value by roll-outs less the mean over the list. Both are 0 for a
-    /// vertiport that is not on the list.
+    /// For each row and vertiport, in the unit of the network's logits: `priced` is the choice's worth at the prices less
+    /// that of the best choice, and `values` is its value by roll-outs less the mean over all choices. Both are 0 for a
+    /// vertiport that cannot be chosen.
     pub(crate) priced: Vec<f32>,
     pub(crate) values: Vec<f32>,
 }
 
+/// A choice as the teacher judges it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Judged {
+    pub(crate) to: VertiportIx,
+    /// What it is worth at the prices, dollars.
+    pub(crate) worth_usd: f64,
+    /// Its value by roll-outs, dollars.
+    pub(crate) value_usd: f64,
+}
+
 impl Samples {
-    pub(crate) fn new(vertiports: usize) -> Self {
-        Self { rows: Rows::new(vertiports), priced: Vec::new(), values: Vec::new() }
+    /// No samples yet, in the form of these rows, which must be empty.
+    pub(crate) fn new(rows: Rows) -> Self {
+        Self { rows, priced: Vec::new(), values: Vec::new() }
     }
 
-    /// Adds a decision with the values of its choices by roll-outs, dollars. A decision with nothing at stake teaches
-    /// nothing and is left out.
-    pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice], values_usd: &[f64]) {
-        let (vertiports, addition_usd) = (self.rows.vertiports(), scene.addition_usd());
-        if addition_usd <= 0.0 {
-            return;
-        }
-        self.rows.push(scene, listed);
+    /// Adds what the teacher thinks of the decision whose row was added last. `unit_usd` is the unit of the network's
+    /// logits.
+    pub(crate) fn judge(&mut self, unit_usd: f64, choices: &[Judged]) {
         let first = self.priced.len();
-        self.priced.resize(first + vertiports, 0.0);
-        self.values.resize(first + vertiports, 0.0);
-        let mean_usd = values_usd.iter().sum::<f64>() / values_usd.len() as f64;
-        for (&PricedChoice { worth_usd, to }, value) in listed.iter().zip(values_usd) {
-            self.priced[first + to.at()] =
-                ((worth_usd - listed[0].worth_usd) / addition_usd) as f32;
-            self.values[first + to.at()] = ((value - mean_usd) / addition_usd) as f32;
+        self.priced.resize(first + self.rows.vertiports(), 0.0);
+        self.values.resize(first + self.rows.vertiports(), 0.0);
+        let best_usd = choices.iter().map(|one| one.worth_usd).fold(f64::NEG_INFINITY, f64::max);
+        let mean_usd = choices.iter().map(|one| one.value_usd).sum::<f64>() / choices.len() as f64;
+        for &Judged { to, worth_usd, value_usd } in choices {
+            self.priced[first + to.at()] = ((worth_usd - best_usd) / unit_usd) as f32;
+            self.values[first + to.at()] = ((value_usd - mean_usd) / unit_usd) as f32;
         }
     }
 
@@ -65,13 +74,18 @@ pub(crate) struct Dataset(pub(crate) BTreeMap<usize, Samples>);
 
 /// The most vertiports that a network file may have.
 const MOST_VERTIPORTS: usize = 256;
-/// The tensors that a checkpoint has for the samples of each number of vertiports, which stands before these names.
-const TENSORS: [&str; 4] = ["nodes", "aircraft", "priced", "values"];
+/// The tensors that a checkpoint has for the samples of each number of vertiports, which stands before these names. Only
+/// networks that observe edges have those.
+const TENSORS: [&str; 5] = ["nodes", "aircraft", "priced", "values", "edges"];
 
 impl Dataset {
-    pub(crate) fn add(&mut self, samples: &Samples) {
-        let vertiports = samples.rows.vertiports();
-        self.0.entry(vertiports).or_insert_with(|| Samples::new(vertiports)).append(samples);
+    pub(crate) fn add(&mut self, samples: Samples) {
+        match self.0.entry(samples.rows.vertiports()) {
+            Entry::Occupied(mut known) => known.get_mut().append(&samples),
+            Entry::Vacant(new) => {
+                new.insert(samples);
+            }
+        }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -96,14 +110,21 @@ impl Dataset {
     pub(crate) fn tensors(&self) -> impl Iterator<Item = (String, &[f32])> {
         self.0.iter().flat_map(|(&vertiports, samples)| {
             let inputs = samples.rows.inputs();
-            let numbers = [inputs.nodes, inputs.aircraft, &samples.priced, &samples.values];
-            TENSORS.iter().map(move |name| tensor_name(vertiports, name)).zip(numbers)
+            let numbers =
+                [inputs.nodes, inputs.aircraft, &samples.priced, &samples.values, inputs.edges];
+            let named = TENSORS.iter().map(move |name| tensor_name(vertiports, name)).zip(numbers);
+            named.filter(|(_, numbers)| !numbers.is_empty())
         })
     }
 
     /// Reads the samples of a checkpoint, which has samples for these numbers of vertiports.
-    pub(crate) fn read(file: &SafeTensors<'_>, vertiports: &[usize]) -> Result<Self, String> {
-        let samples = vertiports.iter().map(|&count| Ok((count, Samples::read(file, count)?)));
+    pub(crate) fn read(
+        file: &SafeTensors<'_>,
+        policy: &Architecture,
+        vertiports: &[usize],
+    ) -> Result<Self, String> {
+        let samples =
+            vertiports.iter().map(|&count| Ok((count, Samples::read(file, policy, count)?)));
         Ok(Self(samples.collect::<Result<_, String>>()?))
     }
 }
@@ -111,21 +132,33 @@ impl Dataset {
 impl Samples {
     /// Reads the samples for one number of vertiports. Memory is allocated only for numbers that the file really
     /// holds.
-    fn read(file: &SafeTensors<'_>, vertiports: usize) -> Result<Self, String> {
+    fn read(
+        file: &SafeTensors<'_>,
+        policy: &Architecture,
+        vertiports: usize,
+    ) -> Result<Self, String> {
         if !(1..=MOST_VERTIPORTS).contains(&vertiports) {
             return Err(format!(
                 "samples must have 1 to {MOST_VERTIPORTS} vertiports, found {vertiports}"
             ));
         }
-        let [nodes, aircraft, priced, values] = TENSORS.map(|name| tensor_name(vertiports, name));
+        let shape = shape_of(policy, vertiports);
+        let Shape { node_features, aircraft_features, .. } = shape;
+        let [nodes, aircraft, priced, values, edges] =
+            TENSORS.map(|name| tensor_name(vertiports, name));
         let numbers = file.tensor(&aircraft).map_err(|error| error.to_string())?.data().len() / 4;
-        let rows = numbers / AIRCRAFT_FEATURES;
+        let rows = numbers / aircraft_features;
         let tensor = |name: &str, entries: usize| tensor(file, name, entries);
         let samples = Self {
             rows: Rows::of(
-                vertiports,
-                tensor(&nodes, rows * vertiports * NODE_FEATURES)?,
-                tensor(&aircraft, rows * AIRCRAFT_FEATURES)?,
+                shape,
+                tensor(&nodes, rows * vertiports * node_features)?,
+                tensor(&aircraft, rows * aircraft_features)?,
+                if policy.adjacency().is_observed() {
+                    tensor(&edges, rows * vertiports * vertiports)?
+                } else {
+                    Vec::new()
+                },
             ),
             priced: tensor(&priced, rows * vertiports)?,
             values: tensor(&values, rows * vertiports)?,

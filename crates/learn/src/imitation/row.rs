@@ -20,19 +20,20 @@ pub struct ImitationRow {
     pub validation_reward: f64,
     /// Profit above that of `prices` on the network's validation days, as a share of the profit of `prices`.
     pub gain: f64,
-    /// The same gain on the validation days of random networks.
-    pub random_gain: f64,
+    /// The same gain on the validation days of random networks, if the weights fit networks of any size.
+    pub random_gain: Option<f64>,
 }
 
 impl ImitationRow {
     /// What was measured, under the names that TensorBoard shows.
     pub(crate) fn scalars(&self) -> Vec<(&'static str, f64)> {
-        vec![
+        let mut scalars = vec![
             ("eval/mean_reward", self.validation_reward),
             ("eval/gain", self.gain),
-            ("eval/random_gain", self.random_gain),
             ("train/agreement", self.agreement),
             ("train/lift", self.lift),
-        ]
+        ];
+        scalars.extend(self.random_gain.map(|gain| ("eval/random_gain", gain)));
+        scalars
     }
 }

@@ -2,27 +2,24 @@
 //! decisions so far.
 //!
 //! The policy that plays the days of a round is what the earlier rounds learned; in the first round it is bid prices
-//! alone. A share of the days come from random networks, a different one each ([`random_network`]); the other days
-//! come from the network that the run is for.
+//! alone. A share of the days come from random networks, a different one each ([`World::Random`]); the other
+//! days come from the world that the run is for.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
-use vertifleet_core::{DaySeed, Network, Purpose, Scenario, Stop, random_network};
-use vertifleet_policy::{
-    BidPricePolicy, DayPrices, Policy, RolloutEvaluator, Shortlist, draw, play,
-};
+use vertifleet_core::{DaySeed, Purpose, Scenario, Stop, World};
+use vertifleet_policy::{BidPricePolicy, DayPrices, Policy, Shortlist, draw, play};
 use vertifleet_sim::{DayTotals, Simulation};
 
 use crate::adam::Adam;
 use crate::error::Error;
-use crate::gcaps_x::GcapsX;
-use crate::gcaps_x::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Scene, shape};
-use crate::gcaps_x::scorer::Scorer;
-use crate::header::{FeatureShape, Header};
+use crate::gcaps_x::features::Scene;
+use crate::header::{FeatureShape, Header, shape_of};
 use crate::imitation::dataset::{Dataset, Samples};
+use crate::imitation::teacher::{Student, Teacher};
 use crate::imitation::update::{Fit, Learner, Pace};
 use crate::imitation::{ImitationRow, ImitationSettings};
 use crate::model::Model;
@@ -42,7 +39,7 @@ pub(crate) struct ImitationRun {
     settings: ImitationSettings,
     /// The header of the run's models, except for the number of steps.
     header: Header,
-    network: Arc<Network>,
+    world: World,
     learner: Learner,
     dataset: Dataset,
     curve: Vec<ImitationRow>,
@@ -67,8 +64,24 @@ impl ImitationRun {
         settings: ImitationSettings,
         from: Option<&Path>,
     ) -> Result<Self, Error> {
-        let net = nn::NeuralNetwork::new(plan.policy.clone(), shape(1))
-            .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
+        let bad = |name: &str, rule: String| Error::BadSetting { name: name.to_owned(), rule };
+        let fits_any = plan.policy.fits_any_size();
+        if !fits_any && settings.random_share > 0.0 {
+            let rule = format!("must be 0 for {}, which fits one size", plan.policy.name());
+            return Err(bad("random_share", rule));
+        }
+        // Weights that fit any size have the same shapes for every number of vertiports.
+        let own = match plan.world.vertiports() {
+            Some(vertiports) => vertiports,
+            None if fits_any => 2,
+            None => {
+                let rule = format!("{} learns on networks of one size", plan.policy.name());
+                return Err(bad("network", rule));
+            }
+        };
+        let shape = shape_of(&plan.policy, own);
+        let net = nn::NeuralNetwork::new(plan.policy.clone(), shape)
+            .map_err(|rule| bad("policy", rule))?;
         let (params, adam, dataset, curve) = if let Some(path) = from {
             read_checkpoint(path, &identity, &settings, net.layout().len())?
         } else {
@@ -77,23 +90,20 @@ impl ImitationRun {
             (params, adam, Dataset::default(), Vec::new())
         };
         let days = 0..u64::from(settings.validation_days);
-        let own = days.clone().map(|day| Ok(plan.network.draw(DaySeed::validation(day)?)));
-        let random = days.map(|day| {
-            Ok(random_network(Purpose::Validation, day).draw(DaySeed::validation(day)?))
-        });
+        let drawn = |world: &World, day: u64| -> Result<Scenario, Error> {
+            Ok(world.network(Purpose::Validation, day).draw(DaySeed::validation(day)?))
+        };
+        let own_days = days.clone().map(|day| drawn(&plan.world, day));
+        let random = days.filter(|_| fits_any).map(|day| drawn(&World::Random, day));
         let validation = [
-            with_priced_profit(own.collect::<Result<_, Error>>()?),
+            with_priced_profit(own_days.collect::<Result<_, Error>>()?),
             with_priced_profit(random.collect::<Result<_, Error>>()?),
         ];
-        let shape = FeatureShape {
-            vertiports: None,
-            node_features: NODE_FEATURES,
-            aircraft_features: AIRCRAFT_FEATURES,
-        };
+        let shape = FeatureShape { vertiports: (!fits_any).then_some(own), ..shape.into() };
         Ok(Self {
             header: Header::of_run(plan, None, shape),
-            network: Arc::clone(&plan.network),
-            learner: Learner::new(plan.policy.clone(), params, adam),
+            world: plan.world.clone(),
+            learner: Learner::new(plan.policy.clone(), own, params, adam),
             identity,
             settings,
             dataset,
@@ -115,7 +125,7 @@ impl ImitationRun {
                 Ok(samples)
             })
             .collect::<Result<_, Error>>()?;
-        for samples in &samples {
+        for samples in samples {
             self.dataset.add(samples);
         }
         let fit = self.fit(stop, worked)?;
@@ -129,7 +139,7 @@ impl ImitationRun {
             most_lift: fit.most,
             validation_reward: own.reward,
             gain: own.gain,
-            random_gain: random.gain,
+            random_gain: (!self.validation[1].is_empty()).then_some(random.gain),
         })
     }
 
@@ -168,13 +178,9 @@ impl ImitationRun {
         (first..first + u64::from(self.settings.days))
             .map(|day| {
                 let seed = DaySeed::training(self.identity.seed, day)?;
-                let drawn = if random(day) {
-                    // Every day has a seed of its own, so no two runs share a random network.
-                    random_network(Purpose::Training, seed.get()).draw(seed)
-                } else {
-                    self.network.draw(seed)
-                };
-                Ok(Arc::new(drawn))
+                let world = if random(day) { &World::Random } else { &self.world };
+                // Every day has a seed of its own, so no two runs share a network that is drawn.
+                Ok(Arc::new(world.network(Purpose::Training, seed.get()).draw(seed)))
             })
             .collect()
     }
@@ -183,11 +189,11 @@ impl ImitationRun {
     fn samples(&self, day: &Arc<Scenario>, actor: Option<&Arc<Weights>>) -> Samples {
         let vertiports = day.vertiports.len();
         let policy = &self.identity.policy;
-        let mut scorer = actor.map(|weights| Scorer::new(policy, Arc::clone(weights), vertiports));
+        let mut student = actor.map(|weights| Student::of(policy, weights, vertiports));
         let share = SAMPLES_A_DAY / (DECISIONS_AN_AIRCRAFT * day.aircraft.len() as f64);
-        let mut samples = Samples::new(vertiports);
+        let (mut teacher, mut samples) =
+            Teacher::of(policy, vertiports, self.settings.expert.clone());
         let mut shortlist = Shortlist::default();
-        let mut evaluator = RolloutEvaluator::new(self.settings.expert.clone());
         let mut simulation = Simulation::new(Arc::clone(day));
         let mut prices: Option<DayPrices> = None;
         while let Some(decision) = simulation.next_decision() {
@@ -199,13 +205,12 @@ impl ImitationRun {
             let bits = |what: u64| draw(what, day.seed, decision.index) >> 11;
             let chance = |what: u64| bits(what) as f64 / (1_u64 << 53) as f64;
             if listed.len() > 1 && chance(1) < share {
-                let values_usd = evaluator.values_usd(prices, view, &decision, listed);
-                samples.push(scene, listed, values_usd);
+                teacher.judge(scene, listed, &mut samples);
             }
             let choice = if chance(2) < self.settings.exploration {
                 listed[((u128::from(bits(3)) * listed.len() as u128) >> 53) as usize].to
-            } else if let Some(scorer) = &mut scorer {
-                scorer.best(scene, listed)
+            } else if let Some(student) = &mut student {
+                student.choose(scene, listed)
             } else {
                 listed[0].to
             };
@@ -220,12 +225,12 @@ impl ImitationRun {
         let outcomes: Vec<Validation> = days
             .par_iter()
             .map(|(day, priced_usd)| {
-                let played = played(&mut GcapsX::new(&model, 1), day);
+                let played = played(model.policy(1).as_mut(), day);
                 Validation { reward: played.reward, gain: played.profit_usd / priced_usd - 1.0 }
             })
             .collect();
         let mean = |of: fn(&Validation) -> f64| {
-            outcomes.iter().map(of).sum::<f64>() / outcomes.len() as f64
+            outcomes.iter().map(of).sum::<f64>() / outcomes.len().max(1) as f64
         };
         Validation { reward: mean(|outcome| outcome.reward), gain: mean(|outcome| outcome.gain) }
     }
@@ -294,7 +299,7 @@ fn read_checkpoint(
     if curve.iter().zip(1..).any(|(row, number)| row.round != number) {
         return broken("rounds must be numbered from 1 on".to_owned());
     }
-    let dataset = checkpoint.others(|file| Dataset::read(file, vertiports))?;
+    let dataset = checkpoint.others(|file| Dataset::read(file, &identity.policy, vertiports))?;
     Ok((checkpoint.params, checkpoint.adam, dataset, checkpoint.progress.curve))
 }
 

@@ -1,7 +1,8 @@
 //! One pass of imitation over the dataset, which moves the probabilities of choices to where the mean worth is
 //! highest.
 //!
-//! With p the softmax of worth over logits, and A the value of each choice by roll-outs, the loss of a decision is
+//! With p the softmax of worth over logits (of the logits alone, for a policy that decides without prices), and A the
+//! value of each choice by roll-outs, the loss of a decision is
 //!
 //! ```text
 //! L = -sum over j of p_j A_j  -  entropy_weight H(p)
@@ -17,10 +18,11 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 
 use crate::adam::{Adam, clip_norm};
-use crate::gcaps_x::features::Rows;
-use crate::gcaps_x::scorer::{LOGITS_A_UNIT, network};
+use crate::gcaps_x::scorer::LOGITS_A_UNIT;
+use crate::header::shape_of;
 use crate::imitation::dataset::{Dataset, Samples};
 use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
+use crate::rows::Rows;
 
 /// Nodes per forward and backward pass: as many as the second-level cache holds.
 const CHUNK_NODES: usize = 1_024;
@@ -56,9 +58,8 @@ pub(crate) struct Fit {
 }
 
 struct Lane {
-    vertiports: usize,
-    net: Option<(nn::NeuralNetwork, Workspace)>,
-    rows: Rows,
+    /// For the number of vertiports of the latest chunk.
+    sized: Option<(nn::NeuralNetwork, Workspace, Rows)>,
     gradient: Gradient,
     slopes: Vec<f32>,
     no_slopes: Vec<f32>,
@@ -80,12 +81,16 @@ pub(crate) struct Pace {
 }
 
 impl Learner {
-    pub(crate) fn new(architecture: Architecture, params: Vec<f32>, adam: Adam) -> Self {
-        let net = network(&architecture, 2);
+    /// The learner of a policy that fits this number of vertiports, or any.
+    pub(crate) fn new(
+        architecture: Architecture,
+        vertiports: usize,
+        params: Vec<f32>,
+        adam: Adam,
+    ) -> Self {
+        let net = network(&architecture, vertiports);
         let lane = || Lane {
-            vertiports: 0,
-            net: None,
-            rows: Rows::new(0),
+            sized: None,
             gradient: net.gradient(),
             slopes: Vec::new(),
             no_slopes: Vec::new(),
@@ -157,51 +162,69 @@ impl Lane {
         entropy_weight: f32,
         weight: f32,
     ) {
+        let Self { sized, gradient, slopes, no_slopes, fit } = self;
         let vertiports = samples.rows.vertiports();
-        if self.vertiports != vertiports {
+        if sized.as_ref().is_none_or(|(_, _, rows)| rows.vertiports() != vertiports) {
             let net = network(architecture, vertiports);
             let workspace = net.workspace(chunk_rows(vertiports));
-            self.net = Some((net, workspace));
-            self.rows = Rows::new(vertiports);
-            self.vertiports = vertiports;
+            let rows = Rows::new(samples.rows.shape(), architecture.adjacency().is_observed());
+            *sized = Some((net, workspace, rows));
         }
-        let (net, workspace) = self.net.as_mut().expect("made above");
-        self.rows.clear();
+        let (net, workspace, chosen) = sized.as_mut().expect("made above");
+        chosen.clear();
         for &row in rows {
-            self.rows.push_copy(&samples.rows, row);
+            chosen.push_copy(&samples.rows, row);
         }
-        let inputs = self.rows.inputs();
+        let inputs = chosen.inputs();
         net.forward(model_weights, inputs, workspace);
-        self.slopes.clear();
-        self.slopes.resize(rows.len() * vertiports, 0.0);
-        self.no_slopes.clear();
-        self.no_slopes.resize(rows.len(), 0.0);
+        slopes.clear();
+        slopes.resize(rows.len() * vertiports, 0.0);
+        no_slopes.clear();
+        no_slopes.resize(rows.len(), 0.0);
+        let priced_weight = priced_weight(architecture);
         let logits = workspace.logits().chunks_exact(vertiports);
-        for ((logits, slopes), &row) in
-            logits.zip(self.slopes.chunks_exact_mut(vertiports)).zip(rows)
-        {
+        for ((logits, slopes), &row) in logits.zip(slopes.chunks_exact_mut(vertiports)).zip(rows) {
             let span = row * vertiports..(row + 1) * vertiports;
             let (priced, values) = (&samples.priced[span.clone()], &samples.values[span]);
-            let fit = decision_loss(logits, priced, values, slopes, entropy_weight, weight);
-            self.fit.add(&fit);
+            let judged = Advice { priced, values, priced_weight };
+            fit.add(&decision_loss(logits, judged, slopes, entropy_weight, weight));
         }
-        let slopes = Slopes { logits: &self.slopes, values: &self.no_slopes };
-        net.backward(model_weights, inputs, slopes, workspace, &mut self.gradient);
+        let slopes = Slopes { logits: slopes, values: no_slopes };
+        net.backward(model_weights, inputs, slopes, workspace, gradient);
     }
+}
+
+/// What the teacher thinks of the choices of a decision.
+#[derive(Clone, Copy)]
+struct Advice<'a> {
+    priced: &'a [f32],
+    values: &'a [f32],
+    /// What a unit of worth at the prices adds to a logit: nothing for a policy that decides without prices.
+    priced_weight: f32,
+}
+
+/// What a unit of worth at the prices adds to a logit when this policy decides.
+fn priced_weight(policy: &Architecture) -> f32 {
+    if policy.sees_prices() { LOGITS_A_UNIT as f32 } else { 0.0 }
+}
+
+/// The network of a policy for this number of vertiports.
+pub(super) fn network(policy: &Architecture, vertiports: usize) -> nn::NeuralNetwork {
+    nn::NeuralNetwork::new(policy.clone(), shape_of(policy, vertiports))
+        .expect("sizes were checked when the run began")
 }
 
 /// Sets the slopes of a decision's loss, times `weight`. Returns how well the decision was taken.
 fn decision_loss(
     logits: &[f32],
-    priced: &[f32],
-    values: &[f32],
+    Advice { priced, values, priced_weight }: Advice<'_>,
     slopes: &mut [f32],
     entropy_weight: f32,
     weight: f32,
 ) -> Fit {
     let unit = LOGITS_A_UNIT as f32;
     // This is minus infinity for a vertiport that is not on the list.
-    let whole = |at: usize| logits[at] + unit * priced[at];
+    let whole = |at: usize| logits[at] + priced_weight * priced[at];
     let highest = (0..logits.len()).map(whole).fold(f32::NEG_INFINITY, f32::max);
     let total: f32 = (0..logits.len()).map(|at| (whole(at) - highest).exp()).sum();
     let log_total = highest + total.ln();
@@ -270,7 +293,7 @@ impl Fit {
 
 #[cfg(test)]
 mod tests {
-    use super::{LOGITS_A_UNIT, decision_loss};
+    use super::{Advice, LOGITS_A_UNIT, decision_loss};
 
     const ENTROPY_WEIGHT: f32 = 0.7;
     const PRICED: [f32; 4] = [0.0, -0.05, 0.0, -0.2];
@@ -293,7 +316,9 @@ mod tests {
     fn slopes_are_those_of_the_loss() {
         let logits = [0.3, -0.2, f32::NEG_INFINITY, 1.1];
         let mut slopes = [0.0; 4];
-        let fit = decision_loss(&logits, &PRICED, &VALUES, &mut slopes, ENTROPY_WEIGHT, 1.0);
+        let advice =
+            Advice { priced: &PRICED, values: &VALUES, priced_weight: LOGITS_A_UNIT as f32 };
+        let fit = decision_loss(&logits, advice, &mut slopes, ENTROPY_WEIGHT, 1.0);
         assert_eq!(slopes[2], 0.0, "what is not on the list moves nothing");
         for at in [0, 1, 3] {
             let moved = |by: f32| {

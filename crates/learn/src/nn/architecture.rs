@@ -26,6 +26,12 @@ pub enum Architecture {
     /// network's size.
     #[serde(rename = "gcaps-x")]
     GcapsX(GcapsSettings),
+    /// The layers of `gcaps` on the full observation, which needs no bid prices; no weight depends on the network's size.
+    #[serde(rename = "gcaps-full")]
+    GcapsFull(GcapsSettings),
+    /// Plain layers on the full observation, flattened.
+    #[serde(rename = "mlp-full")]
+    MlpFull(MlpSettings),
 }
 
 /// Sizes of a `gcaps` network.
@@ -151,6 +157,13 @@ impl GraphSettings {
         Self { attention: true, ..*self }.is_of_the_paper()
     }
 
+    fn adjacency_in_use(&self) -> Adjacency {
+        match self.encoder {
+            EncoderKind::Capsules => self.adjacency,
+            EncoderKind::Transformer => Adjacency::Complete,
+        }
+    }
+
     /// Checks that the sizes are such as can be meant.
     ///
     /// # Errors
@@ -181,25 +194,43 @@ impl Default for MlpSettings {
 }
 
 impl Architecture {
-    /// The policy with this name, `gcaps`, `mlp` or `gcaps-x`, with its default sizes.
+    /// The policy with this name, `gcaps`, `mlp`, `gcaps-x`, `gcaps-full` or `mlp-full`, with its default sizes.
     pub fn named(name: &str) -> Option<Self> {
         match name {
             "gcaps" => Some(Self::Gcaps(GcapsSettings::default())),
             "mlp" => Some(Self::Mlp(MlpSettings::default())),
             "gcaps-x" => Some(Self::GcapsX(GcapsSettings::of_sizes(32, 4))),
+            "gcaps-full" => Some(Self::GcapsFull(GcapsSettings::of_sizes(64, 4))),
+            "mlp-full" => {
+                Some(Self::MlpFull(MlpSettings { width: 256, layers: 2, value_width: 64 }))
+            }
             _ => None,
         }
     }
 
-    /// Whether the network needs the weights of edges with each observation.
-    pub fn observes_edges(&self) -> bool {
+    /// What makes vertiports neighbours; every vertiport is that of every other where there is no graph.
+    pub fn adjacency(&self) -> Adjacency {
         match self {
-            Self::Gcaps(settings) | Self::GcapsX(settings) => {
-                let GraphSettings { encoder, adjacency, .. } = settings.graph;
-                encoder == EncoderKind::Capsules && adjacency.is_observed()
+            Self::Gcaps(settings) | Self::GcapsX(settings) | Self::GcapsFull(settings) => {
+                settings.graph.adjacency_in_use()
             }
-            Self::Mlp(_) => false,
+            Self::Mlp(_) | Self::MlpFull(_) => Adjacency::Complete,
         }
+    }
+
+    /// Whether the weights fit networks of any size.
+    pub fn fits_any_size(&self) -> bool {
+        matches!(self, Self::GcapsX(_) | Self::GcapsFull(_))
+    }
+
+    /// Whether the policy decides by the day's bid prices and its network.
+    pub fn sees_prices(&self) -> bool {
+        matches!(self, Self::GcapsX(_))
+    }
+
+    /// Whether the policy learns by imitation of roll-outs, and not by PPO.
+    pub fn learns_by_imitation(&self) -> bool {
+        matches!(self, Self::GcapsX(_) | Self::GcapsFull(_) | Self::MlpFull(_))
     }
 
     /// The policy's name.
@@ -208,6 +239,8 @@ impl Architecture {
             Self::Gcaps(_) => "gcaps",
             Self::Mlp(_) => "mlp",
             Self::GcapsX(_) => "gcaps-x",
+            Self::GcapsFull(_) => "gcaps-full",
+            Self::MlpFull(_) => "mlp-full",
         }
     }
 }

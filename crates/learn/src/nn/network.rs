@@ -68,11 +68,13 @@ impl NeuralNetwork {
         check_size("node_features", shape.node_features)?;
         check_size("aircraft_features", shape.aircraft_features)?;
         let (body, layout, derived, folded) = match &architecture {
-            Architecture::Gcaps(settings) | Architecture::GcapsX(settings) => {
+            Architecture::Gcaps(settings)
+            | Architecture::GcapsX(settings)
+            | Architecture::GcapsFull(settings) => {
                 let (body, layout, products, folded) = Gcaps::new(settings, shape)?;
                 (Body::Gcaps(Box::new(body)), layout, products.len(), folded)
             }
-            Architecture::Mlp(settings) => {
+            Architecture::Mlp(settings) | Architecture::MlpFull(settings) => {
                 let (body, layout) = Mlp::new(settings, shape)?;
                 (Body::Mlp(body), layout, 0, 0)
             }
@@ -234,7 +236,7 @@ impl NeuralNetwork {
         );
         assert_eq!(inputs.mask.len(), batch * vertiports, "mask of the batch");
         assert_eq!(inputs.clock.len(), batch, "clocks of the batch");
-        if self.architecture.observes_edges() {
+        if self.architecture.adjacency().is_observed() {
             assert_eq!(inputs.edges.len(), batch * vertiports * vertiports, "edges of the batch");
         }
     }

@@ -8,12 +8,12 @@ use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelRefMutIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
-use vertifleet_core::{DaySeed, Network, VertiportIx};
+use vertifleet_core::{DaySeed, Purpose, VertiportIx, World};
 use vertifleet_policy::draw;
 use vertifleet_sim::{Decision, Simulation};
 
 use crate::error::Error;
-use crate::features::{Observations, Scales, shape};
+use crate::features::{Observations, Scales};
 use crate::nn::{self, Weights, Workspace};
 use crate::ppo::PpoSettings;
 
@@ -23,14 +23,20 @@ const GROUP: usize = 32;
 /// The source of training days and of the randomness of choices.
 #[derive(Debug, Clone)]
 pub(crate) struct Source {
-    pub(crate) network: Arc<Network>,
+    pub(crate) world: World,
     pub(crate) run_seed: u32,
 }
 
 impl Source {
     fn day(&self, number: u64) -> Result<Simulation, Error> {
         let seed = DaySeed::training(self.run_seed, number)?;
-        Ok(Simulation::new(Arc::new(self.network.draw(seed))))
+        let network = self.world.network(Purpose::Training, seed.get());
+        Ok(Simulation::new(Arc::new(network.draw(seed))))
+    }
+
+    /// What features are divided by, which is the same on all networks of a world.
+    fn scales(&self) -> Scales {
+        Scales::from(self.world.network(Purpose::Training, 0).feature_scales())
     }
 
     /// A random number in [0, 1) that depends only on run, training day and decision.
@@ -129,10 +135,10 @@ impl Buffer {
         let mut groups = Vec::new();
         while !played.is_empty() {
             let rest = played.split_off(played.len().min(GROUP));
-            groups.push(Group::new(played, &source.network, net, settings.n_steps));
+            groups.push(Group::new(played, net, settings.n_steps));
             played = rest;
         }
-        let scales = Scales::from(source.network.feature_scales());
+        let scales = source.scales();
         Ok(Self { scales, settings: settings.clone(), groups })
     }
 
@@ -164,13 +170,8 @@ impl Buffer {
 }
 
 impl Group {
-    fn new(
-        days: Vec<PlayedDay>,
-        network: &Network,
-        net: &nn::NeuralNetwork,
-        n_steps: usize,
-    ) -> Self {
-        let shape = shape(network.vertiports().len());
+    fn new(days: Vec<PlayedDay>, net: &nn::NeuralNetwork, n_steps: usize) -> Self {
+        let shape = net.shape();
         let rows = days.len() * n_steps;
         let experience = Experience {
             observations: Observations::new(shape, rows),
@@ -284,7 +285,7 @@ mod tests {
     use vertifleet_core::Network;
 
     use super::{DayInProgress, Group, PlayedDay, Source, sample};
-    use crate::features::{Scales, shape};
+    use crate::features::shape;
     use crate::nn::{Architecture, GcapsSettings, NeuralNetwork as Net};
     use crate::ppo::{PpoSettings, Reward};
 
@@ -296,7 +297,7 @@ mod tests {
             costs.map(|(member, usd)| (format!("tariffs.{member}"), usd.into())).into();
         let network = network.changed(costs.iter().map(|(path, usd)| (path, usd)));
         let network = network.expect("a network");
-        Source { network: Arc::new(network), run_seed: 5 }
+        Source { world: Arc::new(network).into(), run_seed: 5 }
     }
 
     /// The rewards of one day's first 600 decisions, which are more than a day has, and the index at which the day
@@ -311,8 +312,8 @@ mod tests {
         let weights = net.weights(net.init(1));
         let day = DayInProgress { number: 0, choices: Vec::new() };
         let day = PlayedDay::resume(&source, day).expect("a training day");
-        let mut group = Group::new(vec![day], &source.network, &net, settings.n_steps);
-        let scales = Scales::from(source.network.feature_scales());
+        let mut group = Group::new(vec![day], &net, settings.n_steps);
+        let scales = source.scales();
         group.collect(&source, &scales, &settings, &net, &weights).expect("days are left");
         let end = group.experience.day_ends.iter().position(|&end| end).expect("the day ends");
         (group.experience.rewards, end)

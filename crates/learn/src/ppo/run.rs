@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
-use vertifleet_core::{DaySeed, Scenario, Stop};
+use vertifleet_core::{DaySeed, Purpose, Scenario, Stop};
 use vertifleet_policy::Policy;
 use vertifleet_sim::Simulation;
 
@@ -69,7 +69,15 @@ impl PpoRun {
         settings: PpoSettings,
         from: Option<&Path>,
     ) -> Result<Self, Error> {
-        let shape = shape(plan.network.vertiports().len());
+        let vertiports = plan.world.vertiports().ok_or_else(|| Error::BadSetting {
+            name: "network".to_owned(),
+            rule: format!("{} learns on networks of one size", plan.policy.name()),
+        })?;
+        if plan.policy.adjacency().is_observed() {
+            let rule = "the paper's observation shows no flights between two vertiports".to_owned();
+            return Err(Error::BadSetting { name: "adjacency".to_owned(), rule });
+        }
+        let shape = shape(vertiports);
         let net = nn::NeuralNetwork::new(plan.policy.clone(), shape)
             .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
         let (params, adam, mut progress) = if let Some(path) = from {
@@ -78,16 +86,20 @@ impl PpoRun {
             let params = net.init(u64::from(plan.seed));
             (params.clone(), Adam::new(params.len()), Progress::new(params))
         };
-        let source = Source { network: Arc::clone(&plan.network), run_seed: plan.seed };
+        let source = Source { world: plan.world.clone(), run_seed: plan.seed };
         let days = from.map(|_| std::mem::take(&mut progress.days));
         let validation = (0..u64::from(settings.eval_days))
-            .map(|day| Ok(Arc::new(plan.network.draw(DaySeed::validation(day)?))))
+            .map(|day| {
+                let network = plan.world.network(Purpose::Validation, day);
+                Ok(Arc::new(network.draw(DaySeed::validation(day)?)))
+            })
             .collect::<Result<_, Error>>()?;
+        let scales = plan.world.network(Purpose::Training, 0).feature_scales();
         Ok(Self {
             buffer: Buffer::new(&source, &net, &settings, days)?,
             ppo: Ppo::new(&net, shape.vertiports, &settings),
             weights: net.weights(params),
-            header: Header::of_run(plan, Some(plan.network.feature_scales()), shape.into()),
+            header: Header::of_run(plan, Some(scales), shape.into()),
             identity,
             settings,
             net,

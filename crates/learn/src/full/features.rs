@@ -1,0 +1,367 @@
+//! The full observation: every vertiport as it looks from the deciding aircraft, with what the forecast and the fleet
+//! say of it, in numbers that mean the same on every network.
+//!
+//! Dollars are measured in the profit of a typical full flight of the network, times in hours, and passengers in
+//! flights; every number is bounded. Writing a row looks at every pair of vertiports three times, and once at the fleet.
+
+use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
+use vertifleet_policy::units_usd;
+use vertifleet_sim::{DayKey, Decision, View};
+
+use crate::nn::{Adjacency, Shape};
+use crate::rows::{Row, Rows};
+
+/// F, the number of node features.
+pub(crate) const NODE_FEATURES: usize = 37;
+/// G, the number of aircraft features.
+pub(crate) const AIRCRAFT_FEATURES: usize = 11;
+/// The node features in their order; docs/src/concepts/policies.md says what each means.
+#[cfg(test)]
+pub(crate) const NODE_FEATURE_NAMES: [&str; NODE_FEATURES] = [
+    "is_possible",
+    "is_own",
+    "is_in_range",
+    "block_h",
+    "profit",
+    "profit_per_h",
+    "seats_filled",
+    "next_seats_filled",
+    "demand_left",
+    "demand_next",
+    "stands_free",
+    "stands_taken",
+    "ready_before",
+    "ready_about",
+    "ready_0",
+    "ready_15",
+    "ready_30",
+    "ready_60",
+    "ready_120",
+    "day_left",
+    "last_hour",
+    "last_two_hours",
+    "onward_best",
+    "onward_second",
+    "onward_third",
+    "later_best",
+    "later_second",
+    "last_best",
+    "onward_flights",
+    "later_flights",
+    "last_flights",
+    "onward_profit",
+    "later_profit",
+    "last_profit",
+    "arriving",
+    "crowding",
+    "routes_open",
+];
+/// The aircraft features in their order.
+#[cfg(test)]
+pub(crate) const AIRCRAFT_FEATURE_NAMES: [&str; AIRCRAFT_FEATURES] = [
+    "day_left",
+    "last_hour",
+    "last_two_hours",
+    "last_four_hours",
+    "period_left",
+    "queue_15",
+    "queue_30",
+    "queue_60",
+    "choices",
+    "aircraft_a_vertiport",
+    "aircraft_a_stand",
+];
+/// Other aircraft that are ready this long before or after the deciding one want the same flights, seconds.
+const NEAR_S: u32 = 900;
+/// How soon other aircraft at a vertiport are ready, seconds; they are counted for each of these times.
+const READY_S: [u32; 5] = [0, 900, 1_800, 3_600, 7_200];
+/// What can be flown from a vertiport is looked at when the aircraft is ready there, and so long afterwards, seconds.
+const ONWARD_S: [u32; 3] = [0, 3_600, 7_200];
+
+/// The shape of the features for this many vertiports.
+pub(crate) fn shape(vertiports: usize) -> Shape {
+    Shape { vertiports, node_features: NODE_FEATURES, aircraft_features: AIRCRAFT_FEATURES }
+}
+
+/// Writes rows. It keeps the units of the day that it wrote last, and its memory from row to row.
+#[derive(Debug, Clone)]
+pub(crate) struct Writer {
+    adjacency: Adjacency,
+    units: Option<(DayKey, Vec<f64>)>,
+    /// The other aircraft as the row being written counts them, by vertiport.
+    seen: Vec<Seen>,
+}
+
+/// The other aircraft that stand at a vertiport or are on their way there.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seen {
+    /// The time at which the deciding aircraft would be ready there.
+    ready: Time,
+    /// The number of aircraft that are ready before that time, and the number that are ready at about that time.
+    before: u16,
+    near: u16,
+    /// The number of aircraft that are ready within each time of [`READY_S`].
+    within: [u16; 5],
+}
+
+/// A decision with the unit of money.
+#[derive(Clone, Copy)]
+struct Scene<'a> {
+    view: View<'a>,
+    decision: &'a Decision,
+    kind: TypeIx,
+    /// The profit of a typical full flight, dollars.
+    unit_usd: f64,
+}
+
+impl Writer {
+    /// A writer of rows whose edges are those of an adjacency that is observed; others need none.
+    pub(crate) fn new(adjacency: Adjacency) -> Self {
+        Self { adjacency, units: None, seen: Vec::new() }
+    }
+
+    /// No rows yet, for days with so many vertiports.
+    pub(crate) fn rows(&self, vertiports: usize) -> Rows {
+        Rows::new(shape(vertiports), self.adjacency.is_observed())
+    }
+
+    /// Adds the row of a decision between all of its feasible choices.
+    pub(crate) fn push(&mut self, view: View<'_>, decision: &Decision, rows: &mut Rows) {
+        let kind = view.kind(decision.aircraft);
+        let scene = Scene { view, decision, kind, unit_usd: self.unit_usd(view, kind) };
+        self.look_around(scene);
+        let (adjacency, seen) = (self.adjacency, &self.seen);
+        rows.push(|row| scene.write(adjacency, seen, row));
+    }
+
+    /// The profit of a typical full flight of a type, dollars.
+    pub(crate) fn unit_usd(&mut self, view: View<'_>, kind: TypeIx) -> f64 {
+        let day = view.day();
+        if self.units.as_ref().is_none_or(|(known, _)| *known != day) {
+            self.units = Some((day, units_usd(view)));
+        }
+        self.units.as_ref().map_or(1.0, |(_, units_usd)| units_usd[kind.at()])
+    }
+
+    /// Counts the other aircraft at each vertiport.
+    fn look_around(&mut self, Scene { view, decision, kind, .. }: Scene<'_>) {
+        let legs = view.legs_from(kind, decision.at);
+        self.seen.resize(legs.len(), Seen::default());
+        for (to, (seen, leg)) in self.seen.iter_mut().zip(legs).enumerate() {
+            let stays = to == decision.at.at();
+            let block_s = if stays { view.hold_s() } else { leg.block_s() };
+            *seen = Seen { ready: decision.time + block_s, ..Seen::default() };
+        }
+        for (other, place) in AircraftIx::all(view.places().len()).zip(view.places()) {
+            if other == decision.aircraft {
+                continue;
+            }
+            let ready = view.ready_at(other);
+            let seen = &mut self.seen[place.at()];
+            seen.before += u16::from(ready < seen.ready);
+            let apart_s = ready.since(seen.ready).max(seen.ready.since(ready));
+            seen.near += u16::from(apart_s <= NEAR_S);
+            for (count, within_s) in seen.within.iter_mut().zip(READY_S) {
+                *count += u16::from(ready <= decision.time + within_s);
+            }
+        }
+    }
+}
+
+/// What can be flown from a vertiport at a time.
+#[derive(Debug, Clone, Copy, Default)]
+struct Onward {
+    /// The highest profits per hour of a flight, in units.
+    best: [f64; 3],
+    /// The number of flights that pay, and their profit in units, if seats are full as far as passengers last.
+    flights: f64,
+    profit: f64,
+}
+
+impl Scene<'_> {
+    fn write(self, adjacency: Adjacency, seen: &[Seen], row: &mut Row<'_>) {
+        let Self { view, decision, kind, .. } = self;
+        let feasible = view.feasible(decision);
+        *row.clock = self.share_of_day(decision.time) as f32;
+        let own = &seen[decision.at.at()];
+        let choices = feasible.iter().count();
+        for (to, value) in row.aircraft.iter_mut().zip(self.aircraft(own, choices)) {
+            *to = value as f32;
+        }
+        for (at, to) in row.nodes.chunks_exact_mut(NODE_FEATURES).enumerate() {
+            let at = VertiportIx::new(at);
+            to[0] = f32::from(u8::from(feasible.contains(at)));
+            for (to, value) in to[1..].iter_mut().zip(self.node(at, &seen[at.at()])) {
+                *to = value as f32;
+            }
+        }
+        if row.edges.is_empty() {
+            return;
+        }
+        let count = view.vertiports();
+        for (from, row) in row.edges.chunks_exact_mut(count).enumerate() {
+            let from = VertiportIx::new(from);
+            let closed = view.closed(from);
+            for to in view.within_range(kind, from).iter() {
+                let is_open = !closed.contains(to);
+                row[to.at()] = match adjacency {
+                    Adjacency::Complete | Adjacency::Similarity => 1.0,
+                    Adjacency::Distance => {
+                        let flight_h = hours(view.leg(kind, from, to).flight_s);
+                        (1.0 / (1.0 + flight_h)) as f32
+                    }
+                    Adjacency::Reachable => f32::from(u8::from(is_open)),
+                    Adjacency::Profit if is_open => {
+                        self.rate(decision.time, from, to).0.clamp(0.0, 3.0) as f32
+                    }
+                    Adjacency::Profit => 0.0,
+                };
+            }
+        }
+    }
+
+    fn share_of_day(self, time: Time) -> f64 {
+        let day_s = self.view.day_end().since(self.view.day_start()).max(1);
+        f64::from(self.view.day_end().since(time)) / f64::from(day_s)
+    }
+
+    /// The aircraft features; `own` is what is counted at its own vertiport.
+    fn aircraft(self, own: &Seen, choices: usize) -> [f64; AIRCRAFT_FEATURES] {
+        let Self { view, decision, .. } = self;
+        let time = decision.time;
+        let next_period = view.period_starts().get(view.period() + 1).copied();
+        let period_left_s = next_period.map_or(3_600, |next| next.since(time));
+        let stands: u32 =
+            VertiportIx::all(view.vertiports()).map(|at| u32::from(view.stands(at))).sum();
+        let fleet = view.places().len() as f64;
+        let left_h = hours(view.day_end().since(time));
+        [
+            self.share_of_day(time),
+            left_h.min(1.0),
+            (left_h / 2.0).min(1.0),
+            (left_h / 4.0).min(1.0),
+            hours(period_left_s).min(1.0),
+            few(own.within[1], 4.0),
+            few(own.within[2], 4.0),
+            few(own.within[3], 4.0),
+            (choices as f64 / 8.0).min(4.0),
+            (fleet / view.vertiports() as f64 / 8.0).min(2.0),
+            (fleet / f64::from(stands.max(1))).min(2.0),
+        ]
+    }
+
+    /// The features of a vertiport, except for whether it may be chosen.
+    fn node(self, to: VertiportIx, seen: &Seen) -> [f64; NODE_FEATURES - 1] {
+        let Self { view, decision, kind, unit_usd } = self;
+        let Decision { time, at: from, .. } = *decision;
+        let stays = to == from;
+        let in_range = stays || view.within_range(kind, from).contains(to);
+        let seats = u32::from(view.aircraft_type(kind).seats);
+        let (profit, waiting) = if stays || !in_range {
+            (0.0, 0)
+        } else {
+            let waiting = view.demand_left(view.period(), from, to);
+            let profit_usd = view.flight_profit_usd(time, kind, (from, to), waiting);
+            (profit_usd / unit_usd, waiting)
+        };
+        let next_period = (view.period() + 1).min(view.period_starts().len() - 1);
+        let later = if stays { 0 } else { view.demand_left(next_period, from, to) };
+        let flights = |passengers: u32| log(f64::from(passengers) / f64::from(seats));
+        let block_h = hours(seen.ready.since(time));
+        let (stands, taken) = (view.stands(to), view.stands_taken()[to.at()]);
+        let left_h = hours(view.day_end().since(seen.ready));
+        let [onward, then, last] = ONWARD_S.map(|later_s| self.onward(to, seen.ready + later_s));
+        let period = view.demand_left_in(view.period());
+        let arriving: u32 = period.iter().skip(to.at()).step_by(view.vertiports()).sum();
+        let neighbours = view.within_range(kind, to).iter();
+        let closed = view.closed(to);
+        let (all, shut) = neighbours.fold((0_u32, 0_u32), |(all, shut), at| {
+            (all + 1, shut + u32::from(closed.contains(at)))
+        });
+        [
+            f64::from(u8::from(stays)),
+            f64::from(u8::from(in_range)),
+            block_h.min(3.0),
+            profit.clamp(-1.0, 3.0),
+            (profit / block_h.max(0.1)).clamp(-1.0, 3.0),
+            f64::from(waiting.min(seats)) / f64::from(seats),
+            f64::from(waiting.saturating_sub(seats).min(seats)) / f64::from(seats),
+            flights(waiting),
+            flights(later),
+            few(stands.saturating_sub(taken), 4.0),
+            (f64::from(taken) / f64::from(stands.max(1))).min(2.0),
+            few(seen.before, 4.0),
+            few(seen.near, 4.0),
+            few(seen.within[0], 4.0),
+            few(seen.within[1], 4.0),
+            few(seen.within[2], 4.0),
+            few(seen.within[3], 4.0),
+            few(seen.within[4], 4.0),
+            self.share_of_day(seen.ready),
+            left_h.min(1.0),
+            (left_h / 2.0).min(1.0),
+            onward.best[0].min(3.0),
+            onward.best[1].min(3.0),
+            onward.best[2].min(3.0),
+            then.best[0].min(3.0),
+            then.best[1].min(3.0),
+            last.best[0].min(3.0),
+            log(onward.flights),
+            log(then.flights),
+            log(last.flights),
+            log(onward.profit),
+            log(then.profit),
+            log(last.profit),
+            log(f64::from(arriving) / f64::from(seats)),
+            (f64::from(seen.before) / (onward.flights + 1.0)).min(2.0),
+            1.0 - f64::from(shut) / f64::from(all.max(1)),
+        ]
+    }
+
+    /// The profit per hour of a flight at a time, its profit, both in units, and the passengers who want to fly.
+    fn rate(self, time: Time, from: VertiportIx, to: VertiportIx) -> (f64, f64, u32) {
+        let Self { view, kind, unit_usd, .. } = self;
+        let waiting = view.demand_left(view.period_at(time), from, to);
+        let profit = view.flight_profit_usd(time, kind, (from, to), waiting) / unit_usd;
+        let block_h = hours(view.leg(kind, from, to).block_s()).max(0.1);
+        (profit / block_h, profit, waiting)
+    }
+
+    fn onward(self, from: VertiportIx, time: Time) -> Onward {
+        let Self { view, kind, .. } = self;
+        let mut onward = Onward::default();
+        if time > view.day_end() {
+            return onward;
+        }
+        let seats = f64::from(view.aircraft_type(kind).seats);
+        for to in view.within_range(kind, from).iter() {
+            let (mut rate, profit, waiting) = self.rate(time, from, to);
+            if rate <= 0.0 {
+                continue;
+            }
+            let flights = f64::from(waiting) / seats;
+            onward.flights += flights;
+            onward.profit += flights * profit;
+            for best in &mut onward.best {
+                if rate > *best {
+                    std::mem::swap(&mut rate, best);
+                }
+            }
+        }
+        onward
+    }
+}
+
+fn hours(seconds: u32) -> f64 {
+    f64::from(seconds) / 3_600.0
+}
+
+/// A small count as a multiple of its usual value, at most 2.
+fn few(count: u16, usual: f64) -> f64 {
+    (f64::from(count) / usual).min(2.0)
+}
+
+/// A number that may be large, on a scale on which it stays small.
+fn log(number: f64) -> f64 {
+    (number.ln_1p() / 3.0).min(3.0)
+}

@@ -1,0 +1,121 @@
+//! `gcaps-full` and `mlp-full` as policies: the feasible vertiport with the highest logit.
+
+use std::sync::Arc;
+
+use vertifleet_core::VertiportIx;
+use vertifleet_policy::{Policy, PolicyError};
+use vertifleet_sim::{Decision, View};
+
+use crate::full::features::{Writer, shape};
+use crate::learned::highest;
+use crate::model::Model;
+use crate::nn::{Architecture, NeuralNetwork, Weights, Workspace};
+use crate::rows::Rows;
+
+/// Most decisions per inference, and most vertiports of all of them; larger batches are not faster.
+const MOST_DECISIONS: usize = 256;
+const MOST_NODES: usize = 2_048;
+
+/// Decides by the full observation. It is deterministic: among equal logits the first vertiport wins.
+pub struct FullPolicy {
+    architecture: Architecture,
+    weights: Arc<Weights>,
+    writer: Writer,
+    /// For the number of vertiports of the latest day.
+    sized: Option<Sized>,
+}
+
+/// What depends on the number of vertiports.
+struct Sized {
+    net: NeuralNetwork,
+    workspace: Workspace,
+    rows: Rows,
+}
+
+impl FullPolicy {
+    /// The policy of a model of `gcaps-full` or `mlp-full`.
+    pub fn new(model: &Model) -> Self {
+        Self::of(model.header().policy.clone(), Arc::new(model.weights()))
+    }
+
+    pub(crate) fn of(architecture: Architecture, weights: Arc<Weights>) -> Self {
+        let writer = Writer::new(architecture.adjacency());
+        Self { architecture, weights, writer, sized: None }
+    }
+
+    /// What fits the number of vertiports of a day, without rows.
+    fn sized(&mut self, vertiports: usize) -> (&mut Writer, &mut Sized) {
+        if self.sized.as_ref().is_none_or(|sized| sized.rows.vertiports() != vertiports) {
+            let net = NeuralNetwork::new(self.architecture.clone(), shape(vertiports));
+            let net = net.expect("sizes were checked when the weights were made");
+            let workspace = net.workspace(most_decisions(vertiports));
+            self.sized = Some(Sized { net, workspace, rows: self.writer.rows(vertiports) });
+        }
+        let sized = self.sized.as_mut().expect("made above");
+        sized.rows.clear();
+        (&mut self.writer, sized)
+    }
+
+    /// The logits of one decision, minus infinity where the mask is 0.
+    fn logits(&mut self, decision: &Decision, view: View<'_>) -> &[f32] {
+        let weights = Arc::clone(&self.weights);
+        let (writer, Sized { net, workspace, rows }) = self.sized(view.vertiports());
+        writer.push(view, decision, rows);
+        net.forward(&weights, rows.inputs(), workspace);
+        workspace.logits()
+    }
+}
+
+fn most_decisions(vertiports: usize) -> usize {
+    (MOST_NODES / vertiports).clamp(1, MOST_DECISIONS)
+}
+
+impl Policy for FullPolicy {
+    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        Ok(highest(self.logits(decision, *view)))
+    }
+
+    /// Logits.
+    fn values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        self.choose_with_values(decision, view, values).map(|_| ())
+    }
+
+    fn choose_with_values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<VertiportIx, PolicyError> {
+        let logits = self.logits(decision, *view);
+        for (value, &logit) in values.iter_mut().zip(logits) {
+            *value = if logit.is_finite() { f64::from(logit) } else { f64::NAN };
+        }
+        Ok(highest(logits))
+    }
+
+    fn choose_batch(
+        &mut self,
+        asked: &mut dyn Iterator<Item = (Decision, View<'_>)>,
+        choices: &mut Vec<VertiportIx>,
+    ) -> Result<(), PolicyError> {
+        let weights = Arc::clone(&self.weights);
+        let mut asked = asked.peekable();
+        while let Some(vertiports) = asked.peek().map(|(_, view)| view.vertiports()) {
+            let (writer, Sized { net, workspace, rows }) = self.sized(vertiports);
+            let fits = |(_, view): &(Decision, View<'_>)| view.vertiports() == vertiports;
+            while rows.len() < most_decisions(vertiports)
+                && let Some((decision, view)) = asked.next_if(fits)
+            {
+                writer.push(view, &decision, rows);
+            }
+            net.forward(&weights, rows.inputs(), workspace);
+            choices.extend(workspace.logits().chunks_exact(vertiports).map(highest));
+        }
+        Ok(())
+    }
+}

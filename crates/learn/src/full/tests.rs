@@ -1,0 +1,119 @@
+//! The properties that policies of the full observation have with any weights.
+
+use std::sync::Arc;
+
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, World};
+use vertifleet_policy::{Policy, play};
+use vertifleet_sim::{Simulation, Trace, check::check};
+
+use crate::FullPolicy;
+use crate::full::features::{
+    AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Writer,
+};
+use crate::header::shape_of;
+use crate::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, NeuralNetwork, Weights};
+
+fn small(adjacency: Adjacency) -> Architecture {
+    let graph = GraphSettings { adjacency, ..GraphSettings::default() };
+    Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
+}
+
+/// First weights with a last layer that is large enough to prefer some choices.
+fn opinionated(policy: &Architecture) -> Arc<Weights> {
+    let net = NeuralNetwork::new(policy.clone(), shape_of(policy, 2)).expect("sizes that fit");
+    let mut params = net.init(1);
+    let pointer = net.layout().tensors().iter().find(|one| one.name == "decoder.pointer.weight");
+    let pointer = pointer.expect("a network with a pointer");
+    for weight in &mut params[pointer.offset..][..pointer.len()] {
+        *weight *= 300.0;
+    }
+    Arc::new(net.weights(params))
+}
+
+/// Days of shipped networks, one of them disturbed, and of random ones.
+fn days() -> Vec<Arc<Scenario>> {
+    let seed = DaySeed::validation(3).expect("a seed");
+    let shipped =
+        ["paper", "disrupted", "new-york"].map(|name| Network::shipped(name).expect("shipped"));
+    let random = [2, 7].map(|number| World::Random.network(Purpose::Validation, number));
+    let shipped = shipped.into_iter().map(Arc::new);
+    shipped.chain(random).map(|network| Arc::new(network.draw(seed))).collect()
+}
+
+fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> Trace {
+    let mut simulation = Simulation::new(Arc::clone(day));
+    let mut trace = Trace::default();
+    play(&mut simulation, policy, |row| trace.rows.push(*row)).expect("the policy plays the day");
+    trace
+}
+
+#[test]
+fn any_weights_keep_every_rule_on_networks_of_any_size() {
+    for adjacency in [Adjacency::Complete, Adjacency::Profit] {
+        let policy = small(adjacency);
+        let weights = opinionated(&policy);
+        let mut policy = FullPolicy::of(policy, weights);
+        for day in days() {
+            let report = check(&day, &played(&day, &mut policy));
+            assert!(report.is_valid(), "{report}");
+        }
+    }
+}
+
+#[test]
+fn a_batch_of_days_of_all_sizes_is_answered_as_each_alone() {
+    let policy = small(Adjacency::Reachable);
+    let weights = opinionated(&policy);
+    let mut alone = FullPolicy::of(policy.clone(), Arc::clone(&weights));
+    let mut together = FullPolicy::of(policy, weights);
+    let mut simulations: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();
+    for _ in 0..30 {
+        let decisions: Vec<_> =
+            simulations.iter_mut().map(|day| day.next_decision().expect("days go on")).collect();
+        let views = simulations.iter().map(Simulation::view);
+        let mut asked = decisions.iter().copied().zip(views);
+        let mut choices = Vec::new();
+        together.choose_batch(&mut asked, &mut choices).expect("an answer for each");
+        let each: Vec<VertiportIx> = decisions
+            .iter()
+            .zip(&simulations)
+            .map(|(decision, day)| alone.choose(decision, &day.view()).expect("an answer"))
+            .collect();
+        assert_eq!(choices, each);
+        for (day, choice) in simulations.iter_mut().zip(choices) {
+            day.apply(choice).expect("a choice from the mask");
+        }
+    }
+}
+
+#[test]
+fn features_are_bounded_and_choices_are_feasible_on_every_network() {
+    for day in days() {
+        let mut simulation = Simulation::new(Arc::clone(&day));
+        let mut writer = Writer::new(Adjacency::Profit);
+        let mut rows = writer.rows(day.vertiports.len());
+        while let Some(decision) = simulation.next_decision() {
+            let view = simulation.view();
+            rows.clear();
+            writer.push(view, &decision, &mut rows);
+            let inputs = rows.inputs();
+            let numbers = inputs.nodes.iter().chain(inputs.aircraft).chain(inputs.edges);
+            assert!(numbers.clone().all(|number| (-2.0..=4.0).contains(number)), "{numbers:?}");
+            let feasible = view.feasible(&decision);
+            let mask = inputs.mask.iter().enumerate();
+            assert!(
+                mask.clone()
+                    .all(|(at, &open)| { (open == 1) == feasible.contains(VertiportIx::new(at)) })
+            );
+            let choice = mask.filter(|(_, open)| **open == 1).map(|(at, _)| at).next_back();
+            let choice = VertiportIx::new(choice.expect("a mask is never empty"));
+            simulation.apply(choice).expect("a choice from the mask");
+        }
+    }
+}
+
+#[test]
+fn every_feature_has_its_name() {
+    assert_eq!((NODE_FEATURE_NAMES.len(), NODE_FEATURES), (37, 37));
+    assert_eq!((AIRCRAFT_FEATURE_NAMES.len(), AIRCRAFT_FEATURES), (11, 11));
+}

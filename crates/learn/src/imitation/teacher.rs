@@ -1,0 +1,132 @@
+//! The teacher: what a policy that learns by imitation sees of a decision, between which choices it decides, and what
+//! roll-outs say of them.
+//!
+//! Roll-outs take most of a run's time, so only the [`Shortlist`](vertifleet_policy::Shortlist) is rolled out. `gcaps-x` decides between its choices
+//! alone. A policy that sees no prices decides between all feasible choices. Those that are not on the shortlist are
+//! judged to be below the worst that is, by what they are worth less at the prices.
+
+use std::sync::Arc;
+
+use vertifleet_core::VertiportIx;
+use vertifleet_policy::{DayPrices, Policy as _, PricedChoice, RolloutEvaluator, RolloutSettings};
+use vertifleet_sim::{Decision, View};
+
+use crate::full::FullPolicy;
+use crate::full::features as full;
+use crate::gcaps_x::features::{self as priced, Scene};
+use crate::gcaps_x::scorer::Scorer;
+use crate::header::shape_of;
+use crate::imitation::dataset::{Judged, Samples};
+use crate::nn::{Architecture, Weights};
+use crate::rows::Rows;
+
+/// Judges decisions of days with one number of vertiports.
+pub(super) struct Teacher {
+    evaluator: RolloutEvaluator,
+    writer: Writer,
+    judged: Vec<Judged>,
+}
+
+/// Writes what the policy sees.
+enum Writer {
+    Priced(priced::Writer),
+    Full(full::Writer),
+}
+
+/// The policy that plays the days, as far as it has learned.
+pub(super) enum Student {
+    Priced(Box<Scorer>),
+    Full(Box<FullPolicy>),
+}
+
+impl Teacher {
+    /// A teacher of this policy, and a place for its samples.
+    pub(super) fn of(
+        policy: &Architecture,
+        vertiports: usize,
+        settings: RolloutSettings,
+    ) -> (Self, Samples) {
+        let rows = Rows::new(shape_of(policy, vertiports), policy.adjacency().is_observed());
+        let writer = if policy.sees_prices() {
+            Writer::Priced(priced::Writer::default())
+        } else {
+            Writer::Full(full::Writer::new(policy.adjacency()))
+        };
+        let evaluator = RolloutEvaluator::new(settings);
+        (Self { evaluator, writer, judged: Vec::new() }, Samples::new(rows))
+    }
+
+    /// Adds a decision, with what roll-outs say of its choices. `listed` is its shortlist. A decision with nothing at
+    /// stake teaches nothing and is left out.
+    pub(super) fn judge(
+        &mut self,
+        scene: Scene<'_>,
+        listed: &[PricedChoice],
+        samples: &mut Samples,
+    ) {
+        let Scene { view, decision, prices, .. } = scene;
+        let unit_usd = match &mut self.writer {
+            Writer::Priced(_) => scene.addition_usd(),
+            Writer::Full(_) => scene.unit_usd,
+        };
+        if unit_usd <= 0.0 {
+            return;
+        }
+        let values_usd = self.evaluator.values_usd(prices, view, decision, listed);
+        self.judged.clear();
+        let rolled_out = listed.iter().zip(values_usd);
+        self.judged.extend(rolled_out.map(|(&PricedChoice { worth_usd, to }, &value_usd)| {
+            Judged { to, worth_usd, value_usd }
+        }));
+        match &mut self.writer {
+            Writer::Priced(writer) => writer.push(scene, listed, &mut samples.rows),
+            Writer::Full(writer) => {
+                judge_the_others(prices, view, decision, &mut self.judged);
+                writer.push(view, decision, &mut samples.rows);
+            }
+        }
+        samples.judge(unit_usd, &self.judged);
+    }
+}
+
+/// Adds the feasible choices that were not rolled out.
+fn judge_the_others(
+    prices: &DayPrices,
+    view: View<'_>,
+    decision: &Decision,
+    judged: &mut Vec<Judged>,
+) {
+    let least = |of: fn(&Judged) -> f64| judged.iter().map(of).fold(f64::INFINITY, f64::min);
+    let least_worth_usd = least(|one| one.worth_usd);
+    let least_value_usd = least(|one| one.value_usd);
+    let rolled_out = judged.len();
+    for to in view.feasible(decision).iter() {
+        if judged[..rolled_out].iter().all(|one| one.to != to) {
+            let worth_usd = prices.choice_usd(view, decision, to);
+            let value_usd = least_value_usd - (least_worth_usd - worth_usd).max(0.0);
+            judged.push(Judged { to, worth_usd, value_usd });
+        }
+    }
+}
+
+impl Student {
+    /// The policy with these weights.
+    pub(super) fn of(policy: &Architecture, weights: &Arc<Weights>, vertiports: usize) -> Self {
+        let weights = Arc::clone(weights);
+        if policy.sees_prices() {
+            Self::Priced(Box::new(Scorer::new(policy, weights, vertiports)))
+        } else {
+            Self::Full(Box::new(FullPolicy::of(policy.clone(), weights)))
+        }
+    }
+
+    /// Its choice; `listed` is the shortlist of the decision.
+    pub(super) fn choose(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) -> VertiportIx {
+        match self {
+            Self::Priced(scorer) => scorer.best(scene, listed),
+            Self::Full(policy) => {
+                policy.choose(scene.decision, &scene.view).expect("it has a choice always")
+            }
+        }
+    }
+}
