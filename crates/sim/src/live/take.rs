@@ -15,11 +15,11 @@ const MOST_PASSENGERS: u32 = 1_000_000;
 
 impl LiveDay {
     /// Whether a report may be a slip of the pen: it lies hours after everything that the day has heard of, something that
-    /// it tells was over before, or a flight landed before it departed. Since the clock never runs back, the first does harm
-    /// that cannot be undone.
+    /// it tells was over before, a flight landed before it departed, or a hold is taken back when nothing can be decided in
+    /// its place any more. Since the clock never runs back, the first does harm that cannot be undone.
     ///
     /// # Errors
-    /// Returns [`Unfit::TooFarAhead`], [`Unfit::Backwards`] or [`Unfit::BeforeDeparture`].
+    /// Returns [`Unfit::TooFarAhead`], [`Unfit::Backwards`], [`Unfit::BeforeDeparture`] or [`Unfit::Over`].
     pub fn check_times(&self, time: Time, report: &Report) -> Result<(), Unfit> {
         match *report {
             Report::Clock => Ok(()),
@@ -45,6 +45,13 @@ impl LiveDay {
                 }
                 let aircraft = self.id(aircraft);
                 Err(Unfit::BeforeDeparture { aircraft, time, departed })
+            }
+            Report::Undone { aircraft } => {
+                let end = self.scenario().operations.end;
+                let latest =
+                    self.state(aircraft)?.undoable.map(|latest| &self.decisions[latest].row);
+                let is_hold = latest.is_some_and(|row| row.from == row.to);
+                if is_hold && time.max(self.now) > end { Err(Unfit::Over { end }) } else { Ok(()) }
             }
             _ => Ok(()),
         }
