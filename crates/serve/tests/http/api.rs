@@ -9,7 +9,7 @@ use vertifleet_serve::{Location, Protection, Role, Settings, Tokens};
 
 use crate::running::{Running, settings_for};
 
-fn text<'a>(value: &'a Value, name: &str) -> &'a str {
+pub(crate) fn text<'a>(value: &'a Value, name: &str) -> &'a str {
     value[name].as_str().unwrap_or_else(|| panic!("no text {name:?} in {value}"))
 }
 
@@ -17,12 +17,6 @@ pub(crate) fn service() -> (tempfile::TempDir, Running) {
     let folder = tempfile::tempdir().expect("a folder");
     let service = Running::start(folder.path());
     (folder, service)
-}
-
-/// Everything of a state but the number of its event.
-fn without_seq(mut state: Value) -> Value {
-    state.as_object_mut().expect("an object").remove("seq");
-    state
 }
 
 #[test]
@@ -99,24 +93,6 @@ fn of_two_dispatchers_one_decides() {
     // Without If-Match, the rules still forbid that an aircraft decides twice.
     let third = service.post(&path, &json!({"aircraft": "A01"}));
     assert_eq!((third.status, text(&third.json, "code")), (422, "V604"));
-}
-
-#[test]
-fn a_person_decides_and_changes_their_mind() {
-    let (_folder, service) = service();
-    let day = service.new_day("greedy");
-    let before = service.get(&format!("{day}/state")).json;
-    let place = before["aircraft"].as_array().expect("a list")[0]["place"].clone();
-    let held = json!({"aircraft": "A01", "to": place, "reason": "the crew is late"});
-    assert_eq!(service.post(&format!("{day}/decisions"), &held).status, 201);
-    let undone = json!({"type": "undone", "aircraft": "A01", "reason": "the crew is here"});
-    assert_eq!(service.post(&format!("{day}/events"), &undone).status, 201);
-    let after = service.get(&format!("{day}/state")).json;
-    assert_eq!(after["seq"], 2);
-    assert_eq!(without_seq(after), without_seq(before));
-    let events = service.get(&format!("{day}/events?limit=1")).json;
-    assert_eq!(text(&events["events"][0]["event"], "reason"), "the crew is late");
-    assert_eq!(events["next"], 1);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod api;
 mod archived_days;
+mod changed_minds;
 mod collected_spans;
 mod console;
 mod days_of_ones_own;

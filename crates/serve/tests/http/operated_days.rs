@@ -82,26 +82,6 @@ fn a_list_of_days_says_how_far_each_is() {
 }
 
 #[test]
-fn a_hold_is_not_taken_back_when_nothing_can_be_decided_any_more() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
-    let day = day("disrupted", 2005);
-    let report = operated(&service, &day, "greedy");
-    let path = format!("/v1/days/{}", report.day);
-    let trace = service.get(&format!("{path}/trace.csv")).json;
-    let rows = trace.as_str().expect("a trace").lines().skip(1);
-    let rows: Vec<Vec<&str>> = rows.map(|row| row.split(',').collect()).collect();
-    let is_last_of_its_aircraft =
-        |at: usize| rows[at + 1..].iter().all(|later| later[1] != rows[at][1]);
-    let held =
-        (0..rows.len()).find(|&at| rows[at][2] == rows[at][3] && is_last_of_its_aircraft(at));
-    let aircraft = rows[held.expect("some aircraft holds at the end")][1];
-    let undone = json!({"type": "undone", "aircraft": aircraft});
-    let refused = service.post(&format!("{path}/events"), &undone);
-    assert_eq!((refused.status, &refused.json["code"]), (422, &json!("V604")), "{refused:?}");
-}
-
-#[test]
 fn a_day_that_others_decide_is_the_simulated_day_to_the_cent() {
     let folder = tempfile::tempdir().expect("a folder");
     let service = Running::start(folder.path());
