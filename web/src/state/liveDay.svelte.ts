@@ -5,8 +5,10 @@ import { SvelteSet } from 'svelte/reactivity'
 import type { Service } from '../api/client'
 import { ProblemError } from '../api/problem'
 import { follow, type Connection } from '../api/stream'
-import type { DayInfo, DayState, Outlook, TakenEvent } from '../api/types'
+import type { AircraftState, DayInfo, DayState, Outlook, TakenEvent } from '../api/types'
+import { canBeTakenBack } from '../model/decisions'
 import { liveRecord } from '../model/live'
+import { canBeDecidedAnew, isOver } from '../model/over'
 import { LOOK_BACK_MS } from '../model/pace'
 import type { DayRecord, LegRecord, Seconds } from '../model/record'
 import { Reports } from '../model/reports'
@@ -77,6 +79,17 @@ export class LiveDay {
       : { ...record, legs: record.legs.filter((leg) => !leg.is_expected) }
   })
 
+  /** Whether nothing is left to decide and every aircraft is on the ground. */
+  readonly isOver: boolean = $derived.by(() => {
+    const { state, end } = this
+    return state !== undefined && end !== undefined && isOver(state, end)
+  })
+
+  /** When operations end. */
+  get end(): Seconds | undefined {
+    return this.#scenario === undefined ? undefined : timeOf(this.#scenario.operations.end)
+  }
+
   /** Numbers of the events by which this console decided, so that it can take back what it did. */
   readonly ownDecisions = new SvelteSet<number>()
 
@@ -125,6 +138,21 @@ export class LiveDay {
   async readNow(): Promise<void> {
     this.#outlookRefresher.want()
     await this.#readState()
+  }
+
+  /** Whether something else could be decided in the place of an aircraft's latest decision. */
+  canBeDecidedAnew(aircraft: AircraftState): boolean {
+    const { state, end, info } = this
+    if (state === undefined || end === undefined || info?.archived === true) return false
+    return canBeDecidedAnew(state, aircraft, end)
+  }
+
+  /** Whether the decision of an aircraft by an event can be taken back, as far as is known here. */
+  canBeTakenBack(aircraft: string, seq: number): boolean {
+    const known = this.state?.aircraft.find((one) => one.id === aircraft)
+    // What the state does not know yet was decided only now.
+    const isPossible = known === undefined || known.needs_decision || this.canBeDecidedAnew(known)
+    return isPossible && !this.isOver && canBeTakenBack(this.events, aircraft, seq)
   }
 
   /** Takes the latest decision of an aircraft back. */
@@ -213,14 +241,8 @@ export class LiveDay {
     this.state = state
     const now = timeOf(state.now)
     this.clock.await(state.aircraft.some((one) => one.needs_decision))
-    if (this.#isOver(state)) this.clock.end(now)
+    if (this.isOver) this.clock.end(now)
     else this.clock.hear(now)
-  }
-
-  /** Whether nothing is left to happen: operations have ended, and every aircraft stands. */
-  #isOver({ now, aircraft }: DayState): boolean {
-    const end = timeOf(this.#scenario?.operations.end ?? '99:59:59')
-    return timeOf(now) > end && aircraft.every((one) => one.phase === 'standing' && !one.needs_decision)
   }
 
   async #readOutlook(): Promise<void> {

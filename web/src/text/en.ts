@@ -117,13 +117,17 @@ export const en = {
   now: {
     figures: 'The day in figures',
     profit: 'Profit so far',
+    sentOff: 'of flights sent off',
+    sentOffHint:
+      'A flight counts from its decision on, before it departs. If the decision is taken back, it no longer counts.',
     expected: 'Expected',
     expectedBy: (policy: string) => `with ${policy}`,
     expectedHint: (policy: string) => `What the day earns if ${policy} takes every decision from now on.`,
-    bound: 'At most',
-    boundHint: 'Proven: no way to go on lets the day earn more, as far as is known now.',
+    bound: 'At most from now on',
+    boundHint:
+      'Proven: however the rest of the day is decided, the whole day ends with no more than this, as far as is known now. It is a bound of the day as it can still end, not of the day from the morning: what could have been earned earlier is no longer part of it.',
     noBound: 'The rest of the day is too large to be bounded quickly.',
-    shareOfBound: (share: string) => `${share} of the bound`,
+    shareOfBound: (share: string) => `${share} of it is expected`,
     passengers: 'Passengers',
     flights: 'Flights',
     repositioning: (number: number) =>
@@ -138,6 +142,15 @@ export const en = {
     map: 'Map',
     fleet: 'Fleet timeline',
     side: 'Decisions',
+  },
+
+  over: {
+    title: 'The day is over',
+    state: 'over',
+    profit: 'Profit of the day',
+    since: 'Over since',
+    explanation: 'Every aircraft is on the ground, and nothing is left to decide.',
+    replay: 'Replay the day',
   },
 
   queue: {

@@ -145,6 +145,11 @@ export class Fleet {
     }
   }
 
+  /** Goes on to the end and takes the policy's decisions. */
+  async playToTheEnd(): Promise<void> {
+    while (await this.goOn()) for (const aircraft of await this.waiting()) await this.decide(aircraft)
+  }
+
   async decide(aircraft: string, more: object = {}): Promise<void> {
     await this.ask('POST', `/v1/days/${this.day}/decisions`, { aircraft, ...more })
   }
