@@ -95,7 +95,7 @@ test('two policies are compared, with where they first differ and what it was wo
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
   const difference = page.getByRole('region', { name: 'Where they first differ' })
   await expect(difference).toContainText(
-    /A0\d: prices: .*; greedy: .*\.\s+Worth .* at once, and −\$282 by the end of the day\./,
+    /A0\d: prices: .*; greedy: .*\.\s+With this decision alone .*; by the end of the day, with all later decisions, greedy has earned \$282 more\./,
   )
   await difference.getByRole('button').click()
   const time = /First difference at (\d\d:\d\d:\d\d)/.exec((await difference.textContent()) ?? '')?.[1] ?? ''
@@ -106,10 +106,10 @@ test('files of a day are chosen, and wrong ones are named', async ({ page, days 
   await page.goto(pathToFileURL('dist/replay.html').href)
   const files = page.getByLabel('Choose files')
   await files.setInputFiles([fixture('tiny-1-greedy.csv')])
-  await expect(page.getByRole('alert')).toContainText('must be a scenario file')
+  await expect(page.getByRole('alert')).toHaveText(/^The scenario file \(\.json\) is missing/)
   const wrong = readFileSync(fixture('tiny-1-greedy.csv'), 'utf8').replace('A02', 'B02')
   await files.setInputFiles([fixture('tiny-1.json')])
-  await expect(page.getByRole('alert')).toContainText('the trace of a day')
+  await expect(page.getByRole('alert')).toHaveText(/^A trace \(\.csv\) is missing/)
   await files.setInputFiles({ name: 'wrong.csv', mimeType: 'text/csv', buffer: Buffer.from(wrong) })
   await expect(page.getByRole('alert')).toBeVisible()
   await files.setInputFiles([
@@ -117,8 +117,21 @@ test('files of a day are chosen, and wrong ones are named', async ({ page, days 
     { name: 'day.json', mimeType: 'application/json', buffer: readFileSync(fixture('tiny-1.json')) },
   ])
   await expect(page.getByRole('alert')).toContainText(
-    'wrong.csv: Line 3 of the trace: the scenario has no “B02”',
+    'wrong.csv: Line 3: the day has no aircraft “B02”. Is it the trace of another day?',
   )
+  await files.setInputFiles([
+    { name: 'notes.csv', mimeType: 'text/csv', buffer: Buffer.from('a,b\n1,2\n') },
+    { name: 'hello.json', mimeType: 'application/json', buffer: Buffer.from('{"hello": 1}') },
+    {
+      name: 'greedy.csv',
+      mimeType: 'text/csv',
+      buffer: readFileSync(fixture('tiny-1-greedy.csv')),
+    },
+  ])
+  await expect(page.getByRole('alert').getByRole('listitem')).toHaveText([
+    /^hello\.json: It is no scenario file/,
+    /^notes\.csv: It is neither a trace nor a scenario: it begins with “a,b”/,
+  ])
   await files.setInputFiles([
     fixture('tiny-1.json'),
     fixture('tiny-1-greedy.csv'),

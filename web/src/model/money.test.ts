@@ -12,9 +12,13 @@ import {
 
 it('writes sums in whole dollars and flights with cents', () => {
   expect(dollars(37_149.4)).toBe('$37,149')
-  expect(dollars(-12.6)).toBe('−$13')
+  expect(dollars(-12.6)).toBe('−\u2060$13')
   expect(dollarsAndCents(96.018)).toBe('$96.02')
-  expect(dollarsAndCents(-31.744)).toBe('−$31.74')
+  expect(dollarsAndCents(-31.744)).toBe('−\u2060$31.74')
+})
+
+it('keeps a sign with its dollars, where a line could break', () => {
+  expect([dollars(-6573), dollarDifference(-6573)]).toEqual(['−\u2060$6,573', '−\u2060$6,573'])
 })
 
 it('never writes a minus before nothing', () => {
@@ -24,9 +28,9 @@ it('never writes a minus before nothing', () => {
 
 it('shows the sign of every difference', () => {
   expect([dollarDifference(120.2), dollarDifference(-85), dollarDifference(0.3)]).toEqual([
-    '+$120',
-    '−$85',
-    '±$0',
+    '+\u2060$120',
+    '−\u2060$85',
+    '±\u2060$0',
   ])
   expect([pointDifference(0.0149), pointDifference(-0.014), pointDifference(0.0001)]).toEqual([
     '+1.5',

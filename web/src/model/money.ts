@@ -7,6 +7,10 @@ const oneDigit = new Intl.NumberFormat('en-US', { minimumFractionDigits: 1, maxi
 
 /** The minus of typography, which is as wide as a digit. */
 const MINUS = '−'
+/** Keeps a sign on the line of its dollars, which a break after it would turn into their opposite. */
+const JOINER = '\u2060'
+/** The dollars of an amount, with what joins them to their sign. */
+const CURRENCY = /\u2060?\$/
 
 /** `$37,149` for sums of a day. */
 export function dollars(amount_usd: number): string {
@@ -20,22 +24,27 @@ export function dollarsAndCents(amount_usd: number): string {
 
 /** `+$120`, `−$85` or `±$0` for differences. */
 export function dollarDifference(amount_usd: number): string {
-  return Math.round(amount_usd) === 0 ? '±$0' : signed(amount_usd, whole, '+')
+  return isNothing(amount_usd) ? `±${JOINER}$0` : signed(amount_usd, whole, '+')
+}
+
+/** Whether a difference is written as none. */
+export function isNothing(amount_usd: number): boolean {
+  return Math.round(amount_usd) === 0
 }
 
 /** `12,345` passengers, flights, events. */
 export function count(number: number): string {
-  return signed(number, whole, '').replace('$', '')
+  return signed(number, whole, '').replace(CURRENCY, '')
 }
 
 /** `841.7` for values that are not dollars. */
 export function tenths(number: number): string {
-  return signed(number, oneDigit, '').replace('$', '')
+  return signed(number, oneDigit, '').replace(CURRENCY, '')
 }
 
 /** `+12`, `−3` or `±0`. */
 export function countDifference(number: number): string {
-  return number === 0 ? '±0' : signed(number, whole, '+').replace('$', '')
+  return number === 0 ? '±0' : signed(number, whole, '+').replace(CURRENCY, '')
 }
 
 /** `84 %` of a share. */
@@ -46,12 +55,12 @@ export function percent(share: number, digits = 0): string {
 
 /** `−1.4` or `±0.0`: how many percent of the whole two shares differ by. */
 export function pointDifference(share: number): string {
-  return Math.abs(share) < 0.0005 ? '±0.0' : signed(100 * share, oneDigit, '+').replace('$', '')
+  return Math.abs(share) < 0.0005 ? '±0.0' : signed(100 * share, oneDigit, '+').replace(CURRENCY, '')
 }
 
 function signed(amount: number, format: Intl.NumberFormat, plus: string): string {
   const text = format.format(Math.abs(amount))
   const isZero = !/[1-9]/.test(text)
   const sign = isZero ? '' : amount < 0 ? MINUS : plus
-  return `${sign}$${text}`
+  return sign === '' ? `$${text}` : `${sign}${JOINER}$${text}`
 }

@@ -58,8 +58,8 @@ it('says what the best policy earns more than the first', () => {
     share: undefined,
     lead: {
       other: 'greedy',
-      difference: '+$40',
-      interval: '+$35 to +$45',
+      difference: '+\u2060$40',
+      interval: '+\u2060$35 to +\u2060$45',
       p: 'p < 0.001',
       isSignificant: true,
     },
@@ -73,8 +73,8 @@ it('turns the difference if the first is the best', () => {
   expect(said?.policy).toBe('a')
   expect(said?.lead).toMatchObject({
     other: 'b',
-    difference: '+$30',
-    interval: '+$25 to +$35',
+    difference: '+\u2060$30',
+    interval: '+\u2060$25 to +\u2060$35',
     isSignificant: false,
   })
 })
@@ -92,7 +92,7 @@ it('writes numbers as people read them', () => {
   expect(pStatement(0.0213)).toBe('p = 0.021')
   expect(estimate({ mean: 37148.6, standard_deviation: null, half_width_95: null })).toBe('$37,149')
   expect(estimate({ mean: -1200, standard_deviation: 2, half_width_95: 1310.4 }, true)).toBe(
-    '−$1,200 ± 1,310',
+    '−\u2060$1,200 ± 1,310',
   )
 })
 

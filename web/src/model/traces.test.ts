@@ -72,15 +72,22 @@ describe('a scenario and a trace', () => {
 
 describe('a file that is something else', () => {
   it('is said to be no scenario', () => {
-    expect(faultOf(() => parseScenario('{'))).toEqual({ what: 'no-scenario' })
-    expect(faultOf(() => parseScenario('null'))).toEqual({ what: 'no-scenario' })
-    expect(faultOf(() => parseScenario('{"format": "vertifleet-result/1"}'))).toEqual({ what: 'no-scenario' })
+    expect(faultOf(() => parseScenario('{'))).toEqual({ what: 'no-json' })
+    expect(faultOf(() => parseScenario('null'))).toEqual({ what: 'no-scenario', format: undefined })
+    const result = '{"format": "vertifleet-result/1"}'
+    expect(faultOf(() => parseScenario(result))).toEqual({
+      what: 'no-scenario',
+      format: 'vertifleet-result/1',
+    })
   })
 
   it('is said to be no trace', () => {
     expect(isTrace(greedyTrace)).toBe(true)
     expect(isTrace(scenarioText)).toBe(false)
-    expect(faultOf(() => recordOf(scenario(), 'update,reward\n1,2\n'))).toEqual({ what: 'no-trace' })
+    expect(faultOf(() => recordOf(scenario(), 'update,reward\n1,2\n'))).toEqual({
+      what: 'no-trace',
+      begins: 'update,reward',
+    })
   })
 
   it('is named by line and column', () => {
@@ -88,6 +95,7 @@ describe('a file that is something else', () => {
       faultOf(() => recordOf(scenario(), pricesTrace.replace(from, to)))
     expect(of('ready', 'done')).toEqual({ what: 'missing-column', column: 'ready' })
     expect(of('A02,East', 'A02,West')).toEqual({ what: 'unknown-id', line: 3, column: 'from', value: 'West' })
+    expect(of('A02,East,', 'A02,')).toEqual({ what: 'columns', line: 3, found: 10, wanted: 11 })
     expect(of('07:10:59', '7.10')).toEqual({ what: 'unreadable', line: 4, column: 'arrival', value: '7.10' })
     expect(of('07:19:21,A01', '06:19:21,A01')).toEqual({ what: 'out-of-order', line: 5 })
   })

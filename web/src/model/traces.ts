@@ -8,12 +8,25 @@ import { parseTime, timeOf } from './time'
 
 /** Why a file is not what it should be. The view has words for each. */
 export type FileFault =
-  | { what: 'no-scenario' }
-  | { what: 'no-trace' }
+  | { what: 'no-json' }
+  | { what: 'no-scenario'; format: string | undefined }
+  | { what: 'second-scenario'; first: string }
+  | { what: 'scenario-missing' }
+  | { what: 'no-trace'; begins: string }
+  | { what: 'trace-missing' }
   | { what: 'missing-column'; column: string }
+  | { what: 'columns'; line: number; found: number; wanted: number }
   | { what: 'unknown-id'; line: number; column: string; value: string }
   | { what: 'unreadable'; line: number; column: string; value: string }
   | { what: 'out-of-order'; line: number }
+
+/** Files of a person that cannot be shown: what is wrong with each. */
+export class FilesError extends Error {
+  constructor(readonly faults: readonly FileError[]) {
+    super(faults.map(({ message }) => message).join('; '))
+    this.name = 'FilesError'
+  }
+}
 
 /** A file of a person that cannot be shown. */
 export class FileError extends Error {
@@ -26,6 +39,9 @@ export class FileError extends Error {
     this.name = 'FileError'
   }
 }
+
+/** Letters of a wrong file that are shown. */
+const MOST_QUOTED = 40
 
 const COLUMNS = [
   'time',
@@ -40,9 +56,21 @@ const COLUMNS = [
   'ready',
 ]
 
+/** Whether a text is written as scenario files are, whatever it says. */
+export function isJson(text: string): boolean {
+  return /^\uFEFF?\s*[{[]/.test(text)
+}
+
 /** Whether a text begins as a trace does. */
 export function isTrace(text: string): boolean {
   return /^\uFEFF?"?time"?,"?aircraft"?,/.test(text)
+}
+
+/** What is wrong with a text that is no trace: how it begins. */
+export function noTrace(text: string): FileError {
+  const [line = ''] = text.replace(/^\uFEFF/, '').split(/\r?\n/)
+  const begins = line.length > MOST_QUOTED ? `${line.slice(0, MOST_QUOTED)}…` : line
+  return new FileError({ what: 'no-trace', begins })
 }
 
 /** Reads a scenario file. Only what pictures need is looked at: the program is what checks scenarios. */
@@ -51,10 +79,16 @@ export function parseScenario(text: string): Scenario {
   try {
     scenario = JSON.parse(text.replace(/^\uFEFF/, ''))
   } catch {
-    throw new FileError({ what: 'no-scenario' })
+    throw new FileError({ what: 'no-json' })
   }
-  if (!isScenario(scenario)) throw new FileError({ what: 'no-scenario' })
+  if (!isScenario(scenario)) throw new FileError({ what: 'no-scenario', format: formatOf(scenario) })
   return scenario
+}
+
+/** What a file says that it is. */
+function formatOf(value: unknown): string | undefined {
+  const format = (value as { format?: unknown } | null)?.format
+  return typeof format === 'string' ? format : undefined
 }
 
 function isScenario(value: unknown): value is Scenario {
@@ -132,17 +166,21 @@ class TraceReader {
     const types = new Map(scenario.aircraft_types.map((one) => [one.id, one]))
     this.#types = scenario.aircraft.map((one) => {
       const type = types.get(one.type)
-      if (type === undefined) throw new FileError({ what: 'no-scenario' })
+      if (type === undefined) throw new FileError({ what: 'no-scenario', format: scenario.format })
       return type
     })
   }
 
   read(trace: string): LegRecord[] {
     const [names, ...rows] = parseCsv(trace)
-    if (names === undefined || !isTrace(trace)) throw new FileError({ what: 'no-trace' })
+    if (names === undefined || !isTrace(trace)) throw noTrace(trace)
     this.#columns = new Map(names.map((name, index) => [name, index]))
     const missing = COLUMNS.find((column) => !this.#columns.has(column))
     if (missing !== undefined) throw new FileError({ what: 'missing-column', column: missing })
+    const broken = rows.findIndex((row) => row.length !== names.length)
+    const found = rows[broken]?.length
+    if (found !== undefined)
+      throw new FileError({ what: 'columns', line: broken + 2, found, wanted: names.length })
     const legs = rows.map((row, index) => this.#leg(row, index + 2))
     const late = legs.findIndex((leg, index) => leg.decided < (legs[index - 1]?.decided ?? 0))
     if (late !== -1) throw new FileError({ what: 'out-of-order', line: late + 2 })

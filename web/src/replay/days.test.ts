@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest'
 import { greedyTrace, pricesTrace, scenario, scenarioText } from '../model/fixtures/tiny'
-import { FileError } from '../model/traces'
-import { chosenPlays, dayOfFiles, embeddedDays, playedOf, type Play } from './days'
+import { FilesError } from '../model/traces'
+import { chosenPlays, dayOfFiles, embeddedDays, playedOf, type Play, type ReplayDay } from './days'
 
 const files = {
   scenario: { name: 'tiny-1.json', text: scenarioText },
@@ -24,29 +24,54 @@ describe('files', () => {
     ])
   })
 
-  it('that are missing or wrong are said to be', () => {
-    expect(() => dayOfFiles([files.greedy])).toThrow(FileError)
-    expect(() => dayOfFiles([files.scenario])).toThrow(FileError)
-    expect(() => dayOfFiles([files.scenario, files.scenario, files.greedy])).toThrow(FileError)
-    expect(() =>
-      dayOfFiles([files.scenario, { ...files.greedy, text: greedyTrace.replace('A02', 'B02') }]),
-    ).toThrow(FileError)
+  it('keep what is known of the day that they are added to', () => {
+    const former = { ...dayOfFiles([files.scenario, files.greedy]), until: 30_000 }
+    const day = dayOfFiles([files.prices], former)
+    expect(day.until).toBe(30_000)
+    expect(day.scenario).toBe(former.scenario)
+    expect(dayOfFiles([files.scenario, files.prices], former).until).toBeUndefined()
   })
 })
 
-it('the error of a file has its name, unless it is of all of them', () => {
-  const fileOf = (...given: { name: string; text: string }[]) => {
+describe('of files that cannot be shown', () => {
+  const faultsOf = (given: readonly { name: string; text: string }[], former?: ReplayDay) => {
     try {
-      dayOfFiles(given)
+      dayOfFiles(given, former)
     } catch (error) {
-      if (error instanceof FileError) return error.file
+      if (error instanceof FilesError) return error.faults.map(({ file, fault }) => [file, fault.what])
+      throw error
     }
-    return undefined
+    return []
   }
+  const notes = { name: 'notes.csv', text: 'a,b\n1,2\n' }
+  const hello = { name: 'hello.json', text: '{"hello": 1}' }
   const wrong = { name: 'wrong.csv', text: greedyTrace.replace('A02', 'B02') }
-  expect(fileOf(files.scenario, files.prices, wrong)).toBe('wrong.csv')
-  expect(fileOf({ name: 'notes.txt', text: 'buy milk' }, files.prices)).toBe('notes.txt')
-  expect(fileOf(files.prices)).toBeUndefined()
+
+  it('each is named with what is wrong with it, and no sound one is', () => {
+    expect(faultsOf([notes])).toEqual([['notes.csv', 'no-trace']])
+    expect(faultsOf([hello])).toEqual([['hello.json', 'no-scenario']])
+    expect(faultsOf([notes, hello, files.greedy])).toEqual([
+      ['hello.json', 'no-scenario'],
+      ['notes.csv', 'no-trace'],
+    ])
+    expect(faultsOf([files.scenario, notes, wrong])).toEqual([
+      ['notes.csv', 'no-trace'],
+      ['wrong.csv', 'unknown-id'],
+    ])
+    expect(faultsOf([files.scenario, { ...files.scenario, name: 'again.json' }, files.greedy])).toEqual([
+      ['again.json', 'second-scenario'],
+    ])
+  })
+
+  it('a broken scenario is no reason to blame traces for not being of the day that is there', () => {
+    const former = dayOfFiles([files.scenario, files.greedy])
+    expect(faultsOf([hello, wrong], former)).toEqual([['hello.json', 'no-scenario']])
+  })
+
+  it('it is said what is missing where what is there is sound', () => {
+    expect(faultsOf([files.greedy])).toEqual([[undefined, 'scenario-missing']])
+    expect(faultsOf([files.scenario])).toEqual([[undefined, 'trace-missing']])
+  })
 })
 
 it('a file that is given again takes the place of what it was', () => {

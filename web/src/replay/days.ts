@@ -2,17 +2,26 @@
 // itself.
 
 import { Earnings } from '../model/earnings'
-import type { DayRecord } from '../model/record'
+import type { DayRecord, Seconds } from '../model/record'
 import type { Scenario } from '../model/scenario'
-import { fleetCost, FileError, isTrace, parseScenario, recordOf } from '../model/traces'
+import {
+  fleetCost,
+  FileError,
+  FilesError,
+  isJson,
+  isTrace,
+  noTrace,
+  parseScenario,
+  recordOf,
+} from '../model/traces'
 
 /** A day as the page of a report holds it. */
 export interface ReplayDay {
   name: string
   scenario: Scenario
   plays: Play[]
-  /** Whether more of it is yet to come, so that what it was worth is said of so far. */
-  isUnfinished?: boolean
+  /** How far it has come, if more of it is yet to come: what is compared is compared up to then. */
+  until?: Seconds
 }
 
 /** What one policy made of a day: a trace as files and reports have it, or a record that was made of something else. */
@@ -33,6 +42,8 @@ export interface RecordedPlay {
   /** What it is called in the page, and what that means. */
   title: string
   explanation?: string
+  /** Whether it is what a policy planned for the day that was forecast, and nothing that was flown. */
+  isPlan?: boolean
   record: DayRecord
   profit_usd?: undefined
 }
@@ -42,6 +53,10 @@ export interface Played {
   policy: string
   title: string
   explanation?: string | undefined
+  isPlan: boolean
+  /** Whether it was played on the day of the scenario, as all its traces are: then its decisions can be weighed against those of
+   *  another such play. What happened, and what was planned, were days of their own. */
+  isOfScenario: boolean
   record: DayRecord
   earnings: Earnings
 }
@@ -52,7 +67,8 @@ export function playedOf({ scenario }: ReplayDay, play: Play): Played {
     'record' in play
       ? { title: play.title, explanation: play.explanation, record: play.record }
       : { title: policy, record: recordOf(scenario, play.trace, policy) }
-  return { policy, ...titled, earnings: new Earnings(titled.record, fleetCost(scenario)) }
+  const kind = { isPlan: 'record' in play && play.isPlan === true, isOfScenario: 'trace' in play }
+  return { policy, ...titled, ...kind, earnings: new Earnings(titled.record, fleetCost(scenario)) }
 }
 
 /** The plays that are looked at first: the one that is named, or else the best; and beside it the other that is named, or else the
@@ -88,34 +104,49 @@ export interface NamedText {
   text: string
 }
 
-/** Makes a day of files: one scenario and any number of traces, which are called as their files. The error of a file that cannot be
- *  shown has its name. */
+/** Makes a day of files: one scenario and any number of traces, which are called as their files; or adds traces to a day that is there.
+ *  Says of every file that cannot be shown what is wrong with it. */
 export function dayOfFiles(files: readonly NamedText[], former?: ReplayDay): ReplayDay {
-  const traces = files.filter(({ text }) => isTrace(text))
-  const others = files.filter(({ text }) => !isTrace(text))
-  const [first, second] = others
-  if (second !== undefined) throw new FileError({ what: 'no-scenario' }, second.name)
-  const scenario = first === undefined ? former?.scenario : ofFile(first, () => parseScenario(first.text))
-  if (scenario === undefined) throw new FileError({ what: 'no-scenario' })
-  const kept = first === undefined ? former : undefined
-  const added = traces.map((file): Play => {
-    const play = { policy: policyOf(file.name, scenario.name), trace: file.text }
-    // Reading it says now what is wrong with the file, and not when it is looked at.
-    ofFile(file, () => recordOf(scenario, play.trace))
-    return play
+  const faults: FileError[] = []
+  /** What is read of a file; undefined if it is wrong, which is kept. */
+  const attempt = <T>({ name }: NamedText, read: () => T): T | undefined => {
+    try {
+      return read()
+    } catch (error) {
+      if (!(error instanceof FileError)) throw error
+      faults.push(new FileError(error.fault, name))
+      return undefined
+    }
+  }
+  const scenarios = files.filter(({ text }) => isJson(text))
+  const found = scenarios.flatMap((file) => {
+    const scenario = attempt(file, () => parseScenario(file.text))
+    return scenario === undefined ? [] : [{ file, scenario }]
   })
+  const [first, ...more] = found
+  for (const { file } of more)
+    faults.push(new FileError({ what: 'second-scenario', first: first?.file.name ?? '' }, file.name))
+  const kept = scenarios.length === 0 ? former : undefined
+  const scenario = first?.scenario ?? kept?.scenario
+  const added = files
+    .filter((file) => !scenarios.includes(file))
+    .flatMap((file): Play[] => {
+      const trace = file.text
+      // Reading it says now what is wrong with the file, and not when it is looked at.
+      const record = attempt(file, () => {
+        if (!isTrace(trace)) throw noTrace(trace)
+        return scenario && recordOf(scenario, trace)
+      })
+      if (scenario === undefined || record === undefined) return []
+      return [{ policy: policyOf(file.name, scenario.name), trace }]
+    })
+  // What is missing is said of files that are sound as far as they go.
+  if (faults.length > 0) throw new FilesError(faults)
+  if (scenario === undefined) throw new FilesError([new FileError({ what: 'scenario-missing' })])
   // A file that is given again takes the place of what it was.
   const plays = [...new Map([...(kept?.plays ?? []), ...added].map((one) => [one.policy, one])).values()]
-  if (plays.length === 0) throw new FileError({ what: 'no-trace' })
-  return { name: scenario.name, scenario, plays, isUnfinished: kept?.isUnfinished ?? false }
-}
-
-function ofFile<T>({ name }: NamedText, read: () => T): T {
-  try {
-    return read()
-  } catch (error) {
-    throw error instanceof FileError ? new FileError(error.fault, name) : error
-  }
+  if (added.length === 0) throw new FilesError([new FileError({ what: 'trace-missing' })])
+  return { ...(kept ?? { name: scenario.name, scenario }), plays }
 }
 
 /** `prices` of `new-york-100-prices.csv`: what the name of a trace adds to that of its day. */

@@ -134,8 +134,10 @@ export const replay = {
   scrubber: 'Time of the day',
   legend: {
     profit: 'profit so far',
-    difference: (one: string, other: string, most: string) =>
-      `profit of “${one}” less that of “${other}”: ${most} now`,
+    difference: (one: string, other: string, now: string) =>
+      `who is ahead: above the middle “${one}”, below it “${other}”; ${now}`,
+    ahead: (time: string, who: string, dollars: string) => `at ${time} “${who}” by ${dollars}`,
+    level: (time: string) => `at ${time} neither`,
     carried: 'passengers carried',
     wanted: 'passengers who want to fly',
   },
@@ -150,9 +152,28 @@ export const replay = {
   decide: (aircraft: string) => `${aircraft}:`,
   nothing: 'no decision',
   passengers: (number: number) => plural(number, 'passenger', 'passengers'),
-  worth: (atDecision: string, atEnd: string) =>
-    `Worth ${atDecision} at once, and ${atEnd} by the end of the day.`,
-  worthSoFar: (atDecision: string, soFar: string) => `Worth ${atDecision} at once, and ${soFar} so far.`,
+  worth: (atDecision: string, atEnd: string) => `${atDecision}; ${atEnd}.`,
+  worthAtDecision: (who: string | undefined, dollars: string) =>
+    who === undefined
+      ? 'With this decision alone both earn the same'
+      : `With this decision alone ${who} earns ${dollars} more`,
+  worthAtEnd: (who: string | undefined, dollars: string) =>
+    who === undefined
+      ? 'by the end of the day, with all later decisions, both have earned the same'
+      : `by the end of the day, with all later decisions, ${who} has earned ${dollars} more`,
+  dayPlan: (plan: string, difference: string, until: string | undefined) =>
+    until === undefined
+      ? `Over the whole day ${plan}, would have earned ${difference} than was earned.`
+      : `Up to ${until}, as far as the day has come, ${plan}, would have earned ${difference} than was earned.`,
+  dayPlanWhy:
+    'The plan was made for the forecast, and the day itself was another: this is the difference of the two days, and not the worth of a decision.',
+  dayOther: (one: string, other: string, difference: string, until: string | undefined) =>
+    `${until === undefined ? 'Over the whole day' : `Up to ${until}, as far as the day has come,`} “${one}” has earned ${difference} than “${other}”.`,
+  dayOtherWhy:
+    'They were not played with the same passengers and events, so this is not the worth of a decision.',
+  moreMoney: (dollars: string) => `${dollars} more`,
+  lessMoney: (dollars: string) => `${dollars} less`,
+  sameMoney: 'neither more nor less',
   same: (one: string, other: string) => `“${one}” and “${other}” send every aircraft the same ways.`,
   goToDifference: 'To the first difference',
   explanation:
@@ -161,10 +182,14 @@ export const replay = {
   choose: 'Choose files',
   add: 'Add files',
   addHint:
-    'Shows other policies on this day, from files: one or more traces of it (.csv). With the scenario file of another day (.json) and traces of that, they take the place of what is shown. You can also drop files anywhere on this page. They are not sent anywhere.',
+    'Shows other policies on this day, from files: one or more traces of it (.csv), which can then be chosen beside what is shown. A scenario file (.json) with traces of its own opens as another day. You can also drop files anywhere on this page. They are not sent anywhere.',
   addMake: 'The program writes the scenario and the traces:',
   addWrong:
-    'If a file is something else, or a trace is of another day, the page says which file and which line, and goes on showing what it shows.',
+    'If a file is something else, or a trace is of another day, the page says of each file what is wrong with it, and goes on showing what it shows.',
+  fromFiles: 'From files:',
+  backToDay: (day: string) => `Back to ${day}`,
+  traceOf: (name: string) => `${name}, from a file`,
+  unknownBeside: (name: string) => `There is no policy “${name}” to show beside the day.`,
   asItWas: 'As it was',
   planned: (policy: string) => `${policy}, as planned in the morning`,
   plannedExplanation: (policy: string) =>
@@ -175,13 +200,26 @@ export const replay = {
   daysOfService: 'Days of this service',
   inFile: (file: string, fault: string) => `${file}: ${fault}`,
   faults: {
-    'no-scenario': 'One of the files must be a scenario file, and no more than one.',
-    'no-trace': 'At least one of the files must be the trace of a day, as simulate --trace writes it.',
+    'no-json': 'It begins as a scenario file (.json) does, and cannot be read as JSON. Is it whole?',
+    'no-scenario': (format: string | undefined) =>
+      format === undefined
+        ? 'It is no scenario file: it does not say that it is one, as “format”, or lacks what belongs to one.'
+        : `It is no scenario file that can be replayed: its “format” is “${format}”.`,
+    'second-scenario': (first: string) =>
+      `It is a second scenario file beside ${first}. A replay shows one day: choose one scenario and its traces.`,
+    'scenario-missing':
+      'The scenario file (.json) is missing. Choose it together with the traces of its day.',
+    'no-trace': (begins: string) =>
+      `It is neither a trace nor a scenario: ${begins === '' ? 'its first line is empty' : `it begins with “${begins}”`}, and a trace begins with “time,aircraft,”.`,
+    'trace-missing':
+      'A trace (.csv) is missing. Choose it together with its scenario; simulate --trace writes one.',
     'missing-column': (column: string) => `The trace has no column “${column}”.`,
-    'unknown-id': (line: number, column: string, value: string) =>
-      `Line ${line} of the trace: the scenario has no “${value}” (${column}). Is it the trace of another day?`,
+    columns: (line: number, found: number, wanted: number) =>
+      `Line ${line} has ${plural(found, 'value', 'values')} instead of ${wanted}.`,
+    'unknown-id': (line: number, kind: 'aircraft' | 'vertiport', value: string) =>
+      `Line ${line}: the day has no ${kind} “${value}”. Is it the trace of another day?`,
     unreadable: (line: number, column: string, value: string) =>
-      `Line ${line} of the trace: “${value}” cannot be read as ${column}.`,
-    'out-of-order': (line: number) => `Line ${line} of the trace is earlier than the line before it.`,
+      `Line ${line}: “${value}” cannot be read as ${column}.`,
+    'out-of-order': (line: number) => `Line ${line} is earlier than the line before it.`,
   },
 }
