@@ -4,7 +4,7 @@ import { dollars } from '../src/model/money'
 import { disturbedNetwork, Fleet } from './support/fleet'
 import { expect, open, panel, test, waiting } from './support/test'
 
-test('an acceptance is the decision of the policy', async ({ page, program, fleet }) => {
+test('an acceptance is the decision of the policy', async ({ page, context, program, fleet }) => {
   await open(page, program, fleet)
   await expect(waiting(page)).toHaveCount(6)
   await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
@@ -19,6 +19,17 @@ test('an acceptance is the decision of the policy', async ({ page, program, flee
   const lately = page.getByRole('region', { name: 'Decided lately' }).getByRole('listitem')
   await expect(lately.filter({ hasText: 'A01' })).toContainText('you · prices')
   await expect(lately.filter({ hasText: 'A02' })).toContainText('as prices advised')
+
+  // It still knows after a reload, and can take it back; a console in another tab does not.
+  await page.reload()
+  await expect(lately.filter({ hasText: 'A01' })).toContainText('you · prices')
+  await expect(lately.filter({ hasText: 'A02' })).toContainText('as prices advised')
+  const other = await context.newPage()
+  await open(other, program, fleet)
+  const there = other.getByRole('region', { name: 'Decided lately' }).getByRole('listitem')
+  await expect(there.filter({ hasText: 'A01' })).toContainText('as prices advised')
+  await page.keyboard.press('u')
+  await expect(page.getByText('The decision of A01 is taken back.')).toBeVisible()
 })
 
 test('advice that came up only now cannot be accepted yet, which its button shows', async ({

@@ -3,6 +3,8 @@ import type { DayState, Proposal, TakenEvent } from '../api/types'
 import {
   canBeTakenBack,
   decidedLately,
+  decidedSince,
+  expectedNext,
   isSameAdvice,
   nextOf,
   ranked,
@@ -12,6 +14,7 @@ import {
   worthOf,
 } from './decisions'
 import answers from './fixtures/live-day.json'
+import type { DayRecord } from './record'
 
 const state = answers.state as DayState
 const events = answers.events.events as unknown as TakenEvent[]
@@ -81,7 +84,27 @@ describe('those who wait', () => {
     expect(nextOf(state, 2).map((one) => one.id)).toEqual(['A01', 'A02'])
     const evening = { ...state, now: '07:10:00' }
     expect(nextOf(evening, 2).map((one) => one.id)).toEqual(['A02', 'A03'])
+    expect(nextOf(evening, 2, new Set(['A02'])).map((one) => one.id)).toEqual(['A03'])
   })
+})
+
+it('an aircraft that has been decided since the state is not expected to decide', () => {
+  const taken = (seq: number, event: object) => ({ seq, event }) as TakenEvent
+  const since = decidedSince(
+    [
+      taken(3, { type: 'decided', aircraft: 'A01', to: 'V2' }),
+      taken(4, { type: 'decided', aircraft: 'A02', to: 'V2' }),
+      taken(5, { type: 'departed', aircraft: 'A03' }),
+    ],
+    3,
+  )
+  expect([...since]).toEqual(['A02'])
+  const leg = (aircraft: number) => ({ aircraft, decided: 100, is_expected: true })
+  const record = {
+    aircraft: [{ id: 'A01' }, { id: 'A02' }],
+    legs: [leg(0), leg(1)],
+  } as unknown as DayRecord
+  expect(expectedNext(record, 90, 5, since).map((one) => one.leg.aircraft)).toEqual([0])
 })
 
 it('a list keeps its order while it is held', () => {

@@ -18,11 +18,24 @@ export function waitingOf(state: DayState): Waiting[] {
   return waiting.sort((one, other) => one.ready - other.ready || Number(other.isFull) - Number(one.isFull))
 }
 
-/** Who is ready next, of those who fly or charge. Who stands ready and does not wait has nothing more to do on this day. */
-export function nextOf(state: DayState, most: number): Waiting[] {
+/** Aircraft that were decided after an event: of these, a state or an outlook of that event is out of date. */
+export function decidedSince(events: readonly TakenEvent[], seq: number): Set<string> {
+  const since = new Set<string>()
+  for (let at = events.length - 1; (events[at]?.seq ?? 0) > seq; at--) {
+    const event = events[at]?.event
+    if (event?.type === 'decided') since.add(event.aircraft)
+  }
+  return since
+}
+
+/** Who is ready next, of those who fly or charge and have not been decided. Who stands ready and does not wait has nothing more to do
+ *  on this day. */
+export function nextOf(state: DayState, most: number, decided: ReadonlySet<string> = new Set()): Waiting[] {
   const now = timeOf(state.now)
   const isDone = (one: AircraftState) => one.phase === 'standing' && timeOf(one.ready) <= now
-  const later = state.aircraft.filter((one) => !one.needs_decision && !one.out_of_service && !isDone(one))
+  const later = state.aircraft.filter(
+    (one) => !one.needs_decision && !one.out_of_service && !isDone(one) && !decided.has(one.id),
+  )
   const waiting = later.map((one) => waitingAt(state, one)).sort((one, other) => one.ready - other.ready)
   return waiting.slice(0, most)
 }
@@ -39,9 +52,16 @@ export interface Expected {
   leg: LegRecord
 }
 
-/** What the outlook expects to be decided next, the earliest first. */
-export function expectedNext({ legs }: DayRecord, time: Seconds, most: number): Expected[] {
-  const next = legs.filter((leg) => leg.is_expected && leg.decided >= time).slice(0, most)
+/** What the outlook expects to be decided next, the earliest first, but of aircraft that have been decided since. */
+export function expectedNext(
+  { legs, aircraft }: DayRecord,
+  time: Seconds,
+  most: number,
+  decided: ReadonlySet<string> = new Set(),
+): Expected[] {
+  const isNext = (leg: LegRecord) =>
+    leg.is_expected && leg.decided >= time && !decided.has(aircraft[leg.aircraft]?.id ?? '')
+  const next = legs.filter(isNext).slice(0, most)
   return next.map((leg) => ({ id: `${leg.aircraft} ${leg.decided}`, leg }))
 }
 

@@ -1,12 +1,11 @@
 // A live day as the console follows it: read once, then kept up to date by the stream of its events. The service knows the
 // rules, so after events its state and outlook are asked for again, no more often than the eye needs and the service can give.
 
-import { SvelteSet } from 'svelte/reactivity'
 import type { Service } from '../api/client'
 import { ProblemError } from '../api/problem'
 import { follow, type Connection } from '../api/stream'
 import type { AircraftState, DayInfo, DayState, Outlook, TakenEvent } from '../api/types'
-import { canBeTakenBack } from '../model/decisions'
+import { canBeTakenBack, decidedSince } from '../model/decisions'
 import { liveRecord } from '../model/live'
 import { canBeDecidedAnew, isOver } from '../model/over'
 import { LOOK_BACK_MS } from '../model/pace'
@@ -17,6 +16,7 @@ import { timeOf } from '../model/time'
 import { recordOf } from '../model/traces'
 import { Whereabouts } from '../model/whereabouts'
 import { Clock } from './clock.svelte'
+import { OwnDecisions } from './ownDecisions.svelte'
 import { Refresher } from './refresher'
 
 /** Events that are kept for the log; earlier ones stay in the service, so that a long day does not fill the memory. */
@@ -57,6 +57,7 @@ export class LiveDay {
     service: Service,
   ) {
     this.#service = service
+    this.ownDecisions = new OwnDecisions(id)
   }
 
   get scenario(): Scenario | undefined {
@@ -90,8 +91,11 @@ export class LiveDay {
     return this.#scenario === undefined ? undefined : timeOf(this.#scenario.operations.end)
   }
 
-  /** Numbers of the events by which this console decided, so that it can take back what it did. */
-  readonly ownDecisions = new SvelteSet<number>()
+  /** Aircraft that were decided after the state that is known. */
+  readonly decidedSince: ReadonlySet<string> = $derived(decidedSince(this.events, this.state?.seq ?? 0))
+
+  /** What this console decided, so that it can say so and take it back. */
+  readonly ownDecisions: OwnDecisions
 
   /** Where departures lead and landings are. */
   whereabouts = new Whereabouts()
@@ -178,6 +182,7 @@ export class LiveDay {
     this.whereabouts = new Whereabouts()
     this.events = []
     this.#take(events)
+    this.ownDecisions.forgetAfter(events.at(-1)?.seq ?? 0)
     this.#takeState(state)
     this.#outlookRefresher.want()
     this.#stopClock ??= this.clock.run()
