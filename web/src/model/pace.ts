@@ -49,6 +49,11 @@ export class Pace {
     return ((last.time - first.time) / (last.at_ms - first.at_ms)) * 1000
   }
 
+  /** The latest time that is known; undefined while nothing is. */
+  get latest(): Seconds | undefined {
+    return this.#news.at(-1)?.time
+  }
+
   /** The day is over at a time: the clock stops there. */
   end(time: Seconds, at_ms: number): void {
     this.#news = [{ time, at_ms }]

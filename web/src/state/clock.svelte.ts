@@ -7,8 +7,10 @@ import type { Seconds } from '../model/record'
 const CALM_MS = 1_000
 
 export class Clock {
-  /** The time of the day to show. */
+  /** The time of the day to read: never before what is known to have happened. */
   time = $state<Seconds>(0)
+  /** The time at which aircraft are drawn: it makes up for news within a moment instead of jumping. */
+  motion = $state<Seconds>(0)
   /** Seconds of the day that pass in a second, about. */
   speed = $state(0)
   /** Whether a simulated day has said nothing for so long that its time evidently does not pass. */
@@ -24,6 +26,7 @@ export class Clock {
   hear(time: Seconds, age_ms = 0): void {
     this.#pace.hear(time, performance.now() - age_ms)
     if (this.#shown_ms === 0) this.#show(performance.now())
+    this.time = Math.max(this.time, this.#pace.latest ?? 0)
     this.speed = this.#pace.speed
   }
 
@@ -59,7 +62,8 @@ export class Clock {
 
   #show(now: number): void {
     this.#shown_ms = now
-    this.time = this.#pace.at(now)
+    this.motion = this.#pace.at(now)
+    this.time = Math.max(this.motion, this.#pace.latest ?? 0)
     this.isStill = this.#pace.isStill(now)
   }
 }

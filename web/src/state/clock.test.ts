@@ -1,0 +1,42 @@
+import { afterEach, beforeEach, expect, it, vi } from 'vitest'
+import { Clock } from './clock.svelte'
+
+let frame: (now: number) => void
+
+beforeEach(() => {
+  vi.useFakeTimers({ toFake: ['performance'] })
+  vi.stubGlobal('matchMedia', () => ({ matches: false }))
+  vi.stubGlobal('requestAnimationFrame', (next: (now: number) => void) => {
+    frame = next
+    return 1
+  })
+})
+
+afterEach(() => {
+  vi.useRealTimers()
+  vi.unstubAllGlobals()
+})
+
+it('is never before an event that has been heard of, though aircraft are drawn without a jump', () => {
+  const clock = new Clock()
+  clock.run()
+  for (let second = 0; second <= 10; second++) {
+    clock.hear(21_600 + 60 * second)
+    frame(performance.now())
+    if (second < 10) vi.advanceTimersByTime(1000)
+  }
+  // Sooner than expected, and between two frames.
+  vi.advanceTimersByTime(100)
+  clock.hear(22_260)
+  expect(clock.time).toBe(22_260)
+  frame(performance.now())
+  expect(clock.time).toBeGreaterThanOrEqual(22_260)
+  expect(clock.motion).toBeLessThan(22_260)
+  for (let more = 0; more < 200; more++) {
+    const before = clock.time
+    vi.advanceTimersByTime(1000 / 60)
+    frame(performance.now())
+    expect(clock.time).toBeGreaterThanOrEqual(before)
+  }
+  expect(clock.motion).toBe(clock.time)
+})
