@@ -15,7 +15,7 @@ async function closeSouth(page: Page): Promise<void> {
 
 const sides = ['As it is', 'What if'] as const
 
-test('both rests of a day are in view at once, and say how much differs', async ({
+test('both ways a day can go on are in view at once, and say how much differs', async ({
   page,
   program,
   fleet,
@@ -25,7 +25,9 @@ test('both rests of a day are in view at once, and say how much differs', async 
   for (const side of sides) {
     const timeline = page.getByRole('region', { name: side, exact: true })
     await expect(timeline.getByRole('application')).toBeInViewport({ ratio: 0.99 })
-    await expect(timeline.getByText(/marks what differs: \d+ of \d+ flights and holds to come/)).toBeVisible()
+    await expect(
+      timeline.getByText(/does something else: \d+ of \d+ flights and holds from 06:00:00 on/),
+    ).toBeVisible()
   }
   await expectAccessible(page)
 })
@@ -60,8 +62,10 @@ test('the first difference is shown in both rests, by button and by key', async 
 test('a day without a difference says so', async ({ page, program, fleet }) => {
   await open(page, program, fleet, 'what-if')
   await page.getByRole('button', { name: 'Compare', exact: true }).click()
-  await expect(page.getByText('Both rests of the day are the same.')).toBeVisible()
-  await expect(page.getByText(/marks what differs/)).toHaveCount(0)
+  await expect(
+    page.getByText('The day goes on in the same way with the changes and without them.'),
+  ).toBeVisible()
+  await expect(page.getByText(/does something else/)).toHaveCount(0)
 })
 
 test.describe('the replay of a live day', () => {
@@ -76,7 +80,13 @@ test.describe('the replay of a live day', () => {
     await expect(
       page.getByText(/^What greedy would have done if the day had gone as it was forecast/),
     ).toBeVisible()
-    await expect(page.getByText(/so far\.$/)).toBeVisible()
+    await expect(
+      page.getByText(
+        /^Up to 07:\d\d:\d\d, as far as the day has come, greedy, as planned in the morning, would have earned (\$[\d,]+ (more|less)|neither more nor less) than was earned\.$/,
+      ),
+    ).toBeVisible()
+    await expect(page.getByText(/not the worth of a decision\.$/)).toBeVisible()
+    await expect(page.getByText(/With this decision alone/)).toHaveCount(0)
     await expect(page).toHaveURL(/with=greedy/)
     await expectAccessible(page)
     const address = page.url()
@@ -112,6 +122,39 @@ test.describe('the replay of a live day', () => {
     await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
   })
 
+  test('keeps the plans beside a trace that is added, and goes back from another day', async ({
+    page,
+    program,
+    fleet,
+  }) => {
+    const trace = await (await fetch(`${program.url}/v1/days/${fleet.day}/trace.csv`)).text()
+    await open(page, program, fleet, 'replay')
+    const files = page.getByLabel('Choose files')
+    await files.setInputFiles({ name: 'mine.csv', mimeType: 'text/csv', buffer: Buffer.from(trace) })
+    const beside = page.getByLabel('Beside it')
+    await expect(beside.getByRole('option', { name: 'mine, from a file' })).toBeAttached()
+    await expect(page.getByRole('definition').filter({ hasText: /^mine$/ })).toBeVisible()
+    await beside.selectOption({ label: 'greedy, as planned in the morning' })
+    await expect(page.getByText(/^Up to 07:.*greedy, as planned in the morning, would have/)).toBeVisible()
+    await page.getByLabel('Policy', { exact: true }).selectOption({ label: 'mine, from a file' })
+    await expect(page.getByRole('definition').filter({ hasText: /^mine$/ })).toBeVisible()
+
+    await files.setInputFiles([fixture('tiny-1.json'), fixture('tiny-1-greedy.csv')])
+    await expect(page.getByText('From files: tiny-1')).toBeVisible()
+    await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
+    await page.getByRole('button', { name: /^Back to small/ }).click()
+    await expect(page.getByText('From files: tiny-1')).toHaveCount(0)
+    await expect(page.getByRole('definition').filter({ hasText: 'As it was' })).toBeVisible()
+    await expect(beside).toHaveValue('')
+    await expect(beside.getByRole('option', { name: 'mine, from a file' })).toBeAttached()
+  })
+
+  test('says that a link asks for a policy that there is not', async ({ page, program, fleet }) => {
+    await page.goto(`${program.console}/#/day/${fleet.day}/replay?with=zzz`)
+    await expect(page.getByText('There is no policy “zzz” to show beside the day.')).toBeVisible()
+    await expect(page.getByLabel('Beside it')).toHaveValue('')
+  })
+
   test('has one clock, which is that of the moment', async ({ page, program, fleet }) => {
     await open(page, program, fleet, 'replay')
     await expect(page.getByRole('time')).toHaveText('06:00:00')
@@ -132,7 +175,7 @@ test.describe('the replay of a live day', () => {
     await page.keyboard.press('Escape')
     await expect(hint).toBeHidden()
     await page.getByLabel('Choose files').setInputFiles([fixture('tiny-1-greedy.csv')])
-    await expect(page.getByRole('alert')).toContainText(/^tiny-1-greedy\.csv: Line \d+ of the trace/)
+    await expect(page.getByRole('alert')).toContainText(/^tiny-1-greedy\.csv: Line \d+: /)
     await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
   })
 })

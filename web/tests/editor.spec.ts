@@ -8,9 +8,9 @@ import { screens, TOLERANCE } from './support/screens'
 import { expect, expectAccessible, test } from './support/test'
 
 async function openNetwork(page: Page, console: string, name: string | RegExp): Promise<void> {
-  await page.goto(`${console}/#/editor`)
+  await page.goto(`${console}/#/networks`)
   await page.getByRole('button', { name }).click()
-  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
 }
 
 function text(page: Page) {
@@ -27,7 +27,7 @@ test('a vertiport is added, put right, saved and played', async ({ page, program
   const map = await page.getByRole('region', { name: 'Map of the vertiports' }).boundingBox()
   await page.mouse.click((map?.x ?? 0) + 300, (map?.y ?? 0) + 250)
   await expect(page.getByRole('button', { name: /^V1, 4 stands/ })).toBeFocused()
-  await expect(page.getByText('Sound: 4 vertiports, 8 aircraft, 600 passengers a day')).toBeVisible()
+  await expect(page.getByText('No errors: 4 vertiports, 8 aircraft, 600 passengers a day')).toBeVisible()
 
   await page.getByLabel('Stands of V1').fill('0')
   await expect(page.getByText('1 thing is wrong')).toBeVisible()
@@ -39,7 +39,7 @@ test('a vertiport is added, put right, saved and played', async ({ page, program
   await expect(stands).toBeFocused()
   await expect(stands).toHaveAccessibleDescription(/stands must be at least 1/)
   await stands.fill('3')
-  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
 
   await page.getByRole('button', { name: 'Save', exact: true }).click()
   await expect(page.getByText('region is saved.')).toBeVisible()
@@ -55,7 +55,7 @@ test('a vertiport is added, put right, saved and played', async ({ page, program
   await expect(earn.getByText(/95 %, 3 days/)).toBeVisible()
   await page.getByLabel('Stands of V1').fill('9')
   await expect(earn.getByText('The network has changed since.')).toBeVisible()
-  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
   await earn.getByRole('button', { name: 'Play it again' }).click()
   await expect(earn.getByText('Difference to region as it is saved')).toBeVisible()
   await expect(
@@ -80,7 +80,7 @@ test('a new network is compared with itself before the latest change, and one th
   await expect(earn.getByText(/95 %, 2 days/)).toBeVisible()
   await expect(earn.getByText(/Difference to/)).toHaveCount(0)
   await page.getByLabel('Stands of East').fill('9')
-  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
   await earn.getByRole('button', { name: 'Play it again' }).click()
   await expect(earn.getByText('Difference to what you played before')).toBeVisible()
   await page.getByRole('button', { name: 'Save', exact: true }).click()
@@ -100,6 +100,25 @@ test('a field without its number says so, and the file keeps the former one', as
   await expect(page.getByRole('alert')).toHaveCount(0)
   await expect(page.getByLabel('Chargers of V1')).toHaveAttribute('placeholder', 'all')
   await expect(page.getByLabel('Chargers of V1')).toHaveAccessibleDescription(/Empty if all have one/)
+})
+
+test('an id that is cleared stays in the file, and what the text lacks is said plainly', async ({
+  page,
+  program,
+}) => {
+  await openNetwork(page, program.console, /paper/)
+  const id = page.getByLabel('Id of V1', { exact: true })
+  await id.fill('')
+  await expect(id).toHaveAccessibleDescription('This must not be empty. The file keeps “V1” until then.')
+  await expectAccessible(page)
+  await page.keyboard.press('Tab')
+  await expect(id).toHaveValue('V1')
+  await expect(page.getByRole('alert')).toHaveCount(0)
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
+  await id.fill('V11')
+  await page.keyboard.press('Enter')
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
+  await expect(page.getByLabel('Id of V11', { exact: true })).toHaveValue('V11')
 })
 
 test('vertiports are added, moved and removed by keyboard, and all of it is taken back', async ({
@@ -148,7 +167,7 @@ test('what is typed in the text is in the forms, and what is no TOML waits', asy
   await expect(page.getByLabel('Stands of JFK')).toBeDisabled()
   await text(page).fill(toml.replace('stands = 8', 'stands = 12'))
   await expect(page.getByLabel('Stands of JFK')).toHaveValue('12')
-  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
   await page.reload()
   await expect(page.getByLabel('Stands of JFK')).toHaveValue('12')
 })
@@ -170,13 +189,13 @@ test('a pair and a period are changed', async ({ page, program }) => {
   const rows = /passengers = \[\n([\s\S]*?)\n\]/.exec(toml)?.[1]?.split('\n') ?? []
   expect(rows).toHaveLength(9)
   expect(rows[1]).toMatch(/^ {4}\[\d+\.\d+, 0, 55,/)
-  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
 })
 
 test('a shipped network is saved under a name of its own', async ({ page, program }) => {
   await openNetwork(page, program.console, /paper/)
   await page.getByLabel('Stands of V1').fill('7')
-  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
   await page.keyboard.press('Control+s')
   const name = page.getByRole('textbox', { name: 'Name' })
   await expect(name).toHaveValue('my-paper')
@@ -209,10 +228,10 @@ test('the service is asked once for all that is typed without a pause', async ({
 
 /** Opens the small network from a file. */
 async function openFile(page: Page, console: string): Promise<void> {
-  await page.goto(`${console}/#/editor`)
+  await page.goto(`${console}/#/networks`)
   const file = { name: 'small.toml', mimeType: 'application/toml', buffer: Buffer.from(smallNetwork) }
   await page.getByLabel('Open a file').setInputFiles(file)
-  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
 }
 
 test('a file is opened and saved, and deleted networks can be taken back', async ({ page, program }) => {
@@ -254,7 +273,7 @@ test('whoever may only look can edit and download, and neither saves nor plays',
   await page.addInitScript((token) => sessionStorage.setItem('vertifleet-token', token), token)
   await openNetwork(page, program.console, /paper/)
   await page.getByLabel('Stands of V1').fill('7')
-  await expect(page.getByText(/^Sound:/)).toBeVisible()
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
   await expect(page.getByRole('button', { name: 'Save', exact: true })).toBeDisabled()
   await page.getByRole('button', { name: 'What would a day earn?' }).click()
   await expect(page.getByRole('button', { name: 'Play it' })).toBeDisabled()
@@ -266,7 +285,7 @@ test('whoever may only look can edit and download, and neither saves nor plays',
 for (const scheme of ['light', 'dark'] as const) {
   test(`axe finds nothing serious in the editor (${scheme})`, async ({ page, program }) => {
     await page.emulateMedia({ colorScheme: scheme })
-    await page.goto(`${program.console}/#/editor`)
+    await page.goto(`${program.console}/#/networks`)
     await expect(page.getByRole('button', { name: /new-york/ })).toBeVisible()
     await expectAccessible(page)
     await openNetwork(page, program.console, /new-york/)

@@ -53,8 +53,8 @@ describe('differences', () => {
     const [flight] = record.legs
     const { one, other, first } = differences(record, changed(record, 0, { to: flight?.from ?? 0 }))
     expect([...one.keys()]).toEqual([0])
-    expect(one.get(0)).toMatchObject({ to: flight?.from })
-    expect(other.get(0)).toBe(flight)
+    expect(one.get(0)).toMatchObject({ twin: { to: flight?.from }, isElsewhere: true })
+    expect(other.get(0)).toEqual({ twin: flight, isElsewhere: true })
     expect(first).toMatchObject({ time: flight?.decided, one: flight })
   })
 
@@ -62,6 +62,14 @@ describe('differences', () => {
     const record = prices()
     const leg = record.legs[3]
     if (leg === undefined) throw new Error('the day has legs')
+    const howTheyDiffer = (more: Partial<LegRecord>) =>
+      differences(record, changed(record, 3, more)).one.get(3)
+    expect(howTheyDiffer({ passengers: leg.passengers + 1 })?.isElsewhere).toBe(false)
+    expect(howTheyDiffer({ decided: leg.decided + 600 })).toMatchObject({
+      isElsewhere: false,
+      twin: { decided: leg.decided + 600 },
+    })
+    expect(howTheyDiffer({ decided: leg.decided + 3600 })?.isElsewhere).toBe(true)
     const differing = (more: Partial<LegRecord>) => [
       ...differences(record, changed(record, 3, more)).one.keys(),
     ]
@@ -74,7 +82,7 @@ describe('differences', () => {
     const record = prices()
     const fewer = { ...record, legs: record.legs.filter((leg) => leg.aircraft !== 2) }
     const { one, other } = differences(record, fewer)
-    expect([...one.values()].every((twin) => twin === undefined)).toBe(true)
+    expect([...one.values()].every(({ twin }) => twin === undefined)).toBe(true)
     expect(one.size).toBe(record.legs.filter((leg) => leg.aircraft === 2).length)
     expect(other.size).toBe(0)
   })

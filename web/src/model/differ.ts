@@ -14,7 +14,8 @@ export interface Difference {
 export interface FirstDifference extends Difference {
   /** The first day's profit of this leg less the other's. */
   atDecision_usd: number
-  /** The first day's profit of the whole day less the other's: the worth of this and of all that followed. */
+  /** The first day's profit of the whole day less the other's. Where both played the same day, this is what the decision and all
+   *  later ones come to; a plan beside what happened was for another day, and owes the difference to that as well. */
   atEnd_usd: number
 }
 
@@ -40,8 +41,16 @@ function partings(ones: readonly LegRecord[], others: readonly LegRecord[]): Dif
   return [{ time: Math.min(one?.decided ?? Infinity, other?.decided ?? Infinity), one, other }]
 }
 
-/** Legs that another day does not have, by their positions in the record, each with what the aircraft does there meanwhile. */
-export type Otherwise = ReadonlyMap<number, LegRecord | undefined>
+/** How a leg differs from another day. */
+export interface Differing {
+  /** What the aircraft does there: the same way at another time or with other passengers, or else what it was sent on last. */
+  twin: LegRecord | undefined
+  /** Whether the aircraft does not go this way at about this time at all. */
+  isElsewhere: boolean
+}
+
+/** Legs that another day does not have, by their positions in the record. */
+export type Otherwise = ReadonlyMap<number, Differing>
 
 export interface Differences {
   one: Otherwise
@@ -53,27 +62,36 @@ export interface Differences {
 export function differences(one: DayRecord, other: DayRecord): Differences {
   const [inOne, inOther] = [otherwise(one, other), otherwise(other, one)]
   const first = earliest([
-    ...[...inOne].map(([leg, twin]) => differenceOf(one.legs[leg], twin)),
-    ...[...inOther].map(([leg, twin]) => swapped(differenceOf(other.legs[leg], twin))),
+    ...[...inOne].map(([leg, { twin }]) => differenceOf(one.legs[leg], twin)),
+    ...[...inOther].map(([leg, { twin }]) => swapped(differenceOf(other.legs[leg], twin))),
   ])
   return { one: inOne, other: inOther, first }
 }
 
 /** Timelines are read to the minute: decisions that are closer are the same. */
 const SAME_S = 60
+/** An aircraft that goes the same way within this time goes there later or earlier, and not elsewhere. */
+const NEAR_S = 900
 
 function otherwise(record: DayRecord, other: DayRecord): Otherwise {
   const others = byAircraft(other)
-  const found = new Map<number, LegRecord | undefined>()
+  const found = new Map<number, Differing>()
   record.legs.forEach((leg, position) => {
     const twins = others.get(leg.aircraft) ?? []
     if (twins.some((twin) => isAlike(leg, twin))) return
-    found.set(
-      position,
-      twins.findLast((twin) => twin.decided < leg.decided + SAME_S),
-    )
+    const near = nearest(leg, twins)
+    const meanwhile = twins.findLast((twin) => twin.decided < leg.decided + SAME_S)
+    found.set(position, { twin: near ?? meanwhile, isElsewhere: near === undefined })
   })
   return found
+}
+
+/** The leg on the same way that is nearest in time, if one is near. */
+function nearest(leg: LegRecord, twins: readonly LegRecord[]): LegRecord | undefined {
+  const away = (twin: LegRecord) => Math.abs(twin.decided - leg.decided)
+  return twins
+    .filter((twin) => twin.from === leg.from && twin.to === leg.to && away(twin) < NEAR_S)
+    .toSorted((one, other) => away(one) - away(other))[0]
 }
 
 function isAlike(one: LegRecord, other: LegRecord): boolean {

@@ -38,6 +38,10 @@ export const editor = {
     inFile === ''
       ? 'A number is needed here.'
       : `A number is needed here. The file keeps ${inFile} until then.`,
+  textMissing: (inFile: string) =>
+    inFile === ''
+      ? 'This must not be empty.'
+      : `This must not be empty. The file keeps “${inFile}” until then.`,
   mayNotSave: 'The token that you signed in with may not save networks. You can download the file.',
   download: 'Download',
   remove: 'Delete',
@@ -59,7 +63,7 @@ export const editor = {
     title: 'Findings',
     checking: 'Checking…',
     sound: (vertiports: number, aircraft: number, passengers: number) =>
-      `Sound: ${plural(vertiports, 'vertiport', 'vertiports')}, ${whole(aircraft)} aircraft, ${whole(passengers)} passengers a day`,
+      `No errors: ${plural(vertiports, 'vertiport', 'vertiports')}, ${whole(aircraft)} aircraft, ${whole(passengers)} passengers a day`,
     errors: (number: number) => plural(number, 'thing is wrong', 'things are wrong'),
     warnings: (number: number) => plural(number, 'warning', 'warnings'),
     error: 'Error',
@@ -67,6 +71,13 @@ export const editor = {
     line: (line: number) => `line ${line}`,
     show: 'Show',
     unreadable: 'The text cannot be read, so the forms show it as it was.',
+    /** An entry of a list by its place in the file. */
+    entries: {
+      vertiports: (number: number) => `vertiport no. ${number} of the file`,
+      aircraft_types: (number: number) => `aircraft type no. ${number} of the file`,
+      fleet: (number: number) => `entry no. ${number} of the fleet`,
+    },
+    isEmpty: (member: string) => `${member} must not be empty`,
   },
 
   map: {
@@ -267,10 +278,10 @@ export const studies = {
   kept: 'Studies are kept until the service stops. The same study gives the same numbers again.',
   network: 'Network',
   policies: 'Policies',
-  policiesHint: 'The others are measured against the first.',
-  first: 'first',
-  makeFirst: (policy: string) => `Measure the others against ${policy}`,
-  planner: 'plan: knows the day, a reference',
+  policiesHint: 'The others are compared with the reference.',
+  reference: 'reference',
+  makeReference: (policy: string) => `Compare the others with ${policy}`,
+  planner: 'plan: knows the day in advance',
   days: 'Days',
   daysHint: 'More days give narrower intervals. 1,000 at most.',
   seed: 'Seed',
@@ -298,8 +309,8 @@ export const studies = {
   took: (time: string) => `took ${time}`,
   progress: 'Progress',
   end: 'Stop',
-  forget: 'Forget',
-  forgotten: 'The study is forgotten.',
+  remove: 'Delete',
+  removed: 'The study is deleted.',
   ended: 'The study is stopped.',
   replay: 'Replay',
   replayHint: 'The first days as each policy played them',
@@ -320,7 +331,7 @@ export const studies = {
     policy: 'Policy',
     profit: 'Profit a day',
     share: 'Of the bound',
-    difference: 'Against the first',
+    difference: (reference: string) => `Against ${reference}`,
     p: 'p',
     carried: 'Carried',
     spilled: 'Not carried',
@@ -332,7 +343,7 @@ export const studies = {
     forecast: 'sees the forecast',
     'whole-day': 'sees the whole day',
   } as Readonly<Record<string, string>>,
-  reference: 'knows the days: a reference, no policy',
+  knowsAll: 'knows the days in advance, which no policy can',
   perDay:
     'Means a day. ± is half of the 95 % interval (Student’s t). p: the chance of such a difference if there were none.',
   means: 'Profit a day',

@@ -37,7 +37,7 @@ export const en = {
     'what-if': 'What if',
     log: 'Log',
     replay: 'Replay',
-    editor: 'Networks',
+    networks: 'Networks',
     studies: 'Studies',
   },
 
@@ -49,7 +49,7 @@ export const en = {
     lostHint:
       'What you see is as it was. It goes on by itself when the service is back; nothing that you typed is lost.',
     refused: (why: string) =>
-      `What you see is as it was: the service sends no more of this day. Its answer was “${why}”.`,
+      `What you see is as it was: the service sends no more of this day. It says: ${why}`,
   },
 
   errors: {
@@ -58,6 +58,25 @@ export const en = {
     notPermittedHint: 'The token that you signed in with does not permit this.',
     code: (code: string) => `Error ${code}`,
     dismiss: 'Dismiss',
+    notFound: {
+      day: (id: string) => ({
+        title: `There is no day “${id}” here.`,
+        hint: 'It may have been deleted, or the link is that of another service.',
+      }),
+      study: (id: string) => ({
+        title: `There is no study “${id}” here.`,
+        hint: 'It may have been deleted. Studies are also gone when the service has been started anew.',
+      }),
+      network: (id: string) => ({
+        title: `There is no network “${id}” here.`,
+        hint: 'It may have been deleted, or the link is that of another service.',
+      }),
+      policy: (id: string) => ({
+        title: `There is no policy “${id}”.`,
+        hint: 'Choose one from the list.',
+      }),
+    },
+    lists: { days: 'All days', studies: 'All studies', networks: 'All networks', replay: 'Replays' },
   },
 
   session: {
@@ -85,7 +104,7 @@ export const en = {
       made: 'Made',
     },
     states: { running: 'Running', over: 'Over', archived: 'Archived' },
-    waiting: (aircraft: number) => plural(aircraft, 'aircraft', 'aircraft'),
+    waitingUnit: ' aircraft',
     nobodyWaits: 'none',
     madeHint: (zone: string) => `On the clock of this computer, in the time zone ${zone}`,
     network: 'Network',
@@ -178,8 +197,7 @@ export const en = {
     accept: 'Accept',
     override: 'Override…',
     overrideCommand: 'Override the recommendation',
-    by: (policy: string) => `recommended by ${policy}`,
-    took: (ms: number) => (ms < 0.1 ? 'in less than 0.1 ms' : `in ${ms.toFixed(1)} ms`),
+    by: (policy: string) => `${policy} recommends this`,
     tooLate: (asked: string, policy: string) => `${asked} was not ready in time; ${policy} answered instead.`,
     policy: 'Policy that is asked',
     dayPolicy: (policy: string) => `${policy} (the day’s)`,
@@ -223,6 +241,13 @@ export const en = {
       no_corridor: 'No corridor',
       closed: 'Closed',
       no_stand_free: 'No stand free',
+    },
+    ruleReasons: {
+      out_of_range: (to: string) => `The flight to ${to} takes more energy than the battery holds.`,
+      no_corridor: (to: string) => `No corridor leads from here to ${to}.`,
+      closed: (to: string) => `The route to ${to} is closed.`,
+      no_stand_free: (to: string) =>
+        `Every stand or charger at ${to} is taken, or kept for an aircraft that is on its way there.`,
     },
     why: 'What it is worth',
     worthParts: {
@@ -305,7 +330,8 @@ export const en = {
   },
 
   whatIf: {
-    explanation: 'Put changes together and see both rests of the day side by side. Nothing of it happens.',
+    explanation:
+      'Put changes together, and see how the day would go on with them and without them. To compare changes nothing in the day.',
     change: 'Change',
     changes: 'Changes',
     kinds: {
@@ -339,7 +365,7 @@ export const en = {
     reported: (events: number) => `${plural(events, 'event is', 'events are')} reported to the day.`,
     result: 'Comparison',
     empty: 'The comparison comes up here.',
-    old: 'The day has moved on since.',
+    old: (time: string) => `Compared as of ${time}; the day has moved on since.`,
     other: 'The changes are not those that were compared.',
     again: 'Compare again',
     moreAircraft: (id: string, at: string) => `${id} more, from ${at} in the morning`,
@@ -360,14 +386,16 @@ export const en = {
     points: (difference: string) => `${difference} points`,
     differs: (time: string, one: string, other: string) =>
       `They first differ at ${time}: ${one}; what if: ${other}.`,
-    same: 'Both rests of the day are the same.',
+    same: 'The day goes on in the same way with the changes and without them.',
     nothing: 'nothing',
     holds: (aircraft: string, at: string, time: string) => `${aircraft} holds at ${at} at ${time}`,
     flies: (aircraft: string, to: string, time: string, passengers: number) =>
       `${aircraft} flies to ${to} at ${time} with ${plural(passengers, 'passenger', 'passengers')}`,
     showFirst: 'Show the first difference',
-    differing: (differing: number, all: number) =>
-      `marks what differs: ${differing.toLocaleString('en-US')} of ${plural(all, 'flight or hold', 'flights and holds')} to come`,
+    elsewhere: (differing: number, all: number, time: string) =>
+      `the aircraft does something else: ${differing.toLocaleString('en-US')} of ${plural(all, 'flight or hold', 'flights and holds')} from ${time} on`,
+    alike: (differing: number) =>
+      `the same at another time or with other passengers: ${differing.toLocaleString('en-US')}`,
   },
 
   log: {

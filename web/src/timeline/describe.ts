@@ -53,7 +53,7 @@ export function notesOf(record: DayRecord, leg: LegRecord, beside?: Beside): str
 }
 
 function insteadOf(record: DayRecord, { title, otherwise }: Beside, position: number): string {
-  const twin = otherwise.get(position)
+  const twin = otherwise.get(position)?.twin
   if (twin === undefined) return text.timeline.nothingThere(title)
   const load = isHold(twin) ? undefined : twin.passengers
   return text.timeline.otherwise(title, nameOf(record, twin), clock(twin.decided), load)

@@ -15,9 +15,12 @@ export interface TimelineShape {
 
 /** A timeline that is in the page. */
 export interface ShownTimeline {
-  /** Brings a row into view, and a time if one is given. */
+  /** Brings a row into the middle, and a time into view if one is given. */
   show: (target: Target, at?: Seconds) => void
 }
+
+/** Where two timelines are side by side, each has half of the room and lower rows, so that more of the fleet is in view. */
+export const DENSE_PX = 14
 
 export const shapes: Readonly<Record<TimelineKind, TimelineShape>> = {
   fleet: { rowsOf: rowsOfFleet, heights: [18, 30] },

@@ -48,7 +48,8 @@ describe('labels of the fleet', () => {
   })
 
   it('are cut off where even that is too little, and absent where letters would say nothing', () => {
-    expect(labelsOf(fleetRow(0), 0.017)[0]?.text).toBe('E…')
+    // No name of this day is long enough to leave three letters and take two away.
+    expect(labelsOf(fleetRow(0), 0.017)[0]).toBeUndefined()
     expect(labelsOf(fleetRow(0), 0.005)[0]).toBeUndefined()
   })
 })

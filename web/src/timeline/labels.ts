@@ -21,6 +21,9 @@ export interface Label {
   isLonger: boolean
 }
 
+/** Letters of a name that are shown at least where it is cut off; fewer are no name. */
+const LEAST_LETTERS = 3
+
 /** Pixels between a name and either end of its bar, at least. */
 const MARGIN_PX = 1
 
@@ -99,7 +102,7 @@ export class Labels {
     const known = this.#shortest.get(text)
     if (known !== undefined) return known
     const others = names.filter(({ id }) => id !== text)
-    let length = 1
+    let length = LEAST_LETTERS
     while (length < text.length && others.some(({ id }) => id.startsWith(text.slice(0, length)))) length++
     this.#shortest.set(text, length)
     return length

@@ -36,8 +36,9 @@ const EXPECTED = 0.5
 const LEAST_DASHED_PX = 14
 /** How wide the ground behind letters is that run over several bars. */
 const HALO_PX = 3
-/** How wide the line is that marks what differs. */
-const MARK_PX = 1.5
+/** How thick the line is that marks what differs, and how strong where only the time or the passengers do. */
+const MARK_PX = 2
+const PALE_MARK = 0.35
 
 interface Look {
   colour: ColourName
@@ -137,20 +138,28 @@ class RowPainter {
     this.#write(label, top + 1 + (place + height / 2 - place * height) * (rowHeight - 2))
   }
 
-  /** A line stands above what differs from another play, and goes down where that begins, as a bracket. */
+  /** A line stands above each flight and hold that differs from another play, paler where the aircraft goes the same way at another
+   *  time or with other passengers. It goes down as a bracket where the ways of the aircraft part. */
   #paintMarks(runs: readonly Run[], top: number): void {
     const { context, picture } = this
-    const differs = (run: Run | undefined) => run !== undefined && picture.otherwise?.has(run[0].leg) === true
+    let wasElsewhere = false
+    for (const run of runs) {
+      const differing = picture.otherwise?.get(run[0].leg)
+      const isElsewhere = differing?.isElsewhere === true
+      if (differing !== undefined) this.#paintMark(run, top, isElsewhere, isElsewhere && !wasElsewhere)
+      wasElsewhere = isElsewhere
+    }
+    context.globalAlpha = 1
+  }
+
+  #paintMark(run: Run, top: number, isElsewhere: boolean, parts: boolean): void {
+    const { context, picture } = this
+    const marked = run.find((bar) => bar.kind === 'flight' || bar.kind === 'hold') ?? run[0]
+    const [left, right] = [this.#x(run[0].begins), this.#x(marked.ends)]
+    context.globalAlpha = isElsewhere ? 1 : PALE_MARK
     context.fillStyle = css(picture.colours.ink)
-    runs.forEach((run, index) => {
-      if (!differs(run)) return
-      const former = runs[index - 1]
-      const begins = this.#x(run[0].begins)
-      const left = differs(former) ? this.#x(former?.at(-1)?.ends ?? run[0].begins) : begins
-      const right = this.#x(run.at(-1)?.ends ?? run[0].ends)
-      context.fillRect(left, top + 1, right - left, MARK_PX)
-      if (!differs(former)) context.fillRect(left - 1, top + 1, MARK_PX + 1, picture.rowHeight - 2)
-    })
+    context.fillRect(left, top + 1, Math.max(1, right - left - 1), MARK_PX)
+    if (parts) context.fillRect(left - 1, top + 1, MARK_PX, picture.rowHeight - 2)
   }
 
   #lookOf(bar: Bar, row: GanttRow): Look {

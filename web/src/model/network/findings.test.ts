@@ -60,6 +60,15 @@ it.each([
   expect(lines[(found.line ?? 0) - 1]?.startsWith(line)).toBe(true)
 })
 
+it('calls what is counted by what it is, and what is empty so', () => {
+  const found = find('vertiports[0]: id must be 1 to 64 characters without control characters, found ""')
+  expect(found.message).toBe('vertiport no. 1 of the file: id must not be empty')
+  expect(found.path).toEqual(['vertiports', 0, 'id'])
+  expect(find('fleet[0]: type names "nope", which is not among the aircraft types').message).toBe(
+    'entry no. 1 of the fleet: type names "nope", which is not among the aircraft types',
+  )
+})
+
 it('takes the line from the reader of TOML', () => {
   const unknown = find(
     'line 46, column 1: vertiports[3].stnds: unknown field `stnds`, expected one of `id`',

@@ -1,6 +1,7 @@
 // What the service finds wrong with a network, and where that stands in the file. The service names the member in its message, and
 // this finds it: the member's path leads to the field of a form and to a line of the text.
 
+import { plainly } from '../../text/findings'
 import { draftOf } from './draft'
 import { beginsWith, type Path, type Step, type TomlFile } from './toml'
 
@@ -48,7 +49,7 @@ export function findingOf({ code, detail, hint }: Refusal, file: TomlFile): Find
     }
   }
   const path = message.includes('time zone') ? ['time_zone'] : pathOf(message, file)
-  return { kind: 'error', code, message, hint, path, line: lineOf(file, path) }
+  return { kind: 'error', code, message: plainly(message), hint, path, line: lineOf(file, path) }
 }
 
 export function findingOfWarning(message: string, file: TomlFile): Finding {
