@@ -85,9 +85,9 @@ test('a PMTiles file is drawn in the colours of the console, on the map of a day
     const body = JSON.stringify({ network: 'new-york', seed: 1, policy: 'greedy' })
     const made = await fetch(`${url}/v1/days`, { method: 'POST', body })
     const { id } = (await made.json()) as { id: string }
-    for (const view of [`day/${id}/now`, 'editor']) {
+    for (const view of [`day/${id}/now`, 'networks']) {
       await page.goto(`${url}/#/${view}`)
-      if (view === 'editor') await page.getByRole('button', { name: /new-york/ }).click()
+      if (view === 'networks') await page.getByRole('button', { name: /new-york/ }).click()
       const basemap = page.locator('.basemap')
       await expect(basemap.locator('canvas')).toBeVisible()
       await expect(page.getByText('A survey')).toBeVisible()
@@ -102,7 +102,7 @@ test('a PMTiles file is drawn in the colours of the console, on the map of a day
 
 test('a style is drawn as it is', async ({ page, tiles }) => {
   await withBasemap(`${tiles}/style.json`, async ({ url }) => {
-    await page.goto(`${url}/#/editor`)
+    await page.goto(`${url}/#/networks`)
     await page.getByRole('button', { name: /new-york/ }).click()
     const map = page.getByRole('region', { name: 'Map of the vertiports' })
     await expect(map.getByText('A style')).toBeVisible()
@@ -113,7 +113,7 @@ test('a style is drawn as it is', async ({ page, tiles }) => {
 
 test('a base map that cannot be had leaves the bundled one, and says so', async ({ page }) => {
   await withBasemap('http://127.0.0.1:9/world.pmtiles', async ({ url }) => {
-    await page.goto(`${url}/#/editor`)
+    await page.goto(`${url}/#/networks`)
     await page.getByRole('button', { name: /new-york/ }).click()
     await expect(page.getByText(/could not be loaded.*Natural Earth/)).toBeVisible()
   })

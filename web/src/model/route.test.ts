@@ -4,12 +4,19 @@ import { hashOf, home, parseRoute, type Route } from './route'
 it('comes back from the hash that it makes', () => {
   const routes: Route[] = [
     home,
-    { view: 'editor', params: { network: 'new-york' } },
+    { view: 'networks', params: { network: 'new-york' } },
     { view: 'now', day: '1a2063eef97e', params: { at: '07:10:00', aircraft: 'A 01/ä' } },
     { view: 'replay', day: 'x/y', params: {} },
     { view: 'replay', params: {} },
   ]
   for (const route of routes) expect(parseRoute(hashOf(route))).toEqual(route)
+})
+
+it('still knows the address that networks had before', () => {
+  expect(parseRoute('#/editor?network=new-york')).toEqual({
+    view: 'networks',
+    params: { network: 'new-york' },
+  })
 })
 
 it('shows times in links as people read them', () => {

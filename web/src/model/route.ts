@@ -2,7 +2,7 @@
 // a token is never part of one.
 
 export const dayViews = ['now', 'timeline', 'what-if', 'log', 'replay'] as const
-export const otherViews = ['days', 'replay', 'editor', 'studies'] as const
+export const otherViews = ['days', 'replay', 'networks', 'studies'] as const
 
 export type DayView = (typeof dayViews)[number]
 export type OtherView = (typeof otherViews)[number]
@@ -11,6 +11,9 @@ export type OtherView = (typeof otherViews)[number]
 export type Route =
   | { view: DayView; day: string; params: Readonly<Record<string, string>>; isUnknown?: boolean }
   | { view: OtherView; day?: undefined; params: Readonly<Record<string, string>>; isUnknown?: boolean }
+
+/** Addresses that views had before, which links may still have. */
+const formerNames: Readonly<Record<string, OtherView>> = { editor: 'networks' }
 
 export const home: Route = { view: 'days', params: {} }
 
@@ -24,7 +27,7 @@ export function parseRoute(hash: string): Route {
     const route = { view: view ?? 'now', day: second, params } as const
     return view === undefined && third !== '' ? { ...route, isUnknown: true } : route
   }
-  const view = otherViews.find((one) => one === first)
+  const view = otherViews.find((one) => one === (formerNames[first] ?? first))
   if (view !== undefined) return { view, params }
   return path === '' ? home : { ...home, isUnknown: true }
 }

@@ -16,7 +16,7 @@ class Router {
   /** Goes to a view of the day that is open, or to one that needs none. */
   goTo(view: DayView | OtherView): void {
     const { day } = this.route
-    if (view === 'days' || view === 'editor' || view === 'studies') this.go({ view, params: {} })
+    if (view === 'days' || view === 'networks' || view === 'studies') this.go({ view, params: {} })
     else if (day !== undefined) this.go({ view, day, params: {} })
     else if (view === 'replay') this.go({ view, params: {} })
   }

@@ -1,6 +1,7 @@
 // What the console says about what was done: shown for a while, errors until they are closed.
 
 import { ProblemError } from '../api/problem'
+import { said } from '../text/problems'
 import { text } from '../text/text'
 
 export interface Toast {
@@ -29,13 +30,14 @@ class Toasts {
   /** Says what a request failed of, with its code and remedy. Anything else is an error of our own, and not hidden. */
   fail(problem: unknown): void {
     if (!(problem instanceof ProblemError)) throw problem
-    const { code, detail, hint, status } = problem
-    if (status === 0) {
-      this.#add({ kind: 'error', title: text.errors.noAnswer, hint: text.errors.noAnswerHint })
-      return
-    }
-    const remedy = hint ?? (status === 403 ? text.errors.notPermittedHint : undefined)
-    this.#add({ kind: 'error', title: detail, code, ...(remedy === undefined ? {} : { hint: remedy }) })
+    const { title, hint, code } = said(problem)
+    const remedy = problem.status === 0 ? text.errors.noAnswerHint : hint
+    this.#add({
+      kind: 'error',
+      title,
+      ...(remedy === undefined ? {} : { hint: remedy }),
+      ...(code === undefined ? {} : { code }),
+    })
   }
 
   close(id: number): void {

@@ -1,0 +1,44 @@
+import { expect, it } from 'vitest'
+import { ProblemError } from '../api/problem'
+import { said, sentenceOf } from './problems'
+
+it('says what was not found in plain words, and leads to where it could be', () => {
+  const problem = new ProblemError(404, 'V602', 'there is no study "zzz"', undefined)
+  const { title, code, way } = said(problem)
+  expect([title, code, way]).toEqual([
+    'There is no study “zzz” here.',
+    undefined,
+    { href: '#/studies', title: 'All studies' },
+  ])
+})
+
+it('keeps hints for programs from people', () => {
+  const hint = 'GET /v1/policies lists them; PUT /v1/policies/NAME keeps weights under a name'
+  const policy = said(new ProblemError(404, 'V602', 'there is no policy "zzz"', hint))
+  expect(policy.title).toBe('There is no policy “zzz”.')
+  expect(policy.hint).not.toContain('/v1')
+  expect(policy.way).toBeUndefined()
+  const archived = new ProblemError(
+    409,
+    'V608',
+    'day "d" is archived',
+    'POST /v1/days/d/unarchive opens it again',
+  )
+  expect(said(archived)).toEqual({ title: 'Day “d” is archived.', code: 'V608' })
+})
+
+it('says everything else as the service does, as sentences and with the code', () => {
+  const problem = new ProblemError(412, 'V605', 'the day has gone on', 'read the day again, and decide anew')
+  expect(said(problem)).toEqual({
+    title: 'The day has gone on.',
+    hint: 'Read the day again, and decide anew.',
+    code: 'V605',
+  })
+  expect(said(new ProblemError(404, 'V602', 'there is no path "/x"', undefined)).code).toBe('V602')
+})
+
+it('makes a sentence of a message, and none of a path', () => {
+  expect(sentenceOf('aircraft "A01" is out')).toBe('Aircraft “A01” is out.')
+  expect(sentenceOf('small.toml: stands must be at least 1')).toBe('small.toml: stands must be at least 1.')
+  expect(sentenceOf('HTTP 502')).toBe('HTTP 502.')
+})

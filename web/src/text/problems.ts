@@ -1,0 +1,70 @@
+// What a person reads when the service refuses something. The service speaks to programs too: its messages are lower-case and its
+// hints name requests. Here they become sentences, and what was not found leads to where it could be.
+
+import type { ProblemError } from '../api/problem'
+import { hashOf, type OtherView } from '../model/route'
+import { text } from './text'
+
+export interface SaidProblem {
+  title: string
+  hint?: string
+  /** The code to look up, where there is something to look up. */
+  code?: string
+  /** Where to go on from here. */
+  way?: { href: string; title: string }
+}
+
+const NOT_FOUND = 'V602'
+const FORBIDDEN = 403
+
+type Missing = keyof typeof text.errors.notFound
+const lists: Readonly<Partial<Record<Missing, OtherView>>> = {
+  day: 'days',
+  study: 'studies',
+  network: 'networks',
+}
+
+export function said(problem: ProblemError): SaidProblem {
+  const { status, code, detail, hint } = problem
+  if (status === 0) return { title: text.errors.noAnswer }
+  const missing = code === NOT_FOUND ? missingOf(detail) : undefined
+  if (missing !== undefined) return notFound(missing.what, missing.id)
+  const remedy = hint === undefined || isForPrograms(hint) ? undefined : sentenceOf(hint)
+  const known = remedy ?? (status === FORBIDDEN ? text.errors.notPermittedHint : undefined)
+  return {
+    title: sentenceOf(detail),
+    ...(known === undefined ? {} : { hint: known }),
+    ...(code === '' ? {} : { code }),
+  }
+}
+
+/** Says that something is not there that an address or a choice names. */
+export function notFound(what: Missing, id: string): SaidProblem {
+  const list = lists[what]
+  const { title, hint } = text.errors.notFound[what](id)
+  if (list === undefined) return { title, hint }
+  const way = { href: hashOf({ view: list, params: {} }), title: text.errors.lists[list] }
+  return { title, hint, way }
+}
+
+/** `there is no day "zzz"`: what is missing and its name, if the console has words for it. */
+function missingOf(detail: string): { what: Missing; id: string } | undefined {
+  const [, what, id] = /^there is no (\w+) "(.*)"$/s.exec(detail) ?? []
+  return what !== undefined && id !== undefined && isKnown(what) ? { what, id } : undefined
+}
+
+function isKnown(what: string): what is Missing {
+  return what in text.errors.notFound
+}
+
+/** Whether a hint names a request or one of its headers. */
+function isForPrograms(hint: string): boolean {
+  return /\b(GET|POST|PUT|DELETE) \/|Idempotency-Key|Authorization:/.test(hint)
+}
+
+/** A message as a sentence: with a capital, its quotation marks, and a full stop. A path or a member in front stays as it is written. */
+export function sentenceOf(message: string): string {
+  const quoted = message.replace(/"([^"\n]*)"/g, '“$1”')
+  const begun = /^\p{Ll}+[ ,:]/u.test(quoted) ? quoted.charAt(0).toUpperCase() + quoted.slice(1) : quoted
+  return /[.!?…]$/.test(begun) ? begun : `${begun}.`
+}
