@@ -170,7 +170,7 @@ test('what is not possible is shown with its rule', async ({ page, program, flee
   await open(page, program, fleet)
   const impossible = panel(page).getByRole('listitem').filter({ hasText: 'East' })
   await expect(impossible).toContainText('Closed')
-  await expect(impossible.locator('.unseen')).toContainText('cannot fly to vertiport "East"')
+  await expect(impossible.locator('.unseen')).toContainText('The route to East is closed.')
 })
 
 test('nothing moves under the pointer', async ({ page, program, fleet }) => {

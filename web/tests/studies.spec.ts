@@ -35,7 +35,7 @@ test('a study is made, followed and read', async ({ page, context, program }) =>
   await dialog.getByRole('checkbox', { name: 'gcaps-x' }).uncheck()
   await dialog.getByRole('checkbox', { name: 'prices' }).check()
   await dialog.getByRole('checkbox', { name: 'random' }).check()
-  await dialog.getByRole('radio', { name: 'Measure the others against random' }).check()
+  await dialog.getByRole('radio', { name: 'Compare the others with random' }).check()
   await dialog.getByRole('spinbutton', { name: /^Days/ }).fill('8')
   await dialog.getByRole('button', { name: 'Play the study' }).click()
 
@@ -66,7 +66,7 @@ test('a study is made, followed and read', async ({ page, context, program }) =>
   await expect(replay.getByLabel('Day', { exact: true })).toHaveValue('small-1')
   await expect(replay.getByRole('region', { name: 'Map' }).first()).toBeVisible()
 
-  await page.getByRole('button', { name: 'Forget' }).click()
+  await page.getByRole('button', { name: 'Delete' }).click()
   await expect(page.getByText('There is no study yet.')).toBeVisible()
 })
 
@@ -130,6 +130,10 @@ for (const scheme of ['light', 'dark'] as const) {
       await page.setViewportSize(screens[screen])
       await open(page, program.console)
       await expect(page.getByText(/earns \$/)).toBeVisible()
+      const frame = page.getByRole('region', { name: 'Result' })
+      expect(await frame.evaluate((element) => element.scrollWidth - element.clientWidth)).toBeLessThan(
+        screen === 'phone' ? 1 : Infinity,
+      )
       const mask = [page.locator('time')]
       await expect(page).toHaveScreenshot(`studies-${screen}-${scheme}.png`, { ...TOLERANCE, mask })
     }

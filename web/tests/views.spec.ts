@@ -105,6 +105,11 @@ test('the list of days says how far each is and who waits', async ({ page, progr
   await expect(row(fleet.day)).toContainText('Over')
   await page.setViewportSize({ width: 390, height: 844 })
   await expect(row(fleet.day).getByText('Over')).toBeInViewport()
+  const link = row(fleet.day).getByRole('link')
+  const lines = await link.evaluate(
+    (element) => element.clientHeight / parseFloat(getComputedStyle(element).lineHeight),
+  )
+  expect(lines).toBeLessThan(1.5)
   await expectAccessible(page)
 })
 
@@ -115,6 +120,37 @@ test('an unknown address says that it is', async ({ page, program, fleet }) => {
   await expect(page.getByText('There is no page at this address. This is “Now” instead.')).toBeVisible()
   await page.goto(`${program.console}/#/studies`)
   await expect(page.getByText('There is no page at this address')).toHaveCount(0)
+})
+
+test('what an address names and is not there is said in plain words, with a way out', async ({
+  page,
+  program,
+  fleet,
+}) => {
+  await page.goto(`${program.console}/#/day/zzz/now`)
+  await expect(page.getByText('There is no day “zzz” here.')).toBeVisible()
+  await expect(page.getByText('V602')).toHaveCount(0)
+  await page.getByRole('link', { name: 'All days' }).click()
+  await expect(page.getByRole('link', { name: /small-2/ })).toHaveAttribute('href', new RegExp(fleet.day))
+
+  await page.goto(`${program.console}/#/studies?study=zzz`)
+  await expect(page.getByText('There is no study “zzz” here.')).toBeVisible()
+  await page.goto(`${program.console}/#/replay?study=zzz`)
+  await expect(page.getByText('There is no study “zzz” here.')).toBeVisible()
+  await page.getByRole('link', { name: 'All studies' }).click()
+  await expect(page.getByRole('heading', { level: 1, name: 'Studies' })).toBeVisible()
+})
+
+test('networks have the address of their name, and the former one leads there too', async ({
+  page,
+  program,
+}) => {
+  for (const address of ['networks', 'editor']) {
+    await page.goto('about:blank')
+    await page.goto(`${program.console}/#/${address}`)
+    await expect(page.getByRole('heading', { level: 1, name: 'Networks' })).toBeVisible()
+    await expect(page.getByRole('link', { name: 'Networks' })).toHaveAttribute('aria-current', 'page')
+  }
 })
 
 test('the log says where departures lead and landings are', async ({ page, program, fleet }) => {
