@@ -103,6 +103,10 @@ impl Model {
         // No network has more vertiports.
         let net = self.model.net(vertiports.clamp(1, 256));
         let shape = net.shape();
+        if self.model.header().policy.adjacency().is_observed() {
+            let rule = "these weights need edges, which forward does not take; decide with them as a policy";
+            return Err(Failure::argument(rule.to_owned()).into());
+        }
         let (size, features) = (shape.vertiports, shape.node_features);
         let nodes = entries("nodes", nodes, [batch, size * features])?;
         let aircraft = entries("aircraft", aircraft, [batch, shape.aircraft_features])?;

@@ -181,7 +181,7 @@ pub(crate) struct ScenarioArguments {
 pub(crate) struct SimulateArguments {
     /// Scenario file
     pub(crate) scenario: PathBuf,
-    /// random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K, or replay:TRACE
+    /// random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K, gcaps-full, mlp-full, or replay:TRACE
     #[arg(long, value_parser = parse_name)]
     pub(crate) policy: String,
     /// Seed of the random policy

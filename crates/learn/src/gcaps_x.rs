@@ -14,6 +14,8 @@ pub(crate) mod scorer;
 #[cfg(test)]
 mod tests;
 
+#[cfg(test)]
+pub(crate) use tests::first_column;
 use vertifleet_policy::RolloutSettings;
 
 pub use observer::{PricedObservation, PricedObserver};

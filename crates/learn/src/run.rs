@@ -102,6 +102,8 @@ impl TrainingRequest {
 
     fn begin(self, checkpoint: Option<&Path>) -> Result<Box<dyn TrainingRun>, Error> {
         self.settings.check()?;
+        let bad = |rule| Error::BadSetting { name: "adjacency".to_owned(), rule };
+        self.policy.check_graph().map_err(bad)?;
         let asked = RunIdentity {
             network: self.world.name(),
             network_fingerprint: network_fingerprint(&self.world)?,

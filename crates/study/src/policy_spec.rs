@@ -19,8 +19,19 @@ use crate::resolved_policy::{PolicyFactory, ResolvedPolicy};
 const ANY_SIZE: &str = "gcaps-x";
 
 /// The names that need no further information.
-const NAMES: [&str; 9] =
-    ["random", "greedy", "lookahead", "prices", "rolling", ANY_SIZE, "gcaps", "mlp", "plan"];
+const NAMES: [&str; 11] = [
+    "random",
+    "greedy",
+    "lookahead",
+    "prices",
+    "rolling",
+    ANY_SIZE,
+    "gcaps",
+    "mlp",
+    "gcaps-full",
+    "mlp-full",
+    "plan",
+];
 
 /// A policy as its name describes it, before any file is read.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -154,7 +165,7 @@ impl PolicySpec {
                     "policy {:?} takes no weights, but a model is given for it",
                     self.name
                 ),
-                hint: "leave the model out, or name a learned policy (gcaps, mlp, gcaps-x)",
+                hint: "leave the model out, or name a learned policy (gcaps, mlp, gcaps-x, gcaps-full, mlp-full)",
             }),
             (None, Kind::Random) => Ok(ResolvedPolicy::Random(seed)),
             (None, Kind::Greedy) => Ok(ResolvedPolicy::Greedy),

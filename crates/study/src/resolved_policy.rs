@@ -144,8 +144,7 @@ impl ResolvedPolicy {
             Self::Own(factory) => factory.sees,
             Self::Replay(_) => Sees::WholeDay,
             Self::Random(_) | Self::Greedy => Sees::Present,
-            // `gcaps-x` fits networks of any size, and sees bid prices.
-            Self::Learned { model, .. } if model.header().shape.vertiports.is_some() => {
+            Self::Learned { model, .. } if !model.header().policy.sees_the_forecast() => {
                 Sees::Present
             }
             Self::Lookahead | Self::BidPrices | Self::Rolling | Self::Learned { .. } => {
@@ -167,12 +166,12 @@ impl ResolvedPolicy {
             Self::Learned { model, most_rolled_out, .. } => {
                 let header = model.header();
                 let decisions = grouped(header.steps as f64, 0);
-                match (header.shape.vertiports, most_rolled_out) {
-                    (Some(_), _) => {
+                match (header.policy.sees_prices(), most_rolled_out) {
+                    (false, _) => {
                         format!("learned on {} from {decisions} decisions", header.network)
                     }
-                    (None, 1) => format!("learned what prices miss from {decisions} decisions"),
-                    (None, most) => format!(
+                    (true, 1) => format!("learned what prices miss from {decisions} decisions"),
+                    (true, most) => format!(
                         "learned what prices miss from {decisions} decisions; rolls its {most} best choices out"
                     ),
                 }

@@ -10,6 +10,7 @@ use crate::FullPolicy;
 use crate::full::features::{
     AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Writer,
 };
+use crate::gcaps_x::first_column;
 use crate::header::shape_of;
 use crate::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, NeuralNetwork, Weights};
 
@@ -113,7 +114,11 @@ fn features_are_bounded_and_choices_are_feasible_on_every_network() {
 }
 
 #[test]
-fn every_feature_has_its_name() {
-    assert_eq!((NODE_FEATURE_NAMES.len(), NODE_FEATURES), (37, 37));
-    assert_eq!((AIRCRAFT_FEATURE_NAMES.len(), AIRCRAFT_FEATURES), (11, 11));
+fn the_page_names_every_feature_in_its_order() {
+    let page = include_str!("../../../../docs/src/concepts/policies.md");
+    let (_, page) = page.split_once("\n## gcaps-full\n").expect("a section");
+    let nodes = format!("What a vertiport shows ({NODE_FEATURES} numbers)");
+    assert_eq!(first_column(page, &nodes), NODE_FEATURE_NAMES);
+    let aircraft = format!("What the aircraft shows ({AIRCRAFT_FEATURES} numbers):");
+    assert_eq!(first_column(page, &aircraft), AIRCRAFT_FEATURE_NAMES);
 }

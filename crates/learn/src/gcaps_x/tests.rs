@@ -139,7 +139,8 @@ fn vertiports_in_another_order_get_their_logits_in_that_order() {
 }
 
 /// The names in the first column of the table that follows a heading.
-fn first_column(page: &str, heading: &str) -> Vec<String> {
+/// The names in the first column of the table below a heading.
+pub(crate) fn first_column(page: &str, heading: &str) -> Vec<String> {
     let (_, table) = page.split_once(heading).expect("a table");
     let rows = table.lines().skip_while(|line| !line.starts_with("| `"));
     let cells = rows

@@ -223,9 +223,28 @@ impl Architecture {
         matches!(self, Self::GcapsX(_) | Self::GcapsFull(_))
     }
 
+    /// Checks that the graph is one that the policy's observation shows.
+    ///
+    /// # Errors
+    /// Returns the rule that is broken.
+    pub(crate) fn check_graph(&self) -> Result<(), String> {
+        if !self.adjacency().is_observed() || matches!(self, Self::GcapsFull(_)) {
+            return Ok(());
+        }
+        Err(format!(
+            "the observation of {} shows no flights between two other vertiports",
+            self.name()
+        ))
+    }
+
     /// Whether the policy decides by the day's bid prices and its network.
     pub fn sees_prices(&self) -> bool {
         matches!(self, Self::GcapsX(_))
+    }
+
+    /// Whether the policy's observation shows what the forecast says; that of the paper shows the present alone.
+    pub fn sees_the_forecast(&self) -> bool {
+        !matches!(self, Self::Gcaps(_) | Self::Mlp(_))
     }
 
     /// Whether the policy learns by imitation of roll-outs, and not by PPO.

@@ -73,10 +73,6 @@ impl PpoRun {
             name: "network".to_owned(),
             rule: format!("{} learns on networks of one size", plan.policy.name()),
         })?;
-        if plan.policy.adjacency().is_observed() {
-            let rule = "the paper's observation shows no flights between two vertiports".to_owned();
-            return Err(Error::BadSetting { name: "adjacency".to_owned(), rule });
-        }
         let shape = shape(vertiports);
         let net = nn::NeuralNetwork::new(plan.policy.clone(), shape)
             .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
