@@ -163,12 +163,11 @@ export const replay = {
       : `by the end of the day, with all later decisions, ${who} has earned ${dollars} more`,
   dayPlan: (plan: string, difference: string, until: string | undefined) =>
     until === undefined
-      ? `Over the whole day ${plan}, would have earned ${difference} than was earned.`
-      : `Up to ${until}, as far as the day has come, ${plan}, would have earned ${difference} than was earned.`,
-  dayPlanWhy:
-    'The plan was made for the forecast, and the day itself was another: this is the difference of the two days, and not the worth of a decision.',
+      ? `Over the whole day ${plan}, would have earned ${difference} than the day earned.`
+      : `By ${until} ${plan}, would have earned ${difference} than the day has earned.`,
+  dayPlanWhy: 'The day was not as forecast; no one decision is worth this.',
   dayOther: (one: string, other: string, difference: string, until: string | undefined) =>
-    `${until === undefined ? 'Over the whole day' : `Up to ${until}, as far as the day has come,`} “${one}” has earned ${difference} than “${other}”.`,
+    `${until === undefined ? 'Over the whole day' : `By ${until}`} “${one}” has earned ${difference} than “${other}”.`,
   dayOtherWhy:
     'They were not played with the same passengers and events, so this is not the worth of a decision.',
   moreMoney: (dollars: string) => `${dollars} more`,

@@ -393,9 +393,8 @@ export const en = {
       `${aircraft} flies to ${to} at ${time} with ${plural(passengers, 'passenger', 'passengers')}`,
     showFirst: 'Show the first difference',
     elsewhere: (differing: number, all: number, time: string) =>
-      `the aircraft does something else: ${differing.toLocaleString('en-US')} of ${plural(all, 'flight or hold', 'flights and holds')} from ${time} on`,
-    alike: (differing: number) =>
-      `the same at another time or with other passengers: ${differing.toLocaleString('en-US')}`,
+      `something else: ${differing.toLocaleString('en-US')} of ${plural(all, 'flight or hold', 'flights and holds')} from ${time} on`,
+    alike: (differing: number) => `other time or passengers: ${differing.toLocaleString('en-US')}`,
   },
 
   log: {
