@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
-use vertifleet_core::{Coded, DaySeed, Network, Purpose, Stop};
-use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
+use vertifleet_core::{Coded, DaySeed, Network, Purpose, Stop, World};
+use vertifleet_learn::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, MlpSettings};
 use vertifleet_learn::{Curve, Error, Model, TrainingRequest, TrainingRun, TrainingSettings};
 
 fn paper() -> Arc<Network> {
@@ -25,11 +25,21 @@ fn small_gcaps_x() -> Architecture {
     Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
 }
 
+/// A policy of the full observation, which shows edges too.
+fn small_gcaps_full() -> Architecture {
+    let graph = GraphSettings { adjacency: Adjacency::Profit, ..GraphSettings::default() };
+    Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
+}
+
+fn small_mlp_full() -> Architecture {
+    Architecture::MlpFull(MlpSettings { width: 16, layers: 2, value_width: 8 })
+}
+
 /// A short run of a policy, with these settings changed.
 fn plan_with(policy: Architecture, changes: &[(&str, &str)]) -> TrainingRequest {
     let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
-    let short: &[(&str, &str)] = match policy {
-        Architecture::GcapsX(_) => &[
+    let short: &[(&str, &str)] = if policy.learns_by_imitation() {
+        &[
             ("rounds", "2"),
             ("days", "2"),
             ("passes", "1"),
@@ -38,8 +48,9 @@ fn plan_with(policy: Architecture, changes: &[(&str, &str)]) -> TrainingRequest 
             // Days of random networks, which may be large, take a hundred times as long.
             ("random_share", "0"),
             ("validation_days", "1"),
-        ],
-        _ => &[
+        ]
+    } else {
+        &[
             ("total_steps", "4800"),
             ("n_envs", "40"),
             ("n_steps", "30"),
@@ -47,7 +58,7 @@ fn plan_with(policy: Architecture, changes: &[(&str, &str)]) -> TrainingRequest 
             ("n_epochs", "2"),
             ("eval_every", "2"),
             ("eval_days", "3"),
-        ],
+        ]
     };
     settings.set(short.iter().chain(changes).copied()).expect("settings within their bounds");
     TrainingRequest { world: paper().into(), policy, settings, seed: 3, commit: "test".to_owned() }
@@ -79,7 +90,10 @@ fn remains(run: &dyn TrainingRun) -> (Vec<u8>, Vec<u8>, Curve) {
 #[test]
 fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
     let any_network = plan_with(small_gcaps_x(), &[("random_share", "0.5")]);
-    for plan in [plan(small_gcaps()), plan(small_mlp()), any_network] {
+    let new_places = |policy| TrainingRequest { world: World::RandomPlaces(5), ..plan(policy) };
+    let plans =
+        [plan(small_gcaps()), plan(small_mlp()), any_network, new_places(small_gcaps_full())];
+    for plan in plans.into_iter().chain([new_places(small_mlp_full()), new_places(small_mlp())]) {
         let on = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| remains(finished(plan.clone().start().expect("a plan")).as_ref()))
@@ -92,7 +106,8 @@ fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
 fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("checkpoint.safetensors");
-    for plan in [plan_with(small_gcaps(), &[("reward", "terminal")]), plan(small_gcaps_x())] {
+    let terminal = plan_with(small_gcaps(), &[("reward", "terminal")]);
+    for plan in [terminal, plan(small_gcaps_x()), plan(small_gcaps_full())] {
         let whole = finished(plan.clone().start().expect("a plan"));
         let mut first = plan.clone().start().expect("a plan");
         advance(first.as_mut());
@@ -343,5 +358,21 @@ fn training_validation_and_comparison_never_share_a_day() {
     ];
     for (seed, purpose) in seeds {
         assert_eq!(seed.expect("a seed in range").purpose(), purpose);
+    }
+}
+
+#[test]
+fn what_a_policy_cannot_see_or_fit_is_refused_before_it_learns() {
+    let refused = |plan: TrainingRequest| plan.start().err().expect("no such run").to_string();
+    let world = World::Random;
+    let of_all_sizes = TrainingRequest { world: world.clone(), ..plan(small_mlp_full()) };
+    assert!(refused(of_all_sizes).contains("learns on networks of one size"));
+    assert!(refused(TrainingRequest { world, ..plan(small_mlp()) }).contains("of one size"));
+    let share = plan_with(small_mlp_full(), &[("random_share", "0.5")]);
+    assert!(refused(share).contains("random_share"));
+    let graph = GraphSettings { adjacency: Adjacency::Reachable, ..GraphSettings::default() };
+    let sizes = GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) };
+    for policy in [Architecture::Gcaps(sizes.clone()), Architecture::GcapsX(sizes)] {
+        assert!(refused(plan(policy)).contains("shows no flights between two other vertiports"));
     }
 }
