@@ -1,0 +1,1 @@
+export{t as WebGLDevice}from"./deck-CdK4DL9y.js";

@@ -1,1 +1,0 @@
-import{t as e}from"./text-B2sbTx1M.js";function t({actor:t,policy:n,isOwn:r=!1}){let i=t===``?r?e.decided.you:``:t;return i===``?n==null?``:e.decided.asAdvised(n):n==null?i:`${i} · ${n}`}function n(n){return t(n)||e.decided.somebody}function r({actor:t,isOwn:n=!1}){return t===``&&!n?e.decided.nobodyHint:void 0}export{t as n,r,n as t};
