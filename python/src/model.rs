@@ -15,8 +15,8 @@ use crate::failure::Failure;
 use crate::frames::{members, plain, table};
 use crate::pickle::{Reduced, reduced};
 
-/// The weights of a learned policy: `gcaps` or `mlp` for one network, or `gcaps-x` for any network. A `Model` never
-/// changes.
+/// The weights of a learned policy: `gcaps`, `mlp` or `mlp-full` for one number of vertiports, or `gcaps-x` or
+/// `gcaps-full` for any network. A `Model` never changes.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Model {
     pub(crate) model: Arc<vertifleet_learn::Model>,
@@ -24,7 +24,7 @@ pub(crate) struct Model {
 
 #[pymethods]
 impl Model {
-    /// Reads a weight file, which is a safetensors file, of any of the three policies.
+    /// Reads a weight file, which is a safetensors file, of any learned policy.
     #[staticmethod]
     fn read(path: PathBuf) -> Result<Self, Failure> {
         Ok(Self { model: Arc::new(vertifleet_learn::Model::read(&path)?) })
@@ -63,7 +63,7 @@ impl Model {
         self.model.sha256()
     }
 
-    /// The name of the policy: gcaps, mlp or gcaps-x.
+    /// The name of the policy: gcaps, mlp, gcaps-x, gcaps-full or mlp-full.
     #[getter]
     fn kind(&self) -> &'static str {
         self.model.kind()

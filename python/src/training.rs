@@ -104,7 +104,7 @@ impl WorldArgument {
     }
 }
 
-/// Trains a policy on a network. Ctrl-C ends the run with a checkpoint, from which `resume` continues it.
+/// Trains a policy on a network, or on networks that are drawn anew for each day. Ctrl-C ends the run with a checkpoint, from which `resume` continues it.
 #[pyfunction]
 #[pyo3(signature = (
     network, policy, *, out, preset = "default", settings = None, seed = None, resume = false, force = false,

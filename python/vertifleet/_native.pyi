@@ -360,12 +360,12 @@ class Plan:
 
 @final
 class Model:
-    """The weights of a learned policy: `gcaps` or `mlp` for one network, or `gcaps-x` for any network. A
-    `Model` never changes.
+    """The weights of a learned policy: `gcaps`, `mlp` or `mlp-full` for one number of vertiports, or
+    `gcaps-x` or `gcaps-full` for any network. A `Model` never changes.
     """
     @staticmethod
     def read(path: _Path) -> Model:
-        """Reads a weight file, which is a safetensors file, of any of the three policies."""
+        """Reads a weight file, which is a safetensors file, of any learned policy."""
     @staticmethod
     def from_bytes(bytes: bytes, origin: str = "<bytes>") -> Model:  # noqa: A002
         """Reads the weights from the bytes of a weight file. `origin` is the name of the file in messages."""
@@ -382,8 +382,8 @@ class Model:
     def sha256(self) -> str:
         """SHA-256 of the weight file in hexadecimal digits, which identifies the weights in result files."""
     @property
-    def kind(self) -> Literal["gcaps", "mlp", "gcaps-x"]:
-        """The name of the policy: gcaps, mlp or gcaps-x."""
+    def kind(self) -> Literal["gcaps", "mlp", "gcaps-x", "gcaps-full", "mlp-full"]:
+        """The name of the policy: gcaps, mlp, gcaps-x, gcaps-full or mlp-full."""
     @property
     def header(self) -> dict[str, Any]:
         """The header of the weight file, as a dict. It says what the weights were trained for and where
@@ -842,7 +842,7 @@ def settings(preset: str = "default", **changes: Any) -> dict[str, Any]:
     """
 
 def train(
-    network: Network,
+    network: str | Network,
     policy: str,
     *,
     out: _Path,
@@ -854,6 +854,6 @@ def train(
     threads: SupportsIndex | None = None,
     watch: Callable[[dict[str, Any]], object] | None = None,
 ) -> Training:
-    """Trains a policy on a network. Ctrl-C ends the run with a checkpoint, from which `resume` continues
-    it.
+    """Trains a policy on a network, or on networks that are drawn anew for each day. Ctrl-C ends the run
+    with a checkpoint, from which `resume` continues it.
     """

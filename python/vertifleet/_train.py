@@ -33,12 +33,13 @@ def train(
     same call with ``resume=True`` continues from there, bit for bit as if the run had never stopped.
 
     Args:
-        network: the network, its name, or the path of its file.
-        policy: "gcaps", "mlp" or "gcaps-x".
+        network: the network, its name, or the path of its file; or networks that are drawn anew for each day,
+            "random" or "random-places:8".
+        policy: "gcaps", "mlp", "gcaps-x", "gcaps-full" or "mlp-full".
         out: folder for weights, learning curve, checkpoint and TensorBoard's events; it may hold runs of
             several policies.
         preset: settings to start from: "default", or "paper" for "gcaps" and "mlp".
-        settings: settings to change, by name, as ``--set`` does.
+        settings: settings and sizes of the policy to change, by name, as ``--set`` does.
         seed: seed of the run; first weights, training days and choices follow from it.
         resume: whether to resume the run in the folder, which must have the same network, policy, settings
             and seed.
@@ -51,7 +52,7 @@ def train(
         Error: with the program's code for the error, such as V311 for a folder with an earlier run.
     """
     return _native.train(
-        network_of(network),
+        str(network) if _is_drawn(network) else network_of(network),
         policy,
         out=out,
         preset=preset,
@@ -62,3 +63,10 @@ def train(
         threads=threads,
         watch=watch,
     )
+
+
+def _is_drawn(network: object) -> bool:
+    """Whether this names networks that are drawn anew for each day."""
+    drawn = isinstance(network, str) and (network == "random" or network.startswith("random-places:"))
+    # With a number it is one network.
+    return drawn and str(network).count(":") < 2

@@ -105,12 +105,16 @@ def _of(header: Mapping[str, Any]) -> Twin:
     sizes = {name: size for name, size in header["policy"].items() if name != "kind"}
     with torch.device("meta"):
         match header["policy"]["kind"]:
-            case "gcaps-x":
+            case "gcaps-x" if "graph" not in sizes:
                 return GcapsX(**sizes)
-            case "gcaps":
+            case "gcaps" if "graph" not in sizes:
                 return Gcaps(header["shape"]["vertiports"], **sizes)
-            case _:
+            case "mlp":
                 return Mlp(header["shape"]["vertiports"], **sizes)
+            case kind:
+                raise Error(
+                    "V451", f"{kind} with these sizes has no network in PyTorch; decide with vertifleet"
+                )
 
 
 def _arguments_text(
