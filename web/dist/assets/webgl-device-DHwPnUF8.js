@@ -1,0 +1,1 @@
+export{t as WebGLDevice}from"./deck-C2xSd8vU.js";

@@ -1,1 +1,0 @@
-export{t as WebGLDevice}from"./deck-CdK4DL9y.js";
