@@ -34,7 +34,7 @@ const views: Record<string, (page: Page, program: Program, fleet: Fleet) => Prom
   now: async (page, program, fleet) => {
     await open(page, program, fleet)
     await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
-    await expect(page.locator('.figures')).toContainText('of it is expected')
+    await expect(page.locator('.figures')).toContainText('% expected')
   },
   timeline: async (page, program, fleet) => {
     const outlook = page.waitForResponse(/\/outlook/)

@@ -146,7 +146,7 @@ export const en = {
     boundHint:
       'Proven: however the rest of the day is decided, the whole day ends with no more than this, as far as is known now. It is a bound of the day as it can still end, not of the day from the morning: what could have been earned earlier is no longer part of it.',
     noBound: 'The rest of the day is too large to be bounded quickly.',
-    shareOfBound: (share: string) => `${share} of it is expected`,
+    shareOfBound: (share: string) => `${share} expected`,
     passengers: 'Passengers',
     flights: 'Flights',
     repositioning: (number: number) =>
