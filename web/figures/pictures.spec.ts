@@ -18,7 +18,7 @@ test('pictures', async ({ page, program }) => {
   }
 
   await open(page, program, fleet)
-  await expect(page.locator('.figures')).toContainText('of it is expected')
+  await expect(page.locator('.figures')).toContainText('% expected')
   await take('now')
   await page.keyboard.press('o')
   await panel(page).getByRole('combobox', { name: 'Destination' }).selectOption('TEB')
@@ -56,7 +56,7 @@ test('recording', async ({ page, program }) => {
   }
   await page.emulateMedia({ colorScheme: 'dark' })
   await open(page, program, fleet)
-  await expect(page.locator('.figures')).toContainText('of it is expected')
+  await expect(page.locator('.figures')).toContainText('% expected')
   const frames = await record(page)
   const gif = await encode(page, frames)
   console.log(`recording: ${frames.length} frames, ${(gif.length / 1e6).toFixed(1)} MB`)
