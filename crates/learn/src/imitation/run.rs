@@ -28,8 +28,6 @@ use crate::run::{
     Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite, checkpoint,
 };
 
-/// About how many decisions of a day are rolled out; on a day with more decisions, a random share of them is.
-const SAMPLES_A_DAY: f64 = 400.0;
 /// About how many decisions an aircraft takes on a day.
 const DECISIONS_AN_AIRCRAFT: f64 = 11.0;
 
@@ -190,7 +188,8 @@ impl ImitationRun {
         let vertiports = day.vertiports.len();
         let policy = &self.identity.policy;
         let mut student = actor.map(|weights| Student::of(policy, weights, vertiports));
-        let share = SAMPLES_A_DAY / (DECISIONS_AN_AIRCRAFT * day.aircraft.len() as f64);
+        let share =
+            f64::from(self.settings.samples) / (DECISIONS_AN_AIRCRAFT * day.aircraft.len() as f64);
         let (mut teacher, mut samples) =
             Teacher::of(policy, vertiports, self.settings.expert.clone());
         let mut shortlist = Shortlist::default();

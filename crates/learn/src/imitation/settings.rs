@@ -16,6 +16,9 @@ pub struct ImitationSettings {
     pub days: u32,
     /// Share of the days that come from random networks.
     pub random_share: f64,
+    /// About how many decisions of a day are rolled out; on a day with more decisions, a random share of them is.
+    #[serde(default = "usual_samples")]
+    pub samples: u32,
     /// Number of passes over all samples so far in a round.
     pub passes: u32,
     /// Adam's step size; it falls in a straight line to a tenth over the run.
@@ -31,6 +34,11 @@ pub struct ImitationSettings {
     pub validation_days: u32,
 }
 
+/// What was always rolled out before it was a setting.
+fn usual_samples() -> u32 {
+    400
+}
+
 impl Default for ImitationSettings {
     /// These values were tuned on validation days.
     fn default() -> Self {
@@ -38,6 +46,7 @@ impl Default for ImitationSettings {
             rounds: 4,
             days: 120,
             random_share: 0.4,
+            samples: usual_samples(),
             passes: 12,
             learning_rate: 1e-3,
             entropy_weight: 1.0,
@@ -53,6 +62,7 @@ impl ImitationSettings {
         within("rounds", f64::from(self.rounds), 1.0, 10_000.0)?;
         within("days", f64::from(self.days), 1.0, 100_000.0)?;
         within("random_share", self.random_share, 0.0, 1.0)?;
+        within("samples", f64::from(self.samples), 1.0, 1_000_000.0)?;
         within("passes", f64::from(self.passes), 1.0, 10_000.0)?;
         within("learning_rate", f64::from(self.learning_rate), 0.0, 1.0)?;
         within("entropy_weight", f64::from(self.entropy_weight), 0.0, 100.0)?;
