@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 from vertifleet import _native
-from vertifleet._compare import network_of
+from vertifleet._native import Network
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Callable, Mapping
 
-    from vertifleet._native import Network, Training
+    from vertifleet._native import Training
 
 
 def train(
@@ -52,7 +52,7 @@ def train(
         Error: with the program's code for the error, such as V311 for a folder with an earlier run.
     """
     return _native.train(
-        str(network) if _is_drawn(network) else network_of(network),
+        network if isinstance(network, Network) else os.fspath(network),
         policy,
         out=out,
         preset=preset,
@@ -63,10 +63,3 @@ def train(
         threads=threads,
         watch=watch,
     )
-
-
-def _is_drawn(network: object) -> bool:
-    """Whether this names networks that are drawn anew for each day."""
-    drawn = isinstance(network, str) and (network == "random" or network.startswith("random-places:"))
-    # With a number it is one network.
-    return drawn and str(network).count(":") < 2
