@@ -15,7 +15,7 @@ pub(crate) mod scorer;
 mod tests;
 
 #[cfg(test)]
-pub(crate) use tests::first_column;
+pub(crate) use tests::{first_column, played, with_opinions};
 use vertifleet_policy::RolloutSettings;
 
 pub use observer::{PricedObservation, PricedObserver};

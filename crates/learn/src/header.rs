@@ -172,6 +172,13 @@ pub(crate) fn shape_of(policy: &Architecture, vertiports: usize) -> Shape {
     }
 }
 
+/// The network of a policy for this number of vertiports.
+pub(crate) fn network(policy: &Architecture, vertiports: usize) -> nn::NeuralNetwork {
+    nn::NeuralNetwork::new(policy.clone(), shape_of(policy, vertiports)).expect(
+        "sizes were checked when the weights were made, and days have at most 256 vertiports",
+    )
+}
+
 /// Renames the members that had other names in earlier formats. Weights that fit any number of vertiports had no
 /// scales.
 fn modernise(header: &mut Map<String, Value>) {

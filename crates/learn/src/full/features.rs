@@ -8,6 +8,7 @@ use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
 use vertifleet_policy::units_usd;
 use vertifleet_sim::{DayKey, Decision, View};
 
+use crate::gcaps_x::features::few;
 use crate::nn::{Adjacency, Shape};
 use crate::rows::{Row, Rows};
 
@@ -354,11 +355,6 @@ impl Scene<'_> {
 
 fn hours(seconds: u32) -> f64 {
     f64::from(seconds) / 3_600.0
-}
-
-/// A small count as a multiple of its usual value, at most 2.
-fn few(count: u16, usual: f64) -> f64 {
-    (f64::from(count) / usual).min(2.0)
 }
 
 /// A number that may be large, on a scale on which it stays small.

@@ -6,7 +6,8 @@ use vertifleet_core::VertiportIx;
 use vertifleet_policy::{Policy, PolicyError};
 use vertifleet_sim::{Decision, View};
 
-use crate::full::features::{Writer, shape};
+use crate::full::features::Writer;
+use crate::header::network;
 use crate::learned::highest;
 use crate::model::Model;
 use crate::nn::{Architecture, NeuralNetwork, Weights, Workspace};
@@ -46,8 +47,7 @@ impl FullPolicy {
     /// What fits the number of vertiports of a day, without rows.
     fn sized(&mut self, vertiports: usize) -> (&mut Writer, &mut Sized) {
         if self.sized.as_ref().is_none_or(|sized| sized.rows.vertiports() != vertiports) {
-            let net = NeuralNetwork::new(self.architecture.clone(), shape(vertiports));
-            let net = net.expect("sizes were checked when the weights were made");
+            let net = network(&self.architecture, vertiports);
             let workspace = net.workspace(most_decisions(vertiports));
             self.sized = Some(Sized { net, workspace, rows: self.writer.rows(vertiports) });
         }

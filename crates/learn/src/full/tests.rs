@@ -3,32 +3,19 @@
 use std::sync::Arc;
 
 use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, World};
-use vertifleet_policy::{Policy, play};
-use vertifleet_sim::{Simulation, Trace, check::check};
+use vertifleet_policy::Policy;
+use vertifleet_sim::{Simulation, check::check};
 
 use crate::FullPolicy;
 use crate::full::features::{
     AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Writer,
 };
-use crate::gcaps_x::first_column;
-use crate::header::shape_of;
-use crate::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, NeuralNetwork, Weights};
+use crate::gcaps_x::{first_column, played, with_opinions};
+use crate::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings};
 
 fn small(adjacency: Adjacency) -> Architecture {
     let graph = GraphSettings { adjacency, ..GraphSettings::default() };
     Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
-}
-
-/// First weights with a last layer that is large enough to prefer some choices.
-fn opinionated(policy: &Architecture) -> Arc<Weights> {
-    let net = NeuralNetwork::new(policy.clone(), shape_of(policy, 2)).expect("sizes that fit");
-    let mut params = net.init(1);
-    let pointer = net.layout().tensors().iter().find(|one| one.name == "decoder.pointer.weight");
-    let pointer = pointer.expect("a network with a pointer");
-    for weight in &mut params[pointer.offset..][..pointer.len()] {
-        *weight *= 300.0;
-    }
-    Arc::new(net.weights(params))
 }
 
 /// Days of shipped networks, one of them disturbed, and of random ones.
@@ -41,18 +28,11 @@ fn days() -> Vec<Arc<Scenario>> {
     shipped.chain(random).map(|network| Arc::new(network.draw(seed))).collect()
 }
 
-fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> Trace {
-    let mut simulation = Simulation::new(Arc::clone(day));
-    let mut trace = Trace::default();
-    play(&mut simulation, policy, |row| trace.rows.push(*row)).expect("the policy plays the day");
-    trace
-}
-
 #[test]
 fn any_weights_keep_every_rule_on_networks_of_any_size() {
     for adjacency in [Adjacency::Complete, Adjacency::Profit] {
         let policy = small(adjacency);
-        let weights = opinionated(&policy);
+        let weights = with_opinions(&policy, 1);
         let mut policy = FullPolicy::of(policy, weights);
         for day in days() {
             let report = check(&day, &played(&day, &mut policy));
@@ -64,7 +44,7 @@ fn any_weights_keep_every_rule_on_networks_of_any_size() {
 #[test]
 fn a_batch_of_days_of_all_sizes_is_answered_as_each_alone() {
     let policy = small(Adjacency::Reachable);
-    let weights = opinionated(&policy);
+    let weights = with_opinions(&policy, 1);
     let mut alone = FullPolicy::of(policy.clone(), Arc::clone(&weights));
     let mut together = FullPolicy::of(policy, weights);
     let mut simulations: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();

@@ -300,6 +300,6 @@ fn node(scene: Scene<'_>, to: VertiportIx, best_usd: f64, seen: Seen) -> [f64; N
 }
 
 /// A small count as a multiple of its usual value, at most 2.
-fn few(count: u16, usual: f64) -> f64 {
+pub(crate) fn few(count: u16, usual: f64) -> f64 {
     (f64::from(count) / usual).min(2.0)
 }

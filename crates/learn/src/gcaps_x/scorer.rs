@@ -15,6 +15,7 @@ use vertifleet_policy::{PricedChoice, Shortlist};
 
 use crate::gcaps_x::ROLLOUTS;
 use crate::gcaps_x::features::{Scene, Writer, shape};
+use crate::header::network;
 use crate::nn::{self, Architecture, Weights, Workspace};
 use crate::rows::Rows;
 
@@ -94,11 +95,4 @@ impl Scorer {
         let logit = self.workspace.logits()[row * self.vertiports() + choice.to.at()];
         choice.worth_usd + f64::from(logit) / LOGITS_A_UNIT * addition_usd
     }
-}
-
-/// The network for this number of vertiports. The weights are the same for every number.
-pub(crate) fn network(architecture: &Architecture, vertiports: usize) -> nn::NeuralNetwork {
-    nn::NeuralNetwork::new(architecture.clone(), shape(vertiports)).expect(
-        "sizes were checked when the weights were made, and days have at most 256 vertiports",
-    )
 }

@@ -11,7 +11,7 @@ use crate::gcaps_x::features::{
     AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Scene, Writer,
     shape,
 };
-use crate::gcaps_x::scorer::network;
+use crate::header::network;
 use crate::nn::{Architecture, GcapsSettings, Inputs, Weights};
 use crate::rows::Rows;
 
@@ -19,9 +19,13 @@ fn small() -> Architecture {
     Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
 }
 
-/// First weights with a last layer that is made large enough to change choices.
 fn opinionated(seed: u64) -> Arc<Weights> {
-    let net = network(&small(), 2);
+    with_opinions(&small(), seed)
+}
+
+/// First weights with a last layer that is made large enough to change choices.
+pub(crate) fn with_opinions(policy: &Architecture, seed: u64) -> Arc<Weights> {
+    let net = network(policy, 2);
     let mut params = net.init(seed);
     let pointer = net.layout().tensors().iter().find(|one| one.name == "decoder.pointer.weight");
     let pointer = pointer.expect("a network with a pointer");
@@ -45,7 +49,7 @@ fn days() -> Vec<Arc<Scenario>> {
     networks.map(|network| Arc::new(network.draw(seed))).collect()
 }
 
-fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> Trace {
+pub(crate) fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> Trace {
     let mut simulation = Simulation::new(Arc::clone(day));
     let mut trace = Trace::default();
     play(&mut simulation, policy, |row| trace.rows.push(*row)).expect("the policy plays the day");

@@ -19,7 +19,7 @@ use rayon::prelude::{IndexedParallelIterator, IntoParallelRefMutIterator, Parall
 
 use crate::adam::{Adam, clip_norm};
 use crate::gcaps_x::scorer::LOGITS_A_UNIT;
-use crate::header::shape_of;
+use crate::header::network;
 use crate::imitation::dataset::{Dataset, Samples};
 use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
 use crate::rows::Rows;
@@ -206,12 +206,6 @@ struct Advice<'a> {
 /// What a unit of worth at the prices adds to a logit when this policy decides.
 fn priced_weight(policy: &Architecture) -> f32 {
     if policy.sees_prices() { LOGITS_A_UNIT as f32 } else { 0.0 }
-}
-
-/// The network of a policy for this number of vertiports.
-pub(super) fn network(policy: &Architecture, vertiports: usize) -> nn::NeuralNetwork {
-    nn::NeuralNetwork::new(policy.clone(), shape_of(policy, vertiports))
-        .expect("sizes were checked when the run began")
 }
 
 /// Sets the slopes of a decision's loss, times `weight`. Returns how well the decision was taken.

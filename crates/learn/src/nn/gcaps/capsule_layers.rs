@@ -166,8 +166,7 @@ impl CapsuleLayers {
                     tensors.matrix(weight),
                 );
                 if a + 1 < weights.len() {
-                    let (from, to) = ((&*sums, width), (&mut *next, width));
-                    add_product(laplacians, self.graph.vertiports, width, from, to);
+                    add_product(laplacians, self.graph.vertiports, width, sums, next);
                 }
                 std::mem::swap(&mut sums, &mut next);
             }
@@ -254,8 +253,7 @@ impl CapsuleLayers {
                 multiply(to, Write::Add, from, tensors.matrix(weight).transposed());
                 if a + 1 < weights.len() {
                     next.fill(0.0);
-                    let (from, to) = ((&*sums, width), (&mut *next, width));
-                    add_transposed_product(laplacians, self.graph.vertiports, width, from, to);
+                    add_transposed_product(laplacians, self.graph.vertiports, width, sums, next);
                     std::mem::swap(&mut sums, &mut next);
                 }
             }

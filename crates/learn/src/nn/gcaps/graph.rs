@@ -66,39 +66,38 @@ fn similarities(nodes: &[f32], count: usize, to: &mut [f32]) {
     }
 }
 
-/// Adds L X of every decision to `to`; X and `to` have `width` columns, which lie `from_step` and `to_step` apart.
+/// Adds L X of every decision to `to`.
 pub(crate) fn add_product(
     laplacians: &[f32],
     count: usize,
     width: usize,
-    (from, from_step): (&[f32], usize),
-    (to, to_step): (&mut [f32], usize),
+    from: &[f32],
+    to: &mut [f32],
 ) {
-    for (at, laplacian) in laplacians.chunks_exact(count * count).enumerate() {
-        for (row, weights) in laplacian.chunks_exact(count).enumerate() {
-            let to = &mut to[(at * count + row) * to_step..][..width];
-            for (column, &weight) in weights.iter().enumerate() {
-                let from = &from[(at * count + column) * from_step..][..width];
-                add_scaled(weight, from, to);
-            }
-        }
-    }
+    each_weight(laplacians, count, |row, column, weight| {
+        add_scaled(weight, &from[column * width..][..width], &mut to[row * width..][..width]);
+    });
 }
 
-/// Adds the transpose of L times X of every decision to `to`, as [`add_product`] does.
+/// Adds the transpose of L times X of every decision to `to`.
 pub(crate) fn add_transposed_product(
     laplacians: &[f32],
     count: usize,
     width: usize,
-    (from, from_step): (&[f32], usize),
-    (to, to_step): (&mut [f32], usize),
+    from: &[f32],
+    to: &mut [f32],
 ) {
-    for (at, laplacian) in laplacians.chunks_exact(count * count).enumerate() {
-        for (row, weights) in laplacian.chunks_exact(count).enumerate() {
-            let from = &from[(at * count + row) * from_step..][..width];
-            for (column, &weight) in weights.iter().enumerate() {
-                add_scaled(weight, from, &mut to[(at * count + column) * to_step..][..width]);
-            }
+    each_weight(laplacians, count, |row, column, weight| {
+        add_scaled(weight, &from[row * width..][..width], &mut to[column * width..][..width]);
+    });
+}
+
+/// Visits the weights of all decisions, row by row, with the rows of the nodes that they connect.
+fn each_weight(laplacians: &[f32], count: usize, mut visit: impl FnMut(usize, usize, f32)) {
+    for (row, weights) in laplacians.chunks_exact(count).enumerate() {
+        let first = row / count * count;
+        for (at, &weight) in weights.iter().enumerate() {
+            visit(row, first + at, weight);
         }
     }
 }
