@@ -224,6 +224,9 @@ pub(crate) struct BoundArguments {
     /// longer
     #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
+    /// Bound also what can be earned on the mean without knowing take-off delays, on days drawn from this network
+    #[arg(long, value_name = "NETWORK")]
+    pub(crate) without_foresight: Option<String>,
     /// Print bounds and shadow prices as JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -101,9 +101,27 @@ impl DelayModel {
         };
         TakeoffDelays { slot_s: self.slot_s, delay_s: (0..slots).map(|_| slot()).collect() }
     }
+
+    /// For each vertiport the probability of each whole number of seconds, from 0 on. The delays of slots are
+    /// independent.
+    pub(crate) fn probabilities(&self) -> Vec<Vec<f64>> {
+        self.late.iter().map(|late| late.map_or(vec![1.0], Late::probabilities)).collect()
+    }
 }
 
 impl Late {
+    /// The probability of each whole number of seconds, as [`delay_s`](Self::delay_s) draws and rounds them.
+    fn probabilities(self) -> Vec<f64> {
+        let most_s = if self.mean_s > 0.0 { to_whole(self.most_s) } else { 0 };
+        // The probability of a delay that is rounded to no less than so many seconds.
+        let at_least = |delay_s: u32| match delay_s {
+            0 => 1.0,
+            delay_s if delay_s > most_s => 0.0,
+            _ => self.probability * libm::exp((0.5 - f64::from(delay_s)) / self.mean_s),
+        };
+        (0..=most_s).map(|delay_s| at_least(delay_s) - at_least(delay_s + 1)).collect()
+    }
+
     fn delay_s(self, chance: f64, size: f64) -> u32 {
         if chance >= self.probability {
             return 0;
@@ -349,5 +367,34 @@ impl RawOutageModel {
         let (least_s, most_s) = member.span_s(self.least_s, self.most_s)?;
         let probability = member.number(self.probability, &limits::PROBABILITY, "probability")?;
         Ok(OutageModel { probability, least_s, most_s })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Late;
+
+    const DRAWS: u32 = 200_000;
+
+    #[test]
+    fn probabilities_are_the_shares_of_what_is_drawn() {
+        for (mean_s, most_s) in [(300.0, 900.0), (2.0, 5.4), (1.0, 0.2), (0.0, 60.0)] {
+            let always = Late { probability: 1.0, mean_s, most_s };
+            let mut counts = vec![0_u32; always.probabilities().len()];
+            for draw in 0..DRAWS {
+                let size = (f64::from(draw) + 0.5) / f64::from(DRAWS);
+                counts[always.delay_s(0.0, size) as usize] += 1;
+            }
+            let sometimes = Late { probability: 0.25, ..always }.probabilities();
+            for (delay_s, (&count, probability)) in
+                counts.iter().zip(always.probabilities()).enumerate()
+            {
+                let share = f64::from(count) / f64::from(DRAWS);
+                assert!((share - probability).abs() < 2e-5, "{delay_s} s of {always:?}: {share}");
+                let on_time = f64::from(u8::from(delay_s == 0));
+                let expected = 0.25 * probability + 0.75 * on_time;
+                assert!((sometimes[delay_s] - expected).abs() < 1e-12, "{delay_s} s of {always:?}");
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::demand_model::DemandModel;
-use crate::disturbance_model::DisturbanceModel;
+use crate::disturbance_model::{DelayModel, DisturbanceModel};
 use crate::{
     AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Time, Vertiport,
     files, nearest, network_file, parse, random_network, random_places,
@@ -178,6 +178,12 @@ impl Network {
     /// The divisors of the features of learned policies.
     pub fn feature_scales(&self) -> FeatureScales {
         self.feature_scales
+    }
+
+    /// For each vertiport the probability of each delay of take-offs, in whole seconds from 0 on; `None` where no network
+    /// setting makes flights late. The delays of slots and vertiports are independent.
+    pub fn takeoff_delay_probabilities(&self) -> Option<Vec<Vec<f64>>> {
+        self.disturbances.takeoff_delays.as_ref().map(DelayModel::probabilities)
     }
 
     /// Mean passengers by period (of Eq. 1 on `paper`), around which the demand of days is drawn.

@@ -14,12 +14,16 @@ mod kept;
 mod ladder;
 mod master;
 mod money;
+mod penalty;
 mod prices;
 #[cfg(test)]
 mod proof_tests;
 mod slices;
 mod step;
 mod time_expanded_day;
+mod without_foresight;
+#[cfg(test)]
+mod without_foresight_tests;
 
 use vertifleet_core::{Scenario, Stop, Time, VertiportIx};
 
@@ -31,8 +35,9 @@ use step::STEPS;
 use time_expanded_day::TimeExpandedDay;
 
 pub use kept::kept_upper_bound;
-pub(crate) use ladder::{Watch, search};
+pub(crate) use ladder::{Relaxed, Watch, search};
 pub use step::Step;
+pub use without_foresight::bound_without_foresight;
 
 /// A difference of profits that is too small to matter.
 pub(crate) const CENT_USD: f64 = 0.01;
@@ -82,7 +87,7 @@ pub fn upper_bound_of_rest(
     ready: &[Time],
     step: Step,
 ) -> Result<Option<Bound>, Error> {
-    let bound = search(scenario, ready, step, &Unless { stopped })?;
+    let bound = search(Relaxed::known(scenario, ready), step, &Unless { stopped })?;
     Ok(bound.filter(|_| !stopped.is_requested()))
 }
 

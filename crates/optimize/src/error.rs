@@ -47,6 +47,16 @@ pub enum Error {
         /// The first such vertiport.
         vertiport: String,
     },
+
+    /// V504. A day has take-off delays that the named network never draws, so nothing is known of what they are on the mean.
+    /// Fix: name the network that the day was drawn from.
+    #[error("{day}: its take-off delays cannot have been drawn from the network {network:?}")]
+    OtherNetwork {
+        /// The day's name.
+        day: String,
+        /// The network's name.
+        network: String,
+    },
 }
 
 impl Coded for Error {
@@ -56,6 +66,7 @@ impl Coded for Error {
             Self::Step { .. } => 501,
             Self::TooManyFlights { .. } => 502,
             Self::SeparateChargers { .. } => 503,
+            Self::OtherNetwork { .. } => 504,
         })
     }
 
@@ -66,6 +77,7 @@ impl Coded for Error {
             Self::SeparateChargers { .. } => {
                 Some("the bound and every policy, rolling included, take such days")
             }
+            Self::OtherNetwork { .. } => Some("name the network that the day was drawn from"),
             Self::Step { .. } => None,
         }
     }
@@ -73,9 +85,10 @@ impl Coded for Error {
     fn exit(&self) -> Exit {
         match self {
             Self::Core(error) => error.exit(),
-            Self::Step { .. } | Self::TooManyFlights { .. } | Self::SeparateChargers { .. } => {
-                Exit::Input
-            }
+            Self::Step { .. }
+            | Self::TooManyFlights { .. }
+            | Self::SeparateChargers { .. }
+            | Self::OtherNetwork { .. } => Exit::Input,
         }
     }
 }

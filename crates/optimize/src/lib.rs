@@ -41,7 +41,8 @@ mod proven_plan;
 mod rolling;
 
 pub use bound::{
-    Bound, Step, gap, kept_upper_bound, upper_bound, upper_bound_of_rest, upper_bound_unless,
+    Bound, Step, bound_without_foresight, gap, kept_upper_bound, upper_bound, upper_bound_of_rest,
+    upper_bound_unless,
 };
 pub use error::Error;
 pub use plan::{

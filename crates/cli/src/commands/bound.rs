@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use vertifleet_core::Scenario;
-use vertifleet_optimize::{Bound, Error, Step, upper_bound};
+use vertifleet_core::{Network, Scenario, Stop};
+use vertifleet_optimize::{Bound, Error, Step, bound_without_foresight, upper_bound};
 use vertifleet_study::OwnDays;
 
 use crate::args::BoundArguments;
@@ -20,18 +20,19 @@ use crate::shadow_prices;
 pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
     let step = Step::from_minutes(arguments.step)?;
+    let network = arguments.without_foresight.as_deref().map(Network::find).transpose()?;
+    let bounded = |scenario| Day::bounded(scenario, step, network.as_ref());
     let (numbers, lines) = match &arguments.scenarios[..] {
         [one] if !one.is_dir() => {
             let scenario = read_scenario(one)?;
-            let day = Day::bounded(&scenario, step)?;
+            let day = bounded(&scenario)?;
             (day.numbers(), day.lines())
         }
         several => {
             let days = OwnDays::read(several)?;
             warn_of_days(days.days());
             let scenarios: Vec<&Scenario> = days.days().collect();
-            let bounded = scenarios.into_par_iter().map(|scenario| Day::bounded(scenario, step));
-            let bounded = bounded.collect::<Result<Vec<_>, _>>()?;
+            let bounded = scenarios.into_par_iter().map(bounded).collect::<Result<Vec<_>, _>>()?;
             (numbers_of_days(&bounded), lines_of_days(&bounded))
         }
     };
@@ -47,19 +48,29 @@ pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
 struct Day<'a> {
     scenario: &'a Scenario,
     bound: Bound,
+    /// The bound without foresight, dollars, if it was asked for.
+    without_foresight_usd: Option<f64>,
     seconds: f64,
 }
 
 impl<'a> Day<'a> {
-    fn bounded(scenario: &'a Scenario, step: Step) -> Result<Self, Error> {
+    fn bounded(scenario: &'a Scenario, step: Step, from: Option<&Network>) -> Result<Self, Error> {
         let begun = Instant::now();
         let bound = upper_bound(scenario, step)?;
-        Ok(Self { scenario, bound, seconds: begun.elapsed().as_secs_f64() })
+        let without_foresight_usd = from
+            .map(|network| {
+                let bound = bound_without_foresight(&Stop::default(), network, scenario, step)?;
+                let bound = bound.expect("it is not stopped");
+                Ok::<f64, Error>(bound.upper_bound_usd())
+            })
+            .transpose()?;
+        let seconds = begun.elapsed().as_secs_f64();
+        Ok(Self { scenario, bound, without_foresight_usd, seconds })
     }
 
     fn numbers(&self) -> Value {
-        let Self { scenario, bound, seconds } = self;
-        json!({
+        let Self { scenario, bound, without_foresight_usd, seconds } = self;
+        let mut numbers = json!({
             "name": scenario.name,
             "upper_bound_usd": bound.upper_bound_usd(),
             "step_s": bound.step_s(),
@@ -67,7 +78,11 @@ impl<'a> Day<'a> {
             "stand_shadow_price_usd": shadow_prices::of_stands(scenario, bound),
             "charger_shadow_price_usd": shadow_prices::of_chargers(scenario, bound),
             "passenger_shadow_price_usd": shadow_prices::of_passengers(scenario, bound),
-        })
+        });
+        if let Some(usd) = without_foresight_usd {
+            numbers["without_foresight_usd"] = json!(usd);
+        }
+        numbers
     }
 
     fn lines(&self) -> Vec<String> {
@@ -79,6 +94,11 @@ impl<'a> Day<'a> {
                 self.bound.step_s() / 60
             ),
         ];
+        lines.extend(self.without_foresight_usd.map(|usd| {
+            format!(
+                "  no foresight    {usd:>12.2} $    only its mean over many days bounds anything"
+            )
+        }));
         lines.extend(shadow_prices::lines(self.scenario, &self.bound));
         lines
     }
@@ -89,6 +109,14 @@ fn mean_bound(days: &[Day<'_>]) -> Mean {
     Mean::of(&days.iter().map(|day| day.bound.upper_bound_usd()).collect::<Vec<_>>())
 }
 
+/// The mean bound without foresight, and by how much it is below the mean bound; `None` if it was not asked for.
+fn mean_without_foresight(days: &[Day<'_>]) -> Option<(Mean, Mean)> {
+    let without: Option<Vec<f64>> = days.iter().map(|day| day.without_foresight_usd).collect();
+    let without = without.filter(|without| !without.is_empty())?;
+    let below = days.iter().zip(&without).map(|(day, usd)| day.bound.upper_bound_usd() - usd);
+    Some((Mean::of(&without), Mean::of(&below.collect::<Vec<_>>())))
+}
+
 /// The days as pairs of scenario and bound.
 fn pairs<'a>(days: &'a [Day<'a>]) -> Vec<(&'a Scenario, &'a Bound)> {
     days.iter().map(|day| (day.scenario, &day.bound)).collect()
@@ -97,6 +125,10 @@ fn pairs<'a>(days: &'a [Day<'a>]) -> Vec<(&'a Scenario, &'a Bound)> {
 fn numbers_of_days(days: &[Day<'_>]) -> Value {
     let mut mean = mean_shadow_prices::numbers(&pairs(days));
     mean.insert("upper_bound_usd".to_owned(), mean_bound(days).number());
+    if let Some((without, below)) = mean_without_foresight(days) {
+        mean.insert("without_foresight_usd".to_owned(), without.number());
+        mean.insert("foresight_usd".to_owned(), below.number());
+    }
     json!({ "days": days.iter().map(Day::numbers).collect::<Vec<_>>(), "mean": mean })
 }
 
@@ -107,6 +139,13 @@ fn lines_of_days(days: &[Day<'_>]) -> Vec<String> {
         format!("  {name:<15} {bound_usd:>12.2} $    slices of {} min", day.bound.step_s() / 60)
     }));
     lines.push(format!("  {:<15} {}", "mean", mean_bound(days).text()));
+    if let Some((without, below)) = mean_without_foresight(days) {
+        lines.push(
+            "no policy that learns of delays as they come earns more on the mean than".to_owned(),
+        );
+        lines.push(format!("  {:<15} {}", "mean", without.text()));
+        lines.push(format!("  {:<15} {}", "less by", below.text()));
+    }
     lines.extend(mean_shadow_prices::lines(&pairs(days)));
     lines
 }

@@ -13,6 +13,16 @@ pub(super) struct BestItineraries<'a> {
     pub(super) certificate: &'a Certificate,
 }
 
+/// An aircraft of a layer that is ready at a vertiport.
+#[derive(Debug, Clone, Copy)]
+struct Ready {
+    layer: usize,
+    at: usize,
+    second: u32,
+    /// Whether it still has to pay for knowing the delays of the slot, because it did not decide in it before.
+    owes: bool,
+}
+
 impl BestItineraries<'_> {
     /// The best itinerary of each group, which is the aircraft of one layer that start alike, and their number.
     pub(super) fn of_groups(&self) -> Vec<(u32, Itinerary)> {
@@ -26,52 +36,79 @@ impl BestItineraries<'_> {
         let slices = &self.day.slices;
         let day_s = slices.day_s();
         let mut itinerary = Itinerary { earnings: 0.0, stays: Vec::new(), flights: Vec::new() };
-        let (mut at, mut second) = (start.at, start.ready_s);
-        let mut slice = slices.containing(slices.start_s(0) + second.min(day_s));
-        itinerary.stay(at, 0..slice);
+        let mut ready = Ready { layer, at: start.at, second: start.ready_s, owes: true };
+        let mut slice = slices.containing(slices.start_s(0) + ready.second.min(day_s));
+        itinerary.stay(ready.at, 0..slice);
         while slice < slices.len() {
-            let leaves = self.waits_until(layer, at, second);
-            if leaves > second {
-                second = leaves;
-            } else if let Some(flight) = self.best_flight(layer, at, second, slice) {
-                let margin = self.day.margin[flight.cell as usize] as f64;
-                itinerary.earnings += f64::from(flight.passengers) * margin - flight.cost as f64;
-                itinerary.flights.push((flight.cell, flight.passengers));
-                at = flight.to.at();
-                second += flight.block_s;
+            let waits = self.waits(ready);
+            if waits.second > ready.second {
+                ready = waits;
             } else {
-                second += self.day.hold_s;
+                let payment = self.payment(ready);
+                itinerary.earnings -= payment as f64;
+                ready = if let Some(flight) = self.best_flight(ready, payment, slice) {
+                    let margin = self.day.margin[flight.cell as usize] as f64;
+                    itinerary.earnings +=
+                        f64::from(flight.passengers) * margin - flight.cost as f64;
+                    itinerary.flights.push((flight.cell, flight.passengers));
+                    self.goes_on(ready, flight.to.at(), flight.block_s)
+                } else {
+                    self.goes_on(ready, ready.at, self.day.hold_s)
+                };
             }
-            let until = slices.containing(slices.start_s(0) + second.min(day_s));
-            itinerary.stay(at, slice..until);
+            let until = slices.containing(slices.start_s(0) + ready.second.min(day_s));
+            itinerary.stay(ready.at, slice..until);
             slice = until;
         }
         itinerary
     }
 
-    fn worth_less_paid(&self, layer: usize, at: usize, second: u32) -> i64 {
-        self.certificate.worth_less_paid(self.day, layer, at, second as usize)
-    }
-
-    /// The second until which an aircraft that may wait freely does so: as long as being ready later is worth as much.
-    fn waits_until(&self, layer: usize, at: usize, mut second: u32) -> u32 {
-        let worth = |second| self.worth_less_paid(layer, at, second);
-        while self.day.layers[layer].waits_freely
-            && second < self.day.slices.day_s()
-            && worth(second) == worth(second + 1)
-        {
-            second += 1;
+    /// The worth of being ready, less the price of the stand since the day began.
+    fn worth_less_paid(&self, Ready { layer, at, second, owes }: Ready) -> i64 {
+        let second = second as usize;
+        if owes {
+            self.certificate.worth_less_paid(self.day, layer, at, second)
+        } else {
+            self.certificate.worth_within_slot(self.day, layer, at, second)
         }
-        second
     }
 
-    /// The first flight in file order whose worth equals that of being ready at a vertiport, second and slice.
-    fn best_flight(&self, layer: usize, at: usize, second: u32, slice: usize) -> Option<&Flight> {
+    /// What an aircraft pays for knowing the delays of its slot when it decides.
+    fn payment(&self, ready: Ready) -> i64 {
+        let penalty = self.day.penalty.as_ref().filter(|_| ready.owes);
+        penalty.map_or(0, |penalty| {
+            penalty.at(&self.day.layers[ready.layer], ready.at)[ready.second as usize]
+        })
+    }
+
+    /// An aircraft that decided when it was `ready`, so many seconds later.
+    fn goes_on(&self, ready: Ready, at: usize, seconds: u32) -> Ready {
+        let second = ready.second + seconds;
+        let penalty = self.day.penalty.as_ref();
+        let past_slot = penalty.map_or(0, |penalty| penalty.past_slot(ready.second as usize));
+        Ready { at, second, owes: second as usize >= past_slot, ..ready }
+    }
+
+    /// An aircraft that may wait freely after it has waited for as long as being ready later is worth as much.
+    fn waits(&self, mut ready: Ready) -> Ready {
+        while self.day.layers[ready.layer].waits_freely && ready.second < self.day.slices.day_s() {
+            let later = self.goes_on(ready, ready.at, 1);
+            let later = Ready { owes: later.owes || ready.owes, ..later };
+            if self.worth_less_paid(ready) != self.worth_less_paid(later) {
+                break;
+            }
+            ready = later;
+        }
+        ready
+    }
+
+    /// The first flight in file order whose worth equals that of being ready in a slice, after a payment.
+    fn best_flight(&self, ready: Ready, payment: i64, slice: usize) -> Option<&Flight> {
         let paid = |at| self.certificate.paid(self.day, slice, at);
-        let here = self.worth_less_paid(layer, at, second) + paid(at);
-        self.day.flights(slice, layer, at).iter().find(|flight| {
+        let here = self.worth_less_paid(ready) + payment + paid(ready.at);
+        self.day.flights(slice, ready.layer, ready.at).iter().find(|flight| {
             let to = flight.to.at();
-            let goes_on = self.worth_less_paid(layer, to, second + flight.block_s);
+            let goes_on = self.worth_less_paid(self.goes_on(ready, to, flight.block_s));
             here == earnings(self.day, self.prices, flight) + paid(to) + goes_on
         })
     }

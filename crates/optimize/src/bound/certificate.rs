@@ -30,6 +30,9 @@ pub(super) struct Certificate {
     /// delays begin). An aircraft flies at most 2,161 times, a flight earns at most 1,000 x 10^12, and a stand costs at
     /// most 10^14 a slice, so every entry is below 2^62.
     worth_less_paid: Vec<i64>,
+    /// On a day with a penalty, `worth_less_paid` is the worth to an aircraft that comes from an earlier slot and still has
+    /// to pay, and this is the worth to one that decided in the same slot before. Empty on other days.
+    within_slot: Vec<i64>,
     /// Distance from a vertiport to the next in `worth_less_paid`.
     stride: usize,
     arch: Arch,
@@ -39,9 +42,11 @@ impl Certificate {
     /// A certificate with memory for the evaluations of a day.
     pub(super) fn new(day: &TimeExpandedDay) -> Self {
         let stride = (day.slices.day_s() + day.shortest_s) as usize;
+        let places = day.layers.len() * day.size() * stride;
         Self {
             paid: Vec::with_capacity((day.slices.len() + 1) * day.size()),
-            worth_less_paid: vec![0; day.layers.len() * day.size() * stride],
+            worth_less_paid: vec![0; places],
+            within_slot: vec![0; if day.penalty.is_some() { places } else { 0 }],
             stride,
             arch: Arch::new(),
         }
@@ -56,10 +61,13 @@ impl Certificate {
         stopped: &Stop,
     ) -> Option<i128> {
         self.pay(day, prices);
-        let layers = self.worth_less_paid.chunks_exact_mut(self.stride * day.size());
+        let of_layer = self.stride * day.size();
+        let mut within_slot = self.within_slot.chunks_exact_mut(of_layer);
+        let layers = self.worth_less_paid.chunks_exact_mut(of_layer);
         for (layer, worths) in layers.enumerate() {
             let (paid, stride) = (&self.paid[..], self.stride);
-            let pass = LayerPass { day, prices, paid, layer, stride, worths, stopped };
+            let within_slot = within_slot.next().unwrap_or_default();
+            let pass = LayerPass { day, prices, paid, layer, stride, worths, within_slot, stopped };
             if !self.arch.dispatch(pass) {
                 return None;
             }
@@ -86,6 +94,32 @@ impl Certificate {
     ) -> i64 {
         let second = second.min(day.slices.day_s() as usize);
         self.worth_less_paid[(layer * day.size() + at) * self.stride + second]
+    }
+
+    /// The worths from a second on, for at least as many seconds as a hold or a flight lasts.
+    pub(super) fn worths_less_paid(
+        &self,
+        day: &TimeExpandedDay,
+        layer: usize,
+        at: usize,
+        second: usize,
+    ) -> &[i64] {
+        let second = second.min(day.slices.day_s() as usize);
+        &self.worth_less_paid[(layer * day.size() + at) * self.stride..][second..self.stride]
+    }
+
+    /// The worth to an aircraft that decided in the same slot before, less the price of the stand since the day began.
+    #[inline]
+    pub(super) fn worth_within_slot(
+        &self,
+        day: &TimeExpandedDay,
+        layer: usize,
+        at: usize,
+        second: usize,
+    ) -> i64 {
+        let known =
+            if self.within_slot.is_empty() { &self.worth_less_paid } else { &self.within_slot };
+        known[(layer * day.size() + at) * self.stride + second.min(day.slices.day_s() as usize)]
     }
 
     fn pay(&mut self, day: &TimeExpandedDay, prices: &Prices) {
@@ -118,6 +152,7 @@ struct LayerPass<'a> {
     layer: usize,
     stride: usize,
     worths: &'a mut [i64],
+    within_slot: &'a mut [i64],
     stopped: &'a Stop,
 }
 
@@ -133,6 +168,9 @@ impl WithSimd for LayerPass<'_> {
         for at in 0..self.day.size() {
             let over = -self.paid(slices.len(), at);
             self.worths[at * self.stride..][..self.stride][day_s..].fill(over);
+            if !self.within_slot.is_empty() {
+                self.within_slot[at * self.stride..][..self.stride][day_s..].fill(over);
+            }
         }
         let second = |slice| (slices.start_s(slice) - slices.start_s(0)) as usize;
         // No flight and no hold begins and ends in the same piece, so everything that a piece needs has been computed.
@@ -167,30 +205,55 @@ impl LayerPass<'_> {
     fn work_out_piece(&mut self, slice: usize, from: usize, begin: usize, past: usize) {
         let mut best = [i64::MIN; SIDE_BY_SIDE];
         let best = &mut best[..past - begin];
+        let past_slot = self.day.penalty.as_ref().map_or(0, |penalty| penalty.past_slot(begin));
         let stays = self.paid(slice, from);
-        self.raise(best, from, begin + self.day.hold_s as usize, 0);
+        self.raise(best, from, begin + self.day.hold_s as usize, past_slot, 0);
         for flight in self.day.flights(slice, self.layer, from) {
             let to = flight.to.at();
             let flies = earnings(self.day, self.prices, flight) + self.paid(slice, to) - stays;
-            self.raise(best, to, begin + flight.block_s as usize, flies);
+            self.raise(best, to, begin + flight.block_s as usize, past_slot, flies);
         }
+        let layer = &self.day.layers[self.layer];
         let own = &mut self.worths[from * self.stride..][..self.stride];
+        if let Some(penalty) = &self.day.penalty {
+            let within = &mut self.within_slot[from * self.stride..][..self.stride];
+            within[begin..past].copy_from_slice(best);
+            if layer.waits_freely {
+                let afterwards = if past < past_slot { within[past] } else { own[past] };
+                wait_freely(&mut within[begin..past], afterwards);
+            }
+            let payments = &penalty.at(layer, from)[begin..past];
+            best.iter_mut().zip(payments).for_each(|(best, payment)| *best -= payment);
+        }
         own[begin..past].copy_from_slice(best);
-        if self.day.layers[self.layer].waits_freely {
+        if layer.waits_freely {
             let afterwards = own[past];
             wait_freely(&mut own[begin..past], afterwards);
         }
     }
 
-    /// Raises each entry of `best` to the worth of another choice: `gain`, plus the worth at `to` from `ready` on.
+    /// Raises each entry of `best` to the worth of another choice: `gain`, plus the worth at `to` from `ready` on. Before
+    /// `past_slot` nothing more has to be paid there.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
-    fn raise(&self, best: &mut [i64], to: usize, ready: usize, gain: i64) {
+    fn raise(&self, best: &mut [i64], to: usize, ready: usize, past_slot: usize, gain: i64) {
         let ready = ready.min(self.day.slices.day_s() as usize);
-        let worths = &self.worths[to * self.stride + ready..][..best.len()];
-        for (best, worth) in best.iter_mut().zip(worths) {
-            *best = (*best).max(gain + worth);
+        let (within, beyond) = best.split_at_mut(past_slot.saturating_sub(ready).min(best.len()));
+        let at = to * self.stride + ready;
+        if !within.is_empty() {
+            raise_to(within, &self.within_slot[at..], gain);
         }
+        let at = at + within.len();
+        raise_to(beyond, &self.worths[at..], gain);
+    }
+}
+
+/// Raises each entry to `gain` plus a worth.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
+fn raise_to(best: &mut [i64], worths: &[i64], gain: i64) {
+    for (best, worth) in best.iter_mut().zip(worths) {
+        *best = (*best).max(gain + worth);
     }
 }
 

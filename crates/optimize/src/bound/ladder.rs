@@ -9,6 +9,7 @@ use vertifleet_core::{Scenario, Stop, Time};
 
 use super::Bound;
 use super::descent::Descent;
+use super::penalty::Penalty;
 use super::prices::{Pace, Prices};
 use super::slices::Slices;
 use super::step::{STEPS, Step};
@@ -55,6 +56,29 @@ const CUTS: [Cut; 5] = [
     },
 ];
 
+/// The day that is bounded.
+#[derive(Clone, Copy)]
+pub(crate) struct Relaxed<'a> {
+    pub(crate) scenario: &'a Scenario,
+    /// When aircraft decide first; those past its end are ready from the start.
+    pub(crate) ready: &'a [Time],
+    /// What aircraft pay for knowing delays, if the bound is to be one without foresight.
+    pub(super) penalty: Option<&'a Penalty>,
+}
+
+impl<'a> Relaxed<'a> {
+    /// A day that is known in full.
+    pub(crate) fn known(scenario: &'a Scenario, ready: &'a [Time]) -> Self {
+        Self { scenario, ready, penalty: None }
+    }
+
+    fn day(&self, step: Step) -> Result<TimeExpandedDay, Error> {
+        let mut day = TimeExpandedDay::of(self.scenario, self.ready, step.seconds())?;
+        day.penalty = self.penalty.cloned();
+        Ok(day)
+    }
+}
+
 /// An observer of a search.
 pub(crate) trait Watch: Sync {
     /// The handle by which the search is asked to end soon.
@@ -68,20 +92,19 @@ pub(crate) trait Watch: Sync {
 }
 
 /// The best bound that is proven on the path to slices of `step`, or until `watch` stops the search; `None` if that is
-/// before the first bound. Aircraft decide first when they are `ready`; those past its end are ready from the start.
+/// before the first bound.
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step.
 pub(crate) fn search(
-    scenario: &Scenario,
-    ready: &[Time],
+    relaxed: Relaxed<'_>,
     step: Step,
     watch: &dyn Watch,
 ) -> Result<Option<Bound>, Error> {
-    TimeExpandedDay::fits(scenario, step.seconds())?;
+    TimeExpandedDay::fits(relaxed.scenario, step.seconds())?;
     let cuts = || CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes);
-    let in_all = cuts().map(|cut| cut.work(scenario)).sum();
-    let mut search = Search { scenario, ready, watch, best: None, done: 0.0, in_all };
+    let in_all = cuts().map(|cut| cut.work(relaxed.scenario)).sum();
+    let mut search = Search { relaxed, watch, best: None, done: 0.0, in_all };
     let mut before = None;
     for cut in cuts() {
         before = search.rise(cut, before)?;
@@ -115,8 +138,7 @@ fn comparisons(slices: &Slices, tick_s: u32) -> f64 {
 
 /// A search in progress.
 struct Search<'a> {
-    scenario: &'a Scenario,
-    ready: &'a [Time],
+    relaxed: Relaxed<'a>,
     watch: &'a dyn Watch,
     best: Option<Bound>,
     /// Work done, and all work of the search.
@@ -132,9 +154,10 @@ impl Search<'_> {
         cut: &Cut,
         before: Option<(Slices, Prices)>,
     ) -> Result<Option<(Slices, Prices)>, Error> {
-        let slices = Slices::of(self.scenario, cut.step.seconds());
-        let day = || TimeExpandedDay::of(self.scenario, self.ready, cut.step.seconds());
-        let size = self.scenario.vertiports.len();
+        let slices = Slices::of(self.relaxed.scenario, cut.step.seconds());
+        let relaxed = self.relaxed;
+        let day = || relaxed.day(cut.step);
+        let size = self.relaxed.scenario.vertiports.len();
         let start = if let Some((coarser, prices)) = before {
             Some(prices.in_slices(&coarser, &slices, size))
         } else {

@@ -11,6 +11,7 @@ use vertifleet_testkit::{Size, any_extended_day};
 
 use super::certificate::Certificate;
 use super::money;
+use super::penalty::Penalty;
 use super::prices::Prices;
 use super::time_expanded_day::{Layer, TimeExpandedDay};
 
@@ -57,6 +58,29 @@ fn any_prices(expanded: &TimeExpandedDay, seed: u64) -> Prices {
     Prices::checked(expanded, stand, demand).expect("within their limits")
 }
 
+/// Arbitrary payments for knowing delays.
+fn any_penalty(expanded: &TimeExpandedDay, delays: &TakeoffDelays, seed: u64) -> Penalty {
+    let payment = |at: usize| {
+        let part = draw(seed, 1, u32::try_from(at).expect("few seconds")) % 2_000;
+        (i64::try_from(part).expect("small") - 1_000) * 50_000
+    };
+    Penalty::from_payments(expanded, delays, payment)
+}
+
+/// What an aircraft pays for knowing delays, when it decides first in a slot.
+fn payments(expanded: &TimeExpandedDay, layer: usize, trace: &Trace, aircraft: AircraftIx) -> i64 {
+    let Some(penalty) = &expanded.penalty else { return 0 };
+    let (mut paid, mut past_slot) = (0, 0);
+    for row in trace.rows.iter().filter(|row| row.aircraft == aircraft) {
+        let second = (row.time.seconds() - expanded.slices.start_s(0)) as usize;
+        if second >= past_slot {
+            paid += penalty.at(&expanded.layers[layer], row.from.at())[second];
+            past_slot = penalty.past_slot(second);
+        }
+    }
+    paid
+}
+
 /// The vertiport where an aircraft stands or flies to at the end of each slice, by its decisions until then.
 fn places(
     day: &Scenario,
@@ -83,7 +107,9 @@ fn layer_of(day: &Scenario, expanded: &TimeExpandedDay, aircraft: AircraftIx) ->
 
 /// Plays a day by several rules, and checks each aircraft, and all of them together, against the proof.
 fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
-    let expanded = TimeExpandedDay::of(day, &[], step_s).expect("a small day");
+    let mut expanded = TimeExpandedDay::of(day, &[], step_s).expect("a small day");
+    let delays = day.disturbances.takeoff_delays.as_ref();
+    expanded.penalty = delays.map(|delays| any_penalty(&expanded, delays, mix));
     let prices = any_prices(&expanded, mix);
     let mut certificate = Certificate::new(&expanded);
     let never = Stop::default();
@@ -114,20 +140,25 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
             // An aircraft earns no more than the longest path.
             let start = day.aircraft[aircraft.at()].at.at();
             let layer = layer_of(day, &expanded, aircraft);
+            left -= payments(&expanded, layer, &trace, aircraft);
             let worth = certificate.worth_less_paid(&expanded, layer, start, 0);
             assert!(
                 left <= worth,
                 "aircraft {aircraft:?} has {left} left, its best itinerary {worth}"
             );
         }
-        // The payments are no more than the amount given back.
+        // What is paid for stands and passengers is no more than the amount given back.
         for (at, &count) in taken.iter().enumerate() {
             assert!(count <= expanded.stands[at % expanded.size()]);
         }
         for (&count, &waiting) in carried.iter().zip(&expanded.demand) {
             assert!(count <= waiting);
         }
-        assert!(profit <= bound, "{profit} is earned, the bound is {bound}");
+        let penalties = AircraftIx::all(day.aircraft.len()).map(|aircraft| {
+            i128::from(payments(&expanded, layer_of(day, &expanded, aircraft), &trace, aircraft))
+        });
+        let left = profit - penalties.sum::<i128>();
+        assert!(left <= bound, "{left} is earned after the penalty, the bound is {bound}");
     }
 }
 

@@ -11,6 +11,7 @@ use vertifleet_core::{ClosedTimes, Matrix, Scenario, Time, TypeIx, Vertiport, Ve
 use vertifleet_sim::Legs;
 
 use super::money;
+use super::penalty::Penalty;
 use super::prices::Prices;
 use super::slices::Slices;
 use crate::Error;
@@ -77,6 +78,8 @@ pub(super) struct TimeExpandedDay {
     /// The shortest time from a take-off to the next one, or the duration of a hold if that is shorter; seconds, at
     /// least 1.
     pub(super) shortest_s: u32,
+    /// What aircraft pay for knowing delays, if the bound is to be one without foresight.
+    pub(super) penalty: Option<Penalty>,
     /// Whether there is any flight for the passengers of a period and pair, by period, from, to.
     is_flown: Vec<bool>,
     flights: Vec<Flight>,
@@ -103,6 +106,7 @@ impl TimeExpandedDay {
             hold_s: scenario.operations.hold_s,
             shortest_s: scenario.operations.hold_s,
             is_flown: vec![false; scenario.periods.len() * scenario.vertiports.len().pow(2)],
+            penalty: None,
             flights: Vec::new(),
             offsets: vec![0],
             slices,
@@ -147,6 +151,7 @@ impl TimeExpandedDay {
             start.ready_s = (start.ready_s + tick_s / 2) / tick_s;
         }
         self.slices = self.slices.on_coarse_clock(tick_s);
+        self.penalty = self.penalty.map(|penalty| penalty.on_coarse_clock(tick_s));
         self
     }
 
