@@ -1,5 +1,5 @@
-//! The time to find the prices of a `paper` day, to find them anew and to decide by them, and to play a whole day of
-//! 100 vertiports and 2,000 aircraft.
+//! The time to find the prices of a `paper` day, to find them anew and to decide by them, and to find them anew on a day
+//! of 100 vertiports and 2,000 aircraft and to play it.
 
 use std::fmt::Write;
 use std::hint::black_box;
@@ -77,6 +77,15 @@ fn large(criterion: &mut Criterion) {
     assert_eq!((day.vertiports.len(), day.aircraft.len()), (100, 2_000));
     let mut group = criterion.benchmark_group("prices");
     group.sample_size(10);
+    let (start, simulation) = (day.operations.start, Simulation::new(Arc::clone(&day)));
+    let morning = DayPrices::of(simulation.view(), start);
+    group.bench_function("100 vertiports and 2,000 aircraft, found anew", |bencher| {
+        bencher.iter_batched_ref(
+            || morning.clone(),
+            |prices| prices.refresh(black_box(simulation.view()), start + 900),
+            BatchSize::LargeInput,
+        );
+    });
     group.bench_function("100 vertiports and 2,000 aircraft, one day", |bencher| {
         bencher.iter(|| {
             let mut simulation = Simulation::new(Arc::clone(&day));

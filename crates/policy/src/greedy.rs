@@ -30,13 +30,11 @@ impl Greedy {
         decision: &'a Decision,
     ) -> impl Iterator<Item = (VertiportIx, f64)> + 'a {
         let kind = view.kind(decision.aircraft);
-        let period = view.period();
-        let feasible = view.feasible(decision);
-        feasible.iter().filter(|&to| to != decision.at).map(move |to| {
-            let waiting = view.demand_left(period, decision.at, to);
-            let profit_usd =
-                view.flight_profit_usd(decision.time, kind, (decision.at, to), waiting);
-            (to, profit_usd / f64::from(view.leg(kind, decision.at, to).block_s()))
+        let departures = view.departures(decision.time, kind, decision.at);
+        let waiting = &view.demand_left_in(view.period())[decision.at.at() * view.vertiports()..];
+        view.feasible(decision).iter().filter(|&to| to != decision.at).map(move |to| {
+            let profit_usd = departures.profit_usd(to, waiting[to.at()]);
+            (to, profit_usd / f64::from(departures.block_s(to)))
         })
     }
 }

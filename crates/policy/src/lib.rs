@@ -41,7 +41,7 @@ pub use lookahead::Lookahead;
 pub use play::{PlayError, play};
 pub use policy::{Policy, PolicyError};
 pub use price_memory::PriceMemory;
-pub use prices::{DayPrices, PricedChoice, units_usd};
+pub use prices::{Choices, DayPrices, PricedChoice, units_usd};
 pub use random::Random;
 pub use replay::Replay;
 pub use rollouts::{RolloutEvaluator, RolloutSettings, fleet_worth_usd};

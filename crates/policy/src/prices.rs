@@ -7,20 +7,26 @@
 //! of the fleet at given prices (`prices/relaxation.rs`). They are computed from a [`View`], so the future enters as
 //! its forecast. They guide decisions and prove no bound: the certified upper bound is in another crate.
 
+mod backward_pass;
 mod base_rule;
+mod choices;
 mod clock;
+mod fleet;
 mod hops;
 mod intervals;
+mod quads;
 mod relaxation;
 mod units;
 mod values;
 mod volume;
+mod wanted;
 
 use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
 
 use base_rule::BaseRule;
 pub(crate) use base_rule::is_repositioning;
+pub use choices::Choices;
 use relaxation::Relaxation;
 pub use units::units_usd;
 use volume::{Effort, Volume};
@@ -103,7 +109,7 @@ impl DayPrices {
     fn search(&mut self, view: View<'_>, effort: Effort) {
         self.relaxation.load(view);
         let rest_usd = self.volume.search(&mut self.relaxation, effort);
-        self.stake_usd = rest_usd.max(0.0) / f64::from(self.relaxation.decisions().max(1));
+        self.stake_usd = rest_usd.max(0.0) / f64::from(self.relaxation.kept_decisions().max(1));
     }
 
     fn choose_base_rule(&mut self, view: View<'_>, now: Time) {
@@ -116,12 +122,12 @@ impl DayPrices {
     /// Dollars that an aircraft of a type that is ready at a vertiport at a time may still earn, less its payments for
     /// stands and passengers; 0 past the end of operations. `time` must not be before the view's time.
     pub fn worth_usd(&self, kind: TypeIx, vertiport: VertiportIx, time: Time) -> f64 {
-        self.relaxation.values().worth_usd(kind, vertiport, time.seconds())
+        self.relaxation.kept_values().worth_usd(kind, vertiport, time.seconds())
     }
 
     /// Price of a stand from one time to another, dollars.
     pub fn rent_usd(&self, vertiport: VertiportIx, from: Time, until: Time) -> f64 {
-        self.relaxation.values().rent_usd(vertiport, from.seconds(), until.seconds())
+        self.relaxation.kept_values().rent_usd(vertiport, from.seconds(), until.seconds())
     }
 
     /// Price of the right to carry one more passenger of a demand period, dollars.
@@ -144,16 +150,15 @@ impl DayPrices {
     /// prices of its passengers and of the stand until then.
     #[inline]
     pub fn choice_usd(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
-        let Decision { time, aircraft, at: from, .. } = *decision;
-        let kind = view.kind(aircraft);
-        let way_on_usd = |ready_s| self.relaxation.values().usd(kind, to, time.seconds(), ready_s);
-        if to == from {
-            return way_on_usd((time + view.hold_s()).seconds());
-        }
-        let period = view.period();
-        let waiting = view.demand_left(period, from, to);
-        let ready = time + view.leg(kind, from, to).block_s();
-        view.flight_profit_usd(time, kind, (from, to), waiting) + way_on_usd(ready.seconds())
+        self.choices(view, decision).worth_usd(to)
+    }
+
+    /// The choices of a decision, for the worth of several of them.
+    #[inline]
+    pub fn choices<'a>(&'a self, view: View<'a>, decision: &Decision) -> Choices<'a> {
+        let kind = view.kind(decision.aircraft);
+        let worths = self.relaxation.kept_values().worths_from(kind, decision.time.seconds());
+        Choices::of(view, decision, worths)
     }
 
     /// The choice of the base rule: the feasible choice that is worth most, and of equals the vertiport listed first,
@@ -171,12 +176,12 @@ impl DayPrices {
         decision: &'a Decision,
     ) -> impl Iterator<Item = PricedChoice> + 'a {
         let only = (self.base_rule == BaseRule::Greedy).then(|| self.best_choice(view, decision));
-        let feasible = view.feasible(decision);
+        let choices = self.choices(view, decision);
         let open = move |&to: &VertiportIx| match only {
             Some(only) => to == only,
-            None => self.base_rule.allows(view, decision, to),
+            None => self.base_rule.allows(&choices, to),
         };
-        let priced = move |to| PricedChoice { worth_usd: self.choice_usd(view, decision, to), to };
-        feasible.iter().filter(open).map(priced)
+        let priced = move |to| PricedChoice { worth_usd: choices.worth_usd(to), to };
+        view.feasible(decision).iter().filter(open).map(priced)
     }
 }

@@ -5,6 +5,7 @@
 //! another. A choice is therefore rolled out several times, with the worth of all choices perturbed by a little noise,
 //! which is the same for every choice that is compared. The value is the mean.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
@@ -30,18 +31,31 @@ pub struct RolloutSettings {
 /// The approximate number of vertiports that all roll-outs of a decision may look at. On large days there are fewer
 /// roll-outs.
 const MOST_LOOKS: usize = 2_000_000;
+/// The least number of vertiports that the roll-outs of a decision look at for which threads are worth their coordination.
+const LEAST_SHARED_LOOKS: usize = 500_000;
 /// The approximate time from one decision of an aircraft to its next, seconds.
 const DECISION_APART_S: usize = 2_400;
 /// Number of standard errors by which another choice must be better than the one that is worth most at the prices.
 const DOUBT: f64 = 0.5;
 
+/// Memory to roll a choice out in.
+#[derive(Debug, Clone, Default)]
+struct Room {
+    /// An imagined day on which the choice was made, and in `rollout` one that continues from there.
+    begun: Option<Imagined>,
+    rollout: Option<Imagined>,
+}
+
 /// Evaluates choices by roll-outs. It reuses its memory from decision to decision.
+///
+/// On large days the choices of a decision are rolled out on several threads, unless the caller is one of several
+/// threads that work side by side already, as where many days are compared. Every roll-out writes a number of its own, so
+/// the values do not depend on the threads.
 #[derive(Debug, Clone)]
 pub struct RolloutEvaluator {
     settings: RolloutSettings,
-    /// An imagined day on which a choice was made, and in `rollout` one that continues from there.
-    begun: Option<Imagined>,
-    rollout: Option<Imagined>,
+    /// Memory for the roll-outs of each choice of a list.
+    rooms: Vec<Room>,
     /// The value of each roll-out of each choice, choice by choice, dollars.
     rollouts_usd: Vec<f64>,
     values_usd: Vec<f64>,
@@ -54,8 +68,7 @@ impl RolloutEvaluator {
     pub fn new(settings: RolloutSettings) -> Self {
         Self {
             settings,
-            begun: None,
-            rollout: None,
+            rooms: Vec::new(),
             rollouts_usd: Vec::new(),
             values_usd: Vec::new(),
             better: Vec::new(),
@@ -156,24 +169,33 @@ impl RolloutEvaluator {
         decision: &Decision,
         listed: &[PricedChoice],
     ) -> usize {
-        let Self { settings, begun, rollout, rollouts_usd, .. } = self;
+        let Self { settings, rooms, rollouts_usd, .. } = self;
         let until = decision.time + settings.horizon_s;
-        let rollouts = settings.rollouts(prices, view, listed.len());
+        let rollouts = settings.rollouts(prices, view, listed.len()) as usize;
         rollouts_usd.clear();
-        for &PricedChoice { to, .. } in listed {
-            let begun = view.imagined_in(begun);
-            begun.apply(to).expect("only feasible choices are tried");
-            for number in 0..rollouts {
-                let rollout = copied(begun, rollout);
-                rollouts_usd.push(settings.played_usd(prices, rollout, until, number));
+        rollouts_usd.resize(listed.len() * rollouts, 0.0);
+        let looks = settings.looks(view, listed.len()) * rollouts;
+        // A thread of the pool that waits for another would take up other work of the pool meanwhile, such as a whole
+        // day, and the decision would seem to take as long.
+        if looks >= LEAST_SHARED_LOOKS && rayon::current_thread_index().is_none() {
+            rooms.resize_with(rooms.len().max(listed.len()), Room::default);
+            let choices = rollouts_usd.par_chunks_exact_mut(rollouts).zip(listed).zip(rooms);
+            choices.for_each(|((usd, choice), room)| {
+                settings.roll_out(prices, view, until, choice.to, room, usd);
+            });
+        } else {
+            rooms.resize_with(rooms.len().max(1), Room::default);
+            for (usd, choice) in rollouts_usd.chunks_exact_mut(rollouts).zip(listed) {
+                settings.roll_out(prices, view, until, choice.to, &mut rooms[0], usd);
             }
         }
-        rollouts as usize
+        rollouts
     }
 
     /// The profit of the day if this choice is taken and the fleet then follows the base rule to the end.
     fn day_usd(&mut self, prices: &DayPrices, view: View<'_>, to: VertiportIx) -> f64 {
-        let day = view.imagined_in(&mut self.begun);
+        self.rooms.resize_with(self.rooms.len().max(1), Room::default);
+        let day = view.imagined_in(&mut self.rooms[0].begun);
         day.apply(to).expect("only feasible choices are tried");
         while let Some(next) = day.next_decision() {
             let choice = prices.best_choice(day.view(), &next);
@@ -209,10 +231,36 @@ impl RolloutSettings {
         if prices.stake_usd() == 0.0 {
             return 1;
         }
-        let decisions = view.places().len() * (self.horizon_s as usize).div_ceil(DECISION_APART_S);
-        let looks = (decisions * view.vertiports() * choices).max(1);
-        u32::try_from(MOST_LOOKS / looks)
+        u32::try_from(MOST_LOOKS / self.looks(view, choices))
             .map_or(self.rollouts, |most| self.rollouts.min(most.max(1)))
+    }
+
+    /// The approximate number of vertiports that a roll-out of each choice looks at, all choices together.
+    fn looks(&self, view: View<'_>, choices: usize) -> usize {
+        let decisions = view.places().len() * (self.horizon_s as usize).div_ceil(DECISION_APART_S);
+        (decisions * view.vertiports() * choices).max(1)
+    }
+
+    /// Rolls a choice out as often as there are values to be written, in dollars.
+    fn roll_out(
+        &self,
+        prices: &DayPrices,
+        view: View<'_>,
+        until: Time,
+        choice: VertiportIx,
+        room: &mut Room,
+        values_usd: &mut [f64],
+    ) {
+        let begun = view.imagined_in(&mut room.begun);
+        begun.apply(choice).expect("only feasible choices are tried");
+        let Some((last_usd, others_usd)) = values_usd.split_last_mut() else { return };
+        let mut number = 0;
+        for value_usd in others_usd {
+            let rollout = copied(begun, &mut room.rollout);
+            *value_usd = self.played_usd(prices, rollout, until, number);
+            number += 1;
+        }
+        *last_usd = self.played_usd(prices, begun, until, number);
     }
 
     /// Plays a roll-out to a time. Returns the fleet's profit until then plus its worth at that time.

@@ -27,11 +27,11 @@ impl Shortlist {
         view: View<'_>,
         decision: &Decision,
     ) -> &[PricedChoice] {
-        self.rank_open(prices, view, decision);
+        self.rank_near(prices, view, decision);
         let best = self.ranked[0].to;
         self.ranked
             .retain(|choice| choice.to == best || !is_repositioning(view, decision, choice.to));
-        self.keep_near(prices, view, decision)
+        self.keep_most()
     }
 
     /// Ranks choices like [`rank`](Self::rank), but keeps flights without passengers, for an evaluator that
@@ -42,29 +42,25 @@ impl Shortlist {
         view: View<'_>,
         decision: &Decision,
     ) -> &[PricedChoice] {
-        self.rank_open(prices, view, decision);
-        self.keep_near(prices, view, decision)
+        self.rank_near(prices, view, decision);
+        self.keep_most()
     }
 
-    fn rank_open(&mut self, prices: &DayPrices, view: View<'_>, decision: &Decision) {
+    /// Ranks the choices that the base rule permits and that are nearly as good as the best one. Only these are sorted,
+    /// because on a large network they are few.
+    fn rank_near(&mut self, prices: &DayPrices, view: View<'_>, decision: &Decision) {
         self.ranked.clear();
         self.ranked.extend(prices.open_choices(view, decision));
+        let worths_usd = self.ranked.iter().map(|choice| choice.worth_usd);
+        let best_usd = worths_usd.fold(f64::NEG_INFINITY, f64::max);
+        let too_bad_usd = Self::TOO_BAD * prices.unit_usd(view.kind(decision.aircraft));
+        self.ranked.retain(|choice| choice.worth_usd >= best_usd - too_bad_usd);
         // The sort is stable, so of equals the vertiport listed first comes first.
         self.ranked.sort_by(|one, other| other.worth_usd.total_cmp(&one.worth_usd));
     }
 
-    fn keep_near(
-        &mut self,
-        prices: &DayPrices,
-        view: View<'_>,
-        decision: &Decision,
-    ) -> &[PricedChoice] {
-        let too_bad_usd = Self::TOO_BAD * prices.unit_usd(view.kind(decision.aircraft));
-        let least_usd = self.ranked[0].worth_usd - too_bad_usd;
-        let near =
-            self.ranked.iter().take(Self::MOST).take_while(|choice| choice.worth_usd >= least_usd);
-        let count = near.count();
-        self.ranked.truncate(count);
+    fn keep_most(&mut self) -> &[PricedChoice] {
+        self.ranked.truncate(Self::MOST);
         &self.ranked
     }
 }

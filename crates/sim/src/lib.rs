@@ -27,6 +27,7 @@ pub mod check;
 mod closures;
 mod day_totals;
 mod demand;
+mod departures;
 mod error;
 mod imagined;
 mod ledger;
@@ -43,6 +44,7 @@ mod vertiport_set;
 mod view;
 
 pub use day_totals::{DayNumber, DayTotals};
+pub use departures::Departures;
 pub use error::Refusal;
 pub use imagined::Imagined;
 pub use ledger::Ledger;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, AircraftType, ClosedTimes, Scenario, Time, TypeIx, VertiportIx};
 
-use crate::{Decision, Imagined, Leg, Refusal, Simulation, Snapshot, VertiportSet};
+use crate::{Decision, Departures, Imagined, Leg, Refusal, Simulation, Snapshot, VertiportSet};
 
 /// The state of the day at the moment of a decision. It is borrowed and costs nothing to make.
 #[derive(Debug, Clone, Copy)]
@@ -225,14 +225,13 @@ impl<'a> View<'a> {
         (from, to): (VertiportIx, VertiportIx),
         waiting: u32,
     ) -> f64 {
-        let seats = u32::from(self.aircraft_type(kind).seats);
-        let leg = self.leg(kind, from, to);
-        let fares_usd = self.fares_usd(self.period_at(time), from);
-        let margin_usd = fares_usd[to.at()] - self.passenger_costs_usd(from)[to.at()];
-        let energy_price_usd = self.simulation.energy_price_at(time + leg.flight_s);
-        f64::from(waiting.min(seats)) * margin_usd
-            - leg.energy_kwh * energy_price_usd
-            - self.flight_costs_usd(from)[to.at()]
+        self.departures(time, kind, from).profit_usd(to, waiting)
+    }
+
+    /// The flights of a type from a vertiport that are decided at `time` (not before now).
+    #[inline]
+    pub fn departures(&self, time: Time, kind: TypeIx, from: VertiportIx) -> Departures<'a> {
+        Departures::of(self.simulation, time, kind, from)
     }
 
     /// Start of operations.

@@ -7,7 +7,7 @@
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, Imagined, View};
 
-use super::DayPrices;
+use super::{Choices, DayPrices};
 use crate::Greedy;
 
 /// The rules by which the fleet may decide.
@@ -61,8 +61,9 @@ impl BaseRule {
             return Greedy::flight_or_hold(view, decision);
         }
         let mut best = (f64::NEG_INFINITY, decision.at);
-        for to in view.feasible(decision).iter().filter(|&to| self.allows(view, decision, to)) {
-            let usd = prices.choice_usd(view, decision, to);
+        let choices = prices.choices(view, decision);
+        for to in view.feasible(decision).iter().filter(|&to| self.allows(&choices, to)) {
+            let usd = choices.worth_usd(to);
             if usd > best.0 {
                 best = (usd, to);
             }
@@ -72,8 +73,8 @@ impl BaseRule {
 
     /// Whether an aircraft may make a choice under a rule that decides by prices.
     #[inline]
-    pub(super) fn allows(self, view: View<'_>, decision: &Decision, to: VertiportIx) -> bool {
-        self == Self::Prices || !is_repositioning(view, decision, to)
+    pub(super) fn allows(self, choices: &Choices<'_>, to: VertiportIx) -> bool {
+        self == Self::Prices || !choices.is_repositioning(to)
     }
 }
 

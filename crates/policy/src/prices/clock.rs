@@ -6,6 +6,17 @@ use vertifleet_sim::View;
 /// less.
 pub(super) const SLOT_S: u32 = 180;
 
+/// So many seconds as a share of a slot, because divisions are slow.
+static SHARES: [f64; SLOT_S as usize] = {
+    let mut shares = [0.0; SLOT_S as usize];
+    let mut second = 0;
+    while second < SLOT_S {
+        shares[second as usize] = second as f64 / SLOT_S as f64;
+        second += 1;
+    }
+    shares
+};
+
 /// The position of a time in the table of slots: the boundary before it, and its distance from there as a share of a
 /// slot.
 #[derive(Debug, Clone, Copy)]
@@ -47,6 +58,6 @@ impl Clock {
         if slot >= self.slots {
             return Place { slot: self.slots - 1, share: 1.0 };
         }
-        Place { slot, share: f64::from(since_s % SLOT_S) / f64::from(SLOT_S) }
+        Place { slot, share: SHARES[(since_s % SLOT_S) as usize] }
     }
 }

@@ -1,12 +1,11 @@
 //! The flights that aircraft of each type may make from each vertiport, and their profit in each interval of the day.
 
-use std::ops::Range;
-
 use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 use super::clock::{Clock, SLOT_S};
 use super::intervals::Intervals;
+use super::quads::Quads;
 
 /// Number of demand periods for which a route that is closed unexpectedly is assumed to stay closed: the current one
 /// and the next. The actual duration is not known. On 60 days of `disrupted`, 1, 3 and all periods earned a little
@@ -39,17 +38,28 @@ impl Stay {
 
 /// A flight from one vertiport to another.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Hop {
-    pub(super) to: VertiportIx,
-    pub(super) block_s: u32,
-    pub(super) stay: Stay,
+struct Hop {
+    to: VertiportIx,
+    block_s: u32,
+    stay: Stay,
     flight_s: u32,
     energy_kwh: f64,
     flight_cost_usd: f64,
     seats: u32,
     /// Position of the pair among all pairs of vertiports.
-    pub(super) pair: usize,
+    pair: usize,
 }
+
+/// What is needed of a hop to follow an aircraft.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Flight {
+    pub(super) block_s: u32,
+    /// Position of the hop among all hops, or [`NONE`].
+    pub(super) hop: u32,
+}
+
+/// In place of the position of a hop: no aircraft of the type makes it.
+const NONE: u32 = u32::MAX;
 
 /// All hops of a day, by type, then from.
 #[derive(Debug, Clone)]
@@ -58,12 +68,17 @@ pub(super) struct Hops {
     all: Vec<Hop>,
     /// The position at which the hops of each type and vertiport begin, and at the end the number of hops.
     begins: Vec<usize>,
+    /// By type, then pair.
+    flights: Vec<Flight>,
+    pub(super) quads: Quads,
+    /// By hop: the position of its gain among the gains of an interval.
+    gain_at: Vec<u32>,
     pub(super) intervals: Intervals,
     /// By interval, then hop: its profit in dollars before its passengers are paid for, and in `passengers` the number
     /// of its passengers.
     profit_usd: Vec<f64>,
     passengers: Vec<f64>,
-    /// By interval, then hop: its profit in dollars at the latest prices of passengers.
+    /// By interval, then hop in the order of quads: its profit in dollars at the latest prices of passengers.
     gain_usd: Vec<f64>,
 }
 
@@ -93,14 +108,41 @@ impl Hops {
         }
         let intervals = Intervals::of(view, clock);
         let cells = intervals.all.len() * hops.len();
-        Self {
+        let kinds = view.aircraft_types().len();
+        let flights = flights(&hops, &begins, vertiports);
+        let quads = Quads::of((kinds, vertiports), |kind, from, to| {
+            let flight = flights[(kind.at() * vertiports + from.at()) * vertiports + to.at()];
+            (flight.hop != NONE).then(|| hops[flight.hop as usize].stay)
+        });
+        let mut made = Self {
             vertiports,
+            gain_at: Vec::with_capacity(hops.len()),
+            gain_usd: vec![f64::NEG_INFINITY; intervals.all.len() * quads.gains()],
+            flights,
+            quads,
             all: hops,
             begins,
             intervals,
             profit_usd: vec![0.0; cells],
             passengers: vec![0.0; cells],
-            gain_usd: vec![0.0; cells],
+        };
+        made.place_gains();
+        made
+    }
+
+    /// Finds the place of every gain.
+    fn place_gains(&mut self) {
+        let kinds = (self.begins.len() - 1) / self.vertiports;
+        for kind in TypeIx::all(kinds) {
+            let all = kind.at() * self.vertiports;
+            for hop in &self.all[self.begins[all]..self.begins[all + self.vertiports]] {
+                let from = VertiportIx::new(hop.pair / self.vertiports);
+                let at = self.quads.gain_at(kind, self.vertiports, (from, hop.to));
+                self.gain_at.push(u32::try_from(at).expect("a day has few hops"));
+                for gains_usd in self.gain_usd.chunks_exact_mut(self.quads.gains()) {
+                    gains_usd[at] = 0.0;
+                }
+            }
         }
     }
 
@@ -133,55 +175,55 @@ impl Hops {
         }
     }
 
-    /// Deducts the prices of passengers, given by period and then pair, from flights of the demand periods from `first`
-    /// on.
-    pub(super) fn charge(&mut self, first: usize, price_usd: &[f64]) {
+    /// Deducts the price of a passenger of a pair from its flights of a demand period.
+    #[inline]
+    pub(super) fn charge(&mut self, period: usize, pair: usize, price_usd: f64) {
+        let pairs = self.vertiports * self.vertiports;
+        for interval in self.intervals.of_period(period) {
+            for flights in self.flights.chunks_exact(pairs) {
+                if flights[pair].hop != NONE {
+                    let hop = flights[pair].hop as usize;
+                    let cell = interval * self.all.len() + hop;
+                    let gain_at = interval * self.quads.gains() + self.gain_at[hop] as usize;
+                    self.gain_usd[gain_at] =
+                        self.profit_usd[cell] - self.passengers[cell] * price_usd;
+                }
+            }
+        }
+    }
+
+    /// Deducts the prices of passengers, given by period and then pair, from all flights of the demand periods from
+    /// `first` on.
+    pub(super) fn charge_all(&mut self, first: usize, price_usd: &[f64]) {
         let (count, pairs) = (self.all.len(), self.vertiports * self.vertiports);
         let first = self.intervals.first_of(first);
         for (at, interval) in self.intervals.all.iter().enumerate().skip(first) {
             let price_usd = &price_usd[interval.period * pairs..][..pairs];
             let row = at * count..(at + 1) * count;
             let earned = self.profit_usd[row.clone()].iter().zip(&self.passengers[row.clone()]);
-            for ((gain_usd, hop), (profit_usd, passengers)) in
-                self.gain_usd[row].iter_mut().zip(&self.all).zip(earned)
+            let gains_usd = &mut self.gain_usd[at * self.quads.gains()..][..self.quads.gains()];
+            for ((hop, &gain_at), (profit_usd, passengers)) in
+                self.all.iter().zip(&self.gain_at).zip(earned)
             {
-                *gain_usd = profit_usd - passengers * price_usd[hop.pair];
+                gains_usd[gain_at as usize] = profit_usd - passengers * price_usd[hop.pair];
             }
         }
-    }
-
-    /// Positions of the hops of a type from a vertiport.
-    #[inline]
-    pub(super) fn range(&self, kind: TypeIx, from: VertiportIx) -> Range<usize> {
-        let at = kind.at() * self.vertiports + from.at();
-        self.begins[at]..self.begins[at + 1]
-    }
-
-    /// The least number of slots that a hop of a type takes.
-    pub(super) fn shortest(&self, kind: TypeIx) -> usize {
-        let all = kind.at() * self.vertiports;
-        let hops = &self.all[self.begins[all]..self.begins[all + self.vertiports]];
-        hops.iter().map(|hop| hop.stay.slots).min().unwrap_or(1)
     }
 
     pub(super) fn len(&self) -> usize {
         self.all.len()
     }
 
+    /// The flight of a type from one vertiport to another.
     #[inline]
-    pub(super) fn hop(&self, at: usize) -> &Hop {
-        &self.all[at]
+    pub(super) fn flight(&self, kind: TypeIx, pair: usize) -> Flight {
+        self.flights[kind.at() * self.vertiports * self.vertiports + pair]
     }
 
-    /// The hops at some positions, each with its gain in an interval.
+    /// The gains of all hops in an interval, in the order of quads.
     #[inline]
-    pub(super) fn gains(
-        &self,
-        interval: usize,
-        range: Range<usize>,
-    ) -> impl Iterator<Item = (&Hop, f64)> {
-        let gains = &self.gain_usd[interval * self.all.len()..];
-        self.all[range.clone()].iter().zip(gains[range].iter().copied())
+    pub(super) fn gains_usd(&self, interval: usize) -> &[f64] {
+        &self.gain_usd[interval * self.quads.gains()..][..self.quads.gains()]
     }
 
     /// Number of passengers of a hop in an interval.
@@ -189,6 +231,19 @@ impl Hops {
     pub(super) fn passengers(&self, interval: usize, at: usize) -> f64 {
         self.passengers[interval * self.all.len() + at]
     }
+}
+
+/// The flight of every type and pair.
+fn flights(hops: &[Hop], begins: &[usize], vertiports: usize) -> Vec<Flight> {
+    let (pairs, kinds) = (vertiports * vertiports, (begins.len() - 1) / vertiports);
+    let mut flights = vec![Flight { block_s: 0, hop: NONE }; kinds * pairs];
+    for kind in 0..kinds {
+        for at in begins[kind * vertiports]..begins[(kind + 1) * vertiports] {
+            let hop = u32::try_from(at).expect("a day has few hops");
+            flights[kind * pairs + hops[at].pair] = Flight { block_s: hops[at].block_s, hop };
+        }
+    }
+    flights
 }
 
 /// Price of the energy of flights of a given duration that take off in a period, dollars per kWh: the mean, over the

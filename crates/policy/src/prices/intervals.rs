@@ -1,6 +1,8 @@
 //! The day cut into intervals. Within an interval the same flights may leave, with the same profit: intervals are
 //! demand periods, cut once more where known closures begin and end.
 
+use std::ops::Range;
+
 use vertifleet_core::{ClosedTimes, Time, VertiportIx};
 use vertifleet_sim::View;
 
@@ -34,12 +36,16 @@ pub(super) struct Intervals {
     pub(super) all: Vec<Interval>,
     /// The interval of each slot.
     pub(super) of_slot: Vec<usize>,
+    /// By demand period, and at the end for the time after the last one: the first interval in which it, or a later
+    /// one, is in force.
+    begins: Vec<usize>,
 }
 
 impl Intervals {
     pub(super) fn of(view: View<'_>, clock: &Clock) -> Self {
         let changes = view.known_closures().changes();
-        let mut intervals = Self { all: Vec::new(), of_slot: Vec::with_capacity(clock.slots) };
+        let of_slot = Vec::with_capacity(clock.slots);
+        let mut intervals = Self { all: Vec::new(), of_slot, begins: Vec::new() };
         let mut past = 0;
         for slot in 0..clock.slots {
             let begin = Time::from_seconds(clock.begin_s(slot));
@@ -51,11 +57,19 @@ impl Intervals {
             }
             intervals.of_slot.push(intervals.all.len() - 1);
         }
+        let first_of = |period| intervals.all.partition_point(|interval| interval.period < period);
+        intervals.begins = (0..=view.period_starts().len()).map(first_of).collect();
         intervals
     }
 
     /// The first interval in which a demand period, or a later one, is in force.
     pub(super) fn first_of(&self, period: usize) -> usize {
-        self.all.partition_point(|interval| interval.period < period)
+        self.begins[period]
+    }
+
+    /// The intervals of a demand period.
+    #[inline]
+    pub(super) fn of_period(&self, period: usize) -> Range<usize> {
+        self.begins[period]..self.begins[period + 1]
     }
 }

@@ -5,19 +5,27 @@
 //! second pass, forwards, follows each aircraft along its best way and counts the stands and passengers that it asks
 //! for.
 
-use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
+use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 use super::clock::{Clock, SLOT_S};
+use super::fleet::{Fleet, Ready};
 use super::hops::Hops;
 use super::values::{HOLD, ValueTable};
+use super::wanted::Wanted;
 
-/// An aircraft at its next decision.
+/// Number of groups of aircraft that are followed side by side, so that one does not wait for the memory that another
+/// looks at.
+const SIDE_BY_SIDE: usize = 4;
+
+/// Where a group of aircraft that are alike is on its way.
 #[derive(Debug, Clone, Copy)]
-struct Ready {
+struct Way {
     kind: TypeIx,
     place: VertiportIx,
-    at_s: u32,
+    time_s: u32,
+    slot: usize,
+    count: u32,
 }
 
 /// The rest of a day with prices, and what the fleet asks for at them.
@@ -29,8 +37,10 @@ pub(super) struct Relaxation {
     hold_s: u32,
     stands: Vec<f64>,
     /// Passengers left, by period, then pair.
-    demand: Vec<f64>,
-    fleet: Vec<Ready>,
+    pub(super) demand: Vec<f64>,
+    /// The pairs whose price or mean excess is not at rest.
+    pub(super) wanted: Wanted,
+    fleet: Fleet,
     /// The current slot, and its period.
     first_slot: usize,
     first_period: usize,
@@ -41,6 +51,9 @@ pub(super) struct Relaxation {
     pub(super) stand_excess: Vec<f64>,
     pub(super) passenger_excess: Vec<f64>,
     values: ValueTable,
+    /// The values of the pass that is [kept](Self::keep), and the number of decisions that the fleet takes in it.
+    kept_values: ValueTable,
+    kept_decisions: u32,
     /// Number of decisions that the fleet takes on its best ways.
     decisions: u32,
 }
@@ -53,20 +66,25 @@ impl Relaxation {
         let cells = clock.slots * vertiports;
         let pairs = view.period_starts().len() * vertiports * vertiports;
         let stands = VertiportIx::all(vertiports).map(|at| f64::from(view.stands(at)));
+        let hops = Hops::of(view, &clock);
+        let values = ValueTable::of(view, &clock);
         Self {
-            hops: Hops::of(view, &clock),
+            hops,
             vertiports,
             hold_s: view.hold_s(),
             stands: stands.collect(),
             demand: vec![0.0; pairs],
-            fleet: Vec::with_capacity(view.places().len()),
+            wanted: Wanted::none_of(pairs),
+            fleet: Fleet::default(),
             first_slot: 0,
             first_period: 0,
             stand_usd: vec![0.0; cells],
             passenger_usd: vec![0.0; pairs],
             stand_excess: vec![0.0; cells],
             passenger_excess: vec![0.0; pairs],
-            values: ValueTable::of(view, &clock),
+            kept_values: values.clone(),
+            values,
+            kept_decisions: 0,
             decisions: 0,
             clock,
         }
@@ -74,24 +92,24 @@ impl Relaxation {
 
     /// Takes the current fleet and demand from a view.
     pub(super) fn load(&mut self, view: View<'_>) {
-        let fleet = AircraftIx::all(view.places().len());
-        let ready_s = |aircraft| view.ready_at(aircraft).seconds();
-        let now_s = fleet.clone().map(ready_s).min().unwrap_or(self.clock.start_s);
+        self.fleet.load(view);
+        let now_s = self.fleet.first_ready_s().unwrap_or(self.clock.start_s);
         self.first_slot = self.clock.slot(now_s).min(self.clock.slots - 1);
         self.first_period = view.period();
-        self.fleet.clear();
-        self.fleet.extend(fleet.map(|aircraft| Ready {
-            kind: view.kind(aircraft),
-            place: view.places()[aircraft.at()],
-            at_s: ready_s(aircraft),
-        }));
+        let (_, passenger) = self.begins();
+        self.wanted.retain(|cell| cell >= passenger);
         let pairs = self.vertiports * self.vertiports;
         for (period, left) in self.demand.chunks_exact_mut(pairs).enumerate().skip(view.period()) {
             for (left, &waiting) in left.iter_mut().zip(view.demand_left_in(period)) {
                 *left = f64::from(waiting);
             }
         }
+        let excess = self.passenger_excess[passenger..].iter_mut();
+        for (excess, demand) in excess.zip(&self.demand[passenger..]) {
+            *excess = -demand;
+        }
         self.hops.load(view);
+        self.hops.charge_all(self.first_period, &self.passenger_usd);
     }
 
     /// The first positions in `stand_usd` and in `passenger_usd` whose prices still matter.
@@ -108,26 +126,46 @@ impl Relaxation {
     /// Evaluates the Lagrangian dual at the prices: the profit of the fleet after payments, plus the price of all
     /// stands and passengers available, dollars. Also computes the excess.
     pub(super) fn evaluate(&mut self) -> f64 {
-        self.hops.charge(self.first_period, &self.passenger_usd);
+        self.charge();
         self.values.pay(&self.stand_usd, self.first_slot);
         self.values.value(&self.hops, self.first_slot);
         self.offer_usd() + self.send_fleet()
     }
 
+    /// Deducts the prices of passengers from flights. Where nobody has asked for any, their price is still zero.
+    pub(super) fn charge(&mut self) {
+        let pairs = self.vertiports * self.vertiports;
+        let mut period = self.first_period;
+        for cell in self.wanted.all() {
+            while cell >= (period + 1) * pairs {
+                period += 1;
+            }
+            self.hops.charge(period, cell - period * pairs, self.passenger_usd[cell]);
+        }
+    }
+
+    /// Keeps the worth of everything at the prices of the latest [`evaluate`](Self::evaluate), for
+    /// [`kept_values`](Self::kept_values).
+    pub(super) fn keep(&mut self) {
+        std::mem::swap(&mut self.values, &mut self.kept_values);
+        self.kept_decisions = self.decisions;
+    }
+
     /// Sets the excess of passengers to minus their number, as if no aircraft took any, and that of stands to zero.
     /// Returns the price of all stands and passengers available, dollars.
     fn offer_usd(&mut self) -> f64 {
-        let (stand, passenger) = self.begins();
+        let (stand, _) = self.begins();
         let mut usd = 0.0;
         self.stand_excess[stand..].fill(0.0);
-        for (price_usd, stands) in self.stand_usd[stand..].iter().zip(self.stands.iter().cycle()) {
-            usd += price_usd * stands;
+        for prices in self.stand_usd[stand..].chunks_exact(self.vertiports) {
+            for (price_usd, stands) in prices.iter().zip(&self.stands) {
+                usd += price_usd * stands;
+            }
         }
-        let offers = self.passenger_excess[passenger..].iter_mut();
-        let prices = self.passenger_usd[passenger..].iter().zip(&self.demand[passenger..]);
-        for (excess, (price_usd, demand)) in offers.zip(prices) {
-            *excess = -demand;
-            usd += price_usd * demand;
+        for cell in self.wanted.all() {
+            let demand = self.demand[cell];
+            self.passenger_excess[cell] = -demand;
+            usd += self.passenger_usd[cell] * demand;
         }
         usd
     }
@@ -135,50 +173,79 @@ impl Relaxation {
     /// Sends every aircraft along its best way and counts what it asks for. Returns the worth of these ways, dollars.
     fn send_fleet(&mut self) -> f64 {
         let mut usd = 0.0;
-        self.decisions = 0;
-        for at in 0..self.fleet.len() {
-            let Ready { kind, place, at_s } = self.fleet[at];
-            // No rent has been paid when the first slot begins.
-            usd += self.values.usd(kind, place, self.clock.begin_s(self.first_slot), at_s);
-            self.send(kind, place, at_s);
+        // No rent has been paid when the first slot begins.
+        let begin_s = self.clock.begin_s(self.first_slot);
+        for ready in self.fleet.all() {
+            usd += self.values.usd(ready.kind, ready.place, begin_s, ready.at_s);
         }
+        self.decisions = 0;
+        self.wanted.begin_pass();
+        for first in (0..self.fleet.groups().len()).step_by(SIDE_BY_SIDE) {
+            self.send(first);
+        }
+        self.wanted.settle();
         self.count_stands();
         usd
     }
 
-    fn send(&mut self, kind: TypeIx, mut place: VertiportIx, mut time_s: u32) {
-        let (size, slots) = (self.vertiports, self.clock.slots);
-        let mut slot = self.clock.slot(time_s);
-        self.ask(place, self.first_slot, slot);
-        while time_s <= self.clock.end_s {
-            self.decisions += 1;
-            // The best choice is taken from the nearest boundary.
-            let near = ((time_s - self.clock.start_s + SLOT_S / 2) / SLOT_S) as usize;
-            let best = self.values.best(kind, place, near.min(slots - 1));
-            if best == HOLD {
-                time_s += self.hold_s;
-            } else {
-                let best = usize::try_from(best).expect("made from a position");
-                let hop = *self.hops.hop(best);
-                let interval = self.hops.intervals.of_slot[slot];
-                let period = self.hops.intervals.all[interval].period;
-                let cell = period * size * size + hop.pair;
-                self.passenger_excess[cell] += self.hops.passengers(interval, best);
-                place = hop.to;
-                time_s += hop.block_s;
-            }
-            let until = self.clock.slot(time_s);
-            self.ask(place, slot, until);
-            slot = until;
+    /// Sends some groups of aircraft along their best ways, from group `first` on.
+    fn send(&mut self, first: usize) {
+        let mut ways: [Option<Way>; SIDE_BY_SIDE] = std::array::from_fn(|number| {
+            let (Ready { kind, place, at_s }, count) = *self.fleet.groups().get(first + number)?;
+            Some(Way { kind, place, time_s: at_s, slot: self.clock.slot(at_s), count })
+        });
+        for way in ways.iter().flatten() {
+            self.ask(way.count, way.place, self.first_slot, way.slot);
         }
-        self.ask(place, slot, slots);
+        let mut go_on = true;
+        while go_on {
+            go_on = false;
+            for way in ways.iter_mut().flatten() {
+                if way.time_s <= self.clock.end_s {
+                    self.follow(way);
+                    go_on = true;
+                }
+            }
+        }
+        for way in ways.iter().flatten() {
+            self.ask(way.count, way.place, way.slot, self.clock.slots);
+        }
     }
 
-    /// Records that a stand is asked for from one slot until another: one more from the first on, one less from the
-    /// second on.
+    /// Takes the next decision on a way.
     #[inline]
-    fn ask(&mut self, place: VertiportIx, from: usize, until: usize) {
-        for (slot, more) in [(from, 1.0), (until, -1.0)] {
+    fn follow(&mut self, way: &mut Way) {
+        let Way { kind, place, time_s, slot, count } = *way;
+        self.decisions += count;
+        // The best choice is taken from the nearest boundary.
+        let near = ((time_s - self.clock.start_s + SLOT_S / 2) / SLOT_S) as usize;
+        let best = self.values.best(kind, place, near.min(self.clock.slots - 1));
+        if best == HOLD {
+            way.time_s += self.hold_s;
+        } else {
+            let pair = place.at() * self.vertiports + usize::from(best);
+            let flight = self.hops.flight(kind, pair);
+            let interval = self.hops.intervals.of_slot[slot];
+            let passengers = self.hops.passengers(interval, flight.hop as usize);
+            let period = self.hops.intervals.all[interval].period;
+            let cell = period * self.vertiports * self.vertiports + pair;
+            if passengers > 0.0 && period >= self.first_period {
+                self.passenger_excess[cell] += f64::from(count) * passengers;
+                self.wanted.add(cell);
+            }
+            way.place = VertiportIx(best);
+            way.time_s += flight.block_s;
+        }
+        way.slot = self.clock.slot(way.time_s);
+        self.ask(count, way.place, slot, way.slot);
+    }
+
+    /// Records that a number of stands are asked for from one slot until another: so many more from the first on, and
+    /// so many less from the second on.
+    #[inline]
+    fn ask(&mut self, count: u32, place: VertiportIx, from: usize, until: usize) {
+        let number = f64::from(count);
+        for (slot, more) in [(from, number), (until, -number)] {
             // Prices end with the last slot.
             if let Some(excess) = self.stand_excess.get_mut(slot * self.vertiports + place.at()) {
                 *excess += more;
@@ -202,15 +269,15 @@ impl Relaxation {
         }
     }
 
-    /// Number of decisions that the fleet takes on its best ways at the prices.
-    pub(super) fn decisions(&self) -> u32 {
-        self.decisions
+    /// Number of decisions that the fleet takes on its best ways at the prices of the pass that is kept.
+    pub(super) fn kept_decisions(&self) -> u32 {
+        self.kept_decisions
     }
 
-    /// The worth of being ready, and the price of stands, anywhere at any time.
+    /// The worth of being ready, and the price of stands, anywhere at any time, at the prices of the pass that is kept.
     #[inline]
-    pub(super) fn values(&self) -> &ValueTable {
-        &self.values
+    pub(super) fn kept_values(&self) -> &ValueTable {
+        &self.kept_values
     }
 
     #[inline]

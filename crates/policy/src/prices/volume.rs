@@ -77,71 +77,94 @@ impl Volume {
             if square == 0.0 {
                 break;
             }
+            if pass == 0 {
+                self.forget_what_rests(relaxation);
+            }
             let length = step * (usd - (1.0 - AIM) * lowest_usd).max(0.0) / square;
             self.step(relaxation, length);
         }
-        let (stand, passenger) = relaxation.begins();
-        relaxation.stand_usd[stand..].copy_from_slice(&self.stand_usd[stand..]);
-        relaxation.passenger_usd[passenger..].copy_from_slice(&self.passenger_usd[passenger..]);
-        relaxation.evaluate()
+        self.restore(relaxation);
+        lowest_usd
     }
 
-    fn keep(&mut self, relaxation: &Relaxation) {
-        let (stand, passenger) = relaxation.begins();
+    /// Keeps the prices of the relaxation, and the values at them.
+    fn keep(&mut self, relaxation: &mut Relaxation) {
+        let (stand, _) = relaxation.begins();
         self.stand_usd[stand..].copy_from_slice(&relaxation.stand_usd[stand..]);
-        self.passenger_usd[passenger..].copy_from_slice(&relaxation.passenger_usd[passenger..]);
+        for cell in relaxation.wanted.all() {
+            self.passenger_usd[cell] = relaxation.passenger_usd[cell];
+        }
+        relaxation.keep();
+    }
+
+    /// Sets the prices of the relaxation to the best ones.
+    fn restore(&self, relaxation: &mut Relaxation) {
+        let (stand, _) = relaxation.begins();
+        relaxation.stand_usd[stand..].copy_from_slice(&self.stand_usd[stand..]);
+        for cell in relaxation.wanted.all() {
+            relaxation.passenger_usd[cell] = self.passenger_usd[cell];
+        }
+        relaxation.charge();
     }
 
     /// Moves the mean of the excess towards that of this pass. Returns the sum of its squares, without the resources
     /// that are free and left over.
     fn average(&mut self, relaxation: &Relaxation, weight: f64) -> f64 {
-        let (stand, passenger) = relaxation.begins();
-        let stands = average(
-            &mut self.stand_mean[stand..],
-            &relaxation.stand_excess[stand..],
-            &self.stand_usd[stand..],
-            weight,
-        );
-        let passengers = average(
-            &mut self.passenger_mean[passenger..],
-            &relaxation.passenger_excess[passenger..],
-            &self.passenger_usd[passenger..],
-            weight,
-        );
-        stands + passengers
+        let (stand, _) = relaxation.begins();
+        let means = self.stand_mean[stand..].iter_mut();
+        let excess = relaxation.stand_excess[stand..].iter();
+        let stands = means.zip(excess).zip(&self.stand_usd[stand..]);
+        let stands_square = stands.fold(0.0, |sum, ((mean, &excess), &price_usd)| {
+            sum + average(mean, excess, price_usd, weight)
+        });
+        for cell in relaxation.wanted.fresh() {
+            self.passenger_mean[cell] = -relaxation.demand[cell];
+        }
+        let passengers_square = relaxation.wanted.all().fold(0.0, |sum, cell| {
+            let excess = relaxation.passenger_excess[cell];
+            let mean = &mut self.passenger_mean[cell];
+            sum + average(mean, excess, self.passenger_usd[cell], weight)
+        });
+        stands_square + passengers_square
+    }
+
+    /// Takes the passengers off the list whose price is zero and the mean of whose excess is minus their number. As
+    /// long as nobody asks for them, further passes would not change either.
+    fn forget_what_rests(&self, relaxation: &mut Relaxation) {
+        let (demand, price_usd) = (&relaxation.demand, &relaxation.passenger_usd);
+        relaxation.wanted.retain(|cell| {
+            let rests = self.passenger_mean[cell] == -demand[cell]
+                && self.passenger_usd[cell] == 0.0
+                && price_usd[cell] == 0.0;
+            !rests
+        });
     }
 
     /// Sets the prices of the relaxation to a step from the best ones.
     fn step(&self, relaxation: &mut Relaxation, length: f64) {
-        let (stand, passenger) = relaxation.begins();
-        step(
-            &mut relaxation.stand_usd[stand..],
-            &self.stand_usd[stand..],
-            &self.stand_mean[stand..],
-            length,
-        );
-        step(
-            &mut relaxation.passenger_usd[passenger..],
-            &self.passenger_usd[passenger..],
-            &self.passenger_mean[passenger..],
-            length,
-        );
-    }
-}
-
-fn average(mean: &mut [f64], excess: &[f64], price_usd: &[f64], weight: f64) -> f64 {
-    let mut square = 0.0;
-    for ((mean, excess), &price_usd) in mean.iter_mut().zip(excess).zip(price_usd) {
-        *mean += weight * (excess - *mean);
-        if *mean > 0.0 || price_usd > 0.0 {
-            square += *mean * *mean;
+        let (stand, _) = relaxation.begins();
+        let stands = relaxation.stand_usd[stand..].iter_mut();
+        let kept = self.stand_usd[stand..].iter().zip(&self.stand_mean[stand..]);
+        for (price_usd, (&from_usd, &mean)) in stands.zip(kept) {
+            *price_usd = step(from_usd, mean, length);
+        }
+        for cell in relaxation.wanted.all() {
+            relaxation.passenger_usd[cell] =
+                step(self.passenger_usd[cell], self.passenger_mean[cell], length);
         }
     }
-    square
 }
 
-fn step(price_usd: &mut [f64], from_usd: &[f64], mean: &[f64], length: f64) {
-    for ((price_usd, &from_usd), &mean) in price_usd.iter_mut().zip(from_usd).zip(mean) {
-        *price_usd = (from_usd + length * mean).max(0.0);
-    }
+/// Moves the mean of a resource's excess towards that of a pass. Returns its square, or zero if the resource is free
+/// and left over.
+#[inline]
+fn average(mean: &mut f64, excess: f64, price_usd: f64, weight: f64) -> f64 {
+    *mean += weight * (excess - *mean);
+    if *mean > 0.0 || price_usd > 0.0 { *mean * *mean } else { 0.0 }
+}
+
+/// The price of a resource after a step.
+#[inline]
+fn step(from_usd: f64, mean: f64, length: f64) -> f64 {
+    (from_usd + length * mean).max(0.0)
 }

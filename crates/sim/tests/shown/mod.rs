@@ -43,9 +43,14 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
                 view.legs_from(kind, from),
                 view.within_range(kind, from)
             ));
+            let departures = view.departures(decision.time + 3600, kind, from);
             for to in VertiportIx::all(view.vertiports()) {
                 let profit = view.flight_profit_usd(decision.time + 3600, kind, (from, to), 3);
-                shown.push(format!("{:?} {profit}", view.leg(kind, from, to)));
+                let leg = view.leg(kind, from, to);
+                // What is looked up once for all destinations is what each of them is told.
+                assert_eq!(departures.profit_usd(to, 3).to_bits(), profit.to_bits());
+                assert_eq!(departures.block_s(to), leg.block_s());
+                shown.push(format!("{leg:?} {profit}"));
             }
         }
         for period in 0..view.period_starts().len() {
