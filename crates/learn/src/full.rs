@@ -7,8 +7,10 @@
 //! roll-outs: prices help to judge choices while they learn, and are not needed to decide.
 
 pub(crate) mod features;
+mod observer;
 mod policy;
 #[cfg(test)]
 mod tests;
 
+pub use observer::{FullObservation, FullObserver};
 pub use policy::FullPolicy;

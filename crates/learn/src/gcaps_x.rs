@@ -9,7 +9,6 @@
 pub(crate) mod features;
 mod observer;
 mod policy;
-mod rollouts;
 pub(crate) mod scorer;
 #[cfg(test)]
 mod tests;

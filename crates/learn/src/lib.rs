@@ -62,6 +62,7 @@ mod learned;
 mod model;
 pub mod nn;
 mod ppo;
+mod rollouts;
 mod rows;
 mod run;
 mod settings;
@@ -70,7 +71,7 @@ mod tensor_file;
 
 pub use error::Error;
 pub use features::{Observations, Scales, shape};
-pub use full::FullPolicy;
+pub use full::{FullObservation, FullObserver, FullPolicy};
 pub use gcaps_x::{GcapsX, PricedObservation, PricedObserver};
 pub use header::{FeatureShape, Header};
 pub use imitation::{ImitationRow, ImitationSettings};

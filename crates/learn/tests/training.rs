@@ -93,7 +93,9 @@ fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
     let new_places = |policy| TrainingRequest { world: World::RandomPlaces(5), ..plan(policy) };
     let plans =
         [plan(small_gcaps()), plan(small_mlp()), any_network, new_places(small_gcaps_full())];
-    for plan in plans.into_iter().chain([new_places(small_mlp_full()), new_places(small_mlp())]) {
+    let by_itself = plan_with(small_gcaps_full(), &[("own_rounds", "1"), ("samples", "40")]);
+    let others = [new_places(small_mlp_full()), new_places(small_mlp()), by_itself];
+    for plan in plans.into_iter().chain(others) {
         let on = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| remains(finished(plan.clone().start().expect("a plan")).as_ref()))
@@ -107,7 +109,8 @@ fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("checkpoint.safetensors");
     let terminal = plan_with(small_gcaps(), &[("reward", "terminal")]);
-    for plan in [terminal, plan(small_gcaps_x()), plan(small_gcaps_full())] {
+    let by_itself = plan_with(small_gcaps_x(), &[("own_rounds", "1"), ("samples", "40")]);
+    for plan in [terminal, plan(small_gcaps_x()), plan(small_gcaps_full()), by_itself] {
         let whole = finished(plan.clone().start().expect("a plan"));
         let mut first = plan.clone().start().expect("a plan");
         advance(first.as_mut());

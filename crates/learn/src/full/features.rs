@@ -106,8 +106,8 @@ struct Seen {
 }
 
 /// A decision with the unit of money.
-#[derive(Clone, Copy)]
-struct Scene<'a> {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scene<'a> {
     view: View<'a>,
     decision: &'a Decision,
     kind: TypeIx,
@@ -126,13 +126,24 @@ impl Writer {
         Rows::new(shape(vertiports), self.adjacency.is_observed())
     }
 
-    /// Adds the row of a decision between all of its feasible choices.
-    pub(crate) fn push(&mut self, view: View<'_>, decision: &Decision, rows: &mut Rows) {
+    /// Adds the row of a decision between all of its feasible choices. Returns the decision with the unit of money.
+    pub(crate) fn push<'a>(
+        &mut self,
+        view: View<'a>,
+        decision: &'a Decision,
+        rows: &mut Rows,
+    ) -> Scene<'a> {
         let kind = view.kind(decision.aircraft);
         let scene = Scene { view, decision, kind, unit_usd: self.unit_usd(view, kind) };
         self.look_around(scene);
         let (adjacency, seen) = (self.adjacency, &self.seen);
-        rows.push(|row| scene.write(adjacency, seen, row));
+        rows.push(|row| {
+            scene.write(seen, row);
+            if !row.edges.is_empty() {
+                scene.write_edges(adjacency, view.vertiports(), row.edges);
+            }
+        });
+        scene
     }
 
     /// The profit of a typical full flight of a type, dollars.
@@ -180,8 +191,8 @@ struct Onward {
 }
 
 impl Scene<'_> {
-    fn write(self, adjacency: Adjacency, seen: &[Seen], row: &mut Row<'_>) {
-        let Self { view, decision, kind, .. } = self;
+    fn write(self, seen: &[Seen], row: &mut Row<'_>) {
+        let Self { view, decision, .. } = self;
         let feasible = view.feasible(decision);
         *row.clock = self.share_of_day(decision.time) as f32;
         let own = &seen[decision.at.at()];
@@ -196,12 +207,14 @@ impl Scene<'_> {
                 *to = value as f32;
             }
         }
-        if row.edges.is_empty() {
-            return;
-        }
-        let count = view.vertiports();
-        for (from, row) in row.edges.chunks_exact_mut(count).enumerate() {
-            let from = VertiportIx::new(from);
+    }
+
+    /// Writes the weights of the edges of an adjacency, with a row of `stride` entries for each vertiport. Entries of
+    /// pairs that are out of range stay as they are.
+    pub(crate) fn write_edges(self, adjacency: Adjacency, stride: usize, edges: &mut [f32]) {
+        let Self { view, decision, kind, .. } = self;
+        let vertiports = VertiportIx::all(view.vertiports());
+        for (from, row) in vertiports.zip(edges.chunks_exact_mut(stride)) {
             let closed = view.closed(from);
             for to in view.within_range(kind, from).iter() {
                 let is_open = !closed.contains(to);
@@ -213,7 +226,7 @@ impl Scene<'_> {
                     }
                     Adjacency::Reachable => f32::from(u8::from(is_open)),
                     Adjacency::Profit if is_open => {
-                        self.rate(decision.time, from, to).0.clamp(0.0, 3.0) as f32
+                        self.rates(decision.time, from)(to).0.clamp(0.0, 3.0) as f32
                     }
                     Adjacency::Profit => 0.0,
                 };
@@ -319,13 +332,19 @@ impl Scene<'_> {
         ]
     }
 
-    /// The profit per hour of a flight at a time, its profit, both in units, and the passengers who want to fly.
-    fn rate(self, time: Time, from: VertiportIx, to: VertiportIx) -> (f64, f64, u32) {
+    /// The flights from a vertiport at a time: for each destination the profit per hour, the profit, both in units, and
+    /// the passengers who want to fly.
+    fn rates(self, time: Time, from: VertiportIx) -> impl Fn(VertiportIx) -> (f64, f64, u32) {
         let Self { view, kind, unit_usd, .. } = self;
-        let waiting = view.demand_left(view.period_at(time), from, to);
-        let profit = view.flight_profit_usd(time, kind, (from, to), waiting) / unit_usd;
-        let block_h = hours(view.leg(kind, from, to).block_s()).max(0.1);
-        (profit / block_h, profit, waiting)
+        let departures = view.departures(time, kind, from);
+        let waiting = view.demand_left_in(view.period_at(time));
+        let waiting = &waiting[from.at() * view.vertiports()..][..view.vertiports()];
+        move |to| {
+            let waiting = waiting[to.at()];
+            let profit = departures.profit_usd(to, waiting) / unit_usd;
+            let block_h = hours(departures.block_s(to)).max(0.1);
+            (profit / block_h, profit, waiting)
+        }
     }
 
     fn onward(self, from: VertiportIx, time: Time) -> Onward {
@@ -335,8 +354,9 @@ impl Scene<'_> {
             return onward;
         }
         let seats = f64::from(view.aircraft_type(kind).seats);
+        let rates = self.rates(time, from);
         for to in view.within_range(kind, from).iter() {
-            let (mut rate, profit, waiting) = self.rate(time, from, to);
+            let (mut rate, profit, waiting) = rates(to);
             if rate <= 0.0 {
                 continue;
             }

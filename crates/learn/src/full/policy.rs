@@ -3,19 +3,24 @@
 use std::sync::Arc;
 
 use vertifleet_core::VertiportIx;
-use vertifleet_policy::{Policy, PolicyError};
+use vertifleet_policy::{Policy, PolicyError, PricedChoice};
 use vertifleet_sim::{Decision, View};
 
 use crate::full::features::Writer;
+use crate::gcaps_x::features::Scene;
+use crate::gcaps_x::scorer::LOGITS_A_UNIT;
 use crate::header::network;
 use crate::learned::highest;
 use crate::model::Model;
 use crate::nn::{Architecture, NeuralNetwork, Weights, Workspace};
+use crate::rollouts::{MOST_ROWS, Scores};
 use crate::rows::Rows;
 
 /// Most decisions per inference, and most vertiports of all of them; larger batches are not faster.
 const MOST_DECISIONS: usize = 256;
 const MOST_NODES: usize = 2_048;
+/// Why there is a network of the right size when roll-outs are scored.
+const CLEARED: &str = "rows are cleared before they are added";
 
 /// Decides by the full observation. It is deterministic: among equal logits the first vertiport wins.
 pub struct FullPolicy {
@@ -67,7 +72,7 @@ impl FullPolicy {
 }
 
 fn most_decisions(vertiports: usize) -> usize {
-    (MOST_NODES / vertiports).clamp(1, MOST_DECISIONS)
+    (MOST_NODES / vertiports).clamp(MOST_ROWS, MOST_DECISIONS)
 }
 
 impl Policy for FullPolicy {
@@ -117,5 +122,38 @@ impl Policy for FullPolicy {
             choices.extend(workspace.logits().chunks_exact(vertiports).map(highest));
         }
         Ok(())
+    }
+}
+
+/// It decides between all feasible choices. A logit of 1 is worth the unit of the samples that it learned from, divided
+/// by [`LOGITS_A_UNIT`].
+impl Scores for FullPolicy {
+    fn list(&mut self, Scene { view, decision, .. }: Scene<'_>, listed: &mut Vec<PricedChoice>) {
+        let unknown = |to| PricedChoice { worth_usd: 0.0, to };
+        listed.clear();
+        listed.extend(view.feasible(decision).iter().map(unknown));
+    }
+
+    fn clear(&mut self, vertiports: usize) {
+        self.sized(vertiports);
+    }
+
+    fn push(&mut self, Scene { view, decision, .. }: Scene<'_>, _listed: &[PricedChoice]) {
+        let sized = self.sized.as_mut().expect(CLEARED);
+        self.writer.push(view, decision, &mut sized.rows);
+    }
+
+    fn forward(&mut self) {
+        let Sized { net, workspace, rows } = self.sized.as_mut().expect(CLEARED);
+        net.forward(&self.weights, rows.inputs(), workspace);
+    }
+
+    fn rate(&self, row: usize, scene: Scene<'_>, listed: &mut [PricedChoice]) {
+        let logits = self.sized.as_ref().expect(CLEARED).workspace.logits();
+        let first = row * scene.view.vertiports();
+        for choice in listed {
+            let logit = f64::from(logits[first + choice.to.at()]);
+            choice.worth_usd = logit / LOGITS_A_UNIT * scene.unit_usd;
+        }
     }
 }

@@ -3,15 +3,17 @@
 use std::sync::Arc;
 
 use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, World};
-use vertifleet_policy::Policy;
+use vertifleet_policy::{DayPrices, Policy, PricedChoice, RolloutSettings, play};
 use vertifleet_sim::{Simulation, check::check};
 
 use crate::FullPolicy;
 use crate::full::features::{
     AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Writer,
 };
+use crate::gcaps_x::features::Scene;
 use crate::gcaps_x::{first_column, played, with_opinions};
 use crate::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings};
+use crate::rollouts::RolloutPlayer;
 
 fn small(adjacency: Adjacency) -> Architecture {
     let graph = GraphSettings { adjacency, ..GraphSettings::default() };
@@ -101,4 +103,42 @@ fn the_page_names_every_feature_in_its_order() {
     assert_eq!(first_column(page, &nodes), NODE_FEATURE_NAMES);
     let aircraft = format!("What the aircraft shows ({AIRCRAFT_FEATURES} numbers):");
     assert_eq!(first_column(page, &aircraft), AIRCRAFT_FEATURE_NAMES);
+}
+
+#[test]
+fn a_choice_that_is_rolled_out_to_the_end_is_worth_what_the_day_then_earns() {
+    let policy = small(Adjacency::Complete);
+    let weights = with_opinions(&policy, 1);
+    let mut rolled_out = FullPolicy::of(policy.clone(), Arc::clone(&weights));
+    let mut alone = FullPolicy::of(policy, weights);
+    let settings =
+        RolloutSettings { horizon_s: 86_400, rollouts: 2, noise: 0.0, price_weight: 0.0 };
+    // Nothing of this day is unknown.
+    let network = Network::shipped("paper").expect("a shipped network");
+    let day = Arc::new(network.draw(DaySeed::validation(3).expect("a seed")));
+    let mut simulation = Simulation::new(day);
+    let mut player = RolloutPlayer::default();
+    for number in 0..120 {
+        let decision = simulation.next_decision().expect("the day goes on");
+        if number % 30 == 7 {
+            let view = simulation.view();
+            let prices = DayPrices::of(view, decision.time);
+            let scene = Scene::of(view, &decision, &prices);
+            let listed: Vec<PricedChoice> = view
+                .feasible(&decision)
+                .iter()
+                .map(|to| PricedChoice { worth_usd: 0.0, to })
+                .collect();
+            let values_usd = player.values_usd(&mut rolled_out, &settings, scene, &listed);
+            for (choice, &value_usd) in listed.iter().zip(values_usd) {
+                let mut then = simulation.clone();
+                then.apply(choice.to).expect("it is feasible");
+                play(&mut then, &mut alone, |_| ()).expect("it always answers");
+                assert_eq!(value_usd, then.ledger().profit_usd());
+            }
+        }
+        let view = simulation.view();
+        let to = alone.choose(&decision, &view).expect("it always answers");
+        simulation.apply(to).expect("it is feasible");
+    }
 }

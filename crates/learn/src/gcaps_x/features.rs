@@ -6,7 +6,7 @@
 //! up to 48 of the aircraft that are ready soon it also computes which choice they would prefer.
 
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
-use vertifleet_policy::{DayPrices, PricedChoice};
+use vertifleet_policy::{Choices, DayPrices, PricedChoice};
 use vertifleet_sim::{Decision, View};
 
 use crate::nn::Shape;
@@ -139,8 +139,10 @@ impl Writer {
             for &PricedChoice { to, .. } in listed {
                 row.nodes[to.at() * NODE_FEATURES] = 1.0;
             }
+            let choices = scene.prices.choices(scene.view, scene.decision);
             for (at, to) in row.nodes.chunks_exact_mut(NODE_FEATURES).enumerate() {
-                let node = node(scene, VertiportIx::new(at), best_usd, self.seen[at]);
+                let at = VertiportIx::new(at);
+                let node = node(scene, &choices, at, best_usd, self.seen[at.at()]);
                 for (to, value) in to[1..].iter_mut().zip(node) {
                     *to = value as f32;
                 }
@@ -198,8 +200,9 @@ impl Writer {
         let mut second_usd = f64::NEG_INFINITY;
         let known = view.known_closures();
         let is_open = |to: &VertiportIx| !known.is_closed(other.at, *to, other.time);
+        let choices = prices.choices(view, other);
         for to in view.feasible(other).iter().filter(is_open) {
-            let usd = prices.choice_usd(view, other, to);
+            let usd = choices.worth_usd(to);
             if usd > best.0 {
                 second_usd = best.0;
                 best = (usd, to);
@@ -246,7 +249,13 @@ fn aircraft(
 }
 
 /// The features of a vertiport, except for whether it is on the list.
-fn node(scene: Scene<'_>, to: VertiportIx, best_usd: f64, seen: Seen) -> [f64; NODE_FEATURES - 1] {
+fn node(
+    scene: Scene<'_>,
+    choices: &Choices<'_>,
+    to: VertiportIx,
+    best_usd: f64,
+    seen: Seen,
+) -> [f64; NODE_FEATURES - 1] {
     let Scene { view, decision, prices, unit_usd } = scene;
     let Decision { time, at: from, .. } = *decision;
     let kind = view.kind(decision.aircraft);
@@ -254,8 +263,7 @@ fn node(scene: Scene<'_>, to: VertiportIx, best_usd: f64, seen: Seen) -> [f64; N
     let possible = stays || view.within_range(kind, from).contains(to);
     let units = |usd: f64| usd / unit_usd;
     let ready = seen.ready;
-    let regret =
-        if possible { units(best_usd - prices.choice_usd(view, decision, to)) } else { 1.0 };
+    let regret = if possible { units(best_usd - choices.worth_usd(to)) } else { 1.0 };
     let (profit, waiting, passenger_usd) = if stays || !possible {
         (0.0, 0, 0.0)
     } else {

@@ -7,10 +7,10 @@ use vertifleet_policy::{DayPrices, Policy, PolicyError, PriceMemory, PricedChoic
 use vertifleet_sim::{Decision, View};
 
 use crate::gcaps_x::features::Scene;
-use crate::gcaps_x::rollouts::RolloutPlayer;
 use crate::gcaps_x::scorer::Scorer;
 use crate::model::Model;
 use crate::nn::{Architecture, Weights};
+use crate::rollouts::RolloutPlayer;
 
 /// Decides by the day's prices and by a network that scores the choices that are worth nearly as much as the best.
 pub struct GcapsX {
@@ -96,7 +96,7 @@ impl Policy for GcapsX {
         self.scored.extend(listed.iter().map(score));
         self.scored.sort_by(|one, other| other.worth_usd.total_cmp(&one.worth_usd));
         self.scored.truncate(*most_rolled_out);
-        Ok(rollouts.best(scorer, prices, *view, decision, &self.scored))
+        Ok(rollouts.best(scorer, scene, &self.scored))
     }
 
     fn choose_with_values(

@@ -13,16 +13,14 @@ use std::sync::Arc;
 use vertifleet_core::VertiportIx;
 use vertifleet_policy::{PricedChoice, Shortlist};
 
-use crate::gcaps_x::ROLLOUTS;
 use crate::gcaps_x::features::{Scene, Writer, shape};
 use crate::header::network;
 use crate::nn::{self, Architecture, Weights, Workspace};
+use crate::rollouts::{MOST_ROWS, Scores};
 use crate::rows::Rows;
 
 /// A logit of 1 is worth the unit divided by this.
 pub(crate) const LOGITS_A_UNIT: f64 = 20.0;
-/// Most rows that are scored at once: one decision of every roll-out of all choices.
-const BATCH: usize = Shortlist::MOST * ROLLOUTS.rollouts as usize;
 
 /// The network for one number of vertiports, with the workspace of its passes.
 pub(crate) struct Scorer {
@@ -30,7 +28,9 @@ pub(crate) struct Scorer {
     weights: Arc<Weights>,
     workspace: Workspace,
     writer: Writer,
-    pub(crate) rows: Rows,
+    rows: Rows,
+    /// The lists of roll-outs.
+    shortlist: Shortlist,
 }
 
 impl Scorer {
@@ -42,9 +42,16 @@ impl Scorer {
         vertiports: usize,
     ) -> Self {
         let net = network(architecture, vertiports);
-        let workspace = net.workspace(BATCH);
+        let workspace = net.workspace(MOST_ROWS);
         let rows = Rows::new(shape(vertiports), false);
-        Self { net, weights, workspace, writer: Writer::default(), rows }
+        Self {
+            net,
+            weights,
+            workspace,
+            writer: Writer::default(),
+            rows,
+            shortlist: Shortlist::default(),
+        }
     }
 
     pub(crate) fn vertiports(&self) -> usize {
@@ -68,16 +75,6 @@ impl Scorer {
         self.forward();
     }
 
-    /// Adds a decision to the rows.
-    pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) {
-        self.writer.push(scene, listed, &mut self.rows);
-    }
-
-    /// Scores all rows.
-    pub(crate) fn forward(&mut self) {
-        self.net.forward(&self.weights, self.rows.inputs(), &mut self.workspace);
-    }
-
     /// The choice with the highest worth in row 0.
     fn best_of_first_row(&self, addition_usd: f64, listed: &[PricedChoice]) -> VertiportIx {
         let mut best = (f64::NEG_INFINITY, listed[0].to);
@@ -90,9 +87,35 @@ impl Scorer {
         best.1
     }
 
-    /// The worth of a choice in a row of the latest [`forward`](Self::forward), dollars.
+    /// The worth of a choice in a row of the latest [`forward`](Scores::forward), dollars.
     pub(crate) fn worth_usd(&self, row: usize, addition_usd: f64, choice: PricedChoice) -> f64 {
         let logit = self.workspace.logits()[row * self.vertiports() + choice.to.at()];
         choice.worth_usd + f64::from(logit) / LOGITS_A_UNIT * addition_usd
+    }
+}
+
+impl Scores for Scorer {
+    fn list(&mut self, scene: Scene<'_>, listed: &mut Vec<PricedChoice>) {
+        listed.clear();
+        listed.extend(self.shortlist.rank(scene.prices, scene.view, scene.decision));
+    }
+
+    fn clear(&mut self, _vertiports: usize) {
+        self.rows.clear();
+    }
+
+    fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) {
+        self.writer.push(scene, listed, &mut self.rows);
+    }
+
+    fn forward(&mut self) {
+        self.net.forward(&self.weights, self.rows.inputs(), &mut self.workspace);
+    }
+
+    fn rate(&self, row: usize, scene: Scene<'_>, listed: &mut [PricedChoice]) {
+        let addition_usd = scene.addition_usd();
+        for choice in listed {
+            choice.worth_usd = self.worth_usd(row, addition_usd, *choice);
+        }
     }
 }

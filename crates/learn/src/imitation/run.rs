@@ -162,6 +162,11 @@ impl ImitationRun {
         Ok(fit)
     }
 
+    /// Whether the policy itself decides in the roll-outs of a round, which are counted from 0.
+    fn rolls_itself_out(&self, round: u32) -> bool {
+        round > 0 && round + self.settings.own_rounds >= self.settings.rounds
+    }
+
     fn rounds_done(&self) -> u32 {
         u32::try_from(self.curve.len()).expect("a run has few rounds")
     }
@@ -188,6 +193,7 @@ impl ImitationRun {
         let vertiports = day.vertiports.len();
         let policy = &self.identity.policy;
         let mut student = actor.map(|weights| Student::of(policy, weights, vertiports));
+        let is_own = self.rolls_itself_out(self.rounds_done());
         let share =
             f64::from(self.settings.samples) / (DECISIONS_AN_AIRCRAFT * day.aircraft.len() as f64);
         let (mut teacher, mut samples) =
@@ -204,7 +210,8 @@ impl ImitationRun {
             let bits = |what: u64| draw(what, day.seed, decision.index) >> 11;
             let chance = |what: u64| bits(what) as f64 / (1_u64 << 53) as f64;
             if listed.len() > 1 && chance(1) < share {
-                teacher.judge(scene, listed, &mut samples);
+                let by = student.as_mut().filter(|_| is_own);
+                teacher.judge(scene, listed, by, &mut samples);
             }
             let choice = if chance(2) < self.settings.exploration {
                 listed[((u128::from(bits(3)) * listed.len() as u128) >> 53) as usize].to

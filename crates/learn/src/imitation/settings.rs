@@ -19,6 +19,9 @@ pub struct ImitationSettings {
     /// About how many decisions of a day are rolled out; on a day with more decisions, a random share of them is.
     #[serde(default = "usual_samples")]
     pub samples: u32,
+    /// In so many of the last rounds, the policy itself decides in the roll-outs, and not the prices.
+    #[serde(default)]
+    pub own_rounds: u32,
     /// Number of passes over all samples so far in a round.
     pub passes: u32,
     /// Adam's step size; it falls in a straight line to a tenth over the run.
@@ -47,6 +50,7 @@ impl Default for ImitationSettings {
             days: 120,
             random_share: 0.4,
             samples: usual_samples(),
+            own_rounds: 0,
             passes: 12,
             learning_rate: 1e-3,
             entropy_weight: 1.0,
@@ -62,6 +66,7 @@ impl ImitationSettings {
         within("rounds", f64::from(self.rounds), 1.0, 10_000.0)?;
         within("days", f64::from(self.days), 1.0, 100_000.0)?;
         within("random_share", self.random_share, 0.0, 1.0)?;
+        within("own_rounds", f64::from(self.own_rounds), 0.0, 10_000.0)?;
         within("samples", f64::from(self.samples), 1.0, 1_000_000.0)?;
         within("passes", f64::from(self.passes), 1.0, 10_000.0)?;
         within("learning_rate", f64::from(self.learning_rate), 0.0, 1.0)?;

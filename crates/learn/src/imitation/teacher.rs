@@ -18,11 +18,15 @@ use crate::gcaps_x::scorer::Scorer;
 use crate::header::shape_of;
 use crate::imitation::dataset::{Judged, Samples};
 use crate::nn::{Architecture, Weights};
+use crate::rollouts::RolloutPlayer;
 use crate::rows::Rows;
 
 /// Judges decisions of days with one number of vertiports.
 pub(super) struct Teacher {
+    /// The settings of roll-outs, and what plays them: one by the prices, and one by the policy itself.
+    settings: RolloutSettings,
     evaluator: RolloutEvaluator,
+    player: RolloutPlayer,
     writer: Writer,
     judged: Vec<Judged>,
 }
@@ -52,16 +56,19 @@ impl Teacher {
         } else {
             Writer::Full(full::Writer::new(policy.adjacency()))
         };
-        let evaluator = RolloutEvaluator::new(settings);
-        (Self { evaluator, writer, judged: Vec::new() }, Samples::new(rows))
+        let evaluator = RolloutEvaluator::new(settings.clone());
+        let (player, judged) = (RolloutPlayer::default(), Vec::new());
+        (Self { settings, evaluator, player, writer, judged }, Samples::new(rows))
     }
 
-    /// Adds a decision, with what roll-outs say of its choices. `listed` is its shortlist. A decision with nothing at
-    /// stake teaches nothing and is left out.
+    /// Adds a decision, with what roll-outs say of its choices, in which `student` decides for every aircraft, or the
+    /// prices do if there is none. `listed` is its shortlist. A decision with nothing at stake teaches nothing and is
+    /// left out.
     pub(super) fn judge(
         &mut self,
         scene: Scene<'_>,
         listed: &[PricedChoice],
+        student: Option<&mut Student>,
         samples: &mut Samples,
     ) {
         let Scene { view, decision, prices, .. } = scene;
@@ -72,7 +79,11 @@ impl Teacher {
         if unit_usd <= 0.0 {
             return;
         }
-        let values_usd = self.evaluator.values_usd(prices, view, decision, listed);
+        let (player, settings) = (&mut self.player, &self.settings);
+        let values_usd = match student {
+            None => self.evaluator.values_usd(prices, view, decision, listed),
+            Some(student) => student.values_usd(player, settings, scene, listed),
+        };
         self.judged.clear();
         let rolled_out = listed.iter().zip(values_usd);
         self.judged.extend(rolled_out.map(|(&PricedChoice { worth_usd, to }, &value_usd)| {
@@ -117,6 +128,20 @@ impl Student {
             Self::Priced(Box::new(Scorer::new(policy, weights, vertiports)))
         } else {
             Self::Full(Box::new(FullPolicy::of(policy.clone(), weights)))
+        }
+    }
+
+    /// The value of each choice of a list if the policy decides for every aircraft afterwards, dollars.
+    fn values_usd<'player>(
+        &mut self,
+        player: &'player mut RolloutPlayer,
+        settings: &RolloutSettings,
+        scene: Scene<'_>,
+        listed: &[PricedChoice],
+    ) -> &'player [f64] {
+        match self {
+            Self::Priced(scorer) => player.values_usd(scorer.as_mut(), settings, scene, listed),
+            Self::Full(policy) => player.values_usd(policy.as_mut(), settings, scene, listed),
         }
     }
 

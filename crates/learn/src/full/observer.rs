@@ -1,0 +1,63 @@
+//! What `gcaps-full` and `mlp-full` see of a decision, for others to decide or to learn by.
+
+use vertifleet_sim::{Decision, View};
+
+use crate::full::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Scene, Writer};
+use crate::nn::Adjacency;
+use crate::rows::Rows;
+
+/// Shows decisions as policies of the full observation see them. It remembers the unit of money of the day that it showed
+/// last.
+#[derive(Debug, Clone)]
+pub struct FullObserver {
+    writer: Writer,
+    rows: Rows,
+}
+
+/// A decision as policies of the full observation see it.
+#[derive(Debug, Clone, Copy)]
+pub struct FullObservation<'a> {
+    /// The features of the vertiports, `[N][37]`. The first of each is 1 if the vertiport may be chosen.
+    pub nodes: &'a [f32],
+    /// The features of the aircraft, `[11]`.
+    pub aircraft: &'a [f32],
+    scene: Scene<'a>,
+}
+
+impl Default for FullObserver {
+    fn default() -> Self {
+        let writer = Writer::new(Adjacency::Complete);
+        Self { rows: writer.rows(0), writer }
+    }
+}
+
+impl FullObserver {
+    /// Number of features of a vertiport.
+    pub const NODE_FEATURES: usize = NODE_FEATURES;
+    /// Number of features of the deciding aircraft.
+    pub const AIRCRAFT_FEATURES: usize = AIRCRAFT_FEATURES;
+
+    /// Shows a decision.
+    pub fn observe<'a>(
+        &'a mut self,
+        view: View<'a>,
+        decision: &'a Decision,
+    ) -> FullObservation<'a> {
+        let Self { writer, rows } = self;
+        if rows.vertiports() != view.vertiports() {
+            *rows = writer.rows(view.vertiports());
+        }
+        rows.clear();
+        let scene = writer.push(view, decision, rows);
+        let inputs = rows.inputs();
+        FullObservation { nodes: inputs.nodes, aircraft: inputs.aircraft, scene }
+    }
+}
+
+impl FullObservation<'_> {
+    /// Writes the weights of the edges between vertiports, in the direction of flights, with a row of `stride` entries
+    /// for each vertiport that flights come from. Entries of pairs that are out of range stay as they are.
+    pub fn write_edges(&self, adjacency: Adjacency, stride: usize, edges: &mut [f32]) {
+        self.scene.write_edges(adjacency, stride, edges);
+    }
+}

@@ -1,0 +1,190 @@
+//! Roll-outs in which a learned policy decides for every aircraft. Each choice of a decision is played on several times,
+//! with what the policy thinks of all later choices perturbed by a little noise, the same for every choice that is
+//! compared. The value of a choice is the mean of what the fleet has earned by then and is worth from there on.
+//!
+//! `gcaps-x` decides by them if it is told to, and any policy that learns by imitation can learn from its own. All
+//! roll-outs advance side by side, one decision each at a time, so that the network scores them together.
+
+use vertifleet_core::{Time, VertiportIx};
+use vertifleet_policy::{DayPrices, PricedChoice, RolloutSettings, Shortlist, fleet_worth_usd};
+use vertifleet_sim::{Decision, Imagined};
+
+use crate::gcaps_x::ROLLOUTS;
+use crate::gcaps_x::features::Scene;
+
+/// Why a roll-out that the network scores always has a decision.
+const ASKED: &str = "rollouts that have come to their end are not asked";
+/// Most decisions that are scored at once: one of every roll-out of all choices, with the usual number of roll-outs.
+pub(crate) const MOST_ROWS: usize = Shortlist::MOST * ROLLOUTS.rollouts as usize;
+
+/// A learned policy that scores decisions of many roll-outs together.
+pub(crate) trait Scores {
+    /// Writes down the choices that it decides between.
+    fn list(&mut self, scene: Scene<'_>, listed: &mut Vec<PricedChoice>);
+    /// Forgets all rows, and makes ready for decisions of days with this many vertiports.
+    fn clear(&mut self, vertiports: usize);
+    /// Adds a decision between the choices of its list as a row; there are at most [`MOST_ROWS`].
+    fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice]);
+    /// Scores all rows.
+    fn forward(&mut self);
+    /// Sets what each choice of a row is worth, dollars. Only differences count.
+    fn rate(&self, row: usize, scene: Scene<'_>, listed: &mut [PricedChoice]);
+}
+
+/// The working memory of the roll-outs of a decision.
+#[derive(Default)]
+pub(crate) struct RolloutPlayer {
+    /// The roll-outs of all choices, choice by choice; those from index `used` on are kept for their allocations.
+    rollouts: Vec<Rollout>,
+    used: usize,
+    begun: Option<Imagined>,
+    /// The roll-out of each row of the scorer.
+    asked: Vec<usize>,
+    /// The result of each roll-out of a choice, and the value of each choice, dollars.
+    rollouts_usd: Vec<f64>,
+    values_usd: Vec<f64>,
+}
+
+/// A roll-out of one choice.
+struct Rollout {
+    /// Its number among the roll-outs of the same choice; number 0 has no noise.
+    number: u32,
+    simulation: Imagined,
+    /// The profit so far plus the worth of the fleet at the end of the roll-out; `None` until it gets there.
+    usd: Option<f64>,
+    /// The decision to be taken next, between the choices in `listed`.
+    next: Option<Decision>,
+    listed: Vec<PricedChoice>,
+}
+
+impl RolloutPlayer {
+    /// The value of each candidate if the policy decides for every aircraft afterwards, dollars. Candidates come with
+    /// their worth to the deciding aircraft alone.
+    pub(crate) fn values_usd(
+        &mut self,
+        scorer: &mut impl Scores,
+        settings: &RolloutSettings,
+        scene: Scene<'_>,
+        candidates: &[PricedChoice],
+    ) -> &[f64] {
+        let Scene { view, decision, prices, .. } = scene;
+        let until = decision.time + settings.horizon_s;
+        self.begin(scene, settings.rollouts, candidates);
+        loop {
+            scorer.clear(view.vertiports());
+            self.asked.clear();
+            for (at, rollout) in self.rollouts[..self.used].iter_mut().enumerate() {
+                if self.asked.len() < MOST_ROWS && rollout.go_on(scorer, prices, until) {
+                    scorer.push(rollout.scene(prices), &rollout.listed);
+                    self.asked.push(at);
+                }
+            }
+            if self.asked.is_empty() {
+                break;
+            }
+            scorer.forward();
+            for (row, &at) in self.asked.iter().enumerate() {
+                self.rollouts[at].follow(scorer, settings, prices, row);
+            }
+        }
+        self.values_usd.clear();
+        let rollouts = self.rollouts[..self.used].chunks_exact(settings.rollouts as usize);
+        for (candidate, rollouts) in candidates.iter().zip(rollouts) {
+            self.rollouts_usd.clear();
+            self.rollouts_usd.extend(rollouts.iter().filter_map(|rollout| rollout.usd));
+            self.values_usd.push(settings.value_usd(candidate.worth_usd, &self.rollouts_usd));
+        }
+        &self.values_usd
+    }
+
+    /// The candidate with the highest [value](Self::values_usd), the first of them if several are equal.
+    pub(crate) fn best(
+        &mut self,
+        scorer: &mut impl Scores,
+        scene: Scene<'_>,
+        candidates: &[PricedChoice],
+    ) -> VertiportIx {
+        let values_usd = self.values_usd(scorer, &ROLLOUTS, scene, candidates);
+        let mut best = (f64::NEG_INFINITY, scene.decision.at);
+        for (candidate, &value_usd) in candidates.iter().zip(values_usd) {
+            if value_usd > best.0 {
+                best = (value_usd, candidate.to);
+            }
+        }
+        best.1
+    }
+
+    /// Starts the roll-outs of all candidates.
+    fn begin(&mut self, scene: Scene<'_>, each: u32, candidates: &[PricedChoice]) {
+        self.used = 0;
+        for candidate in candidates {
+            let begun = scene.view.imagined_in(&mut self.begun);
+            begun.apply(candidate.to).expect("lists are of feasible choices");
+            for number in 0..each {
+                if let Some(rollout) = self.rollouts.get_mut(self.used) {
+                    rollout.simulation.clone_from(begun);
+                    (rollout.number, rollout.usd, rollout.next) = (number, None, None);
+                } else {
+                    let (simulation, listed) = (begun.clone(), Vec::new());
+                    self.rollouts.push(Rollout {
+                        number,
+                        simulation,
+                        usd: None,
+                        next: None,
+                        listed,
+                    });
+                }
+                self.used += 1;
+            }
+        }
+    }
+}
+
+impl Rollout {
+    /// Advances to the next decision between more than one choice; returns false at the end of the roll-out.
+    fn go_on(&mut self, scorer: &mut impl Scores, prices: &DayPrices, until: Time) -> bool {
+        if self.usd.is_some() {
+            return false;
+        }
+        let simulation = &mut self.simulation;
+        let mut worth_usd = 0.0;
+        while let Some(next) = simulation.next_decision() {
+            if next.time > until {
+                worth_usd = fleet_worth_usd(prices, simulation.view(), next.time);
+                break;
+            }
+            scorer.list(Scene::of(simulation.view(), &next, prices), &mut self.listed);
+            if let [only] = self.listed[..] {
+                simulation.apply(only.to).expect("lists are of feasible choices");
+                continue;
+            }
+            self.next = Some(next);
+            return true;
+        }
+        self.usd = Some(simulation.ledger().profit_usd() + worth_usd);
+        self.next = None;
+        false
+    }
+
+    /// The decision to be taken next.
+    fn scene<'a>(&'a self, prices: &'a DayPrices) -> Scene<'a> {
+        Scene::of(self.simulation.view(), self.next.as_ref().expect(ASKED), prices)
+    }
+
+    /// Takes the choice that a row of the scorer gives.
+    fn follow(
+        &mut self,
+        scorer: &impl Scores,
+        settings: &RolloutSettings,
+        prices: &DayPrices,
+        row: usize,
+    ) {
+        let mut listed = std::mem::take(&mut self.listed);
+        scorer.rate(row, self.scene(prices), &mut listed);
+        let decision = self.next.as_ref().expect(ASKED);
+        let rated = listed.iter().copied();
+        let choice = settings.perturbed_best(prices, decision, self.number, rated);
+        self.simulation.apply(choice).expect("lists are of feasible choices");
+        self.listed = listed;
+    }
+}
