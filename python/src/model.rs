@@ -90,24 +90,36 @@ impl Model {
     /// The logits [B, N], minus infinity where the mask is 0, and the values [B] of a batch of decisions, as the policy
     /// in Rust computes them. The inputs `nodes` [B, N * F] or [B, N, F], `aircraft` [B, G], `mask` [B, N] and `clock`
     /// [B] or [B, 1], which is the share of the day that is left, are the same as in the observations of the vector
-    /// environment. For gcaps-x this is the output of the layers alone, without the day's prices.
+    /// environment. `edges` [B, N, N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones.
+    /// For gcaps-x this is the output of the layers alone, without the day's prices.
+    #[pyo3(signature = (nodes, aircraft, mask, clock, edges = None))]
     fn forward<'py>(
         &self,
         nodes: &Bound<'py, PyAny>,
         aircraft: &Bound<'py, PyAny>,
         mask: &Bound<'py, PyAny>,
         clock: &Bound<'py, PyAny>,
+        edges: Option<&Bound<'py, PyAny>>,
     ) -> Reduced<'py, Bound<'py, PyAny>> {
         let py = nodes.py();
         let [batch, vertiports] = sizes(mask)?;
         // No network has more vertiports.
         let net = self.model.net(vertiports.clamp(1, 256));
         let shape = net.shape();
-        if self.model.header().policy.adjacency().is_observed() {
-            let rule = "these weights need edges, which forward does not take; decide with them as a policy";
-            return Err(Failure::argument(rule.to_owned()).into());
-        }
         let (size, features) = (shape.vertiports, shape.node_features);
+        let edges = match (edges, self.model.header().policy.adjacency().is_observed()) {
+            (Some(edges), true) => entries("edges", edges, [batch, size * size])?,
+            (None, false) => Vec::new(),
+            (None, true) => {
+                let rule = "these weights need edges".to_owned();
+                let hint = "they come with the observation of an environment";
+                return Err(Failure::hinted(rule, hint.to_owned()).into());
+            }
+            (Some(_), false) => {
+                let rule = "these weights read no edges: leave them out";
+                return Err(Failure::argument(rule.to_owned()).into());
+            }
+        };
         let nodes = entries("nodes", nodes, [batch, size * features])?;
         let aircraft = entries("aircraft", aircraft, [batch, shape.aircraft_features])?;
         let clock = entries("clock", clock, [batch, 1])?;
@@ -118,7 +130,7 @@ impl Model {
             nodes: &nodes,
             aircraft: &aircraft,
             mask: &mask,
-            edges: &[],
+            edges: &edges,
             clock: &clock,
         };
         let space = py.detach(|| pass(&net, &self.model.weights(), inputs));

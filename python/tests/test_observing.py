@@ -40,7 +40,9 @@ def test_every_variant_is_a_gymnasium_environment(variant: str) -> None:
     assert env.observation_space.contains(observation)
 
 
-@pytest.mark.parametrize("observation", ["paper", "full", "gcaps-x", ["demand_left", "fleet_ready"]])
+@pytest.mark.parametrize(
+    "observation", ["paper", "full", "gcaps-x", "gcaps-full", ["demand_left", "fleet_ready"]]
+)
 def test_a_batch_shows_what_single_environments_show(observation: Any) -> None:
     batch = FleetVectorEnv(3, "disrupted", observation=observation, threads=2)
     alone = [FleetEnv("disrupted", observation=observation) for _ in range(3)]

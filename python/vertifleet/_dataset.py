@@ -146,7 +146,8 @@ def dataset(
         policy: a name as in ``vertifleet simulate``, a model, or a policy of your own as in `evaluate`.
         days: number of days.
         network: what the days are drawn from, as an environment takes it.
-        observation: what is kept of each decision: "paper", "full", "gcaps-x", or a list of parts.
+        observation: what is kept of each decision: "paper", "full", "gcaps-x", "gcaps-full", or a list of
+            parts.
         split: whose days are drawn: "training", "validation" or "comparison".
         first: number of the first day; other numbers are other days.
         values: whether to keep what the policy compares choices by, which takes longer.

@@ -393,13 +393,19 @@ class Model:
     def tensors(self) -> dict[str, _Float32]:
         """Copies of the tensors by name."""
     def forward(
-        self, nodes: ArrayLike, aircraft: ArrayLike, mask: ArrayLike, clock: ArrayLike
+        self,
+        nodes: ArrayLike,
+        aircraft: ArrayLike,
+        mask: ArrayLike,
+        clock: ArrayLike,
+        edges: ArrayLike | None = None,
     ) -> tuple[_Float32, _Float32]:
         """The logits [B, N], minus infinity where the mask is 0, and the values [B] of a batch of
         decisions, as the policy in Rust computes them. The inputs `nodes` [B, N * F] or [B, N, F],
         `aircraft` [B, G], `mask` [B, N] and `clock` [B] or [B, 1], which is the share of the day that
-        is left, are the same as in the observations of the vector environment. For gcaps-x this is the
-        output of the layers alone, without the day's prices.
+        is left, are the same as in the observations of the vector environment. `edges` [B, N, N] or [B,
+        N * N] are the weights of edges, if the weights' graph has observed ones. For gcaps-x this is
+        the output of the layers alone, without the day's prices.
         """
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...

@@ -10,6 +10,7 @@ pub struct Layout {
     parts: Vec<Placed>,
     width: usize,
     is_priced: bool,
+    is_of_the_full: bool,
 }
 
 /// A part and its place in a row.
@@ -33,8 +34,9 @@ impl Layout {
             Placed { part, first, len }
         };
         let parts: Vec<Placed> = parts.into_iter().map(place).collect();
-        let is_priced = parts.iter().any(|placed| placed.part.is_priced());
-        Self { sizes, parts, width, is_priced }
+        let has = |kind: fn(Part) -> bool| parts.iter().any(|placed| kind(placed.part));
+        let (is_priced, is_of_the_full) = (has(Part::is_priced), has(Part::is_of_the_full));
+        Self { sizes, parts, width, is_priced, is_of_the_full }
     }
 
     /// Number of entries of a row.
@@ -60,11 +62,12 @@ impl Layout {
     pub fn write(&self, row: &mut [f32], scene: &Scene<'_>, observer: &mut Observer) {
         assert_eq!(row.len(), self.width, "a row has the layout's width");
         row.fill(0.0);
-        let Observer { scales, priced } = observer;
-        // A day that is over has no more prices.
-        let priced =
-            (self.is_priced && !scene.over).then(|| priced.observe(scene.view, scene.decision));
-        let writer = Writer { scene, sizes: self.sizes, scales, priced, natural: false };
+        let Observer { scales, priced, full } = observer;
+        let Scene { view, decision, over, .. } = *scene;
+        // A day that is over has no more prices, and nothing is left to decide.
+        let priced = (self.is_priced && !over).then(|| priced.observe(view, decision));
+        let full = (self.is_of_the_full && !over).then(|| full.observe(view, decision));
+        let writer = Writer { scene, sizes: self.sizes, scales, priced, full, natural: false };
         for &Placed { part, first, len } in &self.parts {
             writer.write(part, &mut row[first..first + len]);
         }
@@ -80,6 +83,7 @@ pub fn write_in_units(part: Part, to: &mut [f32], scene: &Scene<'_>, observer: &
     let sizes = scene.sizes();
     assert_eq!(to.len(), part.len(sizes), "the array has the part's length");
     to.fill(0.0);
-    let writer = Writer { scene, sizes, scales: &observer.scales, priced: None, natural: true };
+    let scales = &observer.scales;
+    let writer = Writer { scene, sizes, scales, priced: None, full: None, natural: true };
     writer.write(part, to);
 }

@@ -44,6 +44,6 @@ mod write;
 pub use layout::{Layout, Placed, write_in_units};
 pub use observer::Observer;
 pub use part::{Axis, Info, Part};
-pub use preset::preset;
+pub use preset::{PRESETS, preset};
 pub use scene::Scene;
 pub use sizes::Sizes;

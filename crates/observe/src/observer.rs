@@ -1,27 +1,37 @@
 //! What the observations of a day need beside the day itself.
 
 use vertifleet_core::{FeatureScales, Network};
-use vertifleet_learn::{PricedObserver, Scales};
+use vertifleet_learn::{FullObserver, PricedObserver, Scales};
 
-/// The scales of a day's network, which divide the paper's parts, and the memory of its bid prices, which parts that
-/// show prices need. Days that are played side by side should have an observer each.
+/// The scales of a day's network, which divide the paper's parts, the memory of its bid prices, which parts that show
+/// prices need, and that of its unit of money, which parts of the full observation need. Days that are played side by
+/// side should have an observer each.
 #[derive(Debug, Clone)]
 pub struct Observer {
     pub(crate) scales: Scales,
     pub(crate) priced: PricedObserver,
+    pub(crate) full: FullObserver,
 }
 
 impl Observer {
     /// An observer of the days of a network.
     pub fn of(network: &Network) -> Self {
-        Self { scales: Scales::from(network.feature_scales()), priced: PricedObserver::default() }
+        Self::scaled(network.feature_scales())
+    }
+
+    fn scaled(scales: FeatureScales) -> Self {
+        Self {
+            scales: Scales::from(scales),
+            priced: PricedObserver::default(),
+            full: FullObserver::default(),
+        }
     }
 }
 
 impl Default for Observer {
     /// An observer without a network: the paper's parts stay in their units.
     fn default() -> Self {
-        let scales = FeatureScales {
+        Self::scaled(FeatureScales {
             stands: 1.0,
             passengers: 1.0,
             fare_usd: 1.0,
@@ -29,7 +39,6 @@ impl Default for Observer {
             energy_price_usd: 1.0,
             battery_kwh: 1.0,
             power_kw: 1.0,
-        };
-        Self { scales: Scales::from(scales), priced: PricedObserver::default() }
+        })
     }
 }

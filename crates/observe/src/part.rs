@@ -68,6 +68,10 @@ pub enum Part {
     PricedNodes,
     PricedAircraft,
     PricedWorth,
+    FullNodes,
+    FullAircraft,
+    DistanceEdges,
+    ProfitEdges,
 }
 
 /// What a part is.
@@ -124,7 +128,7 @@ const FLEET: &[Axis] = &[Axis::Aircraft];
 
 /// All parts, in the order of [`Part`].
 #[rustfmt::skip]
-const INFOS: [Info; 42] = [
+const INFOS: [Info; 46] = [
     info(Part::ActionMask, ("action_mask", Some("action_mask")), V, NONE, SHARE,
         "1 for each feasible choice; the deciding aircraft's own vertiport is hold"),
     info(Part::VertiportMask, ("vertiport_mask", None), V, NONE, SHARE,
@@ -209,6 +213,14 @@ const INFOS: [Info; 42] = [
         "the aircraft features of gcaps-x"),
     info(Part::PricedWorth, ("priced_worth", None), V, NONE, ANY,
         "worth of each choice of the shortlist at the bid prices, less that of the best, in the unit of gcaps-x's logits; 0 elsewhere"),
+    info(Part::FullNodes, ("full_nodes", None), &[Axis::Vertiports, Axis::Of(37)], NONE, ANY,
+        "the node features of gcaps-full and mlp-full; the first is 1 for each feasible choice"),
+    info(Part::FullAircraft, ("full_aircraft", None), &[Axis::Of(11)], NONE, ANY,
+        "the aircraft features of gcaps-full and mlp-full"),
+    info(Part::DistanceEdges, ("distance_edges", None), PAIR, NONE, SHARE,
+        "1 / (1 + hours of flight), for the deciding aircraft's type; 0 out of range"),
+    info(Part::ProfitEdges, ("profit_edges", None), PAIR, NONE, (0.0, 3.0),
+        "profit per hour of a flight that begins now, in typical full flights, at most 3; 0 where it costs, or cannot be flown now"),
 ];
 
 impl Part {
@@ -247,6 +259,21 @@ impl Part {
         matches!(self, Self::PricedNodes | Self::PricedAircraft | Self::PricedWorth)
     }
 
+    /// Whether the part is what policies of the full observation see.
+    pub fn is_of_the_full(self) -> bool {
+        matches!(
+            self,
+            Self::FullNodes | Self::FullAircraft | Self::DistanceEdges | Self::ProfitEdges
+        )
+    }
+
+    /// Whether the part is what a learned policy makes of the other parts.
+    pub fn is_of_a_policy(self) -> bool {
+        let of_the_paper =
+            matches!(self, Self::Nodes | Self::Aircraft | Self::Clock | Self::Adjacency);
+        of_the_paper || self.is_priced() || self.is_of_the_full()
+    }
+
     /// Whether the part's array has the shape of one network, and cannot be padded to that of a larger one.
     pub fn is_of_one_size(self) -> bool {
         matches!(self, Self::Nodes | Self::Aircraft)
@@ -257,7 +284,11 @@ impl Part {
         self.is_priced()
             || matches!(
                 self,
-                Self::DemandNext | Self::FareNext | Self::ClosedAhead | Self::EnergyPrice
+                Self::DemandNext
+                    | Self::FareNext
+                    | Self::ClosedAhead
+                    | Self::EnergyPrice
+                    | Self::FullNodes
             )
     }
 }

@@ -2,18 +2,29 @@
 
 use crate::Part;
 
-/// The parts of a named observation: `paper` (§IV.A), `full` (everything that may be seen and needs no bid prices) or
-/// `gcaps-x` (what that policy sees); `None` for other names. All of them have the mask.
+/// The names of the observations.
+pub const PRESETS: [&str; 4] = ["paper", "full", "gcaps-x", "gcaps-full"];
+
+/// The parts of a named observation: `paper` (§IV.A), `full` (everything that may be seen and needs no bid prices),
+/// `gcaps-x` (what that policy sees) or `gcaps-full` (what that policy and `mlp-full` see on the complete graph); `None`
+/// for other names. All of them have the mask.
 pub fn preset(name: &str) -> Option<Vec<Part>> {
-    let paper = [Part::Nodes, Part::Aircraft, Part::Clock, Part::Adjacency];
-    match name {
-        "paper" => Some(paper.into_iter().chain([Part::ActionMask]).collect()),
-        "full" => {
-            Some(Part::all().filter(|part| !paper.contains(part) && !part.is_priced()).collect())
+    let parts = match name {
+        "paper" => {
+            vec![Part::Nodes, Part::Aircraft, Part::Clock, Part::Adjacency, Part::ActionMask]
         }
+        "full" => Part::all().filter(|part| !part.is_of_a_policy()).collect(),
         "gcaps-x" => {
-            Some(vec![Part::PricedNodes, Part::PricedAircraft, Part::PricedWorth, Part::ActionMask])
+            vec![Part::PricedNodes, Part::PricedAircraft, Part::PricedWorth, Part::ActionMask]
         }
-        _ => None,
-    }
+        "gcaps-full" => vec![
+            Part::FullNodes,
+            Part::FullAircraft,
+            Part::Clock,
+            Part::VertiportMask,
+            Part::ActionMask,
+        ],
+        _ => return None,
+    };
+    Some(parts)
 }

@@ -1,7 +1,8 @@
 //! Writes each part from what is seen of the day.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
-use vertifleet_learn::{PricedObservation, PricedObserver, Scales};
+use vertifleet_learn::nn::Adjacency;
+use vertifleet_learn::{FullObservation, FullObserver, PricedObservation, PricedObserver, Scales};
 use vertifleet_sim::Leg;
 
 use crate::pairs::Pairs;
@@ -20,6 +21,8 @@ pub(crate) struct Writer<'a> {
     pub(crate) scales: &'a Scales,
     /// The decision at the day's bid prices, if a part needs them and the day is not over.
     pub(crate) priced: Option<PricedObservation<'a>>,
+    /// The decision as policies of the full observation see it, if a part needs that and the day is not over.
+    pub(crate) full: Option<FullObservation<'a>>,
     /// Whether numbers stay in their units, instead of being divided by their scales.
     pub(crate) natural: bool,
 }
@@ -79,6 +82,10 @@ impl Writer<'_> {
             Part::PricedNodes => copied(to, self.priced.map(|priced| priced.nodes)),
             Part::PricedAircraft => copied(to, self.priced.map(|priced| priced.aircraft)),
             Part::PricedWorth => copied(to, self.priced.map(|priced| priced.worth)),
+            Part::FullNodes => copied(to, self.full.map(|full| full.nodes)),
+            Part::FullAircraft => copied(to, self.full.map(|full| full.aircraft)),
+            Part::DistanceEdges => self.edges(to, Adjacency::Distance),
+            Part::ProfitEdges => self.edges(to, Adjacency::Profit),
         }
     }
 
@@ -157,6 +164,12 @@ impl Writer<'_> {
         }
     }
 
+    fn edges(&self, to: &mut [f32], adjacency: Adjacency) {
+        if let Some(full) = self.full {
+            full.write_edges(adjacency, self.sizes.vertiports, to);
+        }
+    }
+
     fn closed_ahead(&self, to: &mut [f32]) {
         let view = self.scene.view;
         let known = view.known_closures();
@@ -200,7 +213,7 @@ impl Writer<'_> {
     }
 }
 
-/// Copies the numbers of a priced observation, if there is one.
+/// Copies the numbers that a policy sees, if there are any.
 fn copied(to: &mut [f32], numbers: Option<&[f32]>) {
     if let Some(numbers) = numbers {
         to[..numbers.len()].copy_from_slice(numbers);
@@ -226,3 +239,4 @@ fn scaled(to: &mut [f32], from: &[f64], factor: f64) {
 
 const _: () =
     assert!(PricedObserver::NODE_FEATURES == 24 && PricedObserver::AIRCRAFT_FEATURES == 10);
+const _: () = assert!(FullObserver::NODE_FEATURES == 37 && FullObserver::AIRCRAFT_FEATURES == 11);

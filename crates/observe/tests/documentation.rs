@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use vertifleet_observe::{Axis, Part, preset};
+use vertifleet_observe::{Axis, PRESETS, Part, preset};
 
 fn shape(axes: &[Axis]) -> String {
     let names = axes.iter().map(|axis| match axis {
@@ -26,8 +26,7 @@ fn table() -> String {
     );
     for part in Part::all() {
         let info = part.info();
-        let shown = ["paper", "full", "gcaps-x"];
-        let shown = shown
+        let shown = PRESETS
             .into_iter()
             .filter(|name| preset(name).expect("an observation of ours").contains(&part));
         writeln!(

@@ -94,6 +94,7 @@ fn check_against_the_view(layout: &Layout, row: &[f32], view: View<'_>, decision
             assert_eq!(get(Part::ClosedAhead)[4 * at + 1], f32::from(soon));
         }
     }
+    check_the_full(get, view, decision, stride);
     for aircraft in AircraftIx::all(view.places().len()) {
         let at = aircraft.at();
         assert_eq!(get(Part::FleetPlace)[at * stride + view.places()[at].at()], 1.0);
@@ -105,6 +106,40 @@ fn check_against_the_view(layout: &Layout, row: &[f32], view: View<'_>, decision
     }
     assert_eq!(get(Part::FleetPlace).iter().sum::<f32>(), view.places().len() as f32);
     assert_eq!(get(Part::FleetMask).iter().sum::<f32>(), view.places().len() as f32);
+}
+
+/// What policies of the full observation see, against the other parts.
+fn check_the_full<'a>(
+    get: impl Fn(Part) -> &'a [f32],
+    view: View<'_>,
+    decision: &Decision,
+    stride: usize,
+) {
+    let here = decision.at.at();
+    for (to, node) in get(Part::FullNodes).chunks_exact(37).enumerate() {
+        let [is_possible, is_own, is_in_range, _, _, profit_per_h] = node[..6] else {
+            panic!("a node has 37 features");
+        };
+        if to >= view.vertiports() {
+            assert!(node.iter().all(|&feature| feature == 0.0), "padding");
+            continue;
+        }
+        let at = here * stride + to;
+        assert_eq!(is_possible, get(Part::ActionMask)[to]);
+        assert_eq!(is_own, f32::from(to == here));
+        let distance = get(Part::DistanceEdges)[at];
+        let expected = if get(Part::Reachable)[at] == 1.0 {
+            assert!(is_in_range == 1.0, "what can be reached is in range");
+            1.0 / (1.0 + get(Part::FlightTime)[at])
+        } else {
+            0.0
+        };
+        assert!((distance - expected).abs() < 1e-6, "{distance}, {expected}");
+        let open = get(Part::Adjacency)[at] == 1.0 && to != here;
+        let expected = if open { profit_per_h.clamp(0.0, 3.0) } else { 0.0 };
+        let profit = get(Part::ProfitEdges)[at];
+        assert!((profit - expected).abs() < 1e-6, "{profit}, {expected}");
+    }
 }
 
 fn days() -> Vec<Arc<Scenario>> {
@@ -162,16 +197,19 @@ fn the_papers_parts_are_what_its_policies_see() {
 }
 
 #[test]
-fn a_row_takes_no_memory() {
+fn a_row_takes_no_memory_after_the_first_of_a_day() {
     let network = Network::shipped("disrupted").expect("a shipped network");
     let day = Arc::new(network.draw(DaySeed::training_number(1).expect("a number")));
     let parts = Part::all().filter(|part| !part.is_priced()).collect();
     let layout = Layout::new(parts, Sizes::of(&network));
     let mut row = vec![0.0; layout.width()];
     let mut observer = Observer::of(&network);
+    let mut rows = 0;
     play(&day, |view, decision| {
         let write = || layout.write(&mut row, &Scene::of(view, decision), &mut observer);
-        assert_eq!(allocation_counter::measure(write).count_total, 0);
+        let taken = allocation_counter::measure(write).count_total;
+        rows += 1;
+        assert!(taken == 0 || rows == 1, "the first row of a day may take memory, row {rows} did");
     });
 }
 

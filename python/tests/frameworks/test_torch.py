@@ -11,14 +11,17 @@ torch = pytest.importorskip("torch")
 
 from torch.nn.functional import layer_norm, relu  # noqa: E402
 
-from vertifleet.torch import Gcaps, GcapsX, Mlp, act, load, masked, scores  # noqa: E402
+from vertifleet.torch import Gcaps, GcapsFull, GcapsX, Mlp, MlpFull, act, load, masked, scores  # noqa: E402
 
 VERTIPORTS = 5
 SMALL = {
     "gcaps": lambda: Gcaps(VERTIPORTS, width=16, heads=4),
     "gcaps-x": lambda: GcapsX(width=16, heads=4),
+    "gcaps-full": lambda: GcapsFull(width=16, heads=4),
     "mlp": lambda: Mlp(VERTIPORTS, width=16, layers=2, value_width=8),
+    "mlp-full": lambda: MlpFull(VERTIPORTS, width=16, layers=2, value_width=8),
 }
+OF_ANY_SIZE, PLAIN = ("gcaps-x", "gcaps-full"), ("mlp", "mlp-full")
 GAIN_RELU, GAIN_LOGITS, GAIN_VALUE = math.sqrt(2), 0.01, 0.1
 
 
@@ -83,15 +86,16 @@ def mlp_to_the_letter(w, nodes, aircraft, clock):
     return x @ w["logits.weight"] + w["logits.bias"], values
 
 
-@pytest.mark.parametrize("kind", ["gcaps", "gcaps-x"])
+@pytest.mark.parametrize("kind", ["gcaps", *OF_ANY_SIZE])
 def test_gcaps_is_equations_18_to_21_to_the_letter(kind):
     twin = small(kind)
     expected = gcaps_to_the_letter(twin.state_dict(), 4, *inputs(twin))
     torch.testing.assert_close(twin(*inputs(twin)), expected, rtol=1e-9, atol=1e-9)
 
 
-def test_mlp_is_plain_layers_on_the_flattened_features():
-    twin = small("mlp")
+@pytest.mark.parametrize("kind", PLAIN)
+def test_mlp_is_plain_layers_on_the_flattened_features(kind):
+    twin = small(kind)
     expected = mlp_to_the_letter(twin.state_dict(), *inputs(twin))
     torch.testing.assert_close(twin(*inputs(twin)), expected, rtol=1e-9, atol=1e-9)
 
@@ -105,7 +109,7 @@ def test_features_may_come_flat_and_the_clock_as_a_column(kind):
     torch.testing.assert_close(twin(nodes.flatten(1), aircraft, clock[:, None]), expected)
 
 
-@pytest.mark.parametrize("kind", ["gcaps", "gcaps-x"])
+@pytest.mark.parametrize("kind", ["gcaps", *OF_ANY_SIZE])
 def test_gcaps_does_not_depend_on_the_order_of_the_vertiports(kind):
     twin = small(kind)
     nodes, aircraft, clock = inputs(twin)
@@ -115,8 +119,9 @@ def test_gcaps_does_not_depend_on_the_order_of_the_vertiports(kind):
     torch.testing.assert_close(moved, (logits[:, order], values))
 
 
-def test_gcaps_x_takes_any_number_of_vertiports():
-    twin = small("gcaps-x")
+@pytest.mark.parametrize("kind", OF_ANY_SIZE)
+def test_these_networks_take_any_number_of_vertiports(kind):
+    twin = small(kind)
     for vertiports in (1, 2, 30):
         logits, values = twin(*inputs(twin, vertiports=vertiports))
         assert logits.shape == (3, vertiports)
@@ -150,7 +155,7 @@ def test_the_gradient_is_that_of_the_letter(kind):
     letter = {name: weight.detach().clone().requires_grad_() for name, weight in twin.named_parameters()}
     data = inputs(twin)
     logits, values = (
-        mlp_to_the_letter(letter, *data) if kind == "mlp" else gcaps_to_the_letter(letter, 4, *data)
+        mlp_to_the_letter(letter, *data) if kind in PLAIN else gcaps_to_the_letter(letter, 4, *data)
     )
     (logits.sin().sum() + values.sum()).backward()
     for name, weight in twin.named_parameters():
@@ -273,10 +278,14 @@ def test_a_gpu_computes_the_same(kind):
 def test_sizes_may_be_numbers_of_numpy(kind):
     make = {"gcaps": lambda size: Gcaps(size(5), width=size(8), heads=size(2))}
     make["mlp"] = lambda size: Mlp(size(5), width=size(8), layers=size(1), value_width=size(4))
+    make["mlp-full"] = lambda size: MlpFull(size(5), width=size(8), layers=size(1), value_width=size(4))
     make["gcaps-x"] = lambda size: GcapsX(width=size(8), heads=size(2))
+    make["gcaps-full"] = lambda size: GcapsFull(width=size(8), heads=size(2), graph={"hops": size(1)})
     twin = make[kind](np.int64)
     assert twin.policy == make[kind](int).policy
-    assert all(type(size) is int for size in [*twin.sizes.values(), *twin.shape.values()] if size is not None)
+    sizes = [*twin.sizes.values(), *twin.shape.values()]
+    assert all(type(size) is int for size in sizes if size is not None and not isinstance(size, dict))
+    assert type(twin.sizes.get("graph", {"hops": 1})["hops"]) is int
 
 
 @pytest.mark.parametrize("size", [True, np.True_, 2.0, "2", None])
@@ -294,7 +303,8 @@ def shown(twin, *batch, vertiports=VERTIPORTS):
             "priced_aircraft": np.ones((*batch, 10), np.float32),
             "priced_worth": np.zeros((*batch, vertiports), np.float32),
         }
-    sizes = {"nodes": vertiports * twin.node_features, "aircraft": twin.aircraft_features, "clock": 1}
+    sizes = {f"{twin.features}nodes": vertiports * twin.node_features, "clock": 1}
+    sizes[f"{twin.features}aircraft"] = twin.aircraft_features
     return {name: np.ones((*batch, size), np.float32) for name, size in sizes.items()} | {
         "action_mask": np.ones((*batch, vertiports), np.float32)
     }
@@ -308,12 +318,12 @@ def test_a_twin_of_half_precision_decides_and_an_empty_batch_is_decided(kind):
     assert act(twin, shown(twin, 2)).dtype == np.int64
 
 
-@pytest.mark.parametrize("kind", ["gcaps", "mlp"])
+@pytest.mark.parametrize("kind", ["gcaps", *PLAIN])
 def test_nodes_of_another_number_of_vertiports_are_refused(kind):
     twin = small(kind)
     nodes, aircraft, clock = inputs(twin, vertiports=2 * VERTIPORTS)
     for wrong in (nodes, nodes.flatten(1)):
-        with pytest.raises(vertifleet.Error, match=r"nodes must be \[B, 5, 14\]") as refused:
+        with pytest.raises(vertifleet.Error, match=r"nodes must be \[B, 5, \d+\]") as refused:
             twin(wrong, aircraft, clock)
         assert refused.value.code == "V451"
 
@@ -333,12 +343,16 @@ def test_an_observation_that_does_not_fit_is_refused(kind, batch):
         }
     else:
         wrong |= {
-            "of another network": (shown(Gcaps(VERTIPORTS + 1), *batch), "must be"),
-            "without nodes": ({name: fits[name] for name in fits if name != "nodes"}, "lacks nodes"),
+            "without a mask": (
+                {name: fits[name] for name in fits if "mask" not in name},
+                "lacks action_mask",
+            ),
             "with a mask of others": (fits | {"action_mask": np.ones((*batch, 2))}, "action_mask must be"),
-            "with other aircraft": (fits | {"aircraft": np.ones((*batch, 3))}, "aircraft must be"),
+            "with other aircraft": (fits | {f"{twin.features}aircraft": np.ones((*batch, 3))}, "must be"),
             "with more clocks": (fits | {"clock": np.ones((*batch, 2))}, "clock must be"),
         }
+    if twin.vertiports:
+        wrong["of another network"] = (shown(twin, *batch, vertiports=VERTIPORTS + 1), "must be")
     for what, (observation, rule) in wrong.items():
         with pytest.raises(vertifleet.Error, match=rule) as refused:
             act(twin, observation)

@@ -15,6 +15,7 @@ VARIANTS = {
     "vertifleet/Fleet-paper-v0": "paper",
     "vertifleet/Fleet-full-v0": "full",
     "vertifleet/Fleet-gcaps-x-v0": "gcaps-x",
+    "vertifleet/Fleet-gcaps-full-v0": "gcaps-full",
 }
 """The registered environments, with what each shows."""
 

@@ -28,10 +28,10 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
     The action is the position of a vertiport; the aircraft's own vertiport means hold. An action that is not
     feasible holds, and sets ``info["invalid_action"]``. The mask of feasible actions is given as
     ``action_masks()`` (bool), ``info["action_mask"]`` (int8) and ``observation["action_mask"]`` (float32).
-    What is seen is `observation`: "paper" (§IV.A of the paper), "full", "gcaps-x", a list of parts, or an
-    `OwnObservation`. The reward of an episode is the day's profit over its potential: paid at the end
-    (``reward="terminal"``), or each flight's share when it is decided (``"dense"``). A function as `reward`
-    is called with the `View` of the decision and its `Outcome`, and pays what it returns.
+    What is seen is `observation`: "paper" (§IV.A of the paper), "full", "gcaps-x", "gcaps-full", a list of
+    parts, or an `OwnObservation`. The reward of an episode is the day's profit over its potential: paid at
+    the end (``reward="terminal"``), or each flight's share when it is decided (``"dense"``). A function as
+    `reward` is called with the `View` of the decision and its `Outcome`, and pays what it returns.
 
     `network` may be several networks, whose days come in turn, or "random" or "random-places:N", which draw a
     network for each day. Days of smaller networks leave the last entries of the arrays 0, which

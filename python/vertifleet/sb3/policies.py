@@ -56,7 +56,7 @@ class TwinExtractor(BaseFeaturesExtractor):
         sizes: sizes of its layers; by default those of the shipped weights.
     """
 
-    def __init__(self, observation_space: spaces.Dict, kind: type[Gcaps] | type[Mlp], **sizes: int) -> None:
+    def __init__(self, observation_space: spaces.Dict, kind: type[Gcaps] | type[Mlp], **sizes: Any) -> None:
         (vertiports,) = cast("tuple[int]", observation_space["action_mask"].shape)
         super().__init__(observation_space, features_dim=vertiports + 1)
         self.twin = of_sizes(kind, vertiports, sizes)

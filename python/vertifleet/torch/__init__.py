@@ -12,9 +12,24 @@ trained here, perhaps on a GPU, can be saved, and the program decides with them:
 
 from vertifleet.torch.acting import act, masked, scores
 from vertifleet.torch.decisions import Decisions
-from vertifleet.torch.gcaps import Gcaps, GcapsX
-from vertifleet.torch.mlp import Mlp
+from vertifleet.torch.gcaps import Gcaps, GcapsFull, GcapsX
+from vertifleet.torch.graph import Graph
+from vertifleet.torch.mlp import Mlp, MlpFull
 from vertifleet.torch.twin import Twin
 from vertifleet.torch.weights import load, save
 
-__all__ = ["Decisions", "Gcaps", "GcapsX", "Mlp", "Twin", "act", "load", "masked", "save", "scores"]
+__all__ = [
+    "Decisions",
+    "Gcaps",
+    "GcapsFull",
+    "GcapsX",
+    "Graph",
+    "Mlp",
+    "MlpFull",
+    "Twin",
+    "act",
+    "load",
+    "masked",
+    "save",
+    "scores",
+]

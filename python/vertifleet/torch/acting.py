@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import torch
 from torch import Tensor
+from torch.nn.functional import pad
 
 from vertifleet import Error
+from vertifleet.torch.graph import OBSERVED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -17,11 +19,12 @@ if TYPE_CHECKING:
 
     from vertifleet.torch.twin import Twin
 
-PRICED = "gcaps-x"
 READ = ("nodes", "aircraft", "clock", "action_mask")
-"""The entries of an observation that the networks of one size read."""
-READ_PRICED = ("priced_nodes", "priced_aircraft", "priced_worth")
-"""The entries that `GcapsX` reads."""
+"""The entries of the paper's observation that its networks read."""
+WORTH = "priced_worth"
+"""The entry that is added to the logits of `GcapsX`."""
+VERTIPORTS = "vertiport_mask"
+"""The entry that says which vertiports a day has, where the rest of the arrays is padding."""
 
 
 def masked(logits: Tensor, mask: Tensor) -> Tensor:
@@ -35,18 +38,49 @@ def scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
     For `GcapsX` this is the logit and the worth at the day's bid prices, of the choices of the shortlist; for
     the others it is the masked logit. It has gradients, so it is also what to train by.
 
+    Where an observation has "vertiport_mask", as "gcaps-full" does, a network that fits any number of
+    vertiports does not see the padding of days that have fewer.
+
     Args:
         twin: the network.
-        observation: a batch of observations: "gcaps-x" for `GcapsX`, "paper" for the others.
+        observation: a batch of observations, with the parts of `twin.reads`: "gcaps-x" has them for `GcapsX`,
+            "gcaps-full" for `GcapsFull` on the complete graph and `MlpFull`, "paper" for the others.
     """
-    if twin.kind != PRICED:
-        logits, _ = twin(observation["nodes"], observation["aircraft"], observation["clock"])
-        _check("action_mask", observation["action_mask"], logits.shape)
-        return masked(logits, observation["action_mask"])
-    nodes = observation["priced_nodes"]
-    logits, _ = twin(nodes, observation["priced_aircraft"], nodes.new_zeros(len(nodes)))
-    _check("priced_worth", observation["priced_worth"], logits.shape)
-    return masked(logits + observation["priced_worth"], nodes[..., 0])
+    if twin.vertiports is not None or VERTIPORTS not in observation:
+        return _scores(twin, observation)
+    counts = observation[VERTIPORTS].sum(dim=-1).long()
+    most = observation[VERTIPORTS].shape[-1]
+    known = sorted(set(counts.tolist()))
+    if known in ([], [most]):
+        return _scores(twin, observation)
+    found = []
+    for count in known:
+        rows = (counts == count).nonzero().squeeze(-1)
+        of_rows = {name: _cut(name, observation[name][rows], count) for name in twin.reads}
+        of_count = _scores(twin, of_rows)
+        found.append((rows, pad(of_count, (0, most - count), value=-torch.inf)))
+    order = torch.cat([rows for rows, _ in found]).argsort()
+    return torch.cat([part for _, part in found])[order]
+
+
+def _cut(name: str, entries: Tensor, count: int) -> Tensor:
+    """The entries of the first vertiports, which a day has; of pairs of them, if they are of edges."""
+    if name.endswith("aircraft") or name == "clock":
+        return entries
+    return entries[:, :count, :count] if name in OBSERVED.values() else entries[:, :count]
+
+
+def _scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
+    """The scores of observations without padding."""
+    nodes, aircraft = (observation[twin.features + part] for part in ("nodes", "aircraft"))
+    clock = observation["clock"] if "clock" in twin.reads else nodes.new_zeros(len(nodes))
+    edges = () if twin.edges is None else (observation[twin.edges],)
+    logits, _ = twin(nodes, aircraft, clock, *edges)
+    if WORTH in twin.reads:
+        _check(WORTH, observation[WORTH], logits.shape)
+        return masked(logits + observation[WORTH], nodes[..., 0])
+    _check("action_mask", observation["action_mask"], logits.shape)
+    return masked(logits, observation["action_mask"])
 
 
 def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np.int64]:
@@ -54,7 +88,8 @@ def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np
 
     Args:
         twin: the network.
-        observation: an observation: "gcaps-x" for `GcapsX`, "paper" for the others.
+        observation: an observation, with the parts of `twin.reads`: "gcaps-x" has them for `GcapsX`,
+            "gcaps-full" for `GcapsFull` on the complete graph and `MlpFull`, "paper" for the others.
 
     Returns:
         A vertiport for one observation, vertiports [B] for a batch of them.
@@ -62,20 +97,26 @@ def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np
     Raises:
         Error: V451 if the observation lacks what the network reads, or has other shapes.
     """
-    read = READ_PRICED if twin.kind == PRICED else READ
+    read = twin.reads
     missing = [name for name in read if name not in observation]
     if missing:
-        raise Error("V451", f"the observation lacks {', '.join(missing)}: {', '.join(read)} are read")
+        raise Error(
+            "V451",
+            f"the observation lacks {', '.join(missing)}: {', '.join(read)} are read",
+            "an environment with observation=twin.reads shows them",
+        )
     weight = next(twin.parameters())
-    one = np.ndim(observation[read[1]]) == 1
+    aircraft_name = f"{twin.features}aircraft"
+    one = np.ndim(observation[aircraft_name]) == 1
 
     def tensor(name: str) -> Tensor:
         entries = torch.as_tensor(observation[name], dtype=weight.dtype, device=weight.device)
         return entries.unsqueeze(0) if one else entries
 
-    tensors = {name: tensor(name) for name in read}
-    aircraft = tensors[read[1]]
-    _check(read[1], aircraft, [len(aircraft), twin.aircraft_features])
+    shown = [*read, VERTIPORTS] if VERTIPORTS in observation else read
+    tensors = {name: tensor(name) for name in shown}
+    aircraft = tensors[aircraft_name]
+    _check(aircraft_name, aircraft, [len(aircraft), twin.aircraft_features])
     if "clock" in tensors:
         _check("clock", tensors["clock"].reshape(-1), [len(aircraft)])
     with torch.inference_mode():

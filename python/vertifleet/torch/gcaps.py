@@ -1,19 +1,28 @@
 """GCAPS (§IV, Eq. 18-21, Table 3): graph-capsule encoder, attention decoder, and a value head beside it.
 
-P = 2, K = 2 and L_e = 1 are fixed. h is the embedding length, h_e the number of heads, d = h / h_e.
+h is the embedding length, h_e the number of heads, d = h / h_e. The encoder here is the paper's, with P = 2,
+K = 2 and L_e = 1 on the complete graph; a `Graph` chooses among those of `encoders.py`.
 """
 
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import torch
 from torch import Tensor, nn
 from torch.nn.functional import relu
 
 from vertifleet import Error
+from vertifleet.torch.encoders import AttentionEncoder, CapsuleEncoder
+from vertifleet.torch.graph import graph_of
 from vertifleet.torch.layers import BEFORE_RELU, LOGITS, LayerNorm, Linear, Matrix, ValueHead
-from vertifleet.torch.twin import Twin, check_size, paper_features
+from vertifleet.torch.twin import FULL_FEATURES, Twin, check_size, paper_features
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from vertifleet.torch.graph import Graph
 
 
 class Gcaps(Twin):
@@ -23,33 +32,52 @@ class Gcaps(Twin):
         vertiports: N.
         width: h, the embedding length.
         heads: h_e, the number of attention heads; it divides the width.
+        graph: what the network has between the vertiports, a `Graph` or its settings by name; by default the
+            paper's.
     """
 
     kind = "gcaps"
+    sees_edges: ClassVar[bool] = False
+    """Whether the policy's observation shows the weights of edges."""
 
-    def __init__(self, vertiports: int, width: int = 256, heads: int = 8) -> None:
+    def __init__(
+        self,
+        vertiports: int,
+        width: int = 256,
+        heads: int = 8,
+        graph: Graph | Mapping[str, Any] | None = None,
+    ) -> None:
         vertiports = check_size("vertiports", vertiports)
         node_features, aircraft_features = paper_features(vertiports)
         super().__init__(vertiports, node_features, aircraft_features)
-        self._add_layers(width, heads)
+        self._add_layers(width, heads, graph)
 
-    def _add_layers(self, width: int, heads: int) -> None:
+    def _add_layers(self, width: int, heads: int, graph: Graph | Mapping[str, Any] | None) -> None:
         width, heads = check_size("width", width), check_size("heads", heads)
         if width % heads:
             raise Error("V451", f"width must be a multiple of heads ({heads}), found {width}")
-        self.width, self.heads = width, heads
-        self.encoder = Encoder(self.node_features, width)
-        self.decoder = Decoder(self.aircraft_features, width, heads)
+        self.width, self.heads, self.graph = width, heads, graph_of(graph)
+        self.edges = self.graph.edges
+        if self.edges and not self.sees_edges:
+            raise Error(
+                "V451", f"the observation of {self.kind} shows no flights between two other vertiports"
+            )
+        self.encoder = encoder_of(self.node_features, width, heads, self.graph)
+        self.decoder = Decoder(self.aircraft_features, width, heads, attention=self.graph.attention)
         self.value = ValueHead(width, width, means_width=width)
 
     @property
-    def sizes(self) -> dict[str, int]:
-        """The embedding length and the number of heads."""
-        return {"width": self.width, "heads": self.heads}
+    def sizes(self) -> dict[str, Any]:
+        """The embedding length, the number of heads, and the graph if it is not the paper's."""
+        sizes: dict[str, Any] = {"width": self.width, "heads": self.heads}
+        return sizes if self.graph.is_of_the_paper else sizes | {"graph": self.graph.members}
 
-    def forward(self, nodes: Tensor, aircraft: Tensor, clock: Tensor) -> tuple[Tensor, Tensor]:
+    def forward(
+        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None = None
+    ) -> tuple[Tensor, Tensor]:
         """Logits [B, N], not masked, and values [B]."""
-        embeddings = self.encoder(self.by_node(nodes))
+        nodes = self.by_node(nodes)
+        embeddings = self.encoder(nodes, self.by_edge(edges, nodes))
         logits, y = self.decoder(embeddings, aircraft)
         return logits, self.value(y, clock, embeddings.mean(dim=1))
 
@@ -57,15 +85,49 @@ class Gcaps(Twin):
 class GcapsX(Gcaps):
     """The layers of :class:`Gcaps` on features whose number does not grow with the network.
 
-    So its weights fit any number of vertiports. The features are the program's own (the environments have
-    those of the paper), and the program adds the logits to the worths of choices at the day's prices.
+    So its weights fit any number of vertiports. The features are those of the observation "gcaps-x", and the
+    program adds the logits to the worths of choices at the day's prices.
     """
 
     kind = "gcaps-x"
+    features = "priced_"
 
-    def __init__(self, width: int = 32, heads: int = 4) -> None:
+    def __init__(
+        self, width: int = 32, heads: int = 4, graph: Graph | Mapping[str, Any] | None = None
+    ) -> None:
         Twin.__init__(self, None, node_features=24, aircraft_features=10)
-        self._add_layers(width, heads)
+        self._add_layers(width, heads, graph)
+
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """The parts of an observation that the network decides by."""
+        return ("priced_nodes", "priced_aircraft", "priced_worth")
+
+
+class GcapsFull(Gcaps):
+    """The layers of :class:`Gcaps` on the observation "gcaps-full", which needs no bid prices.
+
+    Its weights fit any number of vertiports, and it is the only network that sees the weights of edges.
+    """
+
+    kind = "gcaps-full"
+    features = "full_"
+    sees_edges = True
+
+    def __init__(
+        self, width: int = 64, heads: int = 4, graph: Graph | Mapping[str, Any] | None = None
+    ) -> None:
+        Twin.__init__(self, None, *FULL_FEATURES)
+        self._add_layers(width, heads, graph)
+
+
+def encoder_of(features: int, width: int, heads: int, graph: Graph) -> nn.Module:
+    """The encoder of a graph, from the features of nodes."""
+    if graph.encoder_is_of_the_paper:
+        return Encoder(features, width)
+    if graph.encoder == "transformer":
+        return AttentionEncoder(features, width, heads, graph.layers)
+    return CapsuleEncoder(features, width, graph)
 
 
 class Encoder(nn.Module):
@@ -78,8 +140,8 @@ class Encoder(nn.Module):
         self.moment_2 = Hops(width)
         self.feed_forward = Linear(2 * width, width)
 
-    def forward(self, nodes: Tensor) -> Tensor:
-        """[B, N, F] -> [B, N, h]."""
+    def forward(self, nodes: Tensor, edges: Tensor | None) -> Tensor:  # noqa: ARG002
+        """[B, N, F] -> [B, N, h]; on the complete graph there are no edges to see."""
         f_0 = self.node(nodes)  # F_0i = δ_i W_0 + b_0
         f_1 = self.moment_1(f_0)  # Eq. 18 with p = 1
         f_2 = self.moment_2(f_0 * f_0)  # Eq. 18 with p = 2
@@ -120,11 +182,13 @@ class Decoder(nn.Module):
         z = LayerNorm(q + MHA(q, E))
         y = LayerNorm(z + ReLU(z W_1 + b_1))
         logit_i = (y W_L) · E_i / sqrt(h)
+
+    Without attention, every head collects the mean of the embeddings in place of MHA(q, E).
     """
 
-    def __init__(self, features: int, width: int, heads: int) -> None:
+    def __init__(self, features: int, width: int, heads: int, *, attention: bool) -> None:
         super().__init__()
-        self.heads = heads
+        self.heads, self.attention = heads, attention
         self.query = Linear(features, width)
         self.key = Matrix(width, width)
         self.value = Matrix(width, width)
@@ -150,6 +214,9 @@ class Decoder(nn.Module):
         brought to the embeddings' side, ``q · (E_i W_K) = (W_K q) · E_i``, and W_V is applied to what its
         attention collects.
         """
+        if not self.attention:
+            mean: Tensor = self.output(self.value(embeddings.mean(dim=1)))
+            return mean
         batch, width = q.shape
         of_heads = (width, self.heads, width // self.heads)  # h x h_e x d
         queries = torch.einsum("bed,hed->beh", q.view(batch, *of_heads[1:]), self.key.weight.view(of_heads))

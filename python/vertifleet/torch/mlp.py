@@ -1,4 +1,7 @@
-"""The paper's baseline (§V.B): plain layers on the flattened features, with the same mask and value head."""
+"""The paper's baseline (§V.B): plain layers on the flattened features, with the same mask and value head.
+
+`MlpFull` has the same layers on the full observation.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from torch import Tensor, nn
 from torch.nn.functional import relu
 
 from vertifleet.torch.layers import BEFORE_RELU, LOGITS, Linear, ValueHead
-from vertifleet.torch.twin import Twin, check_size, paper_features
+from vertifleet.torch.twin import FULL_FEATURES, Twin, check_size, paper_features
 
 MOST_LAYERS = 16
 
@@ -28,10 +31,14 @@ class Mlp(Twin):
         vertiports = check_size("vertiports", vertiports)
         node_features, aircraft_features = paper_features(vertiports)
         super().__init__(vertiports, node_features, aircraft_features)
+        self._add_layers(vertiports, width, layers, value_width)
+
+    def _add_layers(self, vertiports: int, width: int, layers: int, value_width: int) -> None:
         self.width = width = check_size("width", width)
         self.layers = layers = check_size("layers", layers, MOST_LAYERS)
         self.value_width = value_width = check_size("value_width", value_width)
-        inputs = [vertiports * node_features + aircraft_features] + (layers - 1) * [width]
+        of_all = vertiports * self.node_features + self.aircraft_features
+        inputs = [of_all] + (layers - 1) * [width]
         self.trunk = nn.ModuleDict(
             {str(layer): Linear(count, width, BEFORE_RELU) for layer, count in enumerate(inputs, start=1)}
         )
@@ -43,9 +50,32 @@ class Mlp(Twin):
         """Width and number of the layers, and the width of the value head."""
         return {"width": self.width, "layers": self.layers, "value_width": self.value_width}
 
-    def forward(self, nodes: Tensor, aircraft: Tensor, clock: Tensor) -> tuple[Tensor, Tensor]:
-        """Logits [B, N], not masked, and values [B]."""
-        x = torch.cat([self.by_node(nodes).flatten(start_dim=1), aircraft], dim=-1)
+    def forward(
+        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None = None
+    ) -> tuple[Tensor, Tensor]:
+        """Logits [B, N], not masked, and values [B]; there are no edges."""
+        nodes = self.by_node(nodes)
+        self.by_edge(edges, nodes)
+        x = torch.cat([nodes.flatten(start_dim=1), aircraft], dim=-1)
         for layer in self.trunk.values():
             x = relu(layer(x))
         return self.logits(x), self.value(x, clock)
+
+
+class MlpFull(Mlp):
+    """Plain layers on the observation "gcaps-full", flattened, for one number of vertiports.
+
+    Args:
+        vertiports: N.
+        width: number of outputs of each layer.
+        layers: number of layers before the logits.
+        value_width: width of the value head's layer.
+    """
+
+    kind = "mlp-full"
+    features = "full_"
+
+    def __init__(self, vertiports: int, width: int = 256, layers: int = 2, value_width: int = 64) -> None:
+        vertiports = check_size("vertiports", vertiports)
+        Twin.__init__(self, vertiports, *FULL_FEATURES)
+        self._add_layers(vertiports, width, layers, value_width)

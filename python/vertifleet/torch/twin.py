@@ -32,7 +32,11 @@ class Twin(nn.Module, ABC):
     """
 
     kind: ClassVar[str]
-    """The policy's name: "gcaps", "mlp" or "gcaps-x"."""
+    """The policy's name: "gcaps", "mlp", "gcaps-x", "gcaps-full" or "mlp-full"."""
+    features: ClassVar[str] = ""
+    """What the names of the features that it reads begin with, in observations."""
+    edges: str | None = None
+    """The part of an observation that shows the weights of the edges; None if the network reads none."""
 
     def __init__(self, vertiports: int | None, node_features: int, aircraft_features: int) -> None:
         super().__init__()
@@ -42,19 +46,31 @@ class Twin(nn.Module, ABC):
         self.header: dict[str, Any] | None = None
 
     @abstractmethod
-    def forward(self, nodes: Tensor, aircraft: Tensor, clock: Tensor) -> tuple[Tensor, Tensor]:
+    def forward(
+        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None = None
+    ) -> tuple[Tensor, Tensor]:
         """Logits [B, N], not masked, and values [B].
 
         Args:
             nodes: node features, [B, N, F] or flat [B, N * F].
             aircraft: features of the aircraft that decides, [B, G].
             clock: share of the day that is left, [B] or [B, 1]; only the value depends on it.
+            edges: weights of the edges between vertiports, [B, N, N] or flat [B, N * N], in the direction of
+                flights, if the network reads any.
         """
 
     @property
     @abstractmethod
-    def sizes(self) -> dict[str, int]:
+    def sizes(self) -> dict[str, Any]:
         """The sizes of the layers, by the names of the arguments."""
+
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """The parts of an observation that the network decides by, of an environment with
+        ``observation=twin.reads``.
+        """
+        parts = (f"{self.features}nodes", f"{self.features}aircraft", "clock", "action_mask")
+        return parts if self.edges is None else (*parts, self.edges)
 
     @property
     def policy(self) -> dict[str, Any]:
@@ -85,27 +101,52 @@ class Twin(nn.Module, ABC):
             raise Error("V451", f"{rule}, found {list(nodes.shape)}")
         return nodes.reshape(batch, vertiports, features)
 
+    def by_edge(self, edges: Tensor | None, nodes: Tensor) -> Tensor | None:
+        """The weights of edges as [B, N, N], from that shape or from a flat one, beside nodes [B, N, F].
+
+        Raises:
+            Error: V451 if the network reads edges and there are none, or if it reads none and there are some,
+                or if they belong to another number of vertiports.
+        """
+        if edges is None and self.edges is None:
+            return None
+        batch, count, _ = nodes.shape
+        if edges is None:
+            raise Error(
+                "V451", f"these weights of {self.kind} need edges", f"observations show {self.edges!r}"
+            )
+        if self.edges is None:
+            raise Error("V451", f"these weights of {self.kind} read no edges: leave them out")
+        if list(edges.shape) not in ([batch, count, count], [batch, count * count]):
+            rule = f"edges must be [{batch}, {count}, {count}] or flat [{batch}, {count} * {count}]"
+            raise Error("V451", f"{rule}, found {list(edges.shape)}")
+        return edges.reshape(batch, count, count)
+
 
 def paper_features(vertiports: int) -> tuple[int, int]:
     """F and G of §IV.A on a network with this many vertiports."""
     return 2 * vertiports + 4, 2 * vertiports + 2
 
 
-def check_size(name: str, size: int, most: int = MOST) -> int:
+FULL_FEATURES = 37, 11
+"""F and G of the full observation, on a network of any size."""
+
+
+def check_size(name: str, size: int, most: int = MOST, least: int = 1) -> int:
     """A size of Python or NumPy, converted to Python's own type; refuses sizes that no network has."""
     try:
-        number = 0 if isinstance(size, bool) else operator.index(size)
+        number = -1 if isinstance(size, bool) else operator.index(size)
     except TypeError:
-        number = 0
-    if not 1 <= number <= most:
-        raise Error("V451", f"{name} must be a whole number from 1 to {most}, found {size!r}")
+        number = -1
+    if not least <= number <= most:
+        raise Error("V451", f"{name} must be a whole number from {least} to {most}, found {size!r}")
     return number
 
 
 Kind = TypeVar("Kind", bound=Twin)
 
 
-def of_sizes(kind: type[Kind], vertiports: int, sizes: Mapping[str, int]) -> Kind:
+def of_sizes(kind: type[Kind], vertiports: int, sizes: Mapping[str, Any]) -> Kind:
     """The network for this many vertiports, with first weights; `sizes` are its arguments by name.
 
     Raises:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +17,8 @@ import torch
 
 from vertifleet import Error, Model, Network
 from vertifleet._compare import network_of
-from vertifleet.torch.gcaps import Gcaps, GcapsX
-from vertifleet.torch.mlp import Mlp
+from vertifleet.torch.gcaps import Gcaps, GcapsFull, GcapsX
+from vertifleet.torch.mlp import Mlp, MlpFull
 from vertifleet.torch.origin import MOST_SEED, MOST_STEPS, checked_settings, whole
 
 if TYPE_CHECKING:
@@ -26,6 +27,11 @@ if TYPE_CHECKING:
     from vertifleet.torch.twin import Twin
 
 FORMAT = "vertifleet-weights/2"
+OF_THE_PAPER = ("gcaps", "mlp")
+"""The policies that learn by PPO, on features that have scales; the others learn by imitation."""
+
+DRAWN = re.compile(r"random|random-places:\d+")
+"""The names of networks that are drawn anew for each day."""
 
 
 def load(source: str | os.PathLike[str] | bytes) -> Twin:
@@ -65,9 +71,10 @@ def save(
     Args:
         twin: the network of layers.
         path: path of the weight file.
-        network: the network that the weights were trained on, its name or its path.
+        network: the network that the weights were trained on, its name or its path; for weights that fit any
+            number of vertiports also "random" or "random-places:N", for networks drawn anew for each day.
         settings: the settings of the training run, with the members of ``vertifleet.settings("paper")``; for
-            ``gcaps-x``, with those in the header of its shipped weights.
+            policies that learn by imitation, with those in the header of the shipped weights of ``gcaps-x``.
         seed: seed of the training run.
         steps: number of decisions learned from.
 
@@ -75,8 +82,7 @@ def save(
         Error: V304 if a weight is not finite, V302 and V303 if there is no such setting or it is out of its
             bounds, V102 if the file cannot be written, V451 if the arguments do not fit.
     """
-    network = None if network is None else network_of(network)
-    said = _arguments_text(twin, network, settings, seed, steps)
+    said = _arguments_text(twin, _world(twin, network), settings, seed, steps)
     anew = {member: value for member, value in said.items() if value is not None}
     header = _new_header(twin, said) if twin.header is None else twin.header | anew
     _write(twin, path, header)
@@ -103,30 +109,40 @@ def _write(twin: Twin, path: str | os.PathLike[str], header: Mapping[str, Any]) 
 def _of(header: Mapping[str, Any]) -> Twin:
     """The network that a checked header describes, without memory for its weights yet."""
     sizes = {name: size for name, size in header["policy"].items() if name != "kind"}
+    vertiports = header["shape"]["vertiports"]
     with torch.device("meta"):
         match header["policy"]["kind"]:
-            case "gcaps-x" if "graph" not in sizes:
+            case "gcaps":
+                return Gcaps(vertiports, **sizes)
+            case "gcaps-x":
                 return GcapsX(**sizes)
-            case "gcaps" if "graph" not in sizes:
-                return Gcaps(header["shape"]["vertiports"], **sizes)
+            case "gcaps-full":
+                return GcapsFull(**sizes)
             case "mlp":
-                return Mlp(header["shape"]["vertiports"], **sizes)
+                return Mlp(vertiports, **sizes)
+            case "mlp-full":
+                return MlpFull(vertiports, **sizes)
             case kind:
-                raise Error(
-                    "V451", f"{kind} with these sizes has no network in PyTorch; decide with vertifleet"
-                )
+                raise Error("V451", f"{kind} has no network in PyTorch; decide with vertifleet")
+
+
+def _world(twin: Twin, network: str | os.PathLike[str] | Network | None) -> Network | str | None:
+    """The network that weights were trained on, or the name of those that were drawn anew for each day."""
+    if isinstance(network, str) and DRAWN.fullmatch(network) and twin.vertiports is None:
+        return network
+    return None if network is None else network_of(network)
 
 
 def _arguments_text(
     twin: Twin,
-    network: Network | None,
+    network: Network | str | None,
     settings: Mapping[str, Any] | None,
     seed: int | None,
     steps: int | None,
 ) -> dict[str, Any]:
     """The members of a header that follow from the arguments of `save`; None for those not given."""
     said: dict[str, Any] = {
-        "network": None if network is None else network.name,
+        "network": network.name if isinstance(network, Network) else network,
         "settings": None if settings is None else _all_settings(twin, settings),
         "seed": None if seed is None else whole("seed", seed, MOST_SEED),
         "steps": None if steps is None else whole("steps", steps, MOST_STEPS),
@@ -134,13 +150,13 @@ def _arguments_text(
     if any(value is not None for value in said.values()):
         said["commit"] = f"python {version('vertifleet')}"
     if network is not None:
-        said["feature_scales"] = _scales(twin, network)
+        said["feature_scales"] = _scales(twin, network) if isinstance(network, Network) else None
     return said
 
 
 def _all_settings(twin: Twin, settings: Mapping[str, Any]) -> dict[str, Any]:
     """Checked settings without defaults; settings of imitation are checked when they are written."""
-    if twin.kind == "gcaps-x":
+    if twin.kind not in OF_THE_PAPER:
         return dict(settings)
     checked = checked_settings(settings)
     missing = [name for name in checked if name not in settings]
@@ -159,7 +175,7 @@ def _scales(twin: Twin, network: Network) -> dict[str, float] | None:
         found = len(network.vertiports)
         rule = f"the weights are for {twin.vertiports} vertiports, but network {network.name!r} has {found}"
         raise Error("V451", rule)
-    return network.feature_scales
+    return network.feature_scales if twin.kind in OF_THE_PAPER else None
 
 
 def _new_header(twin: Twin, said: dict[str, Any]) -> dict[str, Any]:

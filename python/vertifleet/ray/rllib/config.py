@@ -36,7 +36,7 @@ def ppo_config(
     settings: Mapping[str, Any] | None = None,
     *,
     env_runners: int = 0,
-    **sizes: int,
+    **sizes: Any,
 ) -> PPOConfig:
     """The configuration of PPO on training days of a network.
 
