@@ -15,11 +15,14 @@ mod fleet;
 mod hops;
 mod intervals;
 mod quads;
+mod ranks;
 mod relaxation;
 mod units;
 mod values;
 mod volume;
 mod wanted;
+
+use std::sync::OnceLock;
 
 use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
@@ -27,6 +30,7 @@ use vertifleet_sim::{Decision, Imagined, View};
 use base_rule::BaseRule;
 pub(crate) use base_rule::is_repositioning;
 pub use choices::Choices;
+use ranks::Ranks;
 use relaxation::Relaxation;
 pub use units::units_usd;
 use volume::{Effort, Volume};
@@ -53,6 +57,8 @@ pub struct DayPrices {
     stake_usd: f64,
     base_rule: BaseRule,
     base_rule_made_at: Time,
+    /// The destinations of decisions in the near future, from the first [`rank`](Self::rank) after a search on.
+    ranks: OnceLock<Ranks>,
     /// Memory to play the rest of the day out in.
     room: Option<Imagined>,
 }
@@ -79,6 +85,7 @@ impl DayPrices {
             stake_usd: 0.0,
             base_rule: BaseRule::Prices,
             base_rule_made_at: now,
+            ranks: OnceLock::new(),
             room: None,
         };
         prices.search(view, FIRST);
@@ -107,6 +114,7 @@ impl DayPrices {
     }
 
     fn search(&mut self, view: View<'_>, effort: Effort) {
+        self.ranks = OnceLock::new();
         self.relaxation.load(view);
         let rest_usd = self.volume.search(&mut self.relaxation, effort);
         self.stake_usd = rest_usd.max(0.0) / f64::from(self.relaxation.kept_decisions().max(1));
@@ -166,6 +174,42 @@ impl DayPrices {
     #[inline]
     pub fn best_choice(&self, view: View<'_>, decision: &Decision) -> VertiportIx {
         self.base_rule.choice(self, view, decision)
+    }
+
+    /// Makes [`best_with`](Self::best_with) fast for decisions up to `ahead_s` after each decision until the prices are
+    /// found anew. `view` is of the day of the prices.
+    pub(crate) fn rank(&self, view: View<'_>, ahead_s: u32) {
+        self.ranks.get_or_init(|| {
+            let until = self.made_at + RENEWAL_S + ahead_s;
+            self.relaxation.ranks(view, (self.made_at, until))
+        });
+    }
+
+    /// The choice of the base rule if something is added to the worth of each choice: `added_usd`, which is at most
+    /// `most_added_usd`.
+    #[inline]
+    pub(crate) fn best_with(
+        &self,
+        view: View<'_>,
+        decision: &Decision,
+        most_added_usd: f64,
+        added_usd: impl Fn(VertiportIx) -> f64,
+    ) -> VertiportIx {
+        let &Decision { time, at, aircraft, .. } = decision;
+        let ranks = self.ranks.get().filter(|_| self.base_rule != BaseRule::Greedy);
+        if let Some(ranked) = ranks.and_then(|ranks| ranks.from(view.kind(aircraft), at, time)) {
+            let (choices, feasible) = (self.choices(view, decision), view.feasible(decision));
+            let open = |to| feasible.contains(to) && self.base_rule.allows(&choices, to);
+            return ranked.best(&choices, at, open, most_added_usd, added_usd);
+        }
+        let mut best = (f64::NEG_INFINITY, at);
+        for PricedChoice { worth_usd, to } in self.open_choices(view, decision) {
+            let usd = worth_usd + added_usd(to);
+            if usd > best.0 {
+                best = (usd, to);
+            }
+        }
+        best.1
     }
 
     /// The choices that the base rule permits, each with its worth in dollars.

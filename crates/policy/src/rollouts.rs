@@ -37,6 +37,8 @@ const LEAST_SHARED_LOOKS: usize = 500_000;
 const DECISION_APART_S: usize = 2_400;
 /// Number of standard errors by which another choice must be better than the one that is worth most at the prices.
 const DOUBT: f64 = 0.5;
+/// More than the largest [`noise`].
+const MOST_NOISE: f64 = 3.5;
 
 /// Memory to roll a choice out in.
 #[derive(Debug, Clone, Default)]
@@ -174,6 +176,7 @@ impl RolloutEvaluator {
         let rollouts = settings.rollouts(prices, view, listed.len()) as usize;
         rollouts_usd.clear();
         rollouts_usd.resize(listed.len() * rollouts, 0.0);
+        prices.rank(view, settings.horizon_s);
         let looks = settings.looks(view, listed.len()) * rollouts;
         // A thread of the pool that waits for another would take up other work of the pool meanwhile, such as a whole
         // day, and the decision would seem to take as long.
@@ -291,9 +294,11 @@ impl RolloutSettings {
         rollout: u32,
     ) -> VertiportIx {
         if rollout == 0 {
-            return prices.best_choice(view, decision);
+            return prices.best_with(view, decision, 0.0, |_| 0.0);
         }
-        self.perturbed_best(prices, decision, rollout, prices.open_choices(view, decision))
+        let noise_usd = self.noise * prices.stake_usd();
+        let added_usd = |to| noise_usd * noise(rollout, decision, to);
+        prices.best_with(view, decision, noise_usd * MOST_NOISE, added_usd)
     }
 
     /// The choice whose worth, perturbed by the noise of a roll-out, is highest. The first roll-out, number 0, has no

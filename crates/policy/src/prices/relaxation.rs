@@ -5,12 +5,13 @@
 //! second pass, forwards, follows each aircraft along its best way and counts the stands and passengers that it asks
 //! for.
 
-use vertifleet_core::{TypeIx, VertiportIx};
+use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 use super::clock::{Clock, SLOT_S};
 use super::fleet::{Fleet, Ready};
 use super::hops::Hops;
+use super::ranks::Ranks;
 use super::values::{HOLD, ValueTable};
 use super::wanted::Wanted;
 
@@ -110,6 +111,11 @@ impl Relaxation {
         }
         self.hops.load(view);
         self.hops.charge_all(self.first_period, &self.passenger_usd);
+    }
+
+    /// The destinations of decisions from one time to another, by the values that are [kept](Self::keep).
+    pub(super) fn ranks(&self, view: View<'_>, times: (Time, Time)) -> Ranks {
+        Ranks::of(view, &self.clock, &self.kept_values, times)
     }
 
     /// The first positions in `stand_usd` and in `passenger_usd` whose prices still matter.

@@ -8,7 +8,7 @@ use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 use super::backward_pass::{BackwardPass, MOST_LANES};
-use super::clock::{Clock, Place};
+use super::clock::{Clock, Place, SLOT_S};
 use super::hops::{Hops, Stay};
 
 /// In place of a destination: the best choice is to hold.
@@ -103,6 +103,19 @@ impl ValueTable {
             clock: &self.clock,
             now: self.clock.place(now_s),
         }
+    }
+
+    /// The most that [`WorthsFrom::usd`] says for flights that are decided in a slot and take `block_s`. Between two
+    /// boundaries nothing is worth more than at the better one.
+    pub(super) fn most_usd(&self, kind: TypeIx, to: VertiportIx, slot: usize, block_s: u32) -> f64 {
+        let begin_s = self.clock.begin_s(slot);
+        let first = self.clock.place(begin_s + block_s).slot;
+        let last = self.clock.place(begin_s + block_s + SLOT_S).slot + 1;
+        let most = |row: &[f64]| row.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let row = to.at() * self.stride;
+        let worth_usd =
+            &self.worth_less_paid_usd[kind.at() * self.vertiports * self.stride + row..];
+        most(&worth_usd[first..=last]) + most(&self.paid_usd[row + slot..][..2])
     }
 
     /// The worth of being ready at `ready_s`, less the price of the stand from `now_s` until then.
