@@ -58,6 +58,12 @@ impl<'a> Departures<'a> {
             - self.flight_costs_usd[to.at()]
     }
 
+    /// The number of passengers that a flight can carry.
+    #[inline]
+    pub fn seats(&self) -> u32 {
+        self.seats
+    }
+
     /// Seconds from the decision until the aircraft is ready again.
     #[inline]
     pub fn block_s(&self, to: VertiportIx) -> u32 {

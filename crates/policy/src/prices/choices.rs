@@ -43,6 +43,12 @@ impl<'a> Choices<'a> {
             + self.worths.usd(to, self.time_s + self.departures.block_s(to))
     }
 
+    /// The number of seats that stay empty on a flight.
+    #[inline]
+    pub(super) fn empty_seats(&self, to: VertiportIx) -> f64 {
+        f64::from(self.departures.seats().saturating_sub(self.waiting[to.at()]))
+    }
+
     /// Whether a choice is a flight without passengers.
     #[inline]
     pub(crate) fn is_repositioning(&self, to: VertiportIx) -> bool {

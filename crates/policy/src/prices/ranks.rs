@@ -19,10 +19,12 @@ use super::values::ValueTable;
 /// More than the error of a sum of a few floating-point numbers, dollars.
 const ROUNDING_USD: f64 = 1e-6;
 
-/// A destination with the most dollars that a flight to it can be worth.
+/// A destination with the most dollars that a flight to it can be worth, and by how much less at least for each seat
+/// that stays empty. Single precision halves the memory that is read.
 #[derive(Debug, Clone, Copy)]
 struct Most {
-    usd: f64,
+    usd: f32,
+    less_usd: f32,
     to: VertiportIx,
 }
 
@@ -39,6 +41,7 @@ pub(super) struct Ranks {
 
 impl Ranks {
     /// Ranks the destinations of decisions from one time to another.
+    #[expect(clippy::cast_possible_truncation, reason = "rounded to the safe side afterwards")]
     pub(super) fn of(
         view: View<'_>,
         clock: &Clock,
@@ -58,10 +61,14 @@ impl Ranks {
                     let begin = all.len();
                     all.extend(neighbours.iter().map(|to| {
                         let block_s = view.leg(kind, from, to).block_s();
-                        let usd = fares.most_usd(kind, (from, to), slot)
-                            + values.most_usd(kind, to, slot, block_s)
-                            + ROUNDING_USD;
-                        Most { usd, to }
+                        let (profit_usd, margin_usd) = fares.most_usd(kind, (from, to), slot);
+                        let worth_usd = values.most_usd(kind, to, slot, block_s);
+                        let usd = profit_usd + worth_usd + ROUNDING_USD;
+                        Most {
+                            usd: (usd as f32).next_up(),
+                            less_usd: (margin_usd as f32).next_down().max(0.0),
+                            to,
+                        }
                     }));
                     all[begin..].sort_unstable_by(|one, other| other.usd.total_cmp(&one.usd));
                 }
@@ -103,11 +110,13 @@ impl Ranked<'_> {
         added_usd: impl Fn(VertiportIx) -> f64,
     ) -> VertiportIx {
         let mut best = (choices.worth_usd(own) + added_usd(own), own);
-        for &Most { usd, to } in self.0 {
-            if usd + most_added_usd < best.0 {
+        for &Most { usd, less_usd, to } in self.0 {
+            let most_usd = f64::from(usd) + most_added_usd;
+            if most_usd < best.0 {
                 break;
             }
-            if open(to) {
+            let most_usd = most_usd - f64::from(less_usd) * choices.empty_seats(to);
+            if most_usd >= best.0 && open(to) {
                 let usd = choices.worth_usd(to) + added_usd(to);
                 if usd > best.0 || (usd == best.0 && to < best.1) {
                     best = (usd, to);
@@ -142,21 +151,25 @@ impl<'a> Fares<'a> {
         Self { view, clock, periods, energy_usd }
     }
 
-    /// The profit of a flight with all seats taken.
-    fn most_usd(&self, kind: TypeIx, (from, to): (VertiportIx, VertiportIx), slot: usize) -> f64 {
+    /// The profit of a flight with all seats taken, and what each passenger adds to it at most.
+    fn most_usd(
+        &self,
+        kind: TypeIx,
+        (from, to): (VertiportIx, VertiportIx),
+        slot: usize,
+    ) -> (f64, f64) {
         let Self { view, clock, .. } = *self;
         let leg = view.leg(kind, from, to);
         let seats = f64::from(view.aircraft_type(kind).seats);
         let fare_of = |period: usize| view.fares_usd(period, from)[to.at()];
         let most = |most: f64, period| most.max(fare_of(period));
         let fare_usd = self.periods[slot].clone().fold(f64::NEG_INFINITY, most);
-        let margin_usd = fare_usd - view.passenger_costs_usd(from)[to.at()];
+        let margin_usd = (fare_usd - view.passenger_costs_usd(from)[to.at()]).max(0.0);
         let arrival_s = clock.begin_s(slot) + leg.flight_s;
         let slots = clock.slot(arrival_s)..=clock.slot(arrival_s + SLOT_S);
         let energy_usd = self.energy_usd[slots].iter().copied().fold(f64::INFINITY, f64::min);
-        seats * margin_usd.max(0.0)
-            - leg.energy_kwh * energy_usd
-            - view.flight_costs_usd(from)[to.at()]
+        let cost_usd = leg.energy_kwh * energy_usd + view.flight_costs_usd(from)[to.at()];
+        (seats * margin_usd - cost_usd, margin_usd)
     }
 }
 
