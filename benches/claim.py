@@ -25,9 +25,9 @@ from scipy import stats
 DATA = Path("benches/claim/results.csv")
 FIGURE = Path("docs/src/images/claim.svg")
 WORLDS = {"paper": "one network", "random-places:8": "a new network each day"}
-# The folders of scripts/claim, in the order of the tables; the first is what the others are compared with.
+# The folders of scripts/claim, in the order of the tables.
 NETWORKS = {
-    "capsules": "graph capsules (Table 3), complete graph",
+    "capsules": "graph capsules of Table 3",
     "profit": "the same, neighbours by profit",
     "no-graph": "no graph (K = 0)",
     "no-second-moment": "no second moment (P = 1)",
@@ -36,8 +36,10 @@ NETWORKS = {
     "transformer": "self-attention",
     "mlp": "plain layers (mlp-full)",
 }
-REFERENCE = "capsules"
+# What the others are compared with.
+REFERENCES = ["capsules", "mlp"]
 Shares = dict[tuple[str, str], numpy.ndarray]
+Pair = tuple[str, str]
 
 
 def collect(folder: Path) -> None:
@@ -50,8 +52,14 @@ def collect(folder: Path) -> None:
             policy = result["policy"]["name"]
             for day in result["days"]:
                 share = day["profit_usd"] / day["upper_bound_usd"]
-                row = [world, "greedy" if policy == "greedy" else name, seed, day["day"], f"{100 * share:.4f}"]
-                if policy != "greedy" or (name, seed) == (REFERENCE, "1"):
+                row = [
+                    world,
+                    "greedy" if policy == "greedy" else name,
+                    seed,
+                    day["day"],
+                    f"{100 * share:.4f}",
+                ]
+                if policy != "greedy" or (name, seed) == (REFERENCES[0], "1"):
                     rows.append(row)
     DATA.parent.mkdir(exist_ok=True)
     with DATA.open("w", newline="") as file:
@@ -87,39 +95,49 @@ def mean_of(shares: numpy.ndarray) -> tuple[float, float, float]:
         square**2 / count for square, count in zip(squares, [seeds - 1, days - 1, (seeds - 1) * (days - 1)], strict=True)
     )
     error = (whole / (seeds * days)) ** 0.5
-    return mean, stats.t.ppf(0.975, freedom) * error, 2 * stats.t.sf(abs(mean) / error, freedom)
+    return (
+        mean,
+        stats.t.ppf(0.975, freedom) * error,
+        2 * stats.t.sf(abs(mean) / error, freedom),
+    )
 
 
-def holm(p_values: dict[str, float]) -> dict[str, float]:
+def holm(p_values: dict[Pair, float]) -> dict[Pair, float]:
     """The p-values, corrected for their number."""
     corrected, highest = {}, 0.0
-    for rank, name in enumerate(sorted(p_values, key=p_values.__getitem__)):
-        highest = max(highest, min(1.0, (len(p_values) - rank) * p_values[name]))
-        corrected[name] = highest
+    for rank, pair in enumerate(sorted(p_values, key=p_values.__getitem__)):
+        highest = max(highest, min(1.0, (len(p_values) - rank) * p_values[pair]))
+        corrected[pair] = highest
     return corrected
 
 
 def table(shares: Shares, world: str) -> str:
     """The table of a world, as Markdown."""
-    reference = shares[world, REFERENCE]
-    others = {name: shares[world, name] - reference for name in NETWORKS if name != REFERENCE}
-    differences = {name: mean_of(difference) for name, difference in others.items()}
-    corrected = holm({name: p_value for name, (_, _, p_value) in differences.items()})
+    differences = {
+        (name, reference): mean_of(shares[world, name] - shares[world, reference])
+        for reference in REFERENCES
+        for name in NETWORKS
+        if name not in REFERENCES[: REFERENCES.index(reference) + 1]
+    }
+    corrected = holm({pair: p_value for pair, (_, _, p_value) in differences.items()})
+
+    def against(name: str, reference: str) -> str:
+        if (name, reference) not in differences:
+            return ""
+        mean, half, _ = differences[name, reference]
+        p_value = corrected[name, reference]
+        return f"{mean:+.2f} ± {half:.2f}, p " + ("< 0.001" if p_value < 0.001 else f"= {p_value:.3f}")
+
     lines = [
         f"`{world}`, {WORLDS[world]}:",
         "",
-        "| network | seeds 1, 2, 3 | mean | against the first row | p |",
+        "| network | seeds 1, 2, 3 | mean | against the first row | against plain layers |",
         "|---|---|---|---|---|",
     ]
     for name, words in NETWORKS.items():
         seeds = ", ".join(f"{seed:.2f}" for seed in shares[world, name].mean(axis=1))
-        row = f"| {words} | {seeds} | {shares[world, name].mean():.2f} |"
-        if name == REFERENCE:
-            lines.append(f"{row} | |")
-        else:
-            mean, half, _ = differences[name]
-            p_value = "< 0.001" if corrected[name] < 0.001 else f"{corrected[name]:.3f}"
-            lines.append(f"{row} {mean:+.2f} ± {half:.2f} | {p_value} |")
+        others = " | ".join(against(name, reference) for reference in REFERENCES)
+        lines.append(f"| {words} | {seeds} | {shares[world, name].mean():.2f} | {others} |")
     lines.append(f"| `greedy` | | {shares[world, 'greedy'].mean():.2f} | | |")
     return "\n".join(lines)
 
@@ -127,6 +145,10 @@ def table(shares: Shares, world: str) -> str:
 def figure(shares: Shares) -> str:
     """Every training run as a dot, and the mean of each network as a line, for both worlds."""
     left, width, row, top = 250, 300, 26, 60
+    means = {key: shares[key].mean(axis=1) for key in shares if key[1] in NETWORKS}
+    ranges = {world: [mean for (of, _), means in means.items() if of == world for mean in means] for world in WORLDS}
+    # Both panels have the same scale.
+    span = max(max(of_world) - min(of_world) for of_world in ranges.values()) + 0.3
     height = top + row * len(NETWORKS) + 50
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {left + 2 * width + 60} {height}" '
@@ -139,28 +161,26 @@ def figure(shares: Shares) -> str:
     for at, words in enumerate(NETWORKS.values()):
         parts.append(f'<text x="{left - 10}" y="{top + row * at + 22}" text-anchor="end">{words}</text>')
     for panel, (world, words) in enumerate(WORLDS.items()):
-        means = {name: shares[world, name].mean(axis=1) for name in NETWORKS}
-        low = min(mean.min() for mean in means.values()) - 0.15
-        high = max(mean.max() for mean in means.values()) + 0.15
+        high = max(ranges[world]) + 0.15
+        low = high - span
         begin = left + panel * (width + 30)
 
-        def across(share: float, begin: int = begin, low: float = low, high: float = high) -> float:
-            return begin + width * (share - low) / (high - low)
+        def across(share: float, begin: int = begin, low: float = low) -> float:
+            return begin + width * (share - low) / span
 
         parts.append(f'<text x="{begin}" y="{top - 10}">{world}, {words}</text>')
         bottom = top + row * len(NETWORKS) + 8
-        step = 0.2 if high - low < 1.6 else 0.5
-        tick = numpy.ceil(low / step) * step
+        tick = numpy.ceil(low / 0.5) * 0.5
         while tick <= high:
             x = across(tick)
             parts.append(f'<line x1="{x:.1f}" y1="{top}" x2="{x:.1f}" y2="{bottom}" stroke="#ddd"/>')
             parts.append(f'<text x="{x:.1f}" y="{bottom + 18}" text-anchor="middle">{tick:.1f}</text>')
-            tick += step
+            tick += 0.5
         for at, name in enumerate(NETWORKS):
             y = top + row * at + 18
-            x = across(means[name].mean())
+            x = across(means[world, name].mean())
             parts.append(f'<line x1="{x:.1f}" y1="{y - 9}" x2="{x:.1f}" y2="{y + 9}" stroke="#222" stroke-width="3"/>')
-            parts.extend(f'<circle cx="{across(mean):.1f}" cy="{y}" r="4" fill="#1b6ca8"/>' for mean in means[name])
+            parts.extend(f'<circle cx="{across(mean):.1f}" cy="{y}" r="4" fill="#1b6ca8"/>' for mean in means[world, name])
     return "\n".join([*parts, "</svg>", ""])
 
 

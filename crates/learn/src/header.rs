@@ -148,7 +148,7 @@ impl Header {
         if sizes != (ours.node_features, ours.aircraft_features) {
             return Err(format!("{:?} is not the shape of our features", self.shape));
         }
-        if self.policy.learns_by_imitation() == self.feature_scales.is_some() {
+        if self.policy.learns_by_ppo() != self.feature_scales.is_some() {
             return Err("feature_scales are of gcaps and mlp".to_owned());
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use vertifleet_core::OutputKind;
 
-use crate::nn::Architecture;
+use crate::settings::TrainingSettings;
 
 /// The beginning of a safetensors file whose header starts with a format of this name, in any version. It is a macro
 /// because the text is put together at compile time.
@@ -27,9 +27,12 @@ const PPO_CURVE: OutputKind =
 const IMITATION_CURVE: OutputKind =
     OutputKind { name: "learning curve", skipped: 0, opening: "round,decisions,agreement,lift," };
 
-/// The kind of learning curve that a run of this policy writes.
-pub(crate) fn curve(policy: &Architecture) -> &'static OutputKind {
-    if policy.learns_by_imitation() { &IMITATION_CURVE } else { &PPO_CURVE }
+/// The kind of learning curve that a run with these settings writes.
+pub(crate) fn curve(settings: &TrainingSettings) -> &'static OutputKind {
+    match settings {
+        TrainingSettings::Ppo(_) => &PPO_CURVE,
+        TrainingSettings::Imitation(_) => &IMITATION_CURVE,
+    }
 }
 
 #[cfg(test)]

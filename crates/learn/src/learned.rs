@@ -30,10 +30,13 @@ impl Learned {
         let header = model.header();
         let vertiports = header.shape.vertiports.expect("weights of one number of vertiports");
         let scales = header.feature_scales.expect("a header is checked when it is read");
-        let net = model.net(vertiports);
+        Self::of(model.net(vertiports), model.weights(), Scales::from(scales))
+    }
+
+    pub(crate) fn of(net: nn::NeuralNetwork, weights: Weights, scales: Scales) -> Self {
         Self {
-            scales: Scales::from(scales),
-            weights: model.weights(),
+            scales,
+            weights,
             workspace: net.workspace(BATCH),
             observations: Observations::new(net.shape(), BATCH),
             net,

@@ -1,6 +1,9 @@
 //! Observations of any number of decisions on days with one number of vertiports, side by side, as a network takes
 //! them. The memory grows with the number of rows and is kept.
 
+use vertifleet_core::VertiportIx;
+use vertifleet_sim::VertiportSet;
+
 use crate::nn::{Inputs, Shape};
 
 /// Rows of features.
@@ -42,11 +45,21 @@ impl Rows {
         }
     }
 
-    /// Rows with the features and edges of earlier [`inputs`](Self::inputs).
-    pub(crate) fn of(shape: Shape, nodes: Vec<f32>, aircraft: Vec<f32>, edges: Vec<f32>) -> Self {
+    /// Rows with the features and edges of earlier [`inputs`](Self::inputs), and with their masks where the features do
+    /// not tell them.
+    pub(crate) fn of(
+        shape: Shape,
+        nodes: Vec<f32>,
+        aircraft: Vec<f32>,
+        edges: Vec<f32>,
+        masks: Option<&[f32]>,
+    ) -> Self {
         let clock = vec![0.0; aircraft.len() / shape.aircraft_features];
-        let chosen = nodes.iter().step_by(shape.node_features);
-        let mask = chosen.map(|&chosen| u8::from(chosen == 1.0)).collect();
+        let open = |&number: &f32| u8::from(number == 1.0);
+        let mask = match masks {
+            Some(masks) => masks.iter().map(open).collect(),
+            None => nodes.iter().step_by(shape.node_features).map(open).collect(),
+        };
         Self { nodes, aircraft, mask, clock, has_edges: !edges.is_empty(), edges, shape }
     }
 
@@ -103,6 +116,16 @@ impl Rows {
         self.mask.extend(part(&from.mask, row, vertiports));
         self.edges.extend(part(&from.edges, row, self.edges_of_row()));
         self.clock.push(from.clock[row]);
+    }
+
+    /// Adds a row, which `write` writes, of a decision between these vertiports. The features need not tell which they
+    /// are.
+    pub(crate) fn push_between(&mut self, open: VertiportSet, write: impl FnOnce(&mut Row<'_>)) {
+        self.push(write);
+        let first = self.mask.len() - self.shape.vertiports;
+        for (at, mask) in self.mask[first..].iter_mut().enumerate() {
+            *mask = u8::from(open.contains(VertiportIx::new(at)));
+        }
     }
 
     /// Adds a row, which `write` writes.

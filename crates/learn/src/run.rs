@@ -1,7 +1,8 @@
 //! A training run: what it is asked to do, how it advances, and what it leaves.
 //!
-//! There are two ways to learn, [PPO](crate::ppo) for `gcaps` and `mlp` and [imitation](crate::imitation) for the others. Callers see one interface: a [`TrainingRun`] is advanced until it is done, and can be set aside and
-//! resumed. A [`RunFolder`] does that and writes the files.
+//! There are two ways to learn, [PPO](crate::ppo), for `gcaps` and `mlp`, and [imitation](crate::imitation). Callers see
+//! one interface: a [`TrainingRun`] is advanced until it is done, and can be set aside and resumed. A [`RunFolder`] does
+//! that and writes the files.
 //!
 //! Training days, validation days and comparison days come from disjoint ranges of seeds (`DaySeed`), so no run can
 //! ever learn or choose on a day that it is later compared on.
@@ -111,15 +112,15 @@ impl TrainingRequest {
             settings: self.settings.clone(),
             seed: self.seed,
         };
-        Ok(match (self.policy.learns_by_imitation(), &self.settings) {
-            (true, TrainingSettings::Imitation(settings)) => {
+        Ok(match &self.settings {
+            TrainingSettings::Imitation(settings) => {
                 Box::new(ImitationRun::new(&self, asked, settings.clone(), checkpoint)?)
             }
-            (false, TrainingSettings::Ppo(settings)) => {
+            TrainingSettings::Ppo(settings) if self.policy.learns_by_ppo() => {
                 Box::new(PpoRun::new(&self, asked, settings.clone(), checkpoint)?)
             }
-            _ => {
-                let rule = format!("{} does not learn with these settings", self.policy.name());
+            TrainingSettings::Ppo(_) => {
+                let rule = format!("{} does not learn by PPO", self.policy.name());
                 return Err(Error::BadSetting { name: "policy".to_owned(), rule });
             }
         })

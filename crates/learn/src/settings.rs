@@ -9,7 +9,8 @@ use crate::imitation::ImitationSettings;
 use crate::nn::Architecture;
 use crate::ppo::PpoSettings;
 
-/// The settings of a training run: those of PPO for `gcaps` and `mlp`, those of imitation for the others.
+/// The settings of a training run: those of PPO, which `gcaps` and `mlp` can learn by, or those of imitation, which every
+/// policy can learn by.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum TrainingSettings {
@@ -20,25 +21,25 @@ pub enum TrainingSettings {
 }
 
 impl TrainingSettings {
-    /// The policy's preset with this name: `default`, or `paper` (Table 2) for a policy that learns by PPO.
+    /// The policy's preset with this name: `default`; or, for `gcaps` and `mlp`, `paper` (Table 2) or `imitation`.
     ///
     /// # Errors
     /// Returns an error if there is no such preset.
     pub fn preset(policy: &Architecture, name: &str) -> Result<Self, Error> {
-        let known = match (policy.learns_by_imitation(), name) {
-            (true, "default") => {
+        let known = match (policy.learns_by_ppo(), name) {
+            (false, "default") | (true, "imitation") => {
                 let settings = ImitationSettings::default();
                 // Random networks are of all sizes.
                 let share = if policy.fits_any_size() { settings.random_share } else { 0.0 };
                 Self::Imitation(ImitationSettings { random_share: share, ..settings })
             }
-            (true, _) => {
+            (false, _) => {
                 return Err(Error::UnknownPreset { name: name.to_owned(), known: "\"default\"" });
             }
-            (false, "default") => Self::Ppo(PpoSettings::tuned()),
-            (false, "paper") => Self::Ppo(PpoSettings::paper()),
-            (false, _) => {
-                let known = "\"default\" and \"paper\"";
+            (true, "default") => Self::Ppo(PpoSettings::tuned()),
+            (true, "paper") => Self::Ppo(PpoSettings::paper()),
+            (true, _) => {
+                let known = "\"default\", \"paper\" and \"imitation\"";
                 return Err(Error::UnknownPreset { name: name.to_owned(), known });
             }
         };
@@ -67,10 +68,11 @@ impl TrainingSettings {
 
     /// Parses the settings of a policy's training from a file.
     pub(crate) fn read(policy: &Architecture, value: Value) -> Result<Self, String> {
-        let read = if policy.learns_by_imitation() {
-            serde_json::from_value(value).map(Self::Imitation)
-        } else {
+        // Runs by PPO have no rounds.
+        let read = if policy.learns_by_ppo() && value.get("rounds").is_none() {
             serde_json::from_value(value).map(Self::Ppo)
+        } else {
+            serde_json::from_value(value).map(Self::Imitation)
         };
         let settings = read.map_err(|error| format!("settings: {error}"))?;
         settings.check().map_err(|error| error.to_string())?;

@@ -37,8 +37,13 @@ fn small_mlp_full() -> Architecture {
 
 /// A short run of a policy, with these settings changed.
 fn plan_with(policy: Architecture, changes: &[(&str, &str)]) -> TrainingRequest {
-    let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
-    let short: &[(&str, &str)] = if policy.learns_by_imitation() {
+    short(policy, "default", changes)
+}
+
+/// A short run of a policy from a preset, with these settings changed.
+fn short(policy: Architecture, preset: &str, changes: &[(&str, &str)]) -> TrainingRequest {
+    let mut settings = TrainingSettings::preset(&policy, preset).expect("a preset");
+    let short: &[(&str, &str)] = if matches!(settings, TrainingSettings::Imitation(_)) {
         &[
             ("rounds", "2"),
             ("days", "2"),
@@ -94,8 +99,9 @@ fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
     let plans =
         [plan(small_gcaps()), plan(small_mlp()), any_network, new_places(small_gcaps_full())];
     let by_itself = plan_with(small_gcaps_full(), &[("own_rounds", "1"), ("samples", "40")]);
+    let imitating = [small_gcaps(), small_mlp()].map(|policy| short(policy, "imitation", &[]));
     let others = [new_places(small_mlp_full()), new_places(small_mlp()), by_itself];
-    for plan in plans.into_iter().chain(others) {
+    for plan in plans.into_iter().chain(others).chain(imitating) {
         let on = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| remains(finished(plan.clone().start().expect("a plan")).as_ref()))
@@ -110,7 +116,8 @@ fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
     let path = folder.path().join("checkpoint.safetensors");
     let terminal = plan_with(small_gcaps(), &[("reward", "terminal")]);
     let by_itself = plan_with(small_gcaps_x(), &[("own_rounds", "1"), ("samples", "40")]);
-    for plan in [terminal, plan(small_gcaps_x()), plan(small_gcaps_full()), by_itself] {
+    let imitating = short(small_gcaps(), "imitation", &[]);
+    for plan in [terminal, plan(small_gcaps_x()), plan(small_gcaps_full()), by_itself, imitating] {
         let whole = finished(plan.clone().start().expect("a plan"));
         let mut first = plan.clone().start().expect("a plan");
         advance(first.as_mut());
@@ -291,10 +298,13 @@ fn another_seed_gives_other_weights() {
 
 #[test]
 fn settings_of_another_way_to_learn_are_refused() {
-    let settings = plan(small_gcaps_x()).settings;
-    let error =
-        TrainingRequest { settings, ..plan(small_mlp()) }.start().err().expect("no such run");
-    assert_eq!(error.code().to_string(), "V303");
+    let by_ppo = TrainingRequest { settings: plan(small_mlp()).settings, ..plan(small_gcaps_x()) };
+    // The logits of the paper's policies are in no unit of money, so they cannot perturb roll-outs.
+    let by_itself = short(small_gcaps(), "imitation", &[("own_rounds", "1")]);
+    for run in [by_ppo, by_itself] {
+        let error = run.start().err().expect("no such run");
+        assert_eq!(error.code().to_string(), "V303");
+    }
 }
 
 #[test]

@@ -36,13 +36,13 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
 fn plan(arguments: &TrainArguments, world: World) -> Result<TrainingRequest, Failure> {
     let mut policy = Architecture::named(arguments.policy.name())
         .expect("every kind that can be trained has its sizes");
-    if arguments.steps.is_some() && policy.learns_by_imitation() {
+    let mut settings = TrainingSettings::preset(&policy, &arguments.preset)?;
+    if arguments.steps.is_some() && matches!(settings, TrainingSettings::Imitation(_)) {
         return Err(Failure::usage(
-            format!("--steps is not for {}, which learns in rounds", policy.name()),
+            "--steps is for PPO, and imitation learns in rounds".to_owned(),
             "change its settings with --set, as --set rounds=4",
         ));
     }
-    let mut settings = TrainingSettings::preset(&policy, &arguments.preset)?;
     let steps = arguments.steps.map(|steps| steps.to_string());
     let steps = steps.iter().map(|steps| ("total_steps", steps.as_str()));
     let named = arguments.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));

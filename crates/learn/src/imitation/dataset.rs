@@ -20,6 +20,8 @@ pub(crate) struct Samples {
     /// vertiport that cannot be chosen.
     pub(crate) priced: Vec<f32>,
     pub(crate) values: Vec<f32>,
+    /// The mask of each row as numbers, where the features do not tell it.
+    masks: Option<Vec<f32>>,
 }
 
 /// A choice as the teacher judges it.
@@ -34,8 +36,9 @@ pub(crate) struct Judged {
 
 impl Samples {
     /// No samples yet, in the form of these rows, which must be empty.
-    pub(crate) fn new(rows: Rows) -> Self {
-        Self { rows, priced: Vec::new(), values: Vec::new() }
+    pub(crate) fn new(policy: &Architecture, rows: Rows) -> Self {
+        let masks = has_masks(policy).then(Vec::new);
+        Self { rows, priced: Vec::new(), values: Vec::new(), masks }
     }
 
     /// Adds what the teacher thinks of the decision whose row was added last. `unit_usd` is the unit of the network's
@@ -50,6 +53,9 @@ impl Samples {
             self.priced[first + to.at()] = ((worth_usd - best_usd) / unit_usd) as f32;
             self.values[first + to.at()] = ((value_usd - mean_usd) / unit_usd) as f32;
         }
+        if let Some(masks) = &mut self.masks {
+            masks.extend(self.rows.inputs().mask[first..].iter().map(|&mask| f32::from(mask)));
+        }
     }
 
     /// Drops all samples after the first `len`.
@@ -57,6 +63,9 @@ impl Samples {
         self.rows.truncate(len);
         self.priced.truncate(len * self.rows.vertiports());
         self.values.truncate(len * self.rows.vertiports());
+        if let Some(masks) = &mut self.masks {
+            masks.truncate(len * self.rows.vertiports());
+        }
     }
 
     fn append(&mut self, other: &Self) {
@@ -65,6 +74,9 @@ impl Samples {
         }
         self.priced.extend(&other.priced);
         self.values.extend(&other.values);
+        if let (Some(masks), Some(others)) = (&mut self.masks, &other.masks) {
+            masks.extend(others);
+        }
     }
 }
 
@@ -75,8 +87,13 @@ pub(crate) struct Dataset(pub(crate) BTreeMap<usize, Samples>);
 /// The most vertiports that a network file may have.
 const MOST_VERTIPORTS: usize = 256;
 /// The tensors that a checkpoint has for the samples of each number of vertiports, which stands before these names. Only
-/// networks that observe edges have those.
-const TENSORS: [&str; 5] = ["nodes", "aircraft", "priced", "values", "edges"];
+/// networks that observe edges have those, and only the features of the paper need masks beside them.
+const TENSORS: [&str; 6] = ["nodes", "aircraft", "priced", "values", "edges", "masks"];
+
+/// Whether the features of a policy do not tell which vertiports may be chosen.
+fn has_masks(policy: &Architecture) -> bool {
+    !policy.sees_the_forecast()
+}
 
 impl Dataset {
     pub(crate) fn add(&mut self, samples: Samples) {
@@ -110,8 +127,9 @@ impl Dataset {
     pub(crate) fn tensors(&self) -> impl Iterator<Item = (String, &[f32])> {
         self.0.iter().flat_map(|(&vertiports, samples)| {
             let inputs = samples.rows.inputs();
-            let numbers =
-                [inputs.nodes, inputs.aircraft, &samples.priced, &samples.values, inputs.edges];
+            let Samples { priced, values, masks, .. } = samples;
+            let masks = masks.as_deref().unwrap_or_default();
+            let numbers = [inputs.nodes, inputs.aircraft, priced, values, inputs.edges, masks];
             let named = TENSORS.iter().map(move |name| tensor_name(vertiports, name)).zip(numbers);
             named.filter(|(_, numbers)| !numbers.is_empty())
         })
@@ -144,11 +162,12 @@ impl Samples {
         }
         let shape = shape_of(policy, vertiports);
         let Shape { node_features, aircraft_features, .. } = shape;
-        let [nodes, aircraft, priced, values, edges] =
+        let [nodes, aircraft, priced, values, edges, masks] =
             TENSORS.map(|name| tensor_name(vertiports, name));
         let numbers = file.tensor(&aircraft).map_err(|error| error.to_string())?.data().len() / 4;
         let rows = numbers / aircraft_features;
         let tensor = |name: &str, entries: usize| tensor(file, name, entries);
+        let masks = has_masks(policy).then(|| tensor(&masks, rows * vertiports)).transpose()?;
         let samples = Self {
             rows: Rows::of(
                 shape,
@@ -159,9 +178,11 @@ impl Samples {
                 } else {
                     Vec::new()
                 },
+                masks.as_deref(),
             ),
             priced: tensor(&priced, rows * vertiports)?,
             values: tensor(&values, rows * vertiports)?,
+            masks,
         };
         let mut masks = samples.rows.inputs().mask.chunks_exact(vertiports);
         if masks.any(|mask| mask.iter().all(|&listed| listed == 0)) {

@@ -16,10 +16,11 @@ use vertifleet_sim::{DayTotals, Simulation};
 
 use crate::adam::Adam;
 use crate::error::Error;
+use crate::features::Scales;
 use crate::gcaps_x::features::Scene;
 use crate::header::{FeatureShape, Header, shape_of};
 use crate::imitation::dataset::{Dataset, Samples};
-use crate::imitation::teacher::{Student, Teacher};
+use crate::imitation::teacher::{Sees, Student, Teacher};
 use crate::imitation::update::{Fit, Learner, Pace};
 use crate::imitation::{ImitationRow, ImitationSettings};
 use crate::model::Model;
@@ -68,6 +69,10 @@ impl ImitationRun {
             let rule = format!("must be 0 for {}, which fits one size", plan.policy.name());
             return Err(bad("random_share", rule));
         }
+        if plan.policy.learns_by_ppo() && settings.own_rounds > 0 {
+            let rule = format!("must be 0 for {}, whose logits are in no unit", plan.policy.name());
+            return Err(bad("own_rounds", rule));
+        }
         // Weights that fit any size have the same shapes for every number of vertiports.
         let own = match plan.world.vertiports() {
             Some(vertiports) => vertiports,
@@ -98,8 +103,10 @@ impl ImitationRun {
             with_priced_profit(random.collect::<Result<_, Error>>()?),
         ];
         let shape = FeatureShape { vertiports: (!fits_any).then_some(own), ..shape.into() };
+        let scales = || plan.world.network(Purpose::Training, 0).feature_scales();
+        let scales = plan.policy.learns_by_ppo().then(scales);
         Ok(Self {
-            header: Header::of_run(plan, None, shape),
+            header: Header::of_run(plan, scales, shape),
             world: plan.world.clone(),
             learner: Learner::new(plan.policy.clone(), own, params, adam),
             identity,
@@ -191,13 +198,14 @@ impl ImitationRun {
     /// Plays a day and rolls out a share of its decisions.
     fn samples(&self, day: &Arc<Scenario>, actor: Option<&Arc<Weights>>) -> Samples {
         let vertiports = day.vertiports.len();
-        let policy = &self.identity.policy;
-        let mut student = actor.map(|weights| Student::of(policy, weights, vertiports));
+        let scales = self.header.feature_scales.map(Scales::from);
+        let sees = Sees { policy: &self.identity.policy, scales };
+        let mut student = actor.map(|weights| Student::of(sees, weights, vertiports));
         let is_own = self.rolls_itself_out(self.rounds_done());
         let share =
             f64::from(self.settings.samples) / (DECISIONS_AN_AIRCRAFT * day.aircraft.len() as f64);
         let (mut teacher, mut samples) =
-            Teacher::of(policy, vertiports, self.settings.expert.clone());
+            Teacher::of(sees, vertiports, self.settings.expert.clone());
         let mut shortlist = Shortlist::default();
         let mut simulation = Simulation::new(Arc::clone(day));
         let mut prices: Option<DayPrices> = None;

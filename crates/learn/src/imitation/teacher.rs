@@ -2,7 +2,7 @@
 //! roll-outs say of them.
 //!
 //! Roll-outs take most of a run's time, so only the [`Shortlist`](vertifleet_policy::Shortlist) is rolled out. `gcaps-x` decides between its choices
-//! alone. A policy that sees no prices decides between all feasible choices. Those that are not on the shortlist are
+//! alone. Policies that see no prices decide between all feasible choices. Those that are not on the shortlist are
 //! judged to be below the worst that is, by what they are worth less at the prices.
 
 use std::sync::Arc;
@@ -11,15 +11,20 @@ use vertifleet_core::VertiportIx;
 use vertifleet_policy::{DayPrices, Policy as _, PricedChoice, RolloutEvaluator, RolloutSettings};
 use vertifleet_sim::{Decision, View};
 
+use crate::features::Scales;
 use crate::full::FullPolicy;
 use crate::full::features as full;
 use crate::gcaps_x::features::{self as priced, Scene};
 use crate::gcaps_x::scorer::Scorer;
-use crate::header::shape_of;
+use crate::header::{network, shape_of};
 use crate::imitation::dataset::{Judged, Samples};
+use crate::learned::Learned;
 use crate::nn::{Architecture, Weights};
 use crate::rollouts::RolloutPlayer;
 use crate::rows::Rows;
+
+/// Why a learned policy has an answer.
+const CHOOSES: &str = "every decision has a choice";
 
 /// Judges decisions of days with one number of vertiports.
 pub(super) struct Teacher {
@@ -33,32 +38,41 @@ pub(super) struct Teacher {
 
 /// Writes what the policy sees.
 enum Writer {
+    Paper(Scales),
     Priced(priced::Writer),
     Full(full::Writer),
 }
 
 /// The policy that plays the days, as far as it has learned.
 pub(super) enum Student {
+    Paper(Box<Learned>),
     Priced(Box<Scorer>),
     Full(Box<FullPolicy>),
+}
+
+/// A policy without weights: its kind and sizes, and what its features are divided by if they are those of the paper.
+#[derive(Clone, Copy)]
+pub(super) struct Sees<'a> {
+    pub(super) policy: &'a Architecture,
+    pub(super) scales: Option<Scales>,
 }
 
 impl Teacher {
     /// A teacher of this policy, and a place for its samples.
     pub(super) fn of(
-        policy: &Architecture,
+        Sees { policy, scales }: Sees<'_>,
         vertiports: usize,
         settings: RolloutSettings,
     ) -> (Self, Samples) {
         let rows = Rows::new(shape_of(policy, vertiports), policy.adjacency().is_observed());
-        let writer = if policy.sees_prices() {
-            Writer::Priced(priced::Writer::default())
-        } else {
-            Writer::Full(full::Writer::new(policy.adjacency()))
+        let writer = match scales {
+            Some(scales) => Writer::Paper(scales),
+            None if policy.sees_prices() => Writer::Priced(priced::Writer::default()),
+            None => Writer::Full(full::Writer::new(policy.adjacency())),
         };
         let evaluator = RolloutEvaluator::new(settings.clone());
         let (player, judged) = (RolloutPlayer::default(), Vec::new());
-        (Self { settings, evaluator, player, writer, judged }, Samples::new(rows))
+        (Self { settings, evaluator, player, writer, judged }, Samples::new(policy, rows))
     }
 
     /// Adds a decision, with what roll-outs say of its choices, in which `student` decides for every aircraft, or the
@@ -74,7 +88,7 @@ impl Teacher {
         let Scene { view, decision, prices, .. } = scene;
         let unit_usd = match &mut self.writer {
             Writer::Priced(_) => scene.addition_usd(),
-            Writer::Full(_) => scene.unit_usd,
+            Writer::Paper(_) | Writer::Full(_) => scene.unit_usd,
         };
         if unit_usd <= 0.0 {
             return;
@@ -91,6 +105,12 @@ impl Teacher {
         }));
         match &mut self.writer {
             Writer::Priced(writer) => writer.push(scene, listed, &mut samples.rows),
+            Writer::Paper(scales) => {
+                judge_the_others(prices, view, decision, &mut self.judged);
+                samples.rows.push_between(view.feasible(decision), |row| {
+                    *row.clock = scales.write(row.nodes, row.aircraft, decision, view);
+                });
+            }
             Writer::Full(writer) => {
                 judge_the_others(prices, view, decision, &mut self.judged);
                 writer.push(view, decision, &mut samples.rows);
@@ -122,12 +142,21 @@ fn judge_the_others(
 
 impl Student {
     /// The policy with these weights.
-    pub(super) fn of(policy: &Architecture, weights: &Arc<Weights>, vertiports: usize) -> Self {
-        let weights = Arc::clone(weights);
-        if policy.sees_prices() {
-            Self::Priced(Box::new(Scorer::new(policy, weights, vertiports)))
-        } else {
-            Self::Full(Box::new(FullPolicy::of(policy.clone(), weights)))
+    pub(super) fn of(
+        Sees { policy, scales }: Sees<'_>,
+        weights: &Arc<Weights>,
+        vertiports: usize,
+    ) -> Self {
+        let shared = || Arc::clone(weights);
+        match scales {
+            Some(scales) => {
+                let (net, weights) = (network(policy, vertiports), Weights::clone(weights));
+                Self::Paper(Box::new(Learned::of(net, weights, scales)))
+            }
+            None if policy.sees_prices() => {
+                Self::Priced(Box::new(Scorer::new(policy, shared(), vertiports)))
+            }
+            None => Self::Full(Box::new(FullPolicy::of(policy.clone(), shared()))),
         }
     }
 
@@ -140,6 +169,7 @@ impl Student {
         listed: &[PricedChoice],
     ) -> &'player [f64] {
         match self {
+            Self::Paper(_) => unreachable!("the settings of a run are checked"),
             Self::Priced(scorer) => player.values_usd(scorer.as_mut(), settings, scene, listed),
             Self::Full(policy) => player.values_usd(policy.as_mut(), settings, scene, listed),
         }
@@ -149,9 +179,8 @@ impl Student {
     pub(super) fn choose(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) -> VertiportIx {
         match self {
             Self::Priced(scorer) => scorer.best(scene, listed),
-            Self::Full(policy) => {
-                policy.choose(scene.decision, &scene.view).expect("it has a choice always")
-            }
+            Self::Paper(policy) => policy.choose(scene.decision, &scene.view).expect(CHOOSES),
+            Self::Full(policy) => policy.choose(scene.decision, &scene.view).expect(CHOOSES),
         }
     }
 }

@@ -247,9 +247,9 @@ impl Architecture {
         !matches!(self, Self::Gcaps(_) | Self::Mlp(_))
     }
 
-    /// Whether the policy learns by imitation of roll-outs, and not by PPO.
-    pub fn learns_by_imitation(&self) -> bool {
-        matches!(self, Self::GcapsX(_) | Self::GcapsFull(_) | Self::MlpFull(_))
+    /// Whether the policy can learn by PPO. Every policy can learn by imitation of roll-outs.
+    pub fn learns_by_ppo(&self) -> bool {
+        matches!(self, Self::Gcaps(_) | Self::Mlp(_))
     }
 
     /// The policy's name.

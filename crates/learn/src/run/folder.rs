@@ -71,7 +71,7 @@ impl RunFolder {
         }
         if self.folder.exists() {
             outputs.writes(&self.weights, &kinds::WEIGHTS)?;
-            outputs.writes(&self.curve, kinds::curve(&plan.policy))?;
+            outputs.writes(&self.curve, kinds::curve(&plan.settings))?;
             outputs.writes(&self.checkpoint, &kinds::CHECKPOINT)?;
         }
         let run = if resume { plan.resume(&self.checkpoint)? } else { plan.start()? };
