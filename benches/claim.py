@@ -36,6 +36,22 @@ NETWORKS = {
     "transformer": "self-attention",
     "mlp": "plain layers (mlp-full)",
 }
+# Changes of Table 3 and of the graph, one at a time.
+SWEEP = {
+    "no-second-moment": "P = 1",
+    "moments=3": "P = 3",
+    "no-graph": "K = 0",
+    "hops=1": "K = 1",
+    "hops=3": "K = 3",
+    "layers=2": "L_e = 2",
+    "layers=3": "L_e = 3",
+    "similarity": "neighbours by similarity of features",
+    "distance": "neighbours by distance",
+    "reachable": "neighbours by what may be flown now",
+    "profit": "neighbours by profit",
+}
+# The same two readers with all that is seen, and with the state of the paper.
+STATES = {"capsules": "paper-state-capsules", "mlp": "paper-state-mlp"}
 # What the others are compared with.
 REFERENCES = ["capsules", "mlp"]
 Shares = dict[tuple[str, str], numpy.ndarray]
@@ -142,6 +158,43 @@ def table(shares: Shares, world: str) -> str:
     return "\n".join(lines)
 
 
+def states(shares: Shares) -> str:
+    """What the state of the paper is worth less, as a table in Markdown."""
+    differences = {(world, full): mean_of(shares[world, full] - shares[world, paper]) for world in WORLDS for full, paper in STATES.items()}
+    corrected = holm({pair: p_value for pair, (_, _, p_value) in differences.items()})
+    lines = ["| world | network | the paper's state | all of it | difference |", "|---|---|---|---|---|"]
+    for (world, full), (mean, half, _) in differences.items():
+        p_value = corrected[world, full]
+        words = "p < 0.001" if p_value < 0.001 else f"p = {p_value:.3f}"
+        of_both = " | ".join(f"{shares[world, name].mean():.2f}" for name in (STATES[full], full))
+        lines.append(f"| `{world}` | {NETWORKS[full]} | {of_both} | {mean:+.2f} ± {half:.2f}, {words} |")
+    return "\n".join(lines)
+
+
+def sweep(shares: Shares) -> str:
+    """Changes of the settings of Table 3, as a table in Markdown."""
+    lines = ["| changed | " + " | ".join(f"`{world}`" for world in WORLDS) + " |", "|---|" + "---|" * len(WORLDS)]
+    means = {world: shares[world, REFERENCES[0]].mean() for world in WORLDS}
+    lines.append("| nothing (P = 2, K = 2, L_e = 1, complete graph) | " + " | ".join(f"{mean:.2f}" for mean in means.values()) + " |")
+    differences = {
+        (world, name): mean_of(shares[world, name] - shares[world, REFERENCES[0]])
+        for world in WORLDS
+        for name in SWEEP
+        if (world, name) in shares
+    }
+    corrected = holm({pair: p_value for pair, (_, _, p_value) in differences.items()})
+
+    def cell(world: str, name: str) -> str:
+        if (world, name) not in differences:
+            return "-"
+        mean, half, _ = differences[world, name]
+        sure = " *" if corrected[world, name] < 0.05 else ""
+        return f"{mean:+.2f} ± {half:.2f}{sure}"
+
+    lines.extend(f"| {words} | " + " | ".join(cell(world, name) for world in WORLDS) + " |" for name, words in SWEEP.items())
+    return "\n".join(lines)
+
+
 def figure(shares: Shares) -> str:
     """Every training run as a dot, and the mean of each network as a line, for both worlds."""
     left, width, row, top = 250, 300, 26, 60
@@ -190,7 +243,7 @@ def main() -> None:
         collect(Path(sys.argv[1]))
         return
     shares = read()
-    print("\n\n".join(table(shares, world) for world in WORLDS))
+    print("\n\n".join([*(table(shares, world) for world in WORLDS), states(shares), sweep(shares)]))
     FIGURE.write_text(figure(shares))
 
 

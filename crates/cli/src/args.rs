@@ -293,7 +293,7 @@ pub(crate) struct TrainArguments {
     /// Kind of policy
     #[arg(long)]
     pub(crate) policy: Trainable,
-    /// Settings of gcaps and mlp to start from: default, or paper (Table 2)
+    /// Settings to start from: default; for gcaps and mlp also paper (Table 2) or imitation
     #[arg(long, default_value = "default")]
     pub(crate) preset: String,
     /// Decisions to learn from, in place of the preset's
