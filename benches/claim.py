@@ -159,15 +159,27 @@ def table(shares: Shares, world: str) -> str:
 
 
 def states(shares: Shares) -> str:
-    """What the state of the paper is worth less, as a table in Markdown."""
-    differences = {(world, full): mean_of(shares[world, full] - shares[world, paper]) for world in WORLDS for full, paper in STATES.items()}
-    corrected = holm({pair: p_value for pair, (_, _, p_value) in differences.items()})
-    lines = ["| world | network | the paper's state | all of it | difference |", "|---|---|---|---|---|"]
-    for (world, full), (mean, half, _) in differences.items():
-        p_value = corrected[world, full]
-        words = "p < 0.001" if p_value < 0.001 else f"p = {p_value:.3f}"
-        of_both = " | ".join(f"{shares[world, name].mean():.2f}" for name in (STATES[full], full))
-        lines.append(f"| `{world}` | {NETWORKS[full]} | {of_both} | {mean:+.2f} ± {half:.2f}, {words} |")
+    """The same two readers with all that is seen, and with the state of the paper, as a table in Markdown."""
+    graph, plain = REFERENCES
+    tests = {}
+    for world in WORLDS:
+        for full, paper in STATES.items():
+            tests[world, full] = mean_of(shares[world, full] - shares[world, paper])
+        tests[world, "paper"] = mean_of(shares[world, STATES[graph]] - shares[world, STATES[plain]])
+        tests[world, "full"] = mean_of(shares[world, graph] - shares[world, plain])
+    corrected = holm({pair: p_value for pair, (_, _, p_value) in tests.items()})
+
+    def words(pair: Pair) -> str:
+        mean, half, _ = tests[pair]
+        p_value = corrected[pair]
+        return f"{mean:+.2f} ± {half:.2f}, p " + ("< 0.001" if p_value < 0.001 else f"= {p_value:.3f}")
+
+    lines = ["| world | network | the paper's state | all of it | all of it is ahead by |", "|---|---|---|---|---|"]
+    for world in WORLDS:
+        for full, paper in STATES.items():
+            means = f"{shares[world, paper].mean():.2f} | {shares[world, full].mean():.2f}"
+            lines.append(f"| `{world}` | {NETWORKS[full]} | {means} | {words((world, full))} |")
+        lines.append(f"| | graph capsules are ahead by | {words((world, 'paper'))} | {words((world, 'full'))} | |")
     return "\n".join(lines)
 
 

@@ -21,7 +21,7 @@ struct Files {
     curves: &'static [&'static str],
 }
 
-const FILES: [Files; 3] = [
+const FILES: [Files; 4] = [
     Files {
         network: Some("paper"),
         policy: "gcaps",
@@ -44,9 +44,15 @@ const FILES: [Files; 3] = [
             include_str!("../../../models/any/gcaps-x-seed-3-curve.csv"),
         ],
     },
+    Files {
+        network: None,
+        policy: "gcaps-full",
+        weights: include_bytes!("../../../models/any/gcaps-full.safetensors"),
+        curves: &[include_str!("../../../models/any/gcaps-full-curve.csv")],
+    },
 ];
 
-/// The shipped policy with this name for a network; `gcaps-x` is shipped for all networks.
+/// The shipped policy with this name for a network; `gcaps-x` and `gcaps-full` are shipped for all networks.
 ///
 /// # Errors
 /// Returns [`Error::NotShipped`] if there is none.
@@ -99,6 +105,7 @@ mod tests {
     fn what_is_not_shipped_is_named_with_what_is() {
         let error = shipped("fastest", "paper").expect_err("no such policy");
         assert_eq!(error.code().to_string(), "V307");
-        assert!(error.to_string().contains("gcaps on paper, mlp on paper, gcaps-x on any"));
+        let known = "gcaps on paper, mlp on paper, gcaps-x on any, gcaps-full on any";
+        assert!(error.to_string().contains(known));
     }
 }
