@@ -127,6 +127,12 @@ def holm(p_values: dict[Pair, float]) -> dict[Pair, float]:
     return corrected
 
 
+def words_of(test: tuple[float, float, float], corrected: float) -> str:
+    """A difference, half its 95 % interval, and its corrected p-value."""
+    mean, half, _ = test
+    return f"{mean:+.2f} ± {half:.2f}, p " + ("< 0.001" if corrected < 0.001 else f"= {corrected:.3f}")
+
+
 def table(shares: Shares, world: str) -> str:
     """The table of a world, as Markdown."""
     differences = {
@@ -140,9 +146,7 @@ def table(shares: Shares, world: str) -> str:
     def against(name: str, reference: str) -> str:
         if (name, reference) not in differences:
             return ""
-        mean, half, _ = differences[name, reference]
-        p_value = corrected[name, reference]
-        return f"{mean:+.2f} ± {half:.2f}, p " + ("< 0.001" if p_value < 0.001 else f"= {p_value:.3f}")
+        return words_of(differences[name, reference], corrected[name, reference])
 
     lines = [
         f"`{world}`, {WORLDS[world]}:",
@@ -170,9 +174,7 @@ def states(shares: Shares) -> str:
     corrected = holm({pair: p_value for pair, (_, _, p_value) in tests.items()})
 
     def words(pair: Pair) -> str:
-        mean, half, _ = tests[pair]
-        p_value = corrected[pair]
-        return f"{mean:+.2f} ± {half:.2f}, p " + ("< 0.001" if p_value < 0.001 else f"= {p_value:.3f}")
+        return words_of(tests[pair], corrected[pair])
 
     lines = ["| world | network | the paper's state | all of it | all of it is ahead by |", "|---|---|---|---|---|"]
     for world in WORLDS:

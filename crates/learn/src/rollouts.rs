@@ -105,13 +105,9 @@ impl RolloutPlayer {
         candidates: &[PricedChoice],
     ) -> VertiportIx {
         let values_usd = self.values_usd(scorer, &ROLLOUTS, scene, candidates);
-        let mut best = (f64::NEG_INFINITY, scene.decision.at);
-        for (candidate, &value_usd) in candidates.iter().zip(values_usd) {
-            if value_usd > best.0 {
-                best = (value_usd, candidate.to);
-            }
-        }
-        best.1
+        let valued = candidates.iter().zip(values_usd);
+        let valued = valued.map(|(choice, &worth_usd)| PricedChoice { worth_usd, to: choice.to });
+        PricedChoice::best(valued).unwrap_or(scene.decision.at)
     }
 
     /// Starts the roll-outs of all candidates.

@@ -5,8 +5,9 @@ use std::fmt::Write;
 use std::hint::black_box;
 use std::sync::Arc;
 
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use vertifleet_core::{DaySeed, Network};
+use criterion::measurement::WallTime;
+use criterion::{BatchSize, BenchmarkGroup, Criterion, criterion_group, criterion_main};
+use vertifleet_core::{DaySeed, Network, Scenario};
 use vertifleet_policy::{BidPricePolicy, DayPrices, play};
 use vertifleet_sim::Simulation;
 
@@ -20,27 +21,48 @@ fn prices(criterion: &mut Criterion) {
         bencher.iter(|| DayPrices::of(black_box(simulation.view()), start));
     });
     let morning = DayPrices::of(simulation.view(), start);
-    group.bench_function("paper, found anew after a quarter of an hour", |bencher| {
-        bencher.iter_batched_ref(
-            || morning.clone(),
-            |prices| prices.refresh(black_box(simulation.view()), start + 900),
-            BatchSize::SmallInput,
-        );
-    });
+    bench_renewal(
+        &mut group,
+        "paper, found anew after a quarter of an hour",
+        &simulation,
+        &morning,
+    );
     let decision = simulation.next_decision().expect("a day has decisions");
     group.bench_function("paper, one choice", |bencher| {
         bencher.iter(|| morning.best_choice(black_box(simulation.view()), &decision));
     });
     group.sample_size(10);
-    group.bench_function("paper, one day", |bencher| {
+    bench_day(&mut group, "paper, one day", &day);
+    group.finish();
+}
+
+/// The time to find prices of the morning anew after a quarter of an hour.
+fn bench_renewal(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    simulation: &Simulation,
+    morning: &DayPrices,
+) {
+    let later = simulation.scenario().operations.start + 900;
+    group.bench_function(name, |bencher| {
+        bencher.iter_batched_ref(
+            || morning.clone(),
+            |prices| prices.refresh(black_box(simulation.view()), later),
+            BatchSize::LargeInput,
+        );
+    });
+}
+
+/// The time to play a day by prices.
+fn bench_day(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, day: &Arc<Scenario>) {
+    group.bench_function(name, |bencher| {
         bencher.iter(|| {
-            let mut simulation = Simulation::new(Arc::clone(&day));
+            let mut simulation = Simulation::new(Arc::clone(day));
             play(&mut simulation, &mut BidPricePolicy::default(), |_| ())
                 .expect("prices always answer");
             simulation
         });
     });
-    group.finish();
 }
 
 /// 100 vertiports spread evenly over 45 x 45 miles, with 26 stands each, and 2,000 aircraft. Everything else is as in
@@ -79,21 +101,13 @@ fn large(criterion: &mut Criterion) {
     group.sample_size(10);
     let (start, simulation) = (day.operations.start, Simulation::new(Arc::clone(&day)));
     let morning = DayPrices::of(simulation.view(), start);
-    group.bench_function("100 vertiports and 2,000 aircraft, found anew", |bencher| {
-        bencher.iter_batched_ref(
-            || morning.clone(),
-            |prices| prices.refresh(black_box(simulation.view()), start + 900),
-            BatchSize::LargeInput,
-        );
-    });
-    group.bench_function("100 vertiports and 2,000 aircraft, one day", |bencher| {
-        bencher.iter(|| {
-            let mut simulation = Simulation::new(Arc::clone(&day));
-            play(&mut simulation, &mut BidPricePolicy::default(), |_| ())
-                .expect("prices always answer");
-            simulation
-        });
-    });
+    bench_renewal(
+        &mut group,
+        "100 vertiports and 2,000 aircraft, found anew",
+        &simulation,
+        &morning,
+    );
+    bench_day(&mut group, "100 vertiports and 2,000 aircraft, one day", &day);
     group.finish();
 }
 

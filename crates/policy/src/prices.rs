@@ -28,7 +28,6 @@ use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
 
 use base_rule::BaseRule;
-pub(crate) use base_rule::is_repositioning;
 pub use choices::Choices;
 use ranks::Ranks;
 use relaxation::Relaxation;
@@ -70,6 +69,20 @@ pub struct PricedChoice {
     pub worth_usd: f64,
     /// The vertiport to fly to; to hold, the one where the aircraft is.
     pub to: VertiportIx,
+}
+
+impl PricedChoice {
+    /// The choice that is worth most, and of equals the first; `None` without choices.
+    #[inline]
+    pub fn best(choices: impl IntoIterator<Item = Self>) -> Option<VertiportIx> {
+        let mut best = (f64::NEG_INFINITY, None);
+        for Self { worth_usd, to } in choices {
+            if worth_usd > best.0 {
+                best = (worth_usd, Some(to));
+            }
+        }
+        best.1
+    }
 }
 
 impl DayPrices {
@@ -202,14 +215,11 @@ impl DayPrices {
             let open = |to| feasible.contains(to) && self.base_rule.allows(&choices, to);
             return ranked.best(&choices, at, open, most_added_usd, added_usd);
         }
-        let mut best = (f64::NEG_INFINITY, at);
-        for PricedChoice { worth_usd, to } in self.open_choices(view, decision) {
-            let usd = worth_usd + added_usd(to);
-            if usd > best.0 {
-                best = (usd, to);
-            }
-        }
-        best.1
+        let more = |PricedChoice { worth_usd, to }| {
+            let worth_usd = worth_usd + added_usd(to);
+            PricedChoice { worth_usd, to }
+        };
+        PricedChoice::best(self.open_choices(view, decision).map(more)).unwrap_or(at)
     }
 
     /// The choices that the base rule permits, each with its worth in dollars.
@@ -225,7 +235,6 @@ impl DayPrices {
             Some(only) => to == only,
             None => self.base_rule.allows(&choices, to),
         };
-        let priced = move |to| PricedChoice { worth_usd: choices.worth_usd(to), to };
-        view.feasible(decision).iter().filter(open).map(priced)
+        view.feasible(decision).iter().filter(open).map(move |to| choices.priced(to))
     }
 }

@@ -10,7 +10,6 @@ use serde::{Deserialize, Serialize};
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
 
-use crate::prices::is_repositioning;
 use crate::{DayPrices, PricedChoice, Shortlist, draw};
 
 /// Settings of roll-outs.
@@ -151,7 +150,7 @@ impl RolloutEvaluator {
         let mut first_day_usd = None;
         for at in 0..self.better.len() {
             let to = self.better[at].to;
-            if !is_repositioning(view, decision, to) {
+            if !prices.choices(view, decision).is_repositioning(to) {
                 return to;
             }
             let first_day_usd =
@@ -321,14 +320,11 @@ impl RolloutSettings {
         choices: impl IntoIterator<Item = PricedChoice>,
     ) -> VertiportIx {
         let noise_usd = if rollout == 0 { 0.0 } else { self.noise * prices.stake_usd() };
-        let mut best = (f64::NEG_INFINITY, decision.at);
-        for PricedChoice { worth_usd, to } in choices {
-            let usd = worth_usd + noise_usd * noise(rollout, decision, to);
-            if usd > best.0 {
-                best = (usd, to);
-            }
-        }
-        best.1
+        let perturbed = |PricedChoice { worth_usd, to }| {
+            let worth_usd = worth_usd + noise_usd * noise(rollout, decision, to);
+            PricedChoice { worth_usd, to }
+        };
+        PricedChoice::best(choices.into_iter().map(perturbed)).unwrap_or(decision.at)
     }
 
     /// The value of a choice: the mean of its roll-outs, and with its weight its worth at the prices; dollars.

@@ -2,7 +2,6 @@
 
 use vertifleet_sim::{Decision, View};
 
-use crate::prices::is_repositioning;
 use crate::{DayPrices, PricedChoice};
 
 /// The shortlist of a decision: the choices that are worth most at the prices.
@@ -29,8 +28,8 @@ impl Shortlist {
     ) -> &[PricedChoice] {
         self.rank_near(prices, view, decision);
         let best = self.ranked[0].to;
-        self.ranked
-            .retain(|choice| choice.to == best || !is_repositioning(view, decision, choice.to));
+        let choices = prices.choices(view, decision);
+        self.ranked.retain(|&PricedChoice { to, .. }| to == best || !choices.is_repositioning(to));
         self.keep_most()
     }
 

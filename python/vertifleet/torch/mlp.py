@@ -29,11 +29,7 @@ class Mlp(Twin):
 
     def __init__(self, vertiports: int, width: int = 800, layers: int = 2, value_width: int = 256) -> None:
         vertiports = check_size("vertiports", vertiports)
-        node_features, aircraft_features = paper_features(vertiports)
-        super().__init__(vertiports, node_features, aircraft_features)
-        self._add_layers(vertiports, width, layers, value_width)
-
-    def _add_layers(self, vertiports: int, width: int, layers: int, value_width: int) -> None:
+        super().__init__(vertiports, *self._features_of(vertiports))
         self.width = width = check_size("width", width)
         self.layers = layers = check_size("layers", layers, MOST_LAYERS)
         self.value_width = value_width = check_size("value_width", value_width)
@@ -44,6 +40,10 @@ class Mlp(Twin):
         )
         self.logits = Linear(width, vertiports, LOGITS)
         self.value = ValueHead(width, value_width)
+
+    @staticmethod
+    def _features_of(vertiports: int) -> tuple[int, int]:
+        return paper_features(vertiports)
 
     @property
     def sizes(self) -> dict[str, int]:
@@ -63,19 +63,14 @@ class Mlp(Twin):
 
 
 class MlpFull(Mlp):
-    """Plain layers on the observation "gcaps-full", flattened, for one number of vertiports.
-
-    Args:
-        vertiports: N.
-        width: number of outputs of each layer.
-        layers: number of layers before the logits.
-        value_width: width of the value head's layer.
-    """
+    """The layers of :class:`Mlp` on the observation "gcaps-full", flattened, for one number of vertiports."""
 
     kind = "mlp-full"
     features = "full_"
 
     def __init__(self, vertiports: int, width: int = 256, layers: int = 2, value_width: int = 64) -> None:
-        vertiports = check_size("vertiports", vertiports)
-        Twin.__init__(self, vertiports, *FULL_FEATURES)
-        self._add_layers(vertiports, width, layers, value_width)
+        super().__init__(vertiports, width, layers, value_width)
+
+    @staticmethod
+    def _features_of(vertiports: int) -> tuple[int, int]:  # noqa: ARG004
+        return FULL_FEATURES

@@ -20,6 +20,13 @@ fn small(adjacency: Adjacency) -> Architecture {
     Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
 }
 
+/// The same policy twice, with opinions of its own.
+fn twice(adjacency: Adjacency) -> [FullPolicy; 2] {
+    let policy = small(adjacency);
+    let weights = with_opinions(&policy, 1);
+    [(); 2].map(|()| FullPolicy::of(policy.clone(), Arc::clone(&weights)))
+}
+
 /// Days of shipped networks, one of them disturbed, and of random ones.
 fn days() -> Vec<Arc<Scenario>> {
     let seed = DaySeed::validation(3).expect("a seed");
@@ -45,10 +52,7 @@ fn any_weights_keep_every_rule_on_networks_of_any_size() {
 
 #[test]
 fn a_batch_of_days_of_all_sizes_is_answered_as_each_alone() {
-    let policy = small(Adjacency::Reachable);
-    let weights = with_opinions(&policy, 1);
-    let mut alone = FullPolicy::of(policy.clone(), Arc::clone(&weights));
-    let mut together = FullPolicy::of(policy, weights);
+    let [mut alone, mut together] = twice(Adjacency::Reachable);
     let mut simulations: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();
     for _ in 0..30 {
         let decisions: Vec<_> =
@@ -107,10 +111,7 @@ fn the_page_names_every_feature_in_its_order() {
 
 #[test]
 fn a_choice_that_is_rolled_out_to_the_end_is_worth_what_the_day_then_earns() {
-    let policy = small(Adjacency::Complete);
-    let weights = with_opinions(&policy, 1);
-    let mut rolled_out = FullPolicy::of(policy.clone(), Arc::clone(&weights));
-    let mut alone = FullPolicy::of(policy, weights);
+    let [mut rolled_out, mut alone] = twice(Adjacency::Complete);
     let settings =
         RolloutSettings { horizon_s: 86_400, rollouts: 2, noise: 0.0, price_weight: 0.0 };
     // Nothing of this day is unknown.

@@ -68,7 +68,7 @@ impl GcapsX {
         scorer.score(scene, listed);
         values.fill(f64::NAN);
         for &choice in listed {
-            values[choice.to.at()] = scorer.worth_usd(0, scene.addition_usd(), choice);
+            values[choice.to.at()] = scorer.scored(0, scene.addition_usd(), choice).worth_usd;
         }
         listed
     }
@@ -88,12 +88,8 @@ impl Policy for GcapsX {
         };
         scorer.score(scene, listed);
         let addition_usd = scene.addition_usd();
-        let score = |&choice: &PricedChoice| PricedChoice {
-            worth_usd: scorer.worth_usd(0, addition_usd, choice),
-            to: choice.to,
-        };
         self.scored.clear();
-        self.scored.extend(listed.iter().map(score));
+        self.scored.extend(listed.iter().map(|&choice| scorer.scored(0, addition_usd, choice)));
         self.scored.sort_by(|one, other| other.worth_usd.total_cmp(&one.worth_usd));
         self.scored.truncate(*most_rolled_out);
         Ok(rollouts.best(scorer, scene, &self.scored))

@@ -77,20 +77,19 @@ impl Scorer {
 
     /// The choice with the highest worth in row 0.
     fn best_of_first_row(&self, addition_usd: f64, listed: &[PricedChoice]) -> VertiportIx {
-        let mut best = (f64::NEG_INFINITY, listed[0].to);
-        for &choice in listed {
-            let usd = self.worth_usd(0, addition_usd, choice);
-            if usd > best.0 {
-                best = (usd, choice.to);
-            }
-        }
-        best.1
+        let scored = listed.iter().map(|&choice| self.scored(0, addition_usd, choice));
+        PricedChoice::best(scored).unwrap_or(listed[0].to)
     }
 
-    /// The worth of a choice in a row of the latest [`forward`](Scores::forward), dollars.
-    pub(crate) fn worth_usd(&self, row: usize, addition_usd: f64, choice: PricedChoice) -> f64 {
-        let logit = self.workspace.logits()[row * self.vertiports() + choice.to.at()];
-        choice.worth_usd + f64::from(logit) / LOGITS_A_UNIT * addition_usd
+    /// A choice with its worth in a row of the latest [`forward`](Scores::forward).
+    pub(crate) fn scored(
+        &self,
+        row: usize,
+        addition_usd: f64,
+        PricedChoice { worth_usd, to }: PricedChoice,
+    ) -> PricedChoice {
+        let logit = self.workspace.logits()[row * self.vertiports() + to.at()];
+        PricedChoice { worth_usd: worth_usd + f64::from(logit) / LOGITS_A_UNIT * addition_usd, to }
     }
 }
 
@@ -115,7 +114,7 @@ impl Scores for Scorer {
     fn rate(&self, row: usize, scene: Scene<'_>, listed: &mut [PricedChoice]) {
         let addition_usd = scene.addition_usd();
         for choice in listed {
-            choice.worth_usd = self.worth_usd(row, addition_usd, *choice);
+            *choice = self.scored(row, addition_usd, *choice);
         }
     }
 }

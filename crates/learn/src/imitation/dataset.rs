@@ -1,5 +1,6 @@
 //! The dataset of imitation: decisions of played days, each with the values of its choices by roll-outs.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
@@ -7,7 +8,7 @@ use safetensors::tensor::SafeTensors;
 use vertifleet_core::VertiportIx;
 
 use crate::header::shape_of;
-use crate::nn::{Architecture, Shape};
+use crate::nn::{Architecture, Inputs, Shape};
 use crate::rows::Rows;
 use crate::run::checkpoint::tensor;
 
@@ -20,8 +21,6 @@ pub(crate) struct Samples {
     /// vertiport that cannot be chosen.
     pub(crate) priced: Vec<f32>,
     pub(crate) values: Vec<f32>,
-    /// The mask of each row as numbers, where the features do not tell it.
-    masks: Option<Vec<f32>>,
 }
 
 /// A choice as the teacher judges it.
@@ -36,9 +35,8 @@ pub(crate) struct Judged {
 
 impl Samples {
     /// No samples yet, in the form of these rows, which must be empty.
-    pub(crate) fn new(policy: &Architecture, rows: Rows) -> Self {
-        let masks = has_masks(policy).then(Vec::new);
-        Self { rows, priced: Vec::new(), values: Vec::new(), masks }
+    pub(crate) fn new(rows: Rows) -> Self {
+        Self { rows, priced: Vec::new(), values: Vec::new() }
     }
 
     /// Adds what the teacher thinks of the decision whose row was added last. `unit_usd` is the unit of the network's
@@ -53,9 +51,6 @@ impl Samples {
             self.priced[first + to.at()] = ((worth_usd - best_usd) / unit_usd) as f32;
             self.values[first + to.at()] = ((value_usd - mean_usd) / unit_usd) as f32;
         }
-        if let Some(masks) = &mut self.masks {
-            masks.extend(self.rows.inputs().mask[first..].iter().map(|&mask| f32::from(mask)));
-        }
     }
 
     /// Drops all samples after the first `len`.
@@ -63,9 +58,6 @@ impl Samples {
         self.rows.truncate(len);
         self.priced.truncate(len * self.rows.vertiports());
         self.values.truncate(len * self.rows.vertiports());
-        if let Some(masks) = &mut self.masks {
-            masks.truncate(len * self.rows.vertiports());
-        }
     }
 
     fn append(&mut self, other: &Self) {
@@ -74,9 +66,6 @@ impl Samples {
         }
         self.priced.extend(&other.priced);
         self.values.extend(&other.values);
-        if let (Some(masks), Some(others)) = (&mut self.masks, &other.masks) {
-            masks.extend(others);
-        }
     }
 }
 
@@ -124,12 +113,18 @@ impl Dataset {
 
     /// All samples as a checkpoint stores them. They are stored and not computed again because roll-outs take most of
     /// a run's time.
-    pub(crate) fn tensors(&self) -> impl Iterator<Item = (String, &[f32])> {
-        self.0.iter().flat_map(|(&vertiports, samples)| {
-            let inputs = samples.rows.inputs();
-            let Samples { priced, values, masks, .. } = samples;
-            let masks = masks.as_deref().unwrap_or_default();
-            let numbers = [inputs.nodes, inputs.aircraft, priced, values, inputs.edges, masks];
+    pub(crate) fn tensors(
+        &self,
+        policy: &Architecture,
+    ) -> impl Iterator<Item = (String, Cow<'_, [f32]>)> {
+        let has_masks = has_masks(policy);
+        self.0.iter().flat_map(move |(&vertiports, Samples { rows, priced, values })| {
+            let Inputs { nodes, aircraft, edges, mask, .. } = rows.inputs();
+            let masks = mask.iter().filter(|_| has_masks).map(|&open| f32::from(open));
+            let masks = Cow::Owned(masks.collect());
+            let [nodes, aircraft, priced, values, edges] =
+                [nodes, aircraft, priced, values, edges].map(Cow::Borrowed);
+            let numbers = [nodes, aircraft, priced, values, edges, masks];
             let named = TENSORS.iter().map(move |name| tensor_name(vertiports, name)).zip(numbers);
             named.filter(|(_, numbers)| !numbers.is_empty())
         })
@@ -167,7 +162,7 @@ impl Samples {
         let numbers = file.tensor(&aircraft).map_err(|error| error.to_string())?.data().len() / 4;
         let rows = numbers / aircraft_features;
         let tensor = |name: &str, entries: usize| tensor(file, name, entries);
-        let masks = has_masks(policy).then(|| tensor(&masks, rows * vertiports)).transpose()?;
+        let masks = has_masks(policy).then(|| tensor(&masks, rows * vertiports));
         let samples = Self {
             rows: Rows::of(
                 shape,
@@ -178,11 +173,10 @@ impl Samples {
                 } else {
                     Vec::new()
                 },
-                masks.as_deref(),
+                masks.transpose()?.as_deref(),
             ),
             priced: tensor(&priced, rows * vertiports)?,
             values: tensor(&values, rows * vertiports)?,
-            masks,
         };
         let mut masks = samples.rows.inputs().mask.chunks_exact(vertiports);
         if masks.any(|mask| mask.iter().all(|&listed| listed == 0)) {

@@ -290,7 +290,8 @@ impl TrainingRun for ImitationRun {
         let vertiports = self.dataset.lengths().into_keys().collect();
         let progress = Progress { curve: self.curve.clone(), vertiports };
         let Learner { weights, adam, .. } = &self.learner;
-        let samples = self.dataset.tensors();
+        let samples: Vec<_> = self.dataset.tensors(&self.identity.policy).collect();
+        let samples = samples.iter().map(|(name, numbers)| (name.clone(), &numbers[..]));
         checkpoint::write(path, &self.identity, weights.params(), adam, &progress, samples)
     }
 }

@@ -1,9 +1,9 @@
 //! The teacher: what a policy that learns by imitation sees of a decision, between which choices it decides, and what
 //! roll-outs say of them.
 //!
-//! Roll-outs take most of a run's time, so only the [`Shortlist`](vertifleet_policy::Shortlist) is rolled out. `gcaps-x` decides between its choices
-//! alone. Policies that see no prices decide between all feasible choices. Those that are not on the shortlist are
-//! judged to be below the worst that is, by what they are worth less at the prices.
+//! Roll-outs take most of a run's time, so only the [`Shortlist`](vertifleet_policy::Shortlist) is rolled out. `gcaps-x`
+//! decides between its choices alone. Policies that see no prices decide between all feasible choices. Those that are
+//! not on the shortlist are judged to be below the worst that is, by what they are worth less at the prices.
 
 use std::sync::Arc;
 
@@ -72,7 +72,7 @@ impl Teacher {
         };
         let evaluator = RolloutEvaluator::new(settings.clone());
         let (player, judged) = (RolloutPlayer::default(), Vec::new());
-        (Self { settings, evaluator, player, writer, judged }, Samples::new(policy, rows))
+        (Self { settings, evaluator, player, writer, judged }, Samples::new(rows))
     }
 
     /// Adds a decision, with what roll-outs say of its choices, in which `student` decides for every aircraft, or the

@@ -92,11 +92,10 @@ impl Certificate {
         at: usize,
         second: usize,
     ) -> i64 {
-        let second = second.min(day.slices.day_s() as usize);
-        self.worth_less_paid[(layer * day.size() + at) * self.stride + second]
+        self.worths_less_paid(day, layer, at, second)[0]
     }
 
-    /// The worths from a second on, for at least as many seconds as a hold or a flight lasts.
+    /// The same from a second on, for at least as many seconds as a hold or a flight lasts.
     pub(super) fn worths_less_paid(
         &self,
         day: &TimeExpandedDay,

@@ -7,7 +7,7 @@
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, Imagined, View};
 
-use super::{Choices, DayPrices};
+use super::{Choices, DayPrices, PricedChoice};
 use crate::Greedy;
 
 /// The rules by which the fleet may decide.
@@ -60,15 +60,9 @@ impl BaseRule {
         if self == Self::Greedy {
             return Greedy::flight_or_hold(view, decision);
         }
-        let mut best = (f64::NEG_INFINITY, decision.at);
         let choices = prices.choices(view, decision);
-        for to in view.feasible(decision).iter().filter(|&to| self.allows(&choices, to)) {
-            let usd = choices.worth_usd(to);
-            if usd > best.0 {
-                best = (usd, to);
-            }
-        }
-        best.1
+        let open = view.feasible(decision).iter().filter(|&to| self.allows(&choices, to));
+        PricedChoice::best(open.map(|to| choices.priced(to))).unwrap_or(decision.at)
     }
 
     /// Whether an aircraft may make a choice under a rule that decides by prices.
@@ -76,10 +70,4 @@ impl BaseRule {
     pub(super) fn allows(self, choices: &Choices<'_>, to: VertiportIx) -> bool {
         self == Self::Prices || !choices.is_repositioning(to)
     }
-}
-
-/// Whether a choice is a flight without passengers.
-#[inline]
-pub(crate) fn is_repositioning(view: View<'_>, decision: &Decision, to: VertiportIx) -> bool {
-    to != decision.at && view.demand_left(view.period(), decision.at, to) == 0
 }

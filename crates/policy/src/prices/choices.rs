@@ -3,6 +3,7 @@
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, Departures, View};
 
+use super::PricedChoice;
 use super::values::WorthsFrom;
 
 /// The choices of a decision.
@@ -41,6 +42,12 @@ impl<'a> Choices<'a> {
         }
         self.departures.profit_usd(to, self.waiting[to.at()])
             + self.worths.usd(to, self.time_s + self.departures.block_s(to))
+    }
+
+    /// A choice within range with its worth.
+    #[inline]
+    pub(super) fn priced(&self, to: VertiportIx) -> PricedChoice {
+        PricedChoice { worth_usd: self.worth_usd(to), to }
     }
 
     /// The number of seats that stay empty on a flight.
