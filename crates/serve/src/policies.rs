@@ -25,7 +25,7 @@ pub(crate) struct PolicyInfo {
     pub(crate) name: String,
     /// Whether the program has it; the others were uploaded.
     pub(crate) is_shipped: bool,
-    /// What decides by uploaded weights: `gcaps-x`, `gcaps` or `mlp`.
+    /// What decides by uploaded weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`.
     pub(crate) kind: Option<String>,
     /// SHA-256 of an uploaded weight file.
     pub(crate) weights_sha256: Option<String>,
@@ -38,7 +38,7 @@ pub(crate) struct PolicyInfo {
 /// What a weight file is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub(crate) struct WeightsInfo {
-    /// What decides by the weights: `gcaps-x`, `gcaps` or `mlp`.
+    /// What decides by the weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`.
     pub(crate) kind: String,
     /// SHA-256 of the file.
     pub(crate) weights_sha256: String,

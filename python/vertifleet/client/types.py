@@ -901,7 +901,7 @@ class PolicyInfo(TypedDict):
     is_shipped: bool
     """Whether the program has it; the others were uploaded."""
     kind: NotRequired[str | None]
-    """What decides by uploaded weights: `gcaps-x`, `gcaps` or `mlp`."""
+    """What decides by uploaded weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`."""
     trained_on: NotRequired[str | None]
     """The network on whose days uploaded weights were trained."""
     vertiports: NotRequired[int | None]
@@ -925,7 +925,7 @@ class WeightsInfo(TypedDict):
     """What a weight file is."""
 
     kind: str
-    """What decides by the weights: `gcaps-x`, `gcaps` or `mlp`."""
+    """What decides by the weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`."""
     weights_sha256: str
     """SHA-256 of the file."""
     trained_on: str

@@ -1234,7 +1234,7 @@ export interface components {
         PolicyInfo: {
             /** @description Whether the program has it; the others were uploaded. */
             is_shipped: boolean;
-            /** @description What decides by uploaded weights: `gcaps-x`, `gcaps` or `mlp`. */
+            /** @description What decides by uploaded weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`. */
             kind?: string | null;
             /** @description The name by which requests ask for it. */
             name: string;
@@ -1634,7 +1634,7 @@ export interface components {
         Weights: string;
         /** @description What a weight file is. */
         WeightsInfo: {
-            /** @description What decides by the weights: `gcaps-x`, `gcaps` or `mlp`. */
+            /** @description What decides by the weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`. */
             kind: string;
             /** @description The network on whose days the weights were trained. */
             trained_on: string;
