@@ -4,9 +4,10 @@ use vertifleet_core::VertiportIx;
 
 use crate::{DayTotals, Decision, Ledger, Refusal, Simulation, TraceRow, View};
 
-/// A day that continues from a decision as expected: demand comes as forecast, flights take off on time, aircraft are
-/// ready when they are expected to be, and known closures begin and end at their times. Unknown closures no longer
-/// begin, and those in force stay in force. An imagined day is made by [`View::imagined`]. The day that it was made
+/// A day that continues from a decision as expected: demand comes as forecast, aircraft are ready when they are expected
+/// to be, and known closures begin and end at their times. A flight is as late as the latest one that left
+/// the same vertiport in the same quarter of an hour, and on time if none has. Unknown closures no longer begin, and those
+/// in force stay in force. An imagined day is made by [`View::imagined`]. The day that it was made
 /// from does not change, and the imagined day reveals nothing that is not known yet.
 ///
 /// [`Clone::clone_from`] copies one imagined day into the memory of another, and allocates none if both are of the same
@@ -26,19 +27,19 @@ impl Clone for Imagined {
 
 impl Imagined {
     pub(crate) fn of(day: &Simulation) -> Self {
-        let mut imagined = Self(day.clone());
-        imagined.0.expect_no_surprises();
-        imagined
+        Self::of_expected(day.clone().without_surprises())
     }
 
     /// A day that goes on as expected already.
-    pub(crate) fn of_expected(day: Simulation) -> Self {
+    pub(crate) fn of_expected(mut day: Simulation) -> Self {
+        day.delays.expect();
         Self(day)
     }
 
     pub(crate) fn restart(&mut self, day: &Simulation) {
         self.0.clone_from(day);
         self.0.expect_no_surprises();
+        self.0.delays.expect();
     }
 
     /// The same as [`Simulation::next_decision`].

@@ -26,6 +26,7 @@
 pub mod check;
 mod closures;
 mod day_totals;
+mod delays;
 mod demand;
 mod departures;
 mod error;

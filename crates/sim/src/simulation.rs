@@ -5,6 +5,7 @@ use std::sync::Arc;
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 
 use crate::closures::Closures;
+use crate::delays::Delays;
 use crate::demand::Demand;
 use crate::outages::Outages;
 use crate::queue::ReadyQueue;
@@ -41,6 +42,7 @@ pub struct Simulation {
     pub(crate) ledger: Ledger,
     pub(crate) closures: Closures,
     outages: Outages,
+    pub(crate) delays: Delays,
     /// Whether anything unexpected may still happen. Always false on an imagined day, where unknown closures stay as
     /// they are and outages are already contained in `queue`.
     surprises: bool,
@@ -67,6 +69,7 @@ clone_into_room!(Simulation {
     ledger,
     closures,
     outages,
+    delays,
     surprises,
     eventful,
     now,
@@ -88,6 +91,7 @@ impl Simulation {
             ledger: Ledger::at_start(&scenario),
             closures: Closures::of(&scenario),
             outages: Outages::of(&scenario),
+            delays: Delays::before(&scenario),
             surprises: !scenario.disturbances.is_none(),
             eventful: !scenario.disturbances.is_none(),
             now: scenario.operations.start,
@@ -230,6 +234,9 @@ impl Simulation {
         let mut ready = arrival + leg.charge_s;
         if self.surprises {
             (arrival, ready) = self.disturbed(decision, arrival, ready);
+        } else {
+            let late_s = self.delays.expected_s(time, from);
+            (arrival, ready) = (arrival + late_s, ready + late_s);
         }
         let row = TraceRow {
             time,
@@ -261,6 +268,7 @@ impl Simulation {
         let start = self.scenario.operations.start;
         let table = self.scenario.disturbances.takeoff_delays.as_ref();
         let delay_s = table.map_or(0, |delays| delays.at(start, time, from));
+        self.delays.note(time, from, delay_s, self.scenario.vertiports.len());
         let (arrival, ready) = (arrival + delay_s, ready + delay_s);
         if self.outages.is_empty() {
             return (arrival, ready);

@@ -2,6 +2,7 @@
 
 mod shown;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use proptest::prelude::{ProptestConfig, any, prop, prop_assert, prop_assert_eq, proptest};
@@ -20,8 +21,21 @@ fn no_method_of_the_view_is_forgotten_here() {
     }
 }
 
-/// The day with everything changed that cannot be known at `now`.
-fn with_another_future(day: &Scenario, now: Time, change: u32) -> Arc<Scenario> {
+/// The slot of take-off delays that contains a time, and 0 on a day without delays.
+fn slot(day: &Scenario, time: Time) -> usize {
+    let delays = day.disturbances.takeoff_delays.as_ref();
+    delays.map_or(0, |delays| time.since(day.operations.start) / delays.slot_s) as usize
+}
+
+/// The day with everything changed that cannot be known at `now`, when flights have left the vertiports `left` in the
+/// current slot of take-off delays.
+fn with_another_future(
+    day: &Scenario,
+    now: Time,
+    left: &BTreeSet<VertiportIx>,
+    change: u32,
+) -> Arc<Scenario> {
+    let current = slot(day, now);
     let mut day = day.clone().into_day();
     let forecast = day.disturbances.forecast.get_or_insert_with(|| day.demand.clone());
     assert_eq!(forecast.len(), day.periods.len());
@@ -35,10 +49,11 @@ fn with_another_future(day: &Scenario, now: Time, change: u32) -> Arc<Scenario> 
         }
     }
     if let Some(delays) = &mut day.disturbances.takeoff_delays {
-        let current = (now.since(day.operations.start) / delays.slot_s) as usize;
-        for slot in delays.delay_s.iter_mut().skip(current + 1) {
-            for delay_s in slot {
-                *delay_s = (*delay_s + change) % 1300;
+        for (slot, delays_s) in delays.delay_s.iter_mut().enumerate().skip(current) {
+            for (at, delay_s) in delays_s.iter_mut().enumerate() {
+                if slot > current || !left.contains(&VertiportIx::new(at)) {
+                    *delay_s = (*delay_s + change) % 1300;
+                }
             }
         }
     }
@@ -62,21 +77,33 @@ fn with_another_future(day: &Scenario, now: Time, change: u32) -> Arc<Scenario> 
     Arc::new(day.check("another future").expect("a day within the rules"))
 }
 
-/// The views at the first `count` decisions of a day, at most, and the time of the last of them.
-fn course(day: &Arc<Scenario>, draws: &[u32], count: usize) -> (Vec<Vec<String>>, Time) {
+/// The views at the first `count` decisions of a day, at most, the time of the last of them, and the vertiports that
+/// flights have left by then in its slot of take-off delays.
+fn course(
+    day: &Arc<Scenario>,
+    draws: &[u32],
+    count: usize,
+) -> (Vec<Vec<String>>, Time, BTreeSet<VertiportIx>) {
     let mut simulation = Simulation::new(Arc::clone(day));
-    let (mut course, mut now) = (Vec::new(), day.operations.start);
+    let (mut course, mut now, mut left) = (Vec::new(), day.operations.start, BTreeSet::new());
     while let Some(decision) = simulation.next_decision() {
         course.push(shown(simulation.view(), &decision));
+        if slot(day, decision.time) > slot(day, now) {
+            left.clear();
+        }
         now = decision.time;
         if course.len() == count {
             break;
         }
         let mask = simulation.view().feasible(&decision);
         let rank = draws[course.len() % draws.len()] % mask.len();
-        simulation.apply(mask.nth(rank).expect("a rank within the mask")).expect("feasible");
+        let row = simulation.apply(mask.nth(rank).expect("a rank within the mask"));
+        let row = row.expect("feasible");
+        if row.to != row.from {
+            left.insert(row.from);
+        }
     }
-    (course, now)
+    (course, now, left)
 }
 
 proptest! {
@@ -90,10 +117,39 @@ proptest! {
         let mut known = Scenario::clone(&day).into_day();
         known.disturbances.forecast.get_or_insert_with(|| day.demand.clone());
         let known = Arc::new(known.check("known").expect("a day within the rules"));
-        let (shown, now) = course(&known, &draws, count);
+        let (shown, now, left) = course(&known, &draws, count);
         // Only as many decisions are compared, because whether there is another one depends on the future.
-        let (again, _) = course(&with_another_future(&known, now, change), &draws, shown.len());
+        let other = with_another_future(&known, now, &left, change);
+        let (again, ..) = course(&other, &draws, shown.len());
         prop_assert!(shown == again);
+    }
+
+    #[test]
+    fn an_imagined_flight_is_as_late_as_the_latest_that_left_in_its_quarter_of_an_hour(
+        day in extended_day(), draws in prop::collection::vec(any::<u32>(), 1..20)
+    ) {
+        let mut simulation = Simulation::new(Arc::clone(&day));
+        let mut left = BTreeMap::new();
+        let mut room = None;
+        while let Some(decision) = simulation.next_decision() {
+            let view = simulation.view();
+            let mask = view.feasible(&decision);
+            let rank = draws[decision.index as usize % draws.len()] % mask.len();
+            let choice = mask.nth(rank).expect("a rank within the mask");
+            let flight_s = view.leg(view.kind(decision.aircraft), decision.at, choice).flight_s;
+            let imagined = view.imagined_in(&mut room).apply(choice).expect("feasible");
+            let row = simulation.apply(choice).expect("feasible");
+            if row.to != row.from {
+                let on_time = row.time + flight_s;
+                let quarter = row.time.seconds() / 900;
+                let known = left.insert(row.from, (quarter, row.arrival.since(on_time)));
+                let expected_s = match known {
+                    Some((same, late_s)) if same == quarter && late_s <= 3_600 => late_s,
+                    _ => 0,
+                };
+                prop_assert_eq!(imagined.arrival, on_time + expected_s);
+            }
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod shown;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use proptest::prelude::{
@@ -11,7 +12,7 @@ use shown::shown;
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 use vertifleet_sim::Simulation;
 use vertifleet_sim::live::{Booking, LiveDay, Phase, Report, Reporter, Routes, Unfit};
-use vertifleet_testkit::extended_day;
+use vertifleet_testkit::{extended_day, paper_day};
 
 /// Plays a day by a rule and tells it to a live day. At every decision both show the same.
 fn told(day: &Arc<Scenario>, draws: &[u32]) -> (Simulation, LiveDay) {
@@ -55,6 +56,37 @@ proptest! {
         prop_assert_eq!(live.totals(), simulation.totals());
         prop_assert!(live.aircraft().all(|aircraft| aircraft.phase == Phase::Standing));
     }
+}
+
+#[test]
+fn others_are_expected_to_depart_as_late_as_the_latest_flight() {
+    let mut live = LiveDay::new(paper_day(1));
+    let start = live.scenario().operations.start;
+    let mut day = live.rest();
+    let first = day.next_decision().expect("a day has decisions");
+    let to = day.view().feasible(&first).iter().find(|&to| to != first.at).expect("a free stand");
+    let aircraft = first.aircraft;
+    live.take(start, &Report::Decided { aircraft, to }).expect("it is feasible");
+    let departed = Report::Departed { aircraft, to: None, passengers: None };
+    live.take(start + 240, &departed).expect("it was sent off");
+    let mut rest = live.rest();
+    let mut late = BTreeSet::new();
+    while let Some(decision) = rest.next_decision()
+        && decision.time < start + 3_600
+    {
+        let view = rest.view();
+        let flight = view.feasible(&decision).iter().find(|&to| to != decision.at);
+        let to = flight.unwrap_or(decision.at);
+        let flight_s = view.leg(view.kind(decision.aircraft), decision.at, to).flight_s;
+        let row = rest.apply(to).expect("it is feasible");
+        if row.to != row.from {
+            let is_early = row.time < start + 900;
+            let late_s = row.arrival.since(row.time + flight_s);
+            late.insert((row.from == first.at, is_early, late_s));
+        }
+    }
+    assert!(late.contains(&(true, true, 240)), "{late:?}");
+    assert!(late.iter().all(|&(same, early, late_s)| (late_s == 240) == (same && early)));
 }
 
 /// A report about anything at all, most of it possible on small days.

@@ -245,6 +245,7 @@ impl LiveDay {
         if let Some(passengers) = passengers {
             self.correct_passengers(flight, passengers);
         }
+        self.note_delay(flight, time);
         if time != departs {
             let flight_s = self.decisions[flight].row.arrival.since(departs);
             self.set_arrival(aircraft, flight, time + flight_s);
@@ -428,6 +429,7 @@ impl LiveDay {
         match self.state(aircraft)?.phase {
             Phase::Standing => self.charge(aircraft, until, "be delayed")?,
             Phase::SentOff { flight, departs } => {
+                self.note_delay(flight, until);
                 let flight_s = self.decisions[flight].row.arrival.since(departs);
                 self.aircraft[aircraft.at()].phase = Phase::SentOff { flight, departs: until };
                 self.set_arrival(aircraft, flight, until + flight_s);
@@ -435,6 +437,13 @@ impl LiveDay {
             Phase::InTheAir { flight, .. } => self.set_arrival(aircraft, flight, until),
         }
         Ok(())
+    }
+
+    /// Takes note of how late a flight departs, by which others are expected to.
+    fn note_delay(&mut self, flight: usize, departs: Time) {
+        let TraceRow { time, from, .. } = self.decisions[flight].row;
+        let vertiports = self.scenario().vertiports.len();
+        self.known.delays.note(time, from, departs.since(time), vertiports);
     }
 
     fn set_out(&mut self, aircraft: AircraftIx, out: Option<OutOfService>) -> Result<(), Unfit> {
