@@ -6,18 +6,21 @@ From the root of the project, with the packages of python/constraints.txt (`pyth
     python/.venv/bin/python benches/claim.py out/claim writes benches/claim/results.csv, the raw results
     python/.venv/bin/python benches/claim.py           prints the tables, and draws docs/src/images/claim.svg, from that file
 
-A difference is tested over training seeds and days at once. Seeds and days are crossed random effects,
+A difference of two models is tested over training runs and days at once. Its variance is
 
-    difference(seed, day) = mean + a(seed) + b(day) + rest(seed, day),
+    2 s^2 / seeds  +  (variance of its daily means over seeds) / days,
 
-so the mean's variance is (MS_seed + MS_day - MS_rest) / (seeds x days), with Satterthwaite's degrees of freedom. p-values are corrected by
-Holm's method over all differences of a world.
+with Satterthwaite's degrees of freedom. s^2 is the variance of a run's mean that neither its model nor its seed explains, pooled over
+all models of a table, because three runs alone do not tell it; only the table of states, whose runs vary by different amounts, pools
+nothing. p-values are corrected by Holm's method over all differences of a table in one world; intervals are not corrected.
 """
 
 import csv
 import json
 import sys
+from collections.abc import Iterable
 from pathlib import Path
+from typing import TypeVar
 
 import numpy
 from scipy import stats
@@ -27,7 +30,7 @@ FIGURE = Path("docs/src/images/claim.svg")
 WORLDS = {"paper": "one network", "random-places:8": "a new network each day"}
 # The folders of scripts/claim, in the order of the tables.
 NETWORKS = {
-    "capsules": "graph capsules of Table 3",
+    "capsules": "graph capsules, complete graph",
     "profit": "the same, neighbours by profit",
     "no-graph": "no graph (K = 0)",
     "no-second-moment": "no second moment (P = 1)",
@@ -52,36 +55,37 @@ SWEEP = {
 }
 # The same two readers with all that is seen, and with the state of the paper.
 STATES = {"capsules": "paper-state-capsules", "mlp": "paper-state-mlp"}
-# What the others are compared with.
+# What the others are compared with, and what was compared after the results were seen.
 REFERENCES = ["capsules", "mlp"]
+AFTERWARDS = [("profit", "no-graph"), ("profit", "transformer")]
 Shares = dict[tuple[str, str], numpy.ndarray]
 Pair = tuple[str, str]
+Test = tuple[float, float, float]
+Name = TypeVar("Name", str, tuple[str, str])
 
 
 def collect(folder: Path) -> None:
-    """Writes the share of the bound of each run and day into one file."""
-    rows = []
+    """Writes the share of the bound of each run and day into one file, in which runs that the folder has not stay as they are."""
+    runs: dict[tuple[str, str, str], list[list[str]]] = {}
+    if DATA.exists():
+        with DATA.open(newline="") as file:
+            for row in list(csv.reader(file))[1:]:
+                runs.setdefault((row[0], row[1], row[2]), []).append(row)
     for run in sorted(folder.glob("*/*")):
         world, (name, seed) = run.parent.name, run.name.rsplit("-", 1)
         for file in sorted(run.glob("results/*.json")):
             result = json.loads(file.read_text())
-            policy = result["policy"]["name"]
-            for day in result["days"]:
-                share = day["profit_usd"] / day["upper_bound_usd"]
-                row = [
-                    world,
-                    "greedy" if policy == "greedy" else name,
-                    seed,
-                    day["day"],
-                    f"{100 * share:.4f}",
-                ]
-                if policy != "greedy" or (name, seed) == (REFERENCES[0], "1"):
-                    rows.append(row)
+            is_greedy = result["policy"]["name"] == "greedy"
+            if is_greedy and (name, seed) != (REFERENCES[0], "1"):
+                continue
+            run_of = (world, "greedy" if is_greedy else name, seed)
+            shares = ((day["day"], 100 * day["profit_usd"] / day["upper_bound_usd"]) for day in result["days"])
+            runs[run_of] = [[*run_of, day, f"{share:.4f}"] for day, share in shares]
     DATA.parent.mkdir(exist_ok=True)
     with DATA.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["world", "network", "seed", "day", "bound_share_percent"])
-        writer.writerows(rows)
+        writer.writerows(row for run_of in sorted(runs) for row in runs[run_of])
 
 
 def read() -> Shares:
@@ -94,31 +98,29 @@ def read() -> Shares:
     return {key: numpy.array([seeds[seed] for seed in sorted(seeds)]) for key, seeds in found.items()}
 
 
-def mean_of(shares: numpy.ndarray) -> tuple[float, float, float]:
-    """The mean over seeds and days, half its 95 % interval, and the p-value of its being 0."""
-    seeds, days = shares.shape
-    mean = shares.mean()
-    of_seeds, of_days = shares.mean(axis=1), shares.mean(axis=0)
-    rest = shares - of_seeds[:, None] - of_days[None, :] + mean
-    squares = [
-        days * of_seeds.var(ddof=1),
-        seeds * of_days.var(ddof=1),
-        (rest**2).sum() / ((seeds - 1) * (days - 1)),
-    ]
-    # The rest is no larger than either of the others but for chance.
-    whole = max(squares[0] + squares[1] - squares[2], squares[0], squares[1])
-    freedom = whole**2 / sum(
-        square**2 / count for square, count in zip(squares, [seeds - 1, days - 1, (seeds - 1) * (days - 1)], strict=True)
-    )
-    error = (whole / (seeds * days)) ** 0.5
-    return (
-        mean,
-        stats.t.ppf(0.975, freedom) * error,
-        2 * stats.t.sf(abs(mean) / error, freedom),
-    )
+class Differences:
+    """Differences between models in one world, whose runs are alike in how much they vary."""
+
+    def __init__(self, shares: Shares, world: str, models: Iterable[str]) -> None:
+        self.shares = {name: shares[world, name] for name in models if (world, name) in shares}
+        means = numpy.array([runs.mean(axis=1) for runs in self.shares.values()])
+        rest = means - means.mean(axis=1, keepdims=True) - means.mean(axis=0) + means.mean()
+        self.run_freedom = (means.shape[0] - 1) * (means.shape[1] - 1)
+        self.run_variance = (rest**2).sum() / self.run_freedom
+
+    def of(self, one: str, other: str) -> Test:
+        """The mean over seeds and days, half its 95 % interval, and the p-value of its being 0."""
+        differences = self.shares[one] - self.shares[other]
+        seeds, days = differences.shape
+        mean, of_days = differences.mean(), differences.mean(axis=0)
+        parts = [(2 * self.run_variance / seeds, self.run_freedom), (of_days.var(ddof=1) / days, days - 1)]
+        variance = sum(part for part, _ in parts)
+        freedom = variance**2 / sum(part**2 / count for part, count in parts)
+        error = variance**0.5
+        return mean, stats.t.ppf(0.975, freedom) * error, 2 * stats.t.sf(abs(mean) / error, freedom)
 
 
-def holm(p_values: dict[Pair, float]) -> dict[Pair, float]:
+def holm(p_values: dict[Name, float]) -> dict[Name, float]:
     """The p-values, corrected for their number."""
     corrected, highest = {}, 0.0
     for rank, pair in enumerate(sorted(p_values, key=p_values.__getitem__)):
@@ -127,7 +129,7 @@ def holm(p_values: dict[Pair, float]) -> dict[Pair, float]:
     return corrected
 
 
-def words_of(test: tuple[float, float, float], corrected: float) -> str:
+def words_of(test: Test, corrected: float) -> str:
     """A difference, half its 95 % interval, and its corrected p-value."""
     mean, half, _ = test
     return f"{mean:+.2f} ± {half:.2f}, p " + ("< 0.001" if corrected < 0.001 else f"= {corrected:.3f}")
@@ -135,12 +137,11 @@ def words_of(test: tuple[float, float, float], corrected: float) -> str:
 
 def table(shares: Shares, world: str) -> str:
     """The table of a world, as Markdown."""
-    differences = {
-        (name, reference): mean_of(shares[world, name] - shares[world, reference])
-        for reference in REFERENCES
-        for name in NETWORKS
-        if name not in REFERENCES[: REFERENCES.index(reference) + 1]
-    }
+    known = Differences(shares, world, NETWORKS)
+    pairs = [
+        (name, reference) for reference in REFERENCES for name in NETWORKS if name not in REFERENCES[: REFERENCES.index(reference) + 1]
+    ]
+    differences = {pair: known.of(*pair) for pair in [*pairs, *AFTERWARDS]}
     corrected = holm({pair: p_value for pair, (_, _, p_value) in differences.items()})
 
     def against(name: str, reference: str) -> str:
@@ -151,7 +152,7 @@ def table(shares: Shares, world: str) -> str:
     lines = [
         f"`{world}`, {WORLDS[world]}:",
         "",
-        "| network | seeds 1, 2, 3 | mean | against the first row | against plain layers |",
+        "| model | seeds 1, 2, 3 | mean | against the first row | against plain layers |",
         "|---|---|---|---|---|",
     ]
     for name, words in NETWORKS.items():
@@ -159,29 +160,24 @@ def table(shares: Shares, world: str) -> str:
         others = " | ".join(against(name, reference) for reference in REFERENCES)
         lines.append(f"| {words} | {seeds} | {shares[world, name].mean():.2f} | {others} |")
     lines.append(f"| `greedy` | | {shares[world, 'greedy'].mean():.2f} | | |")
+    lines += ["", "Added when the results were known:", ""]
+    lines.extend(f"- {NETWORKS[one]}, against {NETWORKS[other]}: {against(one, other)}" for one, other in AFTERWARDS)
     return "\n".join(lines)
 
 
 def states(shares: Shares) -> str:
-    """The same two readers with all that is seen, and with the state of the paper, as a table in Markdown."""
+    """The same two models with all that is seen, and with the state of the paper, as a table in Markdown."""
+    lines = ["| world | model | the paper's state | all of it | all of it is ahead by |", "|---|---|---|---|---|"]
     graph, plain = REFERENCES
-    tests = {}
     for world in WORLDS:
-        for full, paper in STATES.items():
-            tests[world, full] = mean_of(shares[world, full] - shares[world, paper])
-        tests[world, "paper"] = mean_of(shares[world, STATES[graph]] - shares[world, STATES[plain]])
-        tests[world, "full"] = mean_of(shares[world, graph] - shares[world, plain])
-    corrected = holm({pair: p_value for pair, (_, _, p_value) in tests.items()})
-
-    def words(pair: Pair) -> str:
-        return words_of(tests[pair], corrected[pair])
-
-    lines = ["| world | network | the paper's state | all of it | all of it is ahead by |", "|---|---|---|---|---|"]
-    for world in WORLDS:
+        pairs = {**{full: (full, paper) for full, paper in STATES.items()}, "paper": (STATES[graph], STATES[plain])}
+        # Runs on the paper's state vary more than the others, so nothing is pooled.
+        tests = {name: Differences(shares, world, pair).of(*pair) for name, pair in pairs.items()}
+        corrected = holm({name: p_value for name, (_, _, p_value) in tests.items()})
         for full, paper in STATES.items():
             means = f"{shares[world, paper].mean():.2f} | {shares[world, full].mean():.2f}"
-            lines.append(f"| `{world}` | {NETWORKS[full]} | {means} | {words((world, full))} |")
-        lines.append(f"| | graph capsules are ahead by | {words((world, 'paper'))} | {words((world, 'full'))} | |")
+            lines.append(f"| `{world}` | {NETWORKS[full]} | {means} | {words_of(tests[full], corrected[full])} |")
+        lines.append(f"| | graph capsules are ahead by | {words_of(tests['paper'], corrected['paper'])} | see above | |")
     return "\n".join(lines)
 
 
@@ -190,13 +186,12 @@ def sweep(shares: Shares) -> str:
     lines = ["| changed | " + " | ".join(f"`{world}`" for world in WORLDS) + " |", "|---|" + "---|" * len(WORLDS)]
     means = {world: shares[world, REFERENCES[0]].mean() for world in WORLDS}
     lines.append("| nothing (P = 2, K = 2, L_e = 1, complete graph) | " + " | ".join(f"{mean:.2f}" for mean in means.values()) + " |")
-    differences = {
-        (world, name): mean_of(shares[world, name] - shares[world, REFERENCES[0]])
-        for world in WORLDS
-        for name in SWEEP
-        if (world, name) in shares
-    }
-    corrected = holm({pair: p_value for pair, (_, _, p_value) in differences.items()})
+    differences, corrected = {}, {}
+    for world in WORLDS:
+        known = Differences(shares, world, [REFERENCES[0], *SWEEP])
+        tests = {(world, name): known.of(name, REFERENCES[0]) for name in SWEEP if name in known.shares}
+        differences |= tests
+        corrected |= holm({pair: p_value for pair, (_, _, p_value) in tests.items()})
 
     def cell(world: str, name: str) -> str:
         if (world, name) not in differences:
