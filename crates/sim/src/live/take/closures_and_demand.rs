@@ -1,0 +1,133 @@
+//! Reports of routes that close and open, and of passengers.
+
+use std::sync::Arc;
+
+use vertifleet_core::{Closure, Route, Scenario, Time, VertiportIx};
+
+use crate::live::LiveDay;
+use crate::live::report::{Booking, Routes, Unfit};
+
+/// At most this many passengers of a pair wait in a period.
+const MOST_PASSENGERS: u32 = 1_000_000;
+
+impl LiveDay {
+    pub(super) fn close(
+        &mut self,
+        time: Time,
+        routes: Routes,
+        until: Option<Time>,
+    ) -> Result<(), Unfit> {
+        let size = self.check_routes(routes)?;
+        let pairs = routes.pairs(size);
+        let Some(end) = until else {
+            for (from, to) in pairs {
+                self.known.closures.report(from, to, true, size);
+            }
+            return Ok(());
+        };
+        let closure = |&(from, to): &(VertiportIx, VertiportIx)| {
+            let route = Route { from, to, both_ways: false };
+            Closure { route, start: time, end, known: true }
+        };
+        self.closures.extend(pairs.iter().map(closure));
+        self.announce(time, &pairs);
+        Ok(())
+    }
+
+    pub(super) fn reopen(&mut self, time: Time, routes: Routes) -> Result<(), Unfit> {
+        let size = self.check_routes(routes)?;
+        let pairs = routes.pairs(size);
+        let time = time.max(self.now);
+        let in_force = |closure: &Closure| {
+            let pair = (closure.route.from, closure.route.to);
+            (closure.start..closure.end).contains(&time) && pairs.contains(&pair)
+        };
+        if self.closures.iter().any(in_force) {
+            self.closures.retain(|closure| !in_force(closure));
+            self.announce(time, &pairs);
+            return Ok(());
+        }
+        for (from, to) in pairs {
+            self.known.closures.report(from, to, false, size);
+        }
+        Ok(())
+    }
+
+    /// Makes all closures known whose end is.
+    fn announce(&mut self, time: Time, told: &[(VertiportIx, VertiportIx)]) {
+        let (now, size) = (self.now.max(time), self.scenario().vertiports.len());
+        self.known.closures.announce(&self.closures, told, now, size);
+        self.known.eventful = true;
+        self.forget();
+    }
+
+    /// Makes the day another one for policies that remember it, because what they remember no longer holds: they read
+    /// stands and known closures once a day.
+    pub(super) fn forget(&mut self) {
+        self.known.scenario = Arc::new(Scenario::clone(&self.known.scenario));
+    }
+
+    fn check_routes(&self, routes: Routes) -> Result<usize, Unfit> {
+        match routes {
+            Routes::Way { from, to } if from == to => return Err(Unfit::Unknown("route")),
+            Routes::Way { from, to } => {
+                self.check_vertiport(from)?;
+                self.check_vertiport(to)?;
+            }
+            Routes::Of(vertiport) => self.check_vertiport(vertiport)?,
+        }
+        Ok(self.scenario().vertiports.len())
+    }
+
+    fn period_start(&self, period: usize) -> Result<Time, Unfit> {
+        self.scenario().periods.get(period).copied().ok_or(Unfit::Unknown("period"))
+    }
+
+    fn check_period(&self, period: usize) -> Result<(), Unfit> {
+        let start = self.period_start(period)?;
+        if period < self.known.period {
+            return Err(Unfit::PeriodOver { start, now: self.now });
+        }
+        Ok(())
+    }
+
+    pub(super) fn set_demand(
+        &mut self,
+        period: usize,
+        pairs: &[(VertiportIx, VertiportIx, u32)],
+    ) -> Result<(), Unfit> {
+        self.period_start(period)?;
+        for &(from, to, passengers) in pairs {
+            self.check_routes(Routes::Way { from, to })?;
+            if passengers > MOST_PASSENGERS {
+                return Err(Unfit::TooMany { most: MOST_PASSENGERS });
+            }
+        }
+        for &(from, to, passengers) in pairs {
+            self.known.demand.set(period, from, to, passengers);
+        }
+        self.is_stale = true;
+        Ok(())
+    }
+
+    pub(super) fn book(&mut self, booking: Booking) -> Result<(), Unfit> {
+        let left = self.left(booking)?;
+        self.set_left(booking, left.saturating_add(booking.passengers))
+    }
+
+    pub(super) fn cancel(&mut self, booking: Booking) -> Result<(), Unfit> {
+        let (left, cancelled) = (self.left(booking)?, booking.passengers);
+        let still = left.checked_sub(cancelled).ok_or(Unfit::NotSoMany { cancelled, left })?;
+        self.set_left(booking, still)
+    }
+
+    fn left(&self, Booking { period, from, to, .. }: Booking) -> Result<u32, Unfit> {
+        self.check_period(period)?;
+        self.check_routes(Routes::Way { from, to })?;
+        Ok(self.known.demand.left(period, from, to))
+    }
+
+    fn set_left(&mut self, booking: Booking, left: u32) -> Result<(), Unfit> {
+        self.set_demand(booking.period, &[(booking.from, booking.to, left)])
+    }
+}
