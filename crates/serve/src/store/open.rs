@@ -213,3 +213,45 @@ fn sqlite_url(path: &Path) -> String {
     let path = path.replace('%', "%25").replace('?', "%3F").replace('#', "%23");
     format!("sqlite://{path}?mode=rwc")
 }
+
+#[cfg(test)]
+mod tests {
+    use sqlx::Executor as _;
+
+    use crate::store::{Kind, Location, Store, StoredDay};
+
+    #[tokio::test]
+    async fn a_store_of_the_version_before_is_brought_up_to_date() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let location = Location::Folder(folder.path().to_owned());
+        let store = Store::open(&location).await.expect("a store");
+        let day = StoredDay {
+            id: "1".to_owned(),
+            name: "old".to_owned(),
+            created_ms: 7,
+            archived: false,
+            policy: "greedy".to_owned(),
+            date: String::new(),
+            time_zone: String::new(),
+        };
+        store.add_day(&day, "{}", None).await.expect("it is stored");
+        for statement in [
+            "ALTER TABLE days DROP COLUMN date",
+            "ALTER TABLE days DROP COLUMN time_zone",
+            "ALTER TABLE days DROP COLUMN sum",
+            "DROP TABLE networks",
+            "DROP TABLE policies",
+            "DROP TABLE descriptions",
+            "UPDATE meta SET value = '1' WHERE name = 'version'",
+        ] {
+            store.pool.execute(statement).await.expect("a store as it was");
+        }
+        drop(store);
+        for _ in 0..2 {
+            let store = Store::open(&location).await.expect("it is brought up to date");
+            assert_eq!(store.days("", 10).await.expect("days"), std::slice::from_ref(&day));
+            let networks = store.uploaded::<()>(Kind::Network).await;
+            assert_eq!(networks.expect("a table"), []);
+        }
+    }
+}
