@@ -33,8 +33,7 @@ pub(crate) fn weighted(outputs: &[f32], weights: &[f32]) -> f64 {
 }
 
 /// Checks the slopes of a loss in every `stride`-th entry of `at`. An entry that moves a rectifier across its kink has
-/// different slopes on its two sides; such entries are left out. At least a third must be left to compare: how many are left
-/// depends on the last bits of the loss, and so on the machine.
+/// different slopes on its two sides; such entries are left out, and must be few.
 pub(crate) fn check(
     what: &str,
     at: &[f32],
@@ -71,7 +70,7 @@ pub(crate) fn check(
             "{what}, entry {entry}: {slope} is not {expected}"
         );
     }
-    assert!(kinks * 3 <= checked * 2, "{what}: {kinks} kinks among {checked} entries");
+    assert!(kinks * 2 <= checked, "{what}: {kinks} kinks among {checked} entries");
 }
 
 fn tensors(params: &[f32]) -> Tensors<'_> {
@@ -302,7 +301,8 @@ pub(crate) fn check_network(architecture: Architecture, seed: u64, size: f32) {
 
 #[test]
 fn gcaps_whole() {
-    for seed in [10, 20, 30] {
+    // With seed 30 half of the biases move a rectifier across its kink, so that it depends on the machine whether they are few.
+    for seed in [10, 20, 50] {
         check_network(Architecture::Gcaps(GcapsSettings::of_sizes(16, 4)), seed, 1.0);
     }
 }
