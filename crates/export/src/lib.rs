@@ -1,0 +1,1 @@
+//! Played days in the formats of other programs.
