@@ -124,7 +124,7 @@ mod tests {
         let middle = way.at(0.5);
         assert!((middle.longitude - 45.0).abs() < 1e-6);
         // tan(latitude) = tan(60) / cos(45) in the middle.
-        assert!((middle.latitude - 67.7923457).abs() < 1e-6, "{}", middle.latitude);
+        assert!((middle.latitude - 67.792_345_7).abs() < 1e-6, "{}", middle.latitude);
     }
 
     #[test]

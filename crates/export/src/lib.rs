@@ -6,11 +6,11 @@
 //!
 //! | function | format | for |
 //! |---|---|---|
-//! | [`csv`] | CSV, one row a flight or hold | spreadsheets |
-//! | [`parquet`] | Apache Parquet with the same columns | data frames and databases |
-//! | [`geojson`] | GeoJSON, one line a flight with the time at every point | maps, and the trip layer of kepler.gl |
-//! | [`gtfs`] | a GTFS Schedule feed, one trip a flight | trip planners and tools of public transport |
-//! | [`icalendar`] | iCalendar, one calendar a vertiport | calendars |
+//! | [`csv()`] | CSV, one row a flight or hold | spreadsheets |
+//! | [`parquet()`] | Apache Parquet with the same columns | data frames and databases |
+//! | [`geojson()`] | GeoJSON, one line a flight with the time at every point | maps, and the trip layer of kepler.gl |
+//! | [`gtfs()`] | a GTFS Schedule feed, one trip a flight | trip planners and tools of public transport |
+//! | [`icalendar()`] | iCalendar, one calendar a vertiport | calendars |
 //!
 //! In every format the departure of a flight is the time of its decision, which is when boarding begins. The aircraft
 //! cruises once the take-off time and any delay are over; it arrives when landing is over, which is when passengers

@@ -2,8 +2,8 @@
 //!
 //! Positions of a line are `[longitude, latitude, altitude, seconds since 1970]`, which is what the trip layer of
 //! kepler.gl animates. The altitude is 0, because a day says nothing of it. Flights come before vertiports, because
-//! kepler.gl looks at the first feature to see whether there are trips. Longitudes go on past 180 degrees where a flight
-//! crosses the date line. Each feature has a line of the file for itself.
+//! kepler.gl looks at the first feature to see whether there are trips. Longitudes go on past 180 degrees where a
+//! flight crosses the date line. Each feature has a line of the file for itself.
 
 use std::collections::HashMap;
 

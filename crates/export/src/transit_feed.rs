@@ -4,16 +4,22 @@
 //! |---|---|
 //! | `agency.txt` | the fleet, under the name of the day, with the time zone of the calendar |
 //! | `stops.txt` | every vertiport |
-//! | `routes.txt` | every pair of vertiports that is flown, in this direction; `route_type` is 1100, the extended type for air services |
+//! | `routes.txt` | every ordered pair of vertiports that is flown; `route_type` is 1100, an air service |
 //! | `trips.txt` | every flight; `block_id` is the aircraft |
 //! | `stop_times.txt` | departure and arrival of every flight |
 //! | `calendar_dates.txt` | the one date of the day |
 //! | `shapes.txt` | the great circle of every route |
 //! | `feed_info.txt` | the same name, and the date |
 //!
-//! Passengers may board at the departure and leave at the arrival. On a flight that repositions an aircraft they may do
-//! neither (`pickup_type` and `drop_off_type` are 1). Whether bicycles and wheelchairs are carried is left open. A day
-//! has no address on the web, and GTFS wants one: it is `https://example.org/`, which belongs to nobody.
+//! The type 1100 is one of the extended route types of Google Transit. Passengers may board at the departure and leave
+//! at the arrival; on a flight that repositions an aircraft they may do neither (`pickup_type` and `drop_off_type` are
+//! 1). Whether bicycles and wheelchairs are carried is left open. A day has no address on the web, and GTFS wants one:
+//! it is `https://example.org/`, which is reserved for examples.
+//!
+//! The tests read feeds of small days back with the `gtfs-structures` crate. They check that there is a trip for each
+//! flight and a stop for each vertiport, that the stops, routes, services, shapes and the agency that are referred to
+//! exist, that each trip has two stops in increasing time, that shapes begin and end at these stops, and that the trips
+//! of a block are the flights of one aircraft with their times. Other validators were not run.
 
 mod archive;
 

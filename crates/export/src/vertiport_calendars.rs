@@ -1,7 +1,7 @@
 //! iCalendar: one calendar a vertiport, with the departures and arrivals of the day as events.
 //!
-//! A departure lasts from the decision, when boarding begins, to the end of the take-off time; an arrival lasts from the
-//! beginning of landing to the time at which the aircraft has arrived. Times are UTC. Nothing in a calendar depends on
+//! A departure lasts from the decision, when boarding begins, to the end of the take-off time; an arrival lasts from
+//! the beginning of landing to the time at which the aircraft has arrived. Times are UTC. Nothing in a calendar depends on
 //! when it is written: `DTSTAMP` is the start of operations, and `UID` is made of date, aircraft, time and day.
 
 use icalendar::{Component, Event, EventStatus, Property};
@@ -80,7 +80,7 @@ impl Writer<'_> {
             ("X-WR-TIMEZONE", self.calendar.zone_name()),
         ]);
         calendar.extend(events);
-        calendar.to_string()
+        folded(&calendar.to_string())
     }
 
     fn event(&self, flight: &Taken<'_>, end: End) -> Event {
@@ -132,6 +132,26 @@ impl Writer<'_> {
     fn utc(&self, time: Time) -> String {
         self.calendar.instant(time).strftime("%Y%m%dT%H%M%SZ").to_string()
     }
+}
+
+/// The text with its long lines folded anew. The `icalendar` crate folds them too, but its last part of a line may have
+/// 76 bytes, one more than RFC 5545 grants.
+fn folded(text: &str) -> String {
+    const MOST: usize = 75;
+    let mut folded = String::with_capacity(text.len());
+    for line in text.replace("\r\n ", "").split_terminator("\r\n") {
+        let mut length = 0;
+        for letter in line.chars() {
+            if length + letter.len_utf8() > MOST {
+                folded.push_str("\r\n ");
+                length = 1;
+            }
+            folded.push(letter);
+            length += letter.len_utf8();
+        }
+        folded.push_str("\r\n");
+    }
+    folded
 }
 
 fn summary(flight: &Taken<'_>, end: End) -> String {
