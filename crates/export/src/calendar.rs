@@ -1,11 +1,13 @@
 //! The calendar of a day: which instant a time of the day is.
 //!
 //! The clock of a day runs evenly, and all durations of the day are read off it. So it is not the wall clock on a date
-//! on which summer time begins or ends: that clock skips or repeats an hour. As in GTFS, seconds are counted from
-//! twelve hours before noon of the date, which is midnight on every other date. No time of a day falls into a gap or
-//! has two meanings, flights last as long as they do in the day, and all formats name the same instants. The clock
-//! agrees with the wall clock at noon, hence from the change of the clock on; before it, on such a date, the two differ
-//! by the hour that is skipped or repeated.
+//! on which summer time begins or ends: that clock skips or repeats an hour. As in GTFS and in live days, seconds are
+//! counted from twelve hours before noon of the date, which is midnight on every other date. No time of a day falls
+//! into a gap or has two meanings, flights last as long as they do in the day, and all formats name the same instants.
+//! The clock agrees with the wall clock at noon, hence from the change of the clock on; before it, on such a date, the
+//! two differ by the hour that is skipped or repeated.
+
+use std::ops::RangeInclusive;
 
 use jiff::civil::Date;
 use jiff::tz::{TimeZone, TimeZoneDatabase};
@@ -13,6 +15,9 @@ use jiff::{Timestamp, Zoned};
 use vertifleet_core::Time;
 
 use crate::Error;
+
+/// The years of days, which are those of live days too.
+const YEARS: RangeInclusive<i16> = 1970..=2199;
 
 /// The date and the time zone that the clock of a day belongs to.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +43,7 @@ impl Calendar {
         let zone_name = zone_name.to_owned();
         // In a zone that skips a whole date, the noon of that date is taken to be the next one.
         let noon = zone.to_ambiguous_timestamp(date.at(12, 0, 0, 0)).compatible();
-        let noon = noon.expect("the years 1900 to 2999 are within the years that jiff counts");
+        let noon = noon.expect("the years 1970 to 2199 are within the years that jiff counts");
         let midnight = seconds_after(noon, -12 * 3600);
         Ok(Self { date, zone, zone_name, midnight })
     }
@@ -70,10 +75,10 @@ fn seconds_after(instant: Timestamp, seconds: i64) -> Timestamp {
 }
 
 fn checked_date(text: &str) -> Result<Date, Error> {
-    const RULE: &str = "a date from 1900-01-01 to 2999-12-31, written as YYYY-MM-DD";
+    const RULE: &str = "a date from 1970-01-01 to 2199-12-31, written as YYYY-MM-DD";
     let date = text.parse::<Date>().ok();
     // jiff reads other forms too, and a date with a time. One form is enough, and a mistake is found.
-    let date = date.filter(|date| date.to_string() == text && (1900..3000).contains(&date.year()));
+    let date = date.filter(|date| date.to_string() == text && YEARS.contains(&date.year()));
     date.ok_or_else(|| Error::BadDate { rule: RULE, found: shortened(text) })
 }
 
@@ -127,10 +132,10 @@ mod tests {
 
     #[test]
     fn the_latest_time_of_the_latest_date_is_an_instant() {
-        let calendar = Calendar::new("2999-12-31", "UTC").expect("a calendar");
+        let calendar = Calendar::new("2199-12-31", "UTC").expect("a calendar");
         assert_eq!(
             calendar.instant(Time::from_seconds(u32::MAX)).to_string(),
-            "3136-02-07T06:28:15Z"
+            "2336-02-07T06:28:15Z"
         );
     }
 
@@ -148,8 +153,8 @@ mod tests {
             "24.11.2026",
             "20261124",
             "2026-11-24T06:00",
-            "1899-12-31",
-            "3000-01-01",
+            "1969-12-31",
+            "2200-01-01",
             "-002026-11-24",
         ] {
             let error = Calendar::new(date, "UTC").expect_err(date);

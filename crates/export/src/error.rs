@@ -20,7 +20,7 @@ pub enum Error {
         format: &'static str,
     },
 
-    /// V722. The date of a day is not a date, is written in another way, or lies outside the years 1900 to 2999. Fix:
+    /// V722. The date of a day is not a date, is written in another way, or lies outside the years 1970 to 2199. Fix:
     /// write year, month and day with dashes, such as 2026-11-24.
     #[error("date must be {rule}, found {found:?}")]
     BadDate {

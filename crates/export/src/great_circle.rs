@@ -5,8 +5,8 @@
 
 use vertifleet_core::Degrees;
 
-/// The mean radius of the earth, miles.
-const RADIUS_MI: f64 = 3958.761;
+/// The mean radius of the earth, miles, as the distances of networks take it.
+const RADIUS_MI: f64 = 3_958.761_3;
 
 /// Below this distance from 0 or 180 degrees, in radians, two places do not tell which great circle leads from one to
 /// the other.

@@ -1,8 +1,8 @@
 //! iCalendar: one calendar a vertiport, with the departures and arrivals of the day as events.
 //!
 //! A departure lasts from the decision, when boarding begins, to the end of the take-off time; an arrival lasts from
-//! the beginning of landing to the time at which the aircraft has arrived. Times are UTC. Nothing in a calendar depends on
-//! when it is written: `DTSTAMP` is the start of operations, and `UID` is made of date, aircraft, time and day.
+//! the beginning of landing to the time at which the aircraft has arrived. Times are UTC. Nothing in a calendar depends
+//! on when it is written: `DTSTAMP` is the start of operations, and `UID` is made of date, aircraft, time and day.
 
 use icalendar::{Component, Event, EventStatus, Property};
 use vertifleet_core::{Time, Vertiport, VertiportIx};
