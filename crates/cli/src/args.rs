@@ -36,6 +36,8 @@ pub(crate) enum Command {
     Simulate(SimulateArguments),
     /// Check a schedule against the rules, independently of the simulator
     Check(CheckArguments),
+    /// Write a played or planned day in the formats of other programs
+    Export(ExportArguments),
     /// Prove how much a known day can earn at most
     Bound(BoundArguments),
     /// Find the best schedule for a known day, and say how far from the best it may be
@@ -216,6 +218,48 @@ pub(crate) struct CheckArguments {
     /// Print the findings as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// The formats of other programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ExportFormat {
+    /// A row for each decision, for spreadsheets
+    Csv,
+    /// The same as columns, for data frames
+    Parquet,
+    /// Flights as lines with times, for maps
+    Geojson,
+    /// A feed for tools of public transport
+    Gtfs,
+    /// A calendar for each vertiport
+    Icalendar,
+    /// A picture of the day: map, aircraft, stands, demand
+    Svg,
+    /// The same picture as pixels
+    Png,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExportArguments {
+    /// Scenario file
+    pub(crate) scenario: PathBuf,
+    /// Trace of the day, as simulate --trace or plan writes it
+    pub(crate) trace: PathBuf,
+    /// The format
+    #[arg(long = "as", value_name = "FORMAT")]
+    pub(crate) format: ExportFormat,
+    /// The file; for icalendar the folder
+    #[arg(short, long, value_name = "FILE|DIR")]
+    pub(crate) output: PathBuf,
+    /// The date of the day; geojson, gtfs and icalendar need it
+    #[arg(long, value_name = "YYYY-MM-DD")]
+    pub(crate) date: Option<String>,
+    /// The time zone of the day's clock, by its name in the IANA database
+    #[arg(long, value_name = "ZONE", default_value = "UTC", requires = "date")]
+    pub(crate) time_zone: String,
+    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, Args)]

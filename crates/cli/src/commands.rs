@@ -4,6 +4,7 @@ pub(crate) mod bound;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod evaluate;
+pub(crate) mod export;
 pub(crate) mod generalise;
 pub(crate) mod operate;
 pub(crate) mod plan;

@@ -16,6 +16,7 @@ const COMMANDS: &[&str] = &[
     "scenario",
     "simulate",
     "check",
+    "export",
     "bound",
     "plan",
     "train",

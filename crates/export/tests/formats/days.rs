@@ -53,6 +53,8 @@ pub(crate) fn tiny() -> Played {
         chargers: None,
         busy: false,
         degrees: Some(Degrees { latitude, longitude }),
+        stand_cost_usd: 0.0,
+        charger_cost_usd: 0.0,
     };
     let time = |text: &str| text.parse::<Time>().expect("a time");
     let day = Day {
