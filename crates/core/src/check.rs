@@ -188,6 +188,8 @@ impl Check<'_> {
             if let Some(chargers) = vertiport.chargers {
                 number(chargers.into(), &limits::CHARGERS, "chargers")?;
             }
+            number(vertiport.stand_cost_usd, &limits::MONEY_USD, "stand_cost")?;
+            number(vertiport.charger_cost_usd, &limits::MONEY_USD, "charger_cost")?;
             if let Some(degrees) = vertiport.degrees {
                 number(degrees.latitude, &limits::LATITUDE, "latitude")?;
                 number(degrees.longitude, &limits::LONGITUDE, "longitude")?;

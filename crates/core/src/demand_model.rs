@@ -37,6 +37,8 @@ pub(crate) struct DemandModel {
     /// Start of each period.
     pub(crate) periods: Vec<Time>,
     kind: Kind,
+    /// What the market makes of the demand: a factor for each pair in each period. `None` where all are 1.
+    pub(crate) factors: Option<Vec<Matrix<f64>>>,
 }
 
 #[derive(Debug, Clone)]
@@ -48,8 +50,18 @@ enum Kind {
 }
 
 impl DemandModel {
+    fn new(periods: Vec<Time>, kind: Kind) -> Self {
+        Self { periods, kind, factors: None }
+    }
+
     /// Mean passengers of a pair in a period; 0 from a vertiport to itself.
     pub(crate) fn mean(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
+        let factor = self.factors.as_ref().map_or(1.0, |factors| factors[period][(from, to)]);
+        factor * self.reference_mean(period, from, to)
+    }
+
+    /// The mean at the reference fares.
+    fn reference_mean(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
         if from == to {
             return 0.0;
         }
@@ -71,15 +83,16 @@ impl DemandModel {
         (0..self.periods.len()).map(|period| self.means(period, vertiports)).collect()
     }
 
-    /// Mean passengers of every pair in a period, averaged over the day's periods.
-    pub(crate) fn day_means(&self, vertiports: usize) -> Matrix<f64> {
+    /// Mean passengers of every pair in a period at the reference fares, averaged over the day's periods.
+    pub(crate) fn reference_day_means(&self, vertiports: usize) -> Matrix<f64> {
         let periods = self.periods.len();
         Matrix::from_fn(vertiports, |from, to| {
-            (0..periods).map(|period| self.mean(period, from, to)).sum::<f64>() / periods as f64
+            (0..periods).map(|period| self.reference_mean(period, from, to)).sum::<f64>()
+                / periods as f64
         })
     }
 
-    /// Draws the passengers of a pair of different vertiports in a period.
+    /// Draws the passengers of a pair of different vertiports in a period, at the reference fares.
     pub(crate) fn draw(
         &self,
         period: usize,

@@ -96,7 +96,10 @@ impl Reader<'_> {
                 return Err(Error::GivenTwice {
                     origin: self.origin.clone(),
                     member: row.name(),
-                    what: format!("the period and pair of line {}", self.line(before)),
+                    what: format!(
+                        "the demand of the period and pair of line {}",
+                        self.line(before)
+                    ),
                 });
             }
             let at = *known.entry(ends).or_insert_with(|| {

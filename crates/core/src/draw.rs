@@ -7,6 +7,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::demand_model::rounded_by_chance;
 use crate::{Day, DaySeed, Matrix, Network, Scenario, Vertiport, VertiportIx};
 
 /// The random streams of a day. Their numbers are part of what a seed means, so they must not change.
@@ -18,6 +19,8 @@ enum Stream {
     TakeoffDelays = 4,
     Closures = 5,
     Outages = 6,
+    Market = 7,
+    Displaced = 8,
 }
 
 impl Stream {
@@ -33,14 +36,33 @@ impl Stream {
 impl Network {
     /// Draws the day of this seed, called `{network}-{seed}`. The same seed always gives the same day.
     pub fn draw(&self, seed: DaySeed) -> Scenario {
+        self.draw_from(self, seed)
+    }
+
+    /// Draws the day of this seed, on which aircraft start where they start on the day of `base`, as far as there are
+    /// stands for them; the others find a place by chance.
+    ///
+    /// This makes the days of networks comparable that were [changed](Self::changed) from one base (common random
+    /// numbers): one more stand moves nobody, one less moves only those who stood there, and further aircraft leave the
+    /// first ones where they were. Demand, delays and closures have the same random numbers anyway. A network is drawn
+    /// beside itself as it is drawn alone, and so is one whose vertiports are others than those of `base`.
+    pub fn draw_beside(&self, base: &Self, seed: DaySeed) -> Scenario {
+        let ids = |network: &Self| -> Vec<String> {
+            network.vertiports().iter().map(|vertiport| vertiport.id.clone()).collect()
+        };
+        self.draw_from(if ids(self) == ids(base) { base } else { self }, seed)
+    }
+
+    fn draw_from(&self, base: &Self, seed: DaySeed) -> Scenario {
         let mut day = self.idle_day.clone().into_day();
         day.name = format!("{}-{seed}", self.name);
         day.seed = seed.get();
         self.draw_demand(&mut day.demand, &mut Stream::Demand.of(seed));
-        let mut positions = StartPositions::of(&day.vertiports);
-        let mut random = Stream::StartPositions.of(seed);
-        for aircraft in &mut day.aircraft {
-            aircraft.at = positions.next(&mut random);
+        self.respond(&mut day.demand, &mut Stream::Market.of(seed));
+        let positions =
+            start_positions(base.vertiports(), &day.vertiports, day.aircraft.len(), seed);
+        for (aircraft, at) in day.aircraft.iter_mut().zip(positions) {
+            aircraft.at = at;
         }
         self.draw_disturbances(&mut day, seed);
         // Demand is within bounds for every network that was accepted, and start positions respect the stands.
@@ -60,6 +82,18 @@ impl Network {
                 for to in VertiportIx::all(table.size()).filter(|&to| to != from) {
                     table[(from, to)] = self.demand.draw(period, from, to, random);
                 }
+            }
+        }
+    }
+
+    /// Applies the market's factors to the demand that was drawn at the reference fares. Where this does not give whole
+    /// passengers, one of the two neighbouring numbers is taken by chance. The draws are the same at all fares, so that
+    /// a higher fare never gives more passengers on the same day.
+    fn respond(&self, demand: &mut [Matrix<u32>], random: &mut ChaCha8Rng) {
+        let Some(factors) = &self.demand.factors else { return };
+        for (table, factors) in demand.iter_mut().zip(factors) {
+            for (passengers, factor) in table.cells_mut().iter_mut().zip(factors.cells()) {
+                *passengers = rounded_by_chance(f64::from(*passengers) * factor, random);
             }
         }
     }
@@ -89,6 +123,33 @@ impl Network {
     }
 }
 
+/// Where `aircraft` aircraft start: where they would if the vertiports were those of `base`, as far as there are stands.
+fn start_positions(
+    base: &[Vertiport],
+    vertiports: &[Vertiport],
+    aircraft: usize,
+    seed: DaySeed,
+) -> Vec<VertiportIx> {
+    let mut random = Stream::StartPositions.of(seed);
+    let mut there = StartPositions::of(base);
+    let wanted: Vec<Option<VertiportIx>> = (0..aircraft).map(|_| there.next(&mut random)).collect();
+    let mut left: Vec<u16> = vertiports.iter().map(|vertiport| vertiport.stands).collect();
+    let mut take = |at: VertiportIx| {
+        let stands = &mut left[at.at()];
+        *stands = stands.checked_sub(1)?;
+        Some(at)
+    };
+    let found: Vec<Option<VertiportIx>> =
+        wanted.into_iter().map(|at| at.and_then(&mut take)).collect();
+    let mut rest = StartPositions { free: Vec::new() };
+    rest.free.extend(VertiportIx::all(left.len()).zip(left).filter(|&(_, stands)| stands > 0));
+    let mut random = Stream::Displaced.of(seed);
+    let place = |at: Option<VertiportIx>| {
+        at.or_else(|| rest.next(&mut random)).expect("a network has a stand for each aircraft")
+    };
+    found.into_iter().map(place).collect()
+}
+
 /// The stands that are still free while aircraft are placed one after another.
 struct StartPositions {
     /// Vertiports with a stand left, in order, with the number of stands left.
@@ -101,8 +162,11 @@ impl StartPositions {
         Self { free: VertiportIx::all(vertiports.len()).zip(stands).collect() }
     }
 
-    /// Takes a stand at a vertiport chosen uniformly among those that have one left.
-    fn next(&mut self, random: &mut ChaCha8Rng) -> VertiportIx {
+    /// Takes a stand at a vertiport chosen uniformly among those that have one left; `None` if none has.
+    fn next(&mut self, random: &mut ChaCha8Rng) -> Option<VertiportIx> {
+        if self.free.is_empty() {
+            return None;
+        }
         let chosen = random.random_range(0..self.free.len());
         let (vertiport, stands) = &mut self.free[chosen];
         let vertiport = *vertiport;
@@ -110,6 +174,6 @@ impl StartPositions {
         if *stands == 0 {
             self.free.remove(chosen);
         }
-        vertiport
+        Some(vertiport)
     }
 }

@@ -334,15 +334,15 @@ pub enum Error {
         table: String,
     },
 
-    /// V133. Hourly demand of one pair, or of one pair and period in a table, is given twice. Fix: remove one of the
-    /// two.
-    #[error("{origin}: {member} gives the demand of {what} again")]
+    /// V133. Demand, tariff or elasticity of one pair, or the demand of one pair and period in a table, is given twice.
+    /// Fix: remove one of the two.
+    #[error("{origin}: {member} gives {what} again")]
     GivenTwice {
         /// The network or table.
         origin: String,
         /// The second of the two members.
         member: String,
-        /// The pair, or the period and pair, whose demand is given again.
+        /// What is given again, with its pair, or its period and pair.
         what: String,
     },
 
@@ -406,7 +406,7 @@ pub const ALL: &[(Code, &str)] = &[
     (Code(130), "network for a scenario, or the other way round"),
     (Code(131), "wrong row in a table of demand"),
     (Code(132), "table of demand without a folder"),
-    (Code(133), "demand given twice"),
+    (Code(133), "pair given twice"),
     (Code(134), "setting that does not fit its distribution"),
     (Code(135), "vertiport out of reach (warning)"),
 ];

@@ -172,6 +172,10 @@ pub(crate) const DISPERSION: Limits =
 pub(crate) const PROBABILITY: Limits =
     Limits::between(0.0, 1.0).hint("a probability is a share, 0.1 is 10 %");
 pub(crate) const SURGE_FACTOR: Limits = Limits::between(1.0, 10.0);
+/// A factor on the whole demand of a network. Draws times this and times the response to fares are cut at `PASSENGERS`.
+pub(crate) const DEMAND_FACTOR: Limits = Limits::between(0.0, 100.0);
+pub(crate) const ELASTICITY: Limits = Limits::between(0.0, 20.0)
+    .hint("elasticity is by how many percent demand falls where fares rise by one percent, 1.2 for example");
 pub(crate) const FARE_FACTOR: Limits = Limits::between(0.0, 100.0);
 pub(crate) const LATITUDE: Limits = Limits::between(-89.0, 89.0).hint("degrees, north is above 0");
 pub(crate) const LONGITUDE: Limits =
@@ -221,6 +225,7 @@ mod tests {
             ("`operations` `hold_s`", HOLD_S),
             ("`vertiports` `stands`", STANDS),
             ("`vertiports` `chargers`", CHARGERS),
+            ("`vertiports` `stand_cost`, `charger_cost`", MONEY_USD),
             ("`vertiports` `latitude`, `longitude`", LATITUDE),
             ("`vertiports` `latitude`, `longitude`", LONGITUDE),
             ("`aircraft_types` `seats`", SEATS),

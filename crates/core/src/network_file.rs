@@ -4,18 +4,19 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use crate::corridors::{RawCorridor, corridors};
 use crate::demand_model::{
     DemandModel, RawDailyDemand, RawEquation1, RawHourlyDemand, RawUniformDemand,
 };
 use crate::disturbance_model::RawDisturbanceModel;
 use crate::feature_scales::{FeatureScales, RawFeatureScales};
 use crate::limits::{self, entries};
+use crate::market::RawMarket;
 use crate::parse::shortened;
 use crate::raw::{Positions, RawAircraftType, RawOperations, each};
-use crate::raw_disturbances::RawRoute;
 use crate::scheduled_closures::{self, RawScheduledClosure};
 use crate::sites::{RawSite, Sites};
-use crate::tariffs::RawTariffs;
+use crate::tariffs::{RawTariffs, Tariffs};
 use crate::{
     Aircraft, AircraftType, Day, Disturbances, Error, Matrix, Network, TypeIx, Vertiport,
     VertiportIx, check, demand_table, files, parse,
@@ -34,10 +35,12 @@ struct RawNetwork {
     time_zone: Option<String>,
     operations: RawOperations,
     vertiports: Vec<RawSite>,
-    corridors: Option<Vec<RawRoute>>,
+    corridors: Option<Vec<RawCorridor>>,
     aircraft_types: Vec<RawAircraftType>,
     fleet: Vec<RawFleet>,
     tariffs: RawTariffs,
+    #[serde(default)]
+    market: RawMarket,
     demand: Option<RawEquation1>,
     daily_demand: Option<RawDailyDemand>,
     hourly_demand: Option<RawHourlyDemand>,
@@ -95,14 +98,15 @@ impl RawNetwork {
 
     /// Checks the raw network; `text` is the text that it was read from.
     fn check(self, text: &str, origin: &str) -> Result<Network, Error> {
-        let raw = self;
+        let mut raw = self;
         name(&raw.name, origin)?;
         raw.time_zone.as_deref().map(|zone| time_zone(zone, origin)).transpose()?;
         let list = |member, found, most| check::entry_count(origin, member, found, most);
         list("vertiports", raw.vertiports.len(), entries::VERTIPORTS)?;
         list("aircraft_types", raw.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
         let operations = raw.operations.check(origin)?;
-        let Sites { vertiports, distance_mi } = Sites::of(raw.vertiports, origin)?;
+        let Sites { vertiports, mut distance_mi } =
+            Sites::of(raw.vertiports, raw.tariffs.site_costs_usd(), origin)?;
         let aircraft_types = each(raw.aircraft_types, |raw, at| raw.check(at, origin))?;
         let aircraft = fleet(&raw.fleet, &aircraft_types, &vertiports, origin)?;
         let places = Positions::of_vertiports(&vertiports, origin)?;
@@ -112,16 +116,23 @@ impl RawNetwork {
             hourly: raw.hourly_demand,
             uniform: raw.uniform_demand,
         };
-        let demand = models.the_one(&vertiports, &places, origin)?;
-        let corridors = raw.corridors.map(|routes| {
-            each(routes, |raw, at| raw.check(&places, &format!("corridors[{at}]"), origin))
-        });
+        let mut demand = models.the_one(&vertiports, &places, origin)?;
+        let corridors = raw
+            .corridors
+            .map(|raw| corridors(raw, &places, &mut distance_mi, origin))
+            .transpose()?;
         let closures = scheduled_closures::closures(raw.closures, &places, &vertiports, origin)?;
         let disturbances = raw.disturbances.check(&places, vertiports.len(), origin)?;
         scheduled_closures::at_most(closures.len() + disturbances.most_closures(), origin)?;
-        raw.tariffs.check(demand.periods.len(), origin)?;
+        let periods = demand.periods.len();
+        let tariffs = raw.tariffs.check(periods, &places, origin)?;
+        let fares = |tariffs: &Tariffs| tariffs.fares_usd(&distance_mi, &demand);
+        let fare_usd = fares(&tariffs);
+        let reference =
+            tariffs.at_reference(std::mem::take(&mut raw.market.reference), periods, origin)?;
+        let market = raw.market.check(&places, vertiports.len(), origin)?;
+        demand.factors = market.factors(&fare_usd, &fares(&reference), periods);
 
-        let passenger_cost_usd = raw.tariffs.passenger_costs_usd(&distance_mi);
         let no_passengers = Matrix::from_fn(vertiports.len(), |_, _| 0);
         let idle_day = Day {
             name: raw.name.clone(),
@@ -129,15 +140,15 @@ impl RawNetwork {
             operations,
             aircraft_types,
             aircraft,
-            corridors: corridors.transpose()?,
-            fare_usd: raw.tariffs.fares_usd(&distance_mi, &passenger_cost_usd, &demand),
-            passenger_cost_usd,
-            flight_cost_usd: raw.tariffs.flight_costs_usd(&distance_mi),
-            aircraft_cost_usd: raw.tariffs.aircraft_cost_usd(),
+            corridors,
+            fare_usd,
+            passenger_cost_usd: tariffs.passenger_costs_usd(&distance_mi),
+            flight_cost_usd: tariffs.flight_costs_usd(&distance_mi),
+            aircraft_cost_usd: tariffs.aircraft_cost_usd(),
             distance_mi,
             periods: demand.periods.clone(),
             demand: vec![no_passengers; demand.periods.len()],
-            energy_price_usd: raw.tariffs.energy_prices_usd(demand.periods.len()),
+            energy_price_usd: tariffs.energy_prices_usd(demand.periods.len()),
             disturbances: Disturbances { closures, ..Disturbances::default() },
             vertiports,
         };

@@ -158,7 +158,7 @@ impl Place<'_> {
             column,
             member: if path == "." { String::new() } else { format!("{}: ", shortened(path, 100)) },
             // The parsers name our type here, which means nothing to those who write files.
-            problem: shortened(&problem.replace("expected f64", "expected a number"), 300),
+            problem: shortened(&problem.replace("expected f64", "expected a number"), 600),
         }
     }
 }

@@ -48,6 +48,10 @@ pub(crate) struct RawVertiport {
     busy: bool,
     latitude: Option<f64>,
     longitude: Option<f64>,
+    #[serde(default)]
+    stand_cost: f64,
+    #[serde(default)]
+    charger_cost: f64,
 }
 
 impl RawVertiport {
@@ -68,8 +72,17 @@ impl RawVertiport {
                 });
             }
         };
-        let Self { id, x_mi, y_mi, busy, .. } = self;
-        Ok(Vertiport { id, x_mi, y_mi, stands, chargers, busy, degrees })
+        Ok(Vertiport {
+            id: self.id,
+            x_mi: self.x_mi,
+            y_mi: self.y_mi,
+            stands,
+            chargers,
+            busy: self.busy,
+            degrees,
+            stand_cost_usd: self.stand_cost,
+            charger_cost_usd: self.charger_cost,
+        })
     }
 }
 

@@ -9,10 +9,10 @@ use crate::{AircraftIx, Closure, Error, Outage, Route, TakeoffDelays, Time, Vert
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of a route")]
 pub(crate) struct RawRoute {
-    from: String,
-    to: String,
+    pub(crate) from: String,
+    pub(crate) to: String,
     #[serde(default)]
-    both_ways: bool,
+    pub(crate) both_ways: bool,
 }
 
 impl RawRoute {

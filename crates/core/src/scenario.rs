@@ -41,6 +41,18 @@ pub struct Vertiport {
     pub busy: bool,
     /// Position on the globe, if it is known, for maps and warnings. Distances stand in the day.
     pub degrees: Option<Degrees>,
+    /// Cost of each stand, whether or not it is used; dollars a day, 0 in the paper.
+    pub stand_cost_usd: f64,
+    /// Cost of each charger that is counted apart from stands, whether or not it is used; dollars a day.
+    pub charger_cost_usd: f64,
+}
+
+impl Vertiport {
+    /// Cost of all stands and chargers, whether or not they are used, dollars a day.
+    pub fn site_cost_usd(&self) -> f64 {
+        let chargers = f64::from(self.chargers.unwrap_or(0));
+        f64::from(self.stands) * self.stand_cost_usd + chargers * self.charger_cost_usd
+    }
 }
 
 /// A place on the globe.
@@ -181,6 +193,16 @@ impl Scenario {
     /// Cost of the whole fleet, whether or not it flies, dollars.
     pub fn fleet_cost_usd(&self) -> f64 {
         self.aircraft.len() as f64 * self.aircraft_cost_usd
+    }
+
+    /// Cost of the stands and chargers of all vertiports, whether or not they are used, dollars.
+    pub fn site_cost_usd(&self) -> f64 {
+        self.vertiports.iter().map(Vertiport::site_cost_usd).sum()
+    }
+
+    /// What the day costs whatever is decided: its fleet, and its stands and chargers; dollars.
+    pub fn fixed_cost_usd(&self) -> f64 {
+        self.fleet_cost_usd() + self.site_cost_usd()
     }
 
     /// The reward's denominator (§III.H): every passenger of the day at full fare, dollars.

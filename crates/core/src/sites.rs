@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use crate::limits::{self, Limits};
 use crate::raw::{chargers, each};
+use crate::tariffs::SiteCosts;
 use crate::{Degrees, Error, Matrix, Vertiport, check};
 
 /// Mean radius of the Earth (IUGG), miles.
@@ -33,6 +34,8 @@ pub(crate) struct RawSite {
     stands: f64,
     chargers: Option<f64>,
     busy: bool,
+    stand_cost_usd_per_day: Option<f64>,
+    charger_cost_usd_per_day: Option<f64>,
 }
 
 /// A position, given in one of two ways.
@@ -44,8 +47,9 @@ enum Position {
 }
 
 impl Sites {
-    pub(crate) fn of(raw: Vec<RawSite>, origin: &str) -> Result<Self, Error> {
-        let sites = each(raw, |raw, at| raw.check(at, origin))?;
+    /// Checks the vertiports. `costs` are those of stands and chargers at vertiports that name none.
+    pub(crate) fn of(raw: Vec<RawSite>, costs: SiteCosts, origin: &str) -> Result<Self, Error> {
+        let sites = each(raw, |raw, at| raw.check(at, costs, origin))?;
         let on_globe =
             |(_, position): &&(Vertiport, Position)| matches!(position, Position::Globe(..));
         match sites.iter().filter(on_globe).count() {
@@ -100,7 +104,12 @@ impl RawSite {
         &self.id
     }
 
-    fn check(self, at: usize, origin: &str) -> Result<(Vertiport, Position), Error> {
+    fn check(
+        self,
+        at: usize,
+        costs: SiteCosts,
+        origin: &str,
+    ) -> Result<(Vertiport, Position), Error> {
         check::id(origin, || format!("vertiports[{at}]: id"), &self.id)?;
         let number = |value: f64, limits: &Limits, member: &str| {
             limits.check(value, origin, || format!("vertiport {:?}: {member}", self.id))
@@ -130,8 +139,26 @@ impl RawSite {
         let member = || format!("vertiport {:?}: stands", self.id);
         let stands = limits::STANDS.whole_number(self.stands, origin, member)?;
         let chargers = chargers(&self.id, self.chargers, origin)?;
-        let Self { id, busy, .. } = self;
-        Ok((Vertiport { id, x_mi, y_mi, stands, chargers, busy, degrees }, position))
+        let cost = |own: Option<f64>, usual_usd: f64, member: &str| {
+            let cost_usd = own.unwrap_or(usual_usd);
+            number(cost_usd, &limits::MONEY_USD, member).map(|()| cost_usd)
+        };
+        let stand_cost_usd =
+            cost(self.stand_cost_usd_per_day, costs.stand_usd, "stand_cost_usd_per_day")?;
+        let charger_cost_usd =
+            cost(self.charger_cost_usd_per_day, costs.charger_usd, "charger_cost_usd_per_day")?;
+        let vertiport = Vertiport {
+            x_mi,
+            y_mi,
+            stands,
+            chargers,
+            busy: self.busy,
+            degrees,
+            stand_cost_usd,
+            charger_cost_usd,
+            id: self.id,
+        };
+        Ok((vertiport, position))
     }
 }
 

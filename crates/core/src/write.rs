@@ -83,15 +83,23 @@ impl Scenario {
                 let (latitude, longitude) = (number(latitude), number(longitude));
                 format!(r#", "latitude": {latitude}, "longitude": {longitude}"#)
             });
+            let cost = |name: &str, cost_usd: f64| {
+                if cost_usd == 0.0 {
+                    return String::new();
+                }
+                format!(r#", "{name}": {}"#, number(cost_usd))
+            };
             format!(
-                r#"{{"id": {}, "x_mi": {}, "y_mi": {}, "stands": {}{}, "busy": {}{}}}"#,
+                r#"{{"id": {}, "x_mi": {}, "y_mi": {}, "stands": {}{}, "busy": {}{}{}{}}}"#,
                 text(&vertiport.id),
                 number(vertiport.x_mi),
                 number(vertiport.y_mi),
                 vertiport.stands,
                 chargers.unwrap_or_default(),
                 vertiport.busy,
-                degrees.unwrap_or_default()
+                degrees.unwrap_or_default(),
+                cost("stand_cost", vertiport.stand_cost_usd),
+                cost("charger_cost", vertiport.charger_cost_usd),
             )
         };
         lines(self.vertiports.iter().map(vertiport), 2)

@@ -68,6 +68,8 @@ const SCENARIO_CHANGES: &[Change] = &[
     ("[8, 0, 0]", "[8, 0, 1]"),
     // Costs beyond those of the paper, and positions on the globe.
     ("[0.2, 0.31]", "[0.2, 0.31],\n  \"aircraft_cost\": -1"),
+    (r#""stands": 1"#, r#""stands": 1, "stand_cost": -1"#),
+    (r#""stands": 1"#, r#""stands": 1, "charger_cost": 1e7"#),
     ("[0.2, 0.31]", "[0.2, 0.31],\n  \"flight_cost\": [[0, 1], [1, 0]]"),
     ("[0.2, 0.31]", "[0.2, 0.31],\n  \"flight_cost\": [[0, 1, 2], [1, 0, -3], [2, 3, 0]]"),
     (r#""stands": 1"#, r#""stands": 1, "latitude": 40"#),
@@ -128,6 +130,41 @@ const NETWORK_CHANGES: &[Change] = &[
     ("fare_base = 2", "fare_base = 2\nflight_cost_usd = 1e6\nflight_cost_usd_per_mi = 1"),
     ("fare_base = 2", "fare_base = 2\naircraft_cost_usd_per_day = inf"),
     ("fare_base = 2", "fare_base = 2\nboarding_fee_usd = -5"),
+    ("fare_base = 2", "fare_base = 2\nstand_cost_usd_per_day = -1"),
+    ("fare_base = 2", "fare_base = 2\ncharger_cost_usd_per_day = nan"),
+    ("fare_base = 2", "fare_base = 2\nfare_level = 101"),
+    ("stands = 1", "stands = 1\nstand_cost_usd_per_day = -1"),
+    ("fare_base = 2", "fare_base = 2\npairs = [{ from = \"A\", to = \"B\" }]"),
+    ("fare_base = 2", "fare_base = 2\npairs = [{ from = \"A\", to = \"A\", fare_usd = 1 }]"),
+    ("fare_base = 2", "fare_base = 2\npairs = [{ from = \"A\", to = \"B\", fare_usd = -1 }]"),
+    (
+        "fare_base = 2",
+        "fare_base = 2\npairs = [{ from = \"A\", to = \"B\", fare_usd = 1 }, { from = \"A\", to = \"B\", fare_usd = 2 }]",
+    ),
+    ("[demand]", "[market]\nelasticity = -1\n[demand]"),
+    ("[demand]", "[market]\ndemand_factor = 1000\n[demand]"),
+    ("[demand]", "[market]\nreference = { fare_base = -1 }\n[demand]"),
+    ("[demand]", "[market]\nreference = { fare_factors = [1] }\n[demand]"),
+    (
+        "[demand]",
+        "[market]\nelasticities = [{ from = \"A\", to = \"C\", elasticity = 1 }]\n[demand]",
+    ),
+    (
+        "[demand]",
+        "[market]\nelasticities = [{ from = \"A\", to = \"B\", elasticity = 1 }, { from = \"A\", to = \"B\", elasticity = 2 }]\n[demand]",
+    ),
+    (
+        "[demand]",
+        "[market]\nelasticities = [{ from = \"A\", to = \"B\", elasticity = 21 }]\n[demand]",
+    ),
+    (
+        "[[aircraft_types]]",
+        "[[corridors]]\nfrom = \"A\"\nto = \"B\"\nlength_mi = 30\n\n[[aircraft_types]]",
+    ),
+    (
+        "[[aircraft_types]]",
+        "[[corridors]]\nfrom = \"A\"\nto = \"B\"\nlength_mi = 2e4\n\n[[aircraft_types]]",
+    ),
     // Beyond the paper.
     ("y_mi = 0", "latitude = 0"),
     ("x_mi = 0\ny_mi = 0", "latitude = 40\nlongitude = -74"),

@@ -62,7 +62,7 @@ impl Moment {
             standing: vec![0; vertiports],
             coming: vec![0; vertiports],
             waiting: waiting(day, rows, time),
-            profit_usd: -day.fleet_cost_usd(),
+            profit_usd: -day.fixed_cost_usd(),
             flights: 0,
             passengers: 0,
         };

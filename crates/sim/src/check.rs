@@ -49,6 +49,6 @@ pub fn check(scenario: &Scenario, trace: &Trace) -> Report {
             totals.count_flight(event.row.passengers, &expected);
         }
     }
-    totals.close(scenario.aircraft.len(), scenario.aircraft_cost_usd);
+    totals.close(scenario);
     findings.into_report(totals)
 }

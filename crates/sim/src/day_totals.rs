@@ -22,6 +22,9 @@ pub struct DayTotals {
     /// Cost of the fleet, whether or not it flies, dollars.
     #[serde(default)]
     pub aircraft_cost_usd: f64,
+    /// Cost of stands and chargers, whether or not they are used, dollars.
+    #[serde(default)]
+    pub site_cost_usd: f64,
     /// Energy charged, kWh.
     pub energy_kwh: f64,
     /// The reward's denominator: all of the day's demand at full fare, dollars (§III.H).
@@ -63,6 +66,7 @@ impl DayTotals {
             energy_cost_usd: ledger.energy_cost_usd,
             flight_cost_usd: ledger.flight_cost_usd,
             aircraft_cost_usd: ledger.aircraft_cost_usd,
+            site_cost_usd: ledger.site_cost_usd,
             energy_kwh: ledger.energy_kwh,
             potential_usd,
             reward: share(ledger.profit_usd(), potential_usd),
@@ -77,7 +81,7 @@ impl DayTotals {
     }
 
     /// Every number with its name, in the order of the members.
-    pub fn numbers(&self) -> [(&'static str, DayNumber); 16] {
+    pub fn numbers(&self) -> [(&'static str, DayNumber); 17] {
         let Self { flights, repositioning_flights, holds, decisions, .. } = *self;
         [
             ("profit_usd", DayNumber::Amount(self.profit_usd)),
@@ -86,6 +90,7 @@ impl DayTotals {
             ("energy_cost_usd", DayNumber::Amount(self.energy_cost_usd)),
             ("flight_cost_usd", DayNumber::Amount(self.flight_cost_usd)),
             ("aircraft_cost_usd", DayNumber::Amount(self.aircraft_cost_usd)),
+            ("site_cost_usd", DayNumber::Amount(self.site_cost_usd)),
             ("energy_kwh", DayNumber::Amount(self.energy_kwh)),
             ("potential_usd", DayNumber::Amount(self.potential_usd)),
             ("reward", DayNumber::Amount(self.reward)),

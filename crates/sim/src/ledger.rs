@@ -17,6 +17,8 @@ pub struct Ledger {
     pub flight_cost_usd: f64,
     /// Cost of the fleet, whether or not it flies, entered when the day begins.
     pub aircraft_cost_usd: f64,
+    /// Cost of stands and chargers, whether or not they are used, entered when the day begins.
+    pub site_cost_usd: f64,
     /// Energy flown, which is the energy charged.
     pub energy_kwh: f64,
     /// Flights, with passengers or without.
@@ -36,11 +38,15 @@ pub struct Ledger {
 impl Ledger {
     /// The account before the first decision.
     pub(crate) fn at_start(scenario: &Scenario) -> Self {
-        Self { aircraft_cost_usd: scenario.fleet_cost_usd(), ..Self::default() }
+        Self {
+            aircraft_cost_usd: scenario.fleet_cost_usd(),
+            site_cost_usd: scenario.site_cost_usd(),
+            ..Self::default()
+        }
     }
 
-    /// z (Eq. 5): revenue less passenger cost and energy cost, and less the cost of flights and aircraft beside them;
-    /// dollars.
+    /// z (Eq. 5): revenue less passenger cost and energy cost, and less the cost of flights, aircraft, stands and
+    /// chargers beside them; dollars.
     #[inline]
     pub fn profit_usd(&self) -> f64 {
         self.revenue_usd
@@ -48,6 +54,12 @@ impl Ledger {
             - self.energy_cost_usd
             - self.flight_cost_usd
             - self.aircraft_cost_usd
+            - self.site_cost_usd
+    }
+
+    /// What the day costs whatever is decided, dollars.
+    pub fn fixed_cost_usd(&self) -> f64 {
+        self.aircraft_cost_usd + self.site_cost_usd
     }
 
     /// Flights and holds.

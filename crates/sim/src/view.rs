@@ -198,9 +198,9 @@ impl<'a> View<'a> {
         self.scenario().flight_cost_usd.row(from)
     }
 
-    /// Cost of the fleet, whether or not it flies, dollars a day.
-    pub fn fleet_cost_usd(&self) -> f64 {
-        self.scenario().fleet_cost_usd()
+    /// What the day costs whatever is decided: its fleet, and its stands and chargers; dollars.
+    pub fn fixed_cost_usd(&self) -> f64 {
+        self.scenario().fixed_cost_usd()
     }
 
     /// E now, dollars per kWh.

@@ -257,6 +257,7 @@ fn machines_get_the_same_report() {
         "energy_cost_usd": 27.1,
         "flight_cost_usd": 0.0,
         "aircraft_cost_usd": 0.0,
+        "site_cost_usd": 0.0,
         "energy_kwh": 113.0,
         "flights": 3,
         "repositioning_flights": 0,

@@ -184,6 +184,7 @@ proptest! {
             (totals.energy_cost_usd, summary.energy_cost_usd),
             (totals.flight_cost_usd, summary.flight_cost_usd),
             (totals.aircraft_cost_usd, summary.aircraft_cost_usd),
+            (totals.site_cost_usd, summary.site_cost_usd),
             (totals.energy_kwh, summary.energy_kwh),
         ] {
             prop_assert!(close(theirs, ours), "{theirs} and {ours}");

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use proptest::prelude::{any, prop, prop_assert, prop_assert_eq, proptest};
-use vertifleet_core::{AircraftIx, Matrix, Scenario, VertiportIx};
+use vertifleet_core::{AircraftIx, Matrix, Scenario, Vertiport, VertiportIx};
 use vertifleet_sim::{Refusal, Simulation, TraceRow};
 
 use vertifleet_testkit::extended_day;
@@ -97,8 +97,15 @@ proptest! {
         prop_assert_eq!(summary.flight_cost_usd, due);
         let fleet_cost = day.aircraft_cost_usd * day.aircraft.len() as f64;
         prop_assert_eq!(summary.aircraft_cost_usd, fleet_cost);
+        let site = |one: &Vertiport| {
+            let chargers = f64::from(one.chargers.unwrap_or(0));
+            f64::from(one.stands) * one.stand_cost_usd + chargers * one.charger_cost_usd
+        };
+        let site_cost: f64 = day.vertiports.iter().map(site).sum();
+        prop_assert_eq!(summary.site_cost_usd, site_cost);
         let earned = summary.revenue_usd - summary.passenger_cost_usd - summary.energy_cost_usd;
-        prop_assert_eq!(summary.profit_usd, earned - summary.flight_cost_usd - fleet_cost);
+        let left = earned - summary.flight_cost_usd - fleet_cost - site_cost;
+        prop_assert_eq!(summary.profit_usd, left);
         let flights = rows.iter().filter(|row| row.from != row.to).count();
         prop_assert_eq!(summary.flights as usize, flights);
         prop_assert_eq!(summary.decisions as usize, rows.len());
@@ -114,7 +121,7 @@ proptest! {
         let (simulation, rows) = play(&day, &draws, |_, _| ());
         if simulation.potential_usd() > 0.0 {
             let flights: f64 = rows.iter().map(TraceRow::profit_usd).sum();
-            let dense = (flights - day.fleet_cost_usd()) / simulation.potential_usd();
+            let dense = (flights - day.fixed_cost_usd()) / simulation.potential_usd();
             prop_assert!((dense - simulation.totals().reward).abs() < 1e-9);
         }
     }

@@ -157,7 +157,7 @@ fn check(live: &mut LiveDay) {
     let totals = live.totals();
     let trace = live.trace();
     let profit: f64 = trace.rows.iter().map(vertifleet_sim::TraceRow::profit_usd).sum();
-    let fleet_usd = live.scenario().fleet_cost_usd();
+    let fleet_usd = live.scenario().fixed_cost_usd();
     assert!((totals.profit_usd - (profit - fleet_usd)).abs() < 1e-6 * profit.abs().max(1.0));
     let carried: u64 = trace.rows.iter().map(|row| u64::from(row.passengers)).sum();
     assert_eq!(totals.passengers, carried);

@@ -83,6 +83,7 @@ fn record(policy: u32, day: u32) -> DayRecord {
             energy_cost_usd: 100.0,
             flight_cost_usd: 0.0,
             aircraft_cost_usd: 0.0,
+            site_cost_usd: 0.0,
             energy_kwh: 500.0,
             potential_usd: 10_000.0,
             reward: profit_usd / 10_000.0,

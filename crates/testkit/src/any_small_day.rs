@@ -49,6 +49,8 @@ fn day(
             chargers: None,
             busy: false,
             degrees: None,
+            stand_cost_usd: if seed % 5 == 2 { 3.25 } else { 0.0 },
+            charger_cost_usd: if seed % 5 == 2 { 7.75 } else { 0.0 },
         })
         .collect();
     for (at, vertiport) in vertiports.iter_mut().enumerate() {

@@ -48,6 +48,8 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
                 chargers: None,
                 busy: false,
                 degrees: None,
+                stand_cost_usd: if number.is_multiple_of(4) { 1.5 } else { 0.0 },
+                charger_cost_usd: if number.is_multiple_of(4) { 4.75 } else { 0.0 },
             }
         })
         .collect();

@@ -2,10 +2,10 @@ import { expect, it } from 'vitest'
 import { demandByPeriod, Earnings } from './earnings'
 import { prices, scenario } from './fixtures/tiny'
 import { timeOf } from './time'
-import { fleetCost } from './traces'
+import { fixedCost } from './traces'
 
 const record = prices()
-const earnings = new Earnings(record, fleetCost(scenario()))
+const earnings = new Earnings(record, fixedCost(scenario()))
 
 it('a day begins with the cost of its fleet and ends with its profit', () => {
   expect(earnings.at(timeOf('06:59:59'))).toEqual({

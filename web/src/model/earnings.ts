@@ -24,9 +24,9 @@ export class Earnings {
   /** Before the first leg. */
   readonly #first_usd: number
 
-  constructor(record: DayRecord, fleetCost_usd = 0) {
+  constructor(record: DayRecord, fixedCost_usd = 0) {
     const { legs } = record
-    this.#first_usd = 0 - fleetCost_usd
+    this.#first_usd = 0 - fixedCost_usd
     this.times = Float64Array.from(legs, (leg) => leg.decided)
     this.profits = summed(
       legs.map((leg) => leg.profit_usd),

@@ -32,6 +32,9 @@ export interface ScenarioVertiport {
   y_mi: number
   stands: number
   chargers?: number
+  /** Dollars a day for each stand, and each charger, whether or not it is used. */
+  stand_cost?: number
+  charger_cost?: number
   latitude?: number
   longitude?: number
 }

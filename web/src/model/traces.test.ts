@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest'
 import { greedyTrace, prices, pricesTrace, scenario, scenarioText } from './fixtures/tiny'
 import { timeOf } from './time'
-import { FileError, fleetCost, isTrace, parseScenario, recordOf } from './traces'
+import { FileError, fixedCost, isTrace, parseScenario, recordOf } from './traces'
 
 function faultOf(read: () => unknown): unknown {
   try {
@@ -32,7 +32,7 @@ describe('a scenario and a trace', () => {
 
   it('add up to the profit that the program prints', () => {
     const legs_usd = record.legs.reduce((sum, leg) => sum + leg.profit_usd, 0)
-    expect(legs_usd - fleetCost(scenario())).toBeCloseTo(2860.02, 2)
+    expect(legs_usd - fixedCost(scenario())).toBeCloseTo(2860.02, 2)
   })
 
   it('show a delay as a later departure, and what was planned', () => {

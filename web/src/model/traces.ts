@@ -111,9 +111,14 @@ export function recordOf(scenario: Scenario, trace: string, policy?: string): Da
   }
 }
 
-/** What the fleet costs whatever it does, dollars: no leg has a part in it, but the profit of the day does. */
-export function fleetCost(scenario: Scenario): number {
-  return (scenario.aircraft_cost ?? 0) * scenario.aircraft.length
+/** What the fleet, the stands and the chargers cost whatever is flown, dollars: no leg has a part in it, but the profit of the day does. */
+export function fixedCost(scenario: Scenario): number {
+  const sites = scenario.vertiports.map(
+    (vertiport) =>
+      (vertiport.stand_cost ?? 0) * vertiport.stands +
+      (vertiport.charger_cost ?? 0) * (vertiport.chargers ?? 0),
+  )
+  return sites.reduce((sum, cost) => sum + cost, (scenario.aircraft_cost ?? 0) * scenario.aircraft.length)
 }
 
 function closuresOf(scenario: Scenario): ClosureRecord[] {

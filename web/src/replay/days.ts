@@ -5,7 +5,7 @@ import { Earnings } from '../model/earnings'
 import type { DayRecord, Seconds } from '../model/record'
 import type { Scenario } from '../model/scenario'
 import {
-  fleetCost,
+  fixedCost,
   FileError,
   FilesError,
   isJson,
@@ -68,7 +68,7 @@ export function playedOf({ scenario }: ReplayDay, play: Play): Played {
       ? { title: play.title, explanation: play.explanation, record: play.record }
       : { title: policy, record: recordOf(scenario, play.trace, policy) }
   const kind = { isPlan: 'record' in play && play.isPlan === true, isOfScenario: 'trace' in play }
-  return { policy, ...titled, ...kind, earnings: new Earnings(titled.record, fleetCost(scenario)) }
+  return { policy, ...titled, ...kind, earnings: new Earnings(titled.record, fixedCost(scenario)) }
 }
 
 /** The plays that are looked at first: the one that is named, or else the best; and beside it the other that is named, or else the

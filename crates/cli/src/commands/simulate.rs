@@ -74,8 +74,11 @@ fn text(totals: &DayTotals, scenario: &Scenario, policy: &str) -> String {
             totals.energy_cost_usd, totals.energy_kwh
         ),
     ];
-    let beside =
-        [("flight cost  ", totals.flight_cost_usd), ("aircraft cost", totals.aircraft_cost_usd)];
+    let beside = [
+        ("flight cost  ", totals.flight_cost_usd),
+        ("aircraft cost", totals.aircraft_cost_usd),
+        ("site cost    ", totals.site_cost_usd),
+    ];
     let beside = beside.into_iter().filter(|&(_, cost)| cost != 0.0);
     lines.extend(beside.map(|(name, cost)| format!("  {name}   {cost:>12.2} $")));
     lines.extend([

@@ -77,7 +77,7 @@ impl RawDailyDemand {
         };
         let shares = self.shares_percent.iter().map(|percent| percent / 100.0).collect();
         let kind = Kind::Daily(DailyDemand { passengers, shares, distribution });
-        Ok(DemandModel { periods: self.periods, kind })
+        Ok(DemandModel::new(self.periods, kind))
     }
 }
 

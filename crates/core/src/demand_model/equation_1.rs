@@ -74,7 +74,7 @@ impl RawEquation1 {
             otherwise: self.otherwise.check("otherwise", origin)?,
             busy,
         });
-        Ok(DemandModel { periods: self.periods, kind })
+        Ok(DemandModel::new(self.periods, kind))
     }
 }
 

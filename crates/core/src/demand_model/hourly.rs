@@ -83,7 +83,7 @@ impl RawHourlyDemand {
             let member = format!("hourly_demand: pairs[{at}]");
             let ends = pair.check(self.periods.len(), places, &member, origin)?;
             if !seen.insert(ends) {
-                let what = format!("from {:?} to {:?}", pair.from, pair.to);
+                let what = format!("the demand from {:?} to {:?}", pair.from, pair.to);
                 return Err(Error::GivenTwice { origin: origin.to_owned(), member, what });
             }
             for (table, mean) in passengers.iter_mut().zip(pair.passengers) {
@@ -92,7 +92,7 @@ impl RawHourlyDemand {
             Ok(())
         })?;
         let kind = Kind::Hourly(HourlyDemand { passengers, distribution });
-        Ok(DemandModel { periods: self.periods, kind })
+        Ok(DemandModel::new(self.periods, kind))
     }
 }
 

@@ -51,6 +51,6 @@ impl RawUniformDemand {
             });
         }
         let kind = Kind::Uniform(UniformDemand { least, most });
-        Ok(DemandModel { periods: self.periods, kind })
+        Ok(DemandModel::new(self.periods, kind))
     }
 }

@@ -12,7 +12,7 @@ use crate::settings::within;
 pub enum Reward {
     /// All of it at the end of the day, as in the paper.
     Terminal,
-    /// The share of each flight when it is decided, and the cost of the fleet at the end; over a day this adds up to
+    /// The share of each flight when it is decided, and what the day costs anyway at the end; over a day this adds up to
     /// the same total.
     Dense,
 }
@@ -22,9 +22,9 @@ impl Reward {
     pub fn of(self, outcome: &TraceRow, day: &Simulation, over: bool) -> f64 {
         match self {
             Self::Dense => {
-                // The cost of the fleet belongs to no flight; it is charged with the last decision.
-                let fleet_usd = if over { day.ledger().aircraft_cost_usd } else { 0.0 };
-                share(outcome.profit_usd() - fleet_usd, day.potential_usd())
+                // What the day costs anyway belongs to no flight; it is charged with the last decision.
+                let fixed_usd = if over { day.ledger().fixed_cost_usd() } else { 0.0 };
+                share(outcome.profit_usd() - fixed_usd, day.potential_usd())
             }
             Self::Terminal if over => day.totals().reward,
             Self::Terminal => 0.0,

@@ -51,7 +51,7 @@ pub(super) struct Descent {
     pub(super) enough: f64,
 }
 
-/// The best prices of a descent, and the bound that they prove on the clock of its day before the cost of the fleet is
+/// The best prices of a descent, and the bound that they prove on the clock of its day before what the day costs anyway is
 /// deducted, micro-dollars.
 pub(super) struct Found {
     pub(super) prices: Prices,
@@ -61,7 +61,7 @@ pub(super) struct Found {
 impl Found {
     /// The bound, micro-dollars: no schedule earns more.
     pub(super) fn bound(&self, day: &TimeExpandedDay) -> i128 {
-        self.micro_usd - i128::from(day.fleet_cost)
+        self.micro_usd - i128::from(day.fixed_cost)
     }
 }
 

@@ -72,7 +72,7 @@ pub(super) struct TimeExpandedDay {
     /// The highest margin of a passenger, by period, from, to; micro-dollars, never negative.
     pub(super) margin: Vec<i64>,
     /// The least that the fleet may cost, whether or not it flies, micro-dollars.
-    pub(super) fleet_cost: i64,
+    pub(super) fixed_cost: i64,
     /// Duration of a hold, seconds.
     pub(super) hold_s: u32,
     /// The shortest time from a take-off to the next one, or the duration of a hold if that is shorter; seconds, at
@@ -102,7 +102,7 @@ impl TimeExpandedDay {
             stands: scenario.vertiports.iter().map(room).collect(),
             demand: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
             margin: margins(scenario),
-            fleet_cost: fleet_cost(scenario),
+            fixed_cost: fixed_cost(scenario),
             hold_s: scenario.operations.hold_s,
             shortest_s: scenario.operations.hold_s,
             is_flown: vec![false; scenario.periods.len() * scenario.vertiports.len().pow(2)],
@@ -273,11 +273,16 @@ fn margins(scenario: &Scenario) -> Vec<i64> {
     fares.map(|(fare, cost)| money::up(fare - cost).max(0)).collect()
 }
 
-/// The cost is exact, and 0 where aircraft cost nothing, which rounding down would make negative.
-fn fleet_cost(scenario: &Scenario) -> i64 {
-    let an_aircraft = money::down(scenario.aircraft_cost_usd).max(0);
+/// What the fleet, the stands and the chargers cost whatever is decided, rounded down for each, and 0 where they cost
+/// nothing, which rounding down would make negative.
+fn fixed_cost(scenario: &Scenario) -> i64 {
+    let each = |cost_usd: f64| money::down(cost_usd).max(0);
     let fleet = i64::try_from(scenario.aircraft.len()).expect("at most 10,000 aircraft");
-    fleet * an_aircraft
+    let site = |vertiport: &Vertiport| {
+        i64::from(vertiport.stands) * each(vertiport.stand_cost_usd)
+            + i64::from(vertiport.chargers.unwrap_or(0)) * each(vertiport.charger_cost_usd)
+    };
+    fleet * each(scenario.aircraft_cost_usd) + scenario.vertiports.iter().map(site).sum::<i64>()
 }
 
 /// The lowest price of energy at any time within `arrivals_s`, both ends included.

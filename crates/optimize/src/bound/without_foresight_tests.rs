@@ -187,6 +187,8 @@ fn world_of_a_coin() -> World {
         chargers: None,
         busy: false,
         degrees: None,
+        stand_cost_usd: 0.0,
+        charger_cost_usd: 0.0,
     };
     let between = |usd: f64| {
         Matrix::from_fn(3, move |from, to| if (from.0 == 0) == (to.0 == 0) { 0.0 } else { usd })

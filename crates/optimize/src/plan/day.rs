@@ -17,7 +17,7 @@ pub(super) struct Day {
     pub(super) period_starts_s: Vec<u32>,
     pub(super) energy_price_usd: Vec<f64>,
     /// Cost of the fleet, whether or not it flies, dollars.
-    pub(super) fleet_cost_usd: f64,
+    pub(super) fixed_cost_usd: f64,
     /// U_max of each vertiport.
     pub(super) stands: Vec<u16>,
     /// The type of each aircraft.
@@ -58,7 +58,7 @@ impl Day {
             hold_s: view.hold_s(),
             period_starts_s: view.period_starts().iter().map(|start| start.seconds()).collect(),
             energy_price_usd: view.energy_prices_usd().to_vec(),
-            fleet_cost_usd: view.fleet_cost_usd(),
+            fixed_cost_usd: view.fixed_cost_usd(),
             stands: VertiportIx::all(vertiports).map(|vertiport| view.stands(vertiport)).collect(),
             kind_of: fleet.map(|aircraft| view.kind(aircraft)).collect(),
             seats: types.iter().map(|kind| kind.seats).collect(),

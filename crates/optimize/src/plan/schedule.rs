@@ -54,7 +54,7 @@ impl Schedule {
             });
         }
         let left = demand.iter().map(|&passengers| i64::from(passengers)).collect();
-        Self { itineraries, stands, left, value_usd: 0.0 - day.fleet_cost_usd }
+        Self { itineraries, stands, left, value_usd: 0.0 - day.fixed_cost_usd }
     }
 
     /// Profit of the schedule, dollars.

@@ -48,6 +48,8 @@ pub(crate) struct PolicyResult {
     flight_cost_usd: f64,
     /// What the fleet costs whatever it does, dollars.
     aircraft_cost_usd: f64,
+    /// What stands and chargers cost whether or not they are used, dollars.
+    site_cost_usd: f64,
     /// Passengers who were carried.
     passengers: f64,
     /// Passengers who were not.
@@ -123,6 +125,7 @@ impl PolicyResult {
             energy_cost_usd: policy.energy_cost_usd,
             flight_cost_usd: policy.flight_cost_usd,
             aircraft_cost_usd: policy.aircraft_cost_usd,
+            site_cost_usd: policy.site_cost_usd,
             passengers: policy.passengers,
             spilled_passengers: policy.spilled_passengers,
             load_factor: policy.load_factor,

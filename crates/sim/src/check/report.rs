@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::ser::SerializeStruct as _;
 use serde::{Serialize, Serializer};
-use vertifleet_core::Time;
+use vertifleet_core::{Scenario, Time};
 
 use super::Rule;
 use super::event::Event;
@@ -48,6 +48,8 @@ pub struct Totals {
     pub flight_cost_usd: f64,
     /// Cost of the fleet, whether or not it flies.
     pub aircraft_cost_usd: f64,
+    /// Cost of stands and chargers, whether or not they are used.
+    pub site_cost_usd: f64,
     /// Energy charged.
     pub energy_kwh: f64,
     /// Flights, with passengers or without.
@@ -80,14 +82,20 @@ impl Totals {
         self.energy_kwh += flight.energy_kwh;
     }
 
-    /// Enters the cost of `aircraft` aircraft at `cost_usd` each, and computes the profit.
-    pub(super) fn close(&mut self, aircraft: usize, cost_usd: f64) {
-        self.aircraft_cost_usd = cost_usd * aircraft as f64;
+    /// Enters what the day costs whatever is flown, and computes the profit.
+    pub(super) fn close(&mut self, scenario: &Scenario) {
+        self.aircraft_cost_usd = scenario.aircraft_cost_usd * scenario.aircraft.len() as f64;
+        for vertiport in &scenario.vertiports {
+            self.site_cost_usd += vertiport.stand_cost_usd * f64::from(vertiport.stands);
+            let chargers = vertiport.chargers.map_or(0.0, f64::from);
+            self.site_cost_usd += vertiport.charger_cost_usd * chargers;
+        }
         self.profit_usd = self.revenue_usd
             - self.passenger_cost_usd
             - self.energy_cost_usd
             - self.flight_cost_usd
-            - self.aircraft_cost_usd;
+            - self.aircraft_cost_usd
+            - self.site_cost_usd;
     }
 }
 
@@ -224,9 +232,11 @@ impl fmt::Display for Totals {
             self.energy_cost_usd,
             self.energy_kwh
         )?;
-        for (name, cost) in
-            [("flight cost", self.flight_cost_usd), ("aircraft cost", self.aircraft_cost_usd)]
-        {
+        for (name, cost) in [
+            ("flight cost", self.flight_cost_usd),
+            ("aircraft cost", self.aircraft_cost_usd),
+            ("site cost", self.site_cost_usd),
+        ] {
             if cost != 0.0 {
                 write!(f, " - {name} ${cost:.2}")?;
             }

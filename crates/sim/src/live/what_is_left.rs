@@ -30,6 +30,9 @@ impl LiveDay {
         let size = day.vertiports.len();
         day.operations.start = now;
         day.aircraft_cost_usd = 0.0;
+        for vertiport in &mut day.vertiports {
+            (vertiport.stand_cost_usd, vertiport.charger_cost_usd) = (0.0, 0.0);
+        }
         let period = self.scenario().period_at(now);
         for (at, table) in day.demand.iter_mut().enumerate() {
             let left = &self.known.demand.all()[at * size * size..];

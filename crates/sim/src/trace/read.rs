@@ -223,6 +223,8 @@ mod tests {
                 chargers: None,
                 busy: false,
                 degrees: None,
+                stand_cost_usd: 0.0,
+                charger_cost_usd: 0.0,
             }],
             aircraft_types: vec![AircraftType {
                 id: "T".to_owned(),

@@ -19,6 +19,8 @@ pub(crate) fn day() -> Day {
         chargers: None,
         busy: false,
         degrees: None,
+        stand_cost_usd: 0.0,
+        charger_cost_usd: 0.0,
     };
     let aircraft =
         |id: &str, at| Aircraft { id: id.to_owned(), kind: TypeIx(0), at: VertiportIx(at) };

@@ -18,7 +18,7 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         (view.day_start(), view.day_end(), view.hold_s(), view.day_seed()),
         view.vertiports(),
         view.period_at(decision.time + 1800),
-        (view.day() == view.day(), view.route_changes(), view.fleet_cost_usd()),
+        (view.day() == view.day(), view.route_changes(), view.fixed_cost_usd()),
     )];
     shown.push(format!("{:?}", view.known_closures()));
     let refusal = |to| view.refusal(decision, to);

@@ -135,6 +135,8 @@ pub struct PolicySummary {
     pub flight_cost_usd: f64,
     /// Aircraft cost, in dollars.
     pub aircraft_cost_usd: f64,
+    /// Cost of stands and chargers, in dollars.
+    pub site_cost_usd: f64,
     /// Energy charged, in kWh.
     pub energy_kwh: f64,
     /// The potential: what all passengers of the day would pay if all of them flew, in dollars.
@@ -325,6 +327,7 @@ impl PolicySummary {
             energy_cost_usd: average(|day| day.totals.energy_cost_usd),
             flight_cost_usd: average(|day| day.totals.flight_cost_usd),
             aircraft_cost_usd: average(|day| day.totals.aircraft_cost_usd),
+            site_cost_usd: average(|day| day.totals.site_cost_usd),
             energy_kwh: average(|day| day.totals.energy_kwh),
             potential_usd: average(|day| day.totals.potential_usd),
             flights: average(|day| f64::from(day.totals.flights)),

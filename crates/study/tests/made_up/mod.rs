@@ -122,6 +122,7 @@ fn record(outline: &Outline, day: u64, season: f64, noise: &mut Noise) -> DayRec
             energy_cost_usd: profit_usd * 0.1,
             flight_cost_usd: 0.0,
             aircraft_cost_usd: 0.0,
+            site_cost_usd: 0.0,
             energy_kwh: profit_usd * 0.5,
             potential_usd,
             reward: profit_usd / potential_usd,
