@@ -41,11 +41,11 @@ impl<'a> Cell<'a> {
     /// The whole number that the cell holds, also one that is written with a fraction of zero (`132.0`).
     #[inline]
     pub(crate) fn whole(self) -> Option<i64> {
+        // Whole numbers up to this size are exact as `f64`.
+        const MOST: f64 = 9_007_199_254_740_992.0;
         if let Self::Whole(whole) = self {
             return Some(whole);
         }
-        // Whole numbers up to this size are exact as `f64`.
-        const MOST: f64 = 9_007_199_254_740_992.0;
         let number = self.number()?;
         #[expect(clippy::cast_possible_truncation, reason = "whole and within the range of i64")]
         (number.fract() == 0.0 && number.abs() <= MOST).then_some(number as i64)

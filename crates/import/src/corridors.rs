@@ -1,4 +1,7 @@
 //! Corridors from the lines of a map, with their lengths.
+//!
+//! Lines on maps rarely begin exactly at a vertiport. The length of a corridor is the length of its line and of the gaps
+//! at both ends, so that it is never below the straight distance of the vertiports.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -22,7 +25,7 @@ const COLUMNS: [Column; 3] = [required(&["from"]), required(&["to"]), optional(&
 pub(crate) struct Corridor {
     pub(crate) ends: (usize, usize),
     pub(crate) both_ways: bool,
-    /// Length along the line, miles.
+    /// Length of the way from vertiport to vertiport, miles.
     pub(crate) length_mi: f64,
 }
 
@@ -53,26 +56,27 @@ pub(crate) fn read(path: &Path, vertiports: &Vertiports) -> Result<Vec<Corridor>
 fn corridor(shape: &Shape<'_>, vertiports: &Vertiports) -> Result<Corridor, Error> {
     let ends = shape.row.pair(FROM, TO, vertiports)?;
     let line = shape.line()?;
+    let mut way_mi = length_mi(&line);
     for (place, end, vertiport) in [(line.first(), "begin", ends.0), (line.last(), "end", ends.1)] {
         let Some(&place) = place else { continue };
-        near(shape, place, end, vertiport, vertiports)?;
+        way_mi += gap_mi(shape, place, end, vertiport, vertiports)?;
     }
     let both_ways = shape.row.optional_flag(BOTH_WAYS)?.unwrap_or(true);
-    Ok(Corridor { ends, both_ways, length_mi: length_mi(&line) })
+    Ok(Corridor { ends, both_ways, length_mi: way_mi })
 }
 
-/// Refuses a line that begins or ends far from its vertiport.
-fn near(
+/// The distance between an end of a line and its vertiport, miles, which must be small.
+fn gap_mi(
     shape: &Shape<'_>,
     place: Place,
     end: &'static str,
     vertiport: usize,
     vertiports: &Vertiports,
-) -> Result<(), Error> {
+) -> Result<f64, Error> {
     let vertiport = &vertiports.list[vertiport];
     let found_mi = place.distance_mi(vertiport.place);
     if found_mi <= NEAR_MI {
-        return Ok(());
+        return Ok(found_mi);
     }
     Err(Error::CorridorEnd {
         origin: shape.row.origin.to_owned(),

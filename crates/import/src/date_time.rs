@@ -58,11 +58,6 @@ impl Date {
         Some(Self { days: 365 * year + year / 4 - year / 100 + year / 400 + day_of_year - 719_468 })
     }
 
-    /// The date so many days after 1970-01-01.
-    pub(crate) fn from_days(days: i32) -> Self {
-        Self { days }
-    }
-
     /// The date before.
     #[inline]
     pub(crate) fn before(self) -> Self {
@@ -73,7 +68,15 @@ impl Date {
     #[inline]
     pub fn weekday(self) -> Weekday {
         // 1970-01-01 was a Thursday.
-        Weekday::ALL[(i64::from(self.days) + 3).rem_euclid(7).unsigned_abs() as usize % 7]
+        match (i64::from(self.days) + 3).rem_euclid(7) {
+            0 => Weekday::Monday,
+            1 => Weekday::Tuesday,
+            2 => Weekday::Wednesday,
+            3 => Weekday::Thursday,
+            4 => Weekday::Friday,
+            5 => Weekday::Saturday,
+            _ => Weekday::Sunday,
+        }
     }
 
     /// Year, month and day.
@@ -121,9 +124,9 @@ impl Moment {
 
     /// The moment so many seconds after 1970-01-01 00:00.
     pub(crate) fn from_seconds(seconds: i64) -> Option<Self> {
-        let day_s = i64::from(DAY_S);
-        let days = i32::try_from(seconds.div_euclid(day_s)).ok()?;
-        let second = u32::try_from(seconds.rem_euclid(day_s)).ok()?;
+        let length = i64::from(DAY_S);
+        let days = i32::try_from(seconds.div_euclid(length)).ok()?;
+        let second = u32::try_from(seconds.rem_euclid(length)).ok()?;
         Some(Self { date: Date { days }, second })
     }
 }
@@ -222,8 +225,7 @@ impl fmt::Display for Date {
 
 impl fmt::Display for Moment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (hour, minute, second) =
-            (self.second / 3600, self.second / 60 % 60, self.second % 60);
+        let (hour, minute, second) = (self.second / 3600, self.second / 60 % 60, self.second % 60);
         write!(f, "{} {hour:02}:{minute:02}:{second:02}", self.date)
     }
 }
@@ -252,7 +254,7 @@ mod tests {
         let last = Date::new(2400, 1, 1).expect("a date").days;
         assert_eq!(last - first, 2 * 146_097);
         for days in first..=last {
-            let date = Date::from_days(days);
+            let date = Date { days };
             assert_eq!(date.to_string().parse(), Ok(date));
         }
     }
@@ -262,7 +264,9 @@ mod tests {
         assert_eq!(Date::new(1970, 1, 1).expect("a date").days, 0);
         assert_eq!(Date::new(2015, 6, 1).expect("a date").weekday(), Weekday::Monday);
         assert_eq!(Date::new(1969, 12, 28).expect("a date").weekday(), Weekday::Sunday);
-        for (year, month, day) in [(2015, 2, 29), (1900, 2, 29), (2015, 13, 1), (2015, 0, 1), (0, 1, 1)] {
+        for (year, month, day) in
+            [(2015, 2, 29), (1900, 2, 29), (2015, 13, 1), (2015, 0, 1), (0, 1, 1)]
+        {
             assert_eq!(Date::new(year, month, day), None);
         }
     }
@@ -275,7 +279,14 @@ mod tests {
             assert_eq!(Moment::read(text.as_bytes()), Some(moment), "{text}");
         }
         assert_eq!(Moment::read(b"2015-06-01 07:08").map(|moment| moment.second), Some(25_680));
-        for text in ["", "2015-06-01", "2015-06-31 07:08", "2015-06-01 24:00", "2015-06-01 07:08:9", "01/06/2015 07:08"] {
+        for text in [
+            "",
+            "2015-06-01",
+            "2015-06-31 07:08",
+            "2015-06-01 24:00",
+            "2015-06-01 07:08:9",
+            "01/06/2015 07:08",
+        ] {
             assert_eq!(Moment::read(text.as_bytes()), None, "{text}");
         }
         assert_eq!(Moment::from_seconds(-1).map(|moment| moment.second), Some(86_399));
@@ -284,7 +295,8 @@ mod tests {
 
     #[test]
     fn sets_of_weekdays_say_what_they_hold() {
-        let days: Weekdays = ["mon", "Fri"].iter().map(|day| day.parse::<Weekday>().expect("a day")).collect();
+        let days: Weekdays =
+            ["mon", "Fri"].iter().map(|day| day.parse::<Weekday>().expect("a day")).collect();
         assert_eq!(days.to_string(), "Mon, Fri");
         assert!(days.contains(Weekday::Friday) && !days.contains(Weekday::Sunday));
         assert!(Weekdays::from_iter([]).is_empty() && "Frei".parse::<Weekday>().is_err());

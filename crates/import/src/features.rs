@@ -1,6 +1,7 @@
 //! The features of a GeoJSON file as rows: properties are columns, and the geometry comes with them.
 
 use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::path::Path;
 
 use geojson::feature::Id;
@@ -16,7 +17,7 @@ use crate::table::{LONGEST, without_mark};
 
 /// Whether a file is GeoJSON, by its name or, where the name does not say, by its first character.
 pub(crate) fn is_geojson(path: &Path) -> Result<bool, Error> {
-    let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+    let extension = path.extension().map(OsStr::to_ascii_lowercase);
     match extension.as_ref().and_then(|extension| extension.to_str()) {
         Some("geojson" | "json") => Ok(true),
         Some("csv" | "parquet") => Ok(false),
@@ -31,6 +32,12 @@ pub(crate) fn is_geojson(path: &Path) -> Result<bool, Error> {
 pub(crate) struct Shape<'a> {
     pub(crate) row: Row<'a>,
     geometry: Option<&'a GeometryValue>,
+}
+
+/// The edge of a polygon or of a hole in one.
+pub(crate) struct Ring {
+    pub(crate) edge: Vec<Place>,
+    pub(crate) is_hole: bool,
 }
 
 /// Calls `each` with every feature of a file. A column named `id` is also the feature's own `id`, if no property has
@@ -51,11 +58,9 @@ pub(crate) fn shapes(
     for (feature, position) in collection.features.iter().zip(1..) {
         let values: Vec<Option<Cow<'_, str>>> =
             columns.iter().map(|column| value(feature, column)).collect();
-        let text = |value: &'_ Option<Cow<'_, str>>| match value {
-            Some(value) => Cell::text(value.as_bytes()),
-            None => Cell::Missing,
-        };
-        let cells: Vec<Cell<'_>> = values.iter().map(text).collect();
+        let texts = values.iter().map(|value| value.as_ref().map(|value| value.as_bytes()));
+        let cells: Vec<Cell<'_>> =
+            texts.map(|text| text.map_or(Cell::Missing, Cell::text)).collect();
         let positions = Positions::Features;
         let row = Row { origin: &origin, positions, position, columns, cells: &cells };
         let geometry = feature.geometry.as_ref().map(|geometry| &geometry.value);
@@ -102,15 +107,18 @@ impl Shape<'_> {
         if line.len() < 2 { Err(self.wrong(EXPECTED)) } else { self.places(line) }
     }
 
-    /// The rings of all polygons, each with whether it is the edge of a hole; `None` if the geometry is no area.
-    pub(crate) fn rings(&self) -> Result<Option<Vec<(Vec<Place>, bool)>>, Error> {
+    /// The rings of all polygons; `None` if the geometry is no area.
+    pub(crate) fn rings(&self) -> Result<Option<Vec<Ring>>, Error> {
         let polygons = match self.geometry {
             Some(GeometryValue::Polygon { coordinates }) => std::slice::from_ref(coordinates),
             Some(GeometryValue::MultiPolygon { coordinates }) => coordinates.as_slice(),
             _ => return Ok(None),
         };
         let rings = polygons.iter().flat_map(|rings| {
-            rings.iter().enumerate().map(|(at, ring)| Ok((self.places(ring)?, at > 0)))
+            rings
+                .iter()
+                .enumerate()
+                .map(|(at, ring)| Ok(Ring { edge: self.places(ring)?, is_hole: at > 0 }))
         });
         rings.collect::<Result<_, Error>>().map(Some)
     }

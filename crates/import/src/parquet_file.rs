@@ -53,7 +53,8 @@ impl ParquetFile {
     /// Reads the description of a file.
     pub(crate) fn open(file: impl ChunkReader + 'static, origin: &str) -> Result<Self, Error> {
         guarded(origin, || {
-            let reader = SerializedFileReader::new(file).map_err(|error| damaged(origin, &error))?;
+            let reader =
+                SerializedFileReader::new(file).map_err(|error| damaged(origin, &error))?;
             let schema = reader.metadata().file_metadata().schema_descr();
             let plain = |column: &ColumnDescriptor| {
                 column.path().parts().len() == 1 && column.max_rep_level() == 0
@@ -105,19 +106,24 @@ impl ParquetFile {
     ) -> Result<(), Error> {
         self.check(wanted)?;
         let (mut columns, mut left) = guarded(&self.origin, || self.batched(group, wanted))?;
+        let count = columns.len().min(MOST_COLUMNS);
         while left > 0 {
             pause()?;
             let rows = left.min(BATCH);
             guarded(&self.origin, || {
                 let read = |column: &mut BatchedColumn| column.read(rows);
-                columns.iter_mut().flatten().try_for_each(read).map_err(|error| self.damaged(&error))
+                columns
+                    .iter_mut()
+                    .flatten()
+                    .try_for_each(read)
+                    .map_err(|error| self.damaged(&error))
             })?;
             for row in 0..rows {
                 let mut cells = [Cell::Missing; MOST_COLUMNS];
                 for (cell, column) in cells.iter_mut().zip(&mut columns) {
                     *cell = column.as_mut().map_or(Cell::Missing, |column| column.next(row));
                 }
-                each(&cells[..columns.len().min(MOST_COLUMNS)])?;
+                each(&cells[..count])?;
             }
             left -= rows;
         }

@@ -156,11 +156,7 @@ impl Row<'_> {
     }
 
     /// The position of the vertiport that a column names.
-    pub(crate) fn vertiport(
-        &self,
-        column: usize,
-        vertiports: &Vertiports,
-    ) -> Result<usize, Error> {
+    pub(crate) fn vertiport(&self, column: usize, vertiports: &Vertiports) -> Result<usize, Error> {
         let id = self.text(column)?;
         vertiports.find(&id).ok_or_else(|| Error::UnknownVertiport {
             origin: self.origin.to_owned(),

@@ -90,9 +90,8 @@ fn csv_rows(
     let found = find_columns(columns, &header, origin)?;
     let mut count = 0;
     while next(&mut record)? {
-        let value = |at: &Option<usize>| {
-            at.and_then(|at| record.get(at)).map_or(Cell::Missing, Cell::text)
-        };
+        let value =
+            |at: &Option<usize>| at.and_then(|at| record.get(at)).map_or(Cell::Missing, Cell::text);
         let cells: Vec<Cell<'_>> = found.iter().map(value).collect();
         let begin = record.position().map_or(0, csv::Position::byte);
         each(&Row {

@@ -122,19 +122,18 @@ pub(crate) fn demand(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<(HourlyDemand, TripAccount), Error> {
     trips.check()?;
-    let zones = trips.zones.map(Zones::read).transpose()?;
+    let zones = trips.zones.map(Zones::read).transpose()?.unwrap_or_default();
     let places = vertiports.list.iter().map(|vertiport| vertiport.place).collect();
     let nearby = Nearby::new(places, trips.radius_mi);
-    let near_zones = zones.iter().flat_map(|zones| &zones.middles).map(|&middle| nearby.of(middle));
     let rules = Rules {
-        near_zones: near_zones.collect(),
+        near_zones: zones.middles.iter().map(|&middle| nearby.of(middle)).collect(),
         nearby,
         hours: Hours::of(operations),
         decay_mi: trips.decay_mi,
         weekdays: trips.weekdays,
         dates: trips.first_date..=trips.last_date,
     };
-    let reading = Reading::new(trips, zones.as_ref(), &rules, stop, progress)?;
+    let reading = Reading::new(trips, &zones, &rules, stop, progress)?;
     let tally = reading.read()?;
     let account = tally.account(trips);
     if account.kept == 0 {
@@ -156,6 +155,11 @@ pub(crate) fn demand(
     Ok((demand, account))
 }
 
+/// The demand periods of trip records, without any passengers.
+pub(crate) fn no_demand(operations: &Operations) -> HourlyDemand {
+    HourlyDemand { periods: Hours::of(operations).starts(), pairs: BTreeMap::new() }
+}
+
 /// A number of passengers to a millionth, which keeps network files short.
 fn rounded(passengers: f64) -> f64 {
     (passengers * 1e6).round() / 1e6
@@ -164,7 +168,7 @@ fn rounded(passengers: f64) -> f64 {
 /// Everything that the readers of all files share.
 struct Reading<'a> {
     trips: &'a Trips<'a>,
-    zones: Option<&'a Zones>,
+    zones: &'a Zones,
     tallies: Tallies<'a>,
     stop: &'a Stop,
     progress: Progress<'a>,
@@ -187,7 +191,7 @@ impl Progress<'_> {
 impl<'a> Reading<'a> {
     fn new(
         trips: &'a Trips<'a>,
-        zones: Option<&'a Zones>,
+        zones: &'a Zones,
         rules: &'a Rules,
         stop: &'a Stop,
         report: &'a (dyn Fn(f64) + Sync),
@@ -202,9 +206,11 @@ impl<'a> Reading<'a> {
 
     /// The zones that a file's places are in. A file with coordinates needs none.
     fn zones_for(&self, layout: &Layout, origin: &str) -> Result<&'a Zones, Error> {
-        match (layout.places, self.zones) {
-            (Places::Zones(_), None) => Err(Error::NoZones { origin: origin.to_owned() }),
-            (_, zones) => Ok(zones.unwrap_or(&NO_ZONES)),
+        match layout.places {
+            Places::Zones(_) if self.trips.zones.is_none() => {
+                Err(Error::NoZones { origin: origin.to_owned() })
+            }
+            Places::Zones(_) | Places::Coordinates(_) => Ok(self.zones),
         }
     }
 

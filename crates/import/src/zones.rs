@@ -84,8 +84,8 @@ impl Zones {
             Some(at) => return Err(twice(&shape.row, drafts[at].position)),
             None => self.add(&shape.row, None, drafts)?,
         };
-        for (ring, hole) in &rings {
-            drafts[at].area.add_ring(ring, *hole);
+        for ring in &rings {
+            drafts[at].area.add_ring(&ring.edge, ring.is_hole);
         }
         Ok(())
     }

@@ -110,7 +110,8 @@ impl Source {
         };
         let begin = self.begin;
         if read == BLOCK {
-            let end = lines.iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
+            let end =
+                lines.iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
             if lines.len() - end > LONGEST_LINE {
                 return Err(too_long(&self.origin, begin + end as u64));
             }
@@ -146,9 +147,8 @@ impl<'a> RowReader<'a> {
             return Err(too_long(&origin, block.begin));
         }
         let names = Fields::of(without_mark(&block.lines[..end]));
-        let names: Vec<String> = names
-            .map(|name| String::from_utf8_lossy(name.trim_ascii()).into_owned())
-            .collect();
+        let names: Vec<String> =
+            names.map(|name| String::from_utf8_lossy(name.trim_ascii()).into_owned()).collect();
         let layout = Layout::find(&reading.trips.columns, &names, &origin)?;
         let zones = reading.zones_for(&layout, &origin)?;
         reading.progress.add(end as u64);

@@ -95,13 +95,19 @@ impl Layout {
             ([Some(a), Some(b), Some(c), Some(d)], _) => Places::Coordinates([a, b, c, d]),
             (_, [Some(from), Some(to)]) => Places::Zones([from, to]),
             _ => {
-                let names = [PICKUP_LATITUDE, PICKUP_LONGITUDE, DROPOFF_LATITUDE, DROPOFF_LONGITUDE];
+                let names =
+                    [PICKUP_LATITUDE, PICKUP_LONGITUDE, DROPOFF_LATITUDE, DROPOFF_LONGITUDE];
                 let absent = coordinates.iter().zip(names).find(|(at, _)| at.is_none());
                 let column = absent.map_or("pickup_latitude", |(_, names)| names[0]);
-                return Err(finder.missing(&format!("{column} (or {} and {})", PICKUP_ZONE[0], DROPOFF_ZONE[0]), column));
+                return Err(finder.missing(
+                    &format!("{column} (or {} and {})", PICKUP_ZONE[0], DROPOFF_ZONE[0]),
+                    column,
+                ));
             }
         };
-        let time = time.ok_or_else(|| finder.missing("with the time of pick-up, such as pickup_datetime", "pickup_datetime"))?;
+        let time = time.ok_or_else(|| {
+            finder.missing("with the time of pick-up, such as pickup_datetime", "pickup_datetime")
+        })?;
         Ok(Self { time, passengers, places })
     }
 }
@@ -115,8 +121,9 @@ struct Finder<'a> {
 impl Finder<'_> {
     /// The position of the column of this name, which must be there; or of the first of the usual names that is there.
     fn find(&self, name: Option<&str>, usual: &[&str]) -> Result<Option<usize>, Error> {
-        let position =
-            |name: &str| self.found.iter().position(|found| found.eq_ignore_ascii_case(name.trim()));
+        let position = |name: &str| {
+            self.found.iter().position(|found| found.eq_ignore_ascii_case(name.trim()))
+        };
         match name {
             Some(name) => match position(name) {
                 Some(at) => Ok(Some(at)),

@@ -18,7 +18,7 @@ const STRETCH: u64 = 100_000;
 /// A row group of a file.
 struct Group<'a> {
     path: &'a Path,
-    group: usize,
+    number: usize,
     layout: Layout,
     zones: &'a Zones,
     /// Bytes of the file for each of its rows.
@@ -34,11 +34,12 @@ pub(super) fn read(paths: &[PathBuf], reading: &Reading<'_>) -> Result<(), Error
         let layout = Layout::find(&reading.trips.columns, file.columns(), &origin)?;
         let zones = reading.zones_for(&layout, &origin)?;
         file.check(&wanted(&layout))?;
-        let rows: u64 = (0..file.groups()).map(|group| file.group_rows(group)).fold(0, u64::saturating_add);
+        let rows: u64 =
+            (0..file.groups()).map(|group| file.group_rows(group)).fold(0, u64::saturating_add);
         let bytes_per_row = length as f64 / rows.max(1) as f64;
-        groups.extend((0..file.groups()).map(|group| Group {
+        groups.extend((0..file.groups()).map(|number| Group {
             path,
-            group,
+            number,
             layout,
             zones,
             bytes_per_row,
@@ -70,7 +71,7 @@ impl Group<'_> {
         reading.tallies.with(|tally, rules| {
             let mut rows = 0_u64;
             let pause = || Ok(reading.stop.check()?);
-            file.rows(self.group, &wanted(&self.layout), &pause, &mut |cells| {
+            file.rows(self.number, &wanted(&self.layout), &pause, &mut |cells| {
                 tally.add(&record(cells, &self.layout, self.zones), rules);
                 rows += 1;
                 if rows.is_multiple_of(STRETCH) {

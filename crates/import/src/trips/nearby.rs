@@ -41,7 +41,8 @@ impl Nearby {
             // pole has all longitudes.
             let sine = libm::sin(angle) / libm::cos(place.latitude.to_radians());
             let reaches_pole = place.latitude.abs() + angle.to_degrees() >= 90.0;
-            let half_width = if reaches_pole { 360.0 } else { libm::asin(sine.min(1.0)).to_degrees() };
+            let half_width =
+                if reaches_pole { 360.0 } else { libm::asin(sine.min(1.0)).to_degrees() };
             Box { place, vertiport, half_width: half_width * ROOM }
         };
         let mut boxes: Vec<Box> = places.into_iter().enumerate().map(around).collect();
@@ -61,15 +62,15 @@ impl Nearby {
         let highest = place.latitude + self.half_height;
         let first = self.boxes.partition_point(|other| other.place.latitude < lowest);
         let mut nearest: Option<Near> = None;
-        for other in self.boxes[first..].iter().take_while(|other| other.place.latitude <= highest) {
+        for other in self.boxes[first..].iter().take_while(|other| other.place.latitude <= highest)
+        {
             let apart = (place.longitude - other.place.longitude).abs();
             if apart.min(360.0 - apart) > other.half_width {
                 continue;
             }
             let distance_mi = place.distance_mi(other.place);
-            let nearer = |than: Near| {
-                (distance_mi, other.vertiport) < (than.distance_mi, than.vertiport)
-            };
+            let nearer =
+                |than: Near| (distance_mi, other.vertiport) < (than.distance_mi, than.vertiport);
             if distance_mi <= self.radius_mi && nearest.is_none_or(nearer) {
                 nearest = Some(Near { vertiport: other.vertiport, distance_mi });
             }

@@ -155,7 +155,8 @@ impl Tally {
         if access.vertiport == egress.vertiport {
             return Err(Reason::SameVertiport);
         }
-        let cell = (period * self.vertiports + access.vertiport) * self.vertiports + egress.vertiport;
+        let cell =
+            (period * self.vertiports + access.vertiport) * self.vertiports + egress.vertiport;
         let weight = passengers * rules.share(access.distance_mi + egress.distance_mi);
         #[expect(
             clippy::cast_possible_truncation,
