@@ -103,7 +103,8 @@ pub fn import(
     let (demand, source, account) = match &request.demand {
         Demand::Table(path) => {
             let demand = HourlyDemand::read(path, &vertiports, operations.start)?;
-            (demand, network_text::of_table(path), None)
+            let source = network_text::of_table(path, &demand);
+            (demand, source, None)
         }
         Demand::Trips(trips) => {
             // Trip records may take minutes to read. Whatever else is wrong is said before.

@@ -233,7 +233,7 @@ impl NetworkText<'_> {
         for (&ends, means) in &demand.pairs {
             let _ = write!(
                 text,
-                "    {{{}, passengers = [",
+                "    {{ {}, passengers = [",
                 self.ends(ends).to_string().trim_matches(['{', '}', ' '])
             );
             for (at, mean) in means.iter().enumerate() {
@@ -255,11 +255,17 @@ impl NetworkText<'_> {
 }
 
 /// What the file says of demand from a table.
-pub(crate) fn of_table(path: &Path) -> Vec<String> {
-    vec![format!(
+pub(crate) fn of_table(path: &Path, demand: &HourlyDemand) -> Vec<String> {
+    let mut lines = vec![format!(
         "Mean passengers from {}; assumption: they decide independently.",
         file_name(path)
-    )]
+    )];
+    if let [_, second, ..] = demand.periods.as_slice()
+        && demand.pairs.values().all(|means| means.first().is_none_or(|&mean| mean == 0.0))
+    {
+        lines.push(format!("There are none before {second}."));
+    }
+    lines
 }
 
 /// What the file says of demand from trip records.

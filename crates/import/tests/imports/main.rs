@@ -1,0 +1,8 @@
+//! What an import promises: networks from every kind of file, the same on every machine, and errors that say what to do.
+
+mod any_input;
+mod errors;
+mod made;
+mod network_file;
+mod planner;
+mod trips;
