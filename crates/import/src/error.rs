@@ -46,7 +46,7 @@ pub enum Error {
         /// The line, feature or row.
         place: String,
         /// The column or property.
-        member: String,
+        member: &'static str,
         /// The rule that the value breaks.
         rule: String,
         /// The value, cut short if it is long.
@@ -76,7 +76,7 @@ pub enum Error {
         /// The line, feature or row.
         place: String,
         /// The column or property.
-        member: String,
+        member: &'static str,
         /// The id that is not known.
         found: String,
         /// The id that was probably meant.

@@ -10,6 +10,7 @@
 mod cell;
 mod corridors;
 mod date_time;
+mod demand_comments;
 mod error;
 mod features;
 mod globe;
@@ -103,14 +104,14 @@ pub fn import(
     let (demand, source, account) = match &request.demand {
         Demand::Table(path) => {
             let demand = HourlyDemand::read(path, &vertiports, operations.start)?;
-            let source = network_text::of_table(path, &demand);
+            let source = demand_comments::of_table(path, &demand);
             (demand, source, None)
         }
         Demand::Trips(trips) => {
             // Trip records may take minutes to read. Whatever else is wrong is said before.
             text.network(&trips::no_demand(operations), &[])?;
             let (demand, account) = trips::demand(trips, &vertiports, operations, stop, progress)?;
-            (demand, network_text::of_trips(trips, &account), Some(account))
+            (demand, demand_comments::of_trips(trips, &account), Some(account))
         }
     };
     stop.check()?;

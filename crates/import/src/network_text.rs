@@ -15,7 +15,6 @@ use crate::corridors::Corridor;
 use crate::error::shortened;
 use crate::hourly_demand::HourlyDemand;
 use crate::tariffs::{self, PairTariff};
-use crate::trips::{TripAccount, Trips};
 use crate::vertiports::{ASSUMED_STANDS, Vertiport, Vertiports};
 use crate::{Error, file_name};
 
@@ -142,7 +141,7 @@ impl NetworkText<'_> {
         let entries = corridors.iter().map(|corridor| {
             let mut entry = self.ends(corridor.ends);
             entry.insert("both_ways", corridor.both_ways.into());
-            entry.insert("length_mi", number((corridor.length_mi * 1e4).round() / 1e4));
+            entry.insert("length_mi", number((corridor.length_mi * 1e4).ceil() / 1e4));
             entry
         });
         let comment = format!(
@@ -237,7 +236,13 @@ impl NetworkText<'_> {
                 self.ends(ends).to_string().trim_matches(['{', '}', ' '])
             );
             for (at, mean) in means.iter().enumerate() {
-                let _ = write!(text, "{}{mean}", if at == 0 { "" } else { ", " });
+                let part = if at == 0 { "" } else { ", " };
+                // Whole numbers without a fraction and small ones with an exponent keep the text short.
+                let _ = if mean.fract() == 0.0 {
+                    write!(text, "{part}{mean}")
+                } else {
+                    write!(text, "{part}{mean:?}")
+                };
             }
             text.push_str("] },\n");
         }
@@ -252,56 +257,6 @@ impl NetworkText<'_> {
         table.insert("to", id(to).into());
         table
     }
-}
-
-/// What the file says of demand from a table.
-pub(crate) fn of_table(path: &Path, demand: &HourlyDemand) -> Vec<String> {
-    let mut lines = vec![format!(
-        "Mean passengers from {}; assumption: they decide independently.",
-        file_name(path)
-    )];
-    if let [_, second, ..] = demand.periods.as_slice()
-        && demand.pairs.values().all(|means| means.first().is_none_or(|&mean| mean == 0.0))
-    {
-        lines.push(format!("There are none before {second}."));
-    }
-    lines
-}
-
-/// What the file says of demand from trip records.
-pub(crate) fn of_trips(trips: &Trips<'_>, account: &TripAccount) -> Vec<String> {
-    let mut lines = vec![
-        format!("Demand from the trip records of {}.", account.files.join(", ")),
-        format!(
-            "assumption: {} of the passengers fly whose trips begin and end within {} miles of two vertiports{}.",
-            trips.mode_share,
-            trips.radius_mi,
-            match trips.decay_mi {
-                Some(decay_mi) =>
-                    format!(", times\nexp(-d / {decay_mi}) at d miles to and from these vertiports"),
-                None => String::new(),
-            }
-        ),
-    ];
-    if let Some(zones) = trips.zones {
-        lines.push(format!(
-            "Places of zones are from {}: the middle of each zone.",
-            file_name(zones)
-        ));
-    }
-    if let (Some(first), Some(last)) = (account.first_date, account.last_date) {
-        lines.push(format!(
-            "Means of {} days ({}) from {first} to {last}, {} passengers a day. assumption: they decide independently.",
-            account.days, trips.weekdays, account.passengers_a_day
-        ));
-    }
-    lines.push(format!(
-        "Of {} rows, {} were kept. Dropped were rows with",
-        account.rows, account.kept
-    ));
-    let dropped = account.dropped().into_iter().filter(|(_, rows)| *rows > 0);
-    lines.extend(dropped.map(|(reason, rows)| format!("- {reason}: {rows}")));
-    lines.iter().flat_map(|line| line.lines().map(str::to_owned).collect::<Vec<_>>()).collect()
 }
 
 /// A text without the comment at its head, which is about the file as a whole.

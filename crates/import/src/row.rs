@@ -219,7 +219,7 @@ impl Row<'_> {
         }
     }
 
-    fn member(&self, column: usize) -> String {
-        self.columns[column].names[0].to_owned()
+    fn member(&self, column: usize) -> &'static str {
+        self.columns[column].names[0]
     }
 }

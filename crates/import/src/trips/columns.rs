@@ -127,7 +127,7 @@ impl Finder<'_> {
         match name {
             Some(name) => match position(name) {
                 Some(at) => Ok(Some(at)),
-                None => Err(missing(&format!("{name:?}"), self.found, self.origin)),
+                None => Err(self.missing(&format!("{name:?}"), name)),
             },
             None => Ok(usual.iter().find_map(|name| position(name))),
         }

@@ -132,7 +132,7 @@ fn of_vertiports(errors: &mut Errors) {
         errors.vertiports("places.csv", &format!("{header}{rows}"));
     }
     errors.vertiports("places.csv", "id,latitud,longitude\nA,40.7,-74\n");
-    let many: String = (0..257).map(|n| format!("V{n},40,-74,4,true\n")).collect();
+    let many = (0..257).map(|n| format!("V{n},40,-74,4,true\n")).collect::<Vec<_>>().concat();
     errors.vertiports("places.csv", &format!("{header}{many}"));
     errors.vertiports("places.geojson", "{\"type\":");
     errors.vertiports("places.geojson", &map(&[line(r#""id":"A""#, "[-74,40],[-74,41]")]));
@@ -155,7 +155,7 @@ fn of_demand(errors: &mut Errors) {
     ] {
         errors.table(&format!("{header}{rows}"));
     }
-    let places: String = (0..256).map(|n| format!("V{n},40,-74,4\n")).collect();
+    let places = (0..256).map(|n| format!("V{n},40,-74,4\n")).collect::<Vec<_>>().concat();
     errors.folder.file("vertiports.csv", format!("id,latitude,longitude,stands\n{places}"));
     let minutes =
         (0..62).map(|minute| format!("V0,V1,06:{:02}:{:02},1\n", minute / 2, minute % 2 * 30));

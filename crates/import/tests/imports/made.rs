@@ -105,6 +105,9 @@ pub(crate) fn write_csv(mut file: impl Write, trips: impl Iterator<Item = Trip>)
     file.flush()
 }
 
+/// A column of numbers: whether values may be missing, and the value of a trip.
+type NumberColumn = (bool, fn(&Trip) -> f64);
+
 /// Writes the same columns that are read, and one that is not, in row groups of so many rows.
 pub(crate) fn write_parquet(
     file: impl Write + Send,
@@ -136,7 +139,7 @@ pub(crate) fn write_parquet(
         let times: Vec<i64> = rows.iter().map(micros).collect();
         column.typed::<Int64Type>().write_batch(&times, Some(&present), None)?;
         column.close()?;
-        let columns: [(bool, fn(&Trip) -> f64); 6] = [
+        let columns: [NumberColumn; 6] = [
             (true, |trip| f64::from(trip.passengers)),
             (true, |trip| degrees(trip.pickup.0)),
             (false, |trip| degrees(trip.pickup.1)),

@@ -80,7 +80,7 @@ fn points_of_a_map_and_rows_of_a_table_give_the_same_vertiports() {
 #[test]
 fn stands_that_no_file_gives_are_assumed_and_the_file_says_so() {
     let folder = Folder::new();
-    let rows: String = (0..10).map(|n| format!("V{n},40.{n},-74\n")).collect();
+    let rows = (0..10).map(|n| format!("V{n},40.{n},-74\n")).collect::<Vec<_>>().concat();
     folder.file("vertiports.csv", format!("id,latitude,longitude\n{rows}"));
     let imported = run_table(&folder, "from,to,period,passengers\nV0,V1,6,1\n").expect("a network");
     assert!(imported.network.vertiports().iter().all(|vertiport| vertiport.stands == 4));

@@ -222,7 +222,7 @@ fn trips_after_midnight_belong_to_the_day_before_where_operations_go_on() {
         "2015-06-06 01:30:00",
         "2015-06-06 08:00:00",
     ];
-    let rows: String = rows.iter().map(|time| format!("{time},{place}\n")).collect();
+    let rows = rows.map(|time| format!("{time},{place}\n")).concat();
     let file = folder.file("night.csv", format!("{columns}\n{rows}"));
     let mut trips = Trips::new(vec![&file]);
     trips.weekdays = Weekdays::from_iter([Weekday::Friday]);
