@@ -8,7 +8,11 @@ use serde::{Serialize, Serializer};
 /// Seconds of a day.
 pub(crate) const DAY_S: u32 = 86_400;
 
-/// A date of the Gregorian calendar.
+/// 0001-01-01 and 9999-12-31, in days since 1970-01-01.
+const FIRST_DAY: i32 = -719_162;
+const LAST_DAY: i32 = 2_932_896;
+
+/// A date of the Gregorian calendar, in a year of four digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Date {
     /// Days since 1970-01-01.
@@ -127,7 +131,8 @@ impl Moment {
         let length = i64::from(DAY_S);
         let days = i32::try_from(seconds.div_euclid(length)).ok()?;
         let second = u32::try_from(seconds.rem_euclid(length)).ok()?;
-        Some(Self { date: Date { days }, second })
+        let four_digits = FIRST_DAY..=LAST_DAY;
+        four_digits.contains(&days).then_some(Self { date: Date { days }, second })
     }
 }
 
@@ -246,7 +251,7 @@ impl Serialize for Date {
 
 #[cfg(test)]
 mod tests {
-    use super::{Date, Moment, Weekday, Weekdays};
+    use super::{DAY_S, Date, FIRST_DAY, LAST_DAY, Moment, Weekday, Weekdays};
 
     #[test]
     fn every_day_of_eight_centuries_follows_the_one_before() {
@@ -291,6 +296,11 @@ mod tests {
         }
         assert_eq!(Moment::from_seconds(-1).map(|moment| moment.second), Some(86_399));
         assert_eq!(Moment::from_seconds(i64::MAX), None);
+        assert_eq!(Date::new(1, 1, 1).map(|date| date.days), Some(FIRST_DAY));
+        assert_eq!(Date::new(9999, 12, 31).map(|date| date.days), Some(LAST_DAY));
+        let after = i64::from(LAST_DAY + 1) * i64::from(DAY_S);
+        assert_eq!(Moment::from_seconds(after), None);
+        assert!(Moment::from_seconds(after - 1).is_some());
     }
 
     #[test]

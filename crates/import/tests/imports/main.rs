@@ -4,5 +4,6 @@ mod any_input;
 mod errors;
 mod made;
 mod network_file;
+mod parquet_types;
 mod planner;
 mod trips;

@@ -116,7 +116,7 @@ fn demand_is_what_a_simple_computation_gives() {
 fn both_kinds_of_file_give_the_same_network_on_any_number_of_threads() {
     let folder = Folder::new();
     // More than one block of 4 MiB, and several row groups.
-    let (csv, parquet) = both_forms(&folder, 80_000);
+    let (csv, parquet) = both_forms(&folder, 90_000);
     assert!(std::fs::metadata(&csv).expect("written").len() > 8 << 20);
     let network = |file: &std::path::Path, threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
