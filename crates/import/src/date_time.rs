@@ -182,6 +182,15 @@ impl Default for Weekdays {
     }
 }
 
+impl FromStr for Weekdays {
+    type Err = NotADate;
+
+    /// Reads days with commas between them: `Mon,Tue`.
+    fn from_str(text: &str) -> Result<Self, NotADate> {
+        text.split(',').map(str::parse).collect::<Result<Vec<Weekday>, _>>().map(Self::from_iter)
+    }
+}
+
 impl FromIterator<Weekday> for Weekdays {
     fn from_iter<I: IntoIterator<Item = Weekday>>(days: I) -> Self {
         Self(days.into_iter().fold(0, |set, day| set | 1 << day as u8))
@@ -308,6 +317,10 @@ mod tests {
         let days: Weekdays =
             ["mon", "Fri"].iter().map(|day| day.parse::<Weekday>().expect("a day")).collect();
         assert_eq!(days.to_string(), "Mon, Fri");
+        assert_eq!(
+            (days.to_string().parse(), "Mon,,Fri".parse::<Weekdays>().is_err()),
+            (Ok(days), true)
+        );
         assert!(days.contains(Weekday::Friday) && !days.contains(Weekday::Sunday));
         assert!(Weekdays::from_iter([]).is_empty() && "Frei".parse::<Weekday>().is_err());
     }

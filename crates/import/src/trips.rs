@@ -66,7 +66,8 @@ pub struct Trips<'a> {
 }
 
 impl<'a> Trips<'a> {
-    /// Trips of these files with usual settings: vertiports within 1 mile, 1 percent of trips, no decay, every day.
+    /// Trips of these files with settings to start from: vertiports within 1 mile, 1 percent of trips, no decay, every
+    /// day.
     pub fn new(files: Vec<&'a Path>) -> Self {
         Self {
             files,

@@ -131,7 +131,7 @@ fn of_vertiports(errors: &mut Errors) {
     ] {
         errors.vertiports("places.csv", &format!("{header}{rows}"));
     }
-    errors.vertiports("places.csv", "id,latitud,longitude\nA,40.7,-74\n");
+    errors.vertiports("places.csv", "id,latitudes,longitude\nA,40.7,-74\n");
     let many = (0..257).map(|n| format!("V{n},40,-74,4,true\n")).collect::<Vec<_>>().concat();
     errors.vertiports("places.csv", &format!("{header}{many}"));
     errors.vertiports("places.geojson", "{\"type\":");
@@ -145,7 +145,7 @@ fn of_vertiports(errors: &mut Errors) {
 fn of_demand(errors: &mut Errors) {
     let header = "from,to,period,passengers\n";
     for rows in [
-        "JRB,JKF,7,14\n",
+        "JRB,JFK2,7,14\n",
         "JRB,JRB,7,14\n",
         "JRB,JFK,7,-1\n",
         "JRB,JFK,48,1\n",
@@ -165,7 +165,7 @@ fn of_demand(errors: &mut Errors) {
 
 fn of_trips(errors: &mut Errors) {
     errors.records(
-        "pickup_datetime,pickup_latitude,pickup_longitude,dropof_latitude,dropoff_longitude\n",
+        "pickup_datetime,pickup_latitude,pickup_longitude,dropoff_latitudes,dropoff_longitude\n",
     );
     errors.records("pickup,PULocationID,DOLocationID\n");
     errors.records("pickup_datetime,PULocationID,DOLocationID\n");
@@ -192,7 +192,7 @@ fn of_trips(errors: &mut Errors) {
         trips.last_date = "2015-06-01".parse().ok();
     });
     errors.setting(&file, |trips| {
-        trips.columns = TripColumns { passengers: Some("pasengers"), ..TripColumns::default() };
+        trips.columns = TripColumns { passengers: Some("riders"), ..TripColumns::default() };
     });
     errors.zones("zones.csv", "zone,latitude,longitude\n1,40,-74\n1.0,40,-74\n");
     errors.zones("zones.csv", "zone,latitude,longitude\n");
@@ -242,6 +242,8 @@ fn of_the_network(errors: &mut Errors) {
     let small =
         errors.folder.file("small.csv", "id,latitude,longitude\nJRB,40.7,-74\nJFK,40.6,-73.8\n");
     errors.add(run(&request(&base, &small, Demand::Table(&demand))));
+    let long = errors.folder.file("long.csv", vec![b' '; (16 << 20) + 1]);
+    errors.add(run(&request(&base, &long, Demand::Table(&demand))));
     let away = errors.folder.path("away.csv");
     let result = run(&request(&base, &places, Demand::Table(&away)));
     errors.add(result);
