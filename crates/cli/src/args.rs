@@ -9,11 +9,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use vertifleet_core::Purpose;
 use vertifleet_serve::Role;
 use vertifleet_study::PolicySource;
+use vertifleet_study::sweep::Factor;
 
 use crate::typed::{
-    Speed, parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_role,
-    parse_seconds, parse_seed, parse_seed_of_a_run, parse_share, parse_speed, parse_split,
-    parse_steps, parse_threads, parse_token_name,
+    Speed, parse_count, parse_factor, parse_minutes, parse_model, parse_name, parse_pair,
+    parse_role, parse_seconds, parse_seed, parse_seed_of_a_run, parse_share, parse_speed,
+    parse_split, parse_steps, parse_threads, parse_token_name,
 };
 
 /// Decides where every electric air taxi of an urban fleet flies next.
@@ -45,6 +46,8 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Play a day of each of many random networks and report shares of the bound
     Generalise(GeneraliseArguments),
+    /// Play the same days under many settings of a network: what is a change worth?
+    Sweep(SweepArguments),
     /// Measure policies on a frozen suite of days, and verify results
     Evaluate(EvaluateArguments),
     /// Run the dispatch service: live days over HTTP
@@ -367,6 +370,49 @@ pub(crate) struct GeneraliseArguments {
     pub(crate) step: u32,
     #[command(flatten)]
     pub(crate) presented: PresentedArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SweepArguments {
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
+    pub(crate) network: String,
+    /// A member of the network file and its values, as fleet.0.count=30..50/5 or tariffs.fare_level=0.8,1,1.2; may be given
+    /// several times
+    #[arg(long, value_name = "PATH=VALUES", required = true, value_parser = parse_factor)]
+    pub(crate) vary: Vec<Factor>,
+    /// Draw a Latin hypercube of this many cells in place of all combinations; ranges then need no step
+    #[arg(long, value_name = "CELLS")]
+    pub(crate) latin: Option<usize>,
+    /// Policies, separated by commas, as compare takes them; designs are judged by the first
+    #[arg(long, value_delimiter = ',', default_value = "gcaps-x", value_parser = parse_name)]
+    pub(crate) policies: Vec<String>,
+    /// Number of days of each cell
+    #[arg(long, default_value_t = 20, allow_hyphen_values = true, value_parser = parse_count)]
+    pub(crate) days: u32,
+    /// Seed of the first day, of the random policy and of the Latin hypercube
+    #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed)]
+    pub(crate) seed: u64,
+    /// Whose days: comparison, validation or training; with the latter two, the seed is the number of the first day
+    #[arg(long, default_value = "comparison", value_parser = parse_split)]
+    pub(crate) split: Purpose,
+    /// Weights for a policy name; may be given several times
+    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
+    pub(crate) models: Vec<(String, PolicySource)>,
+    /// Prove an upper bound of every day
+    #[arg(long)]
+    pub(crate) bound: bool,
+    /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer never give looser bounds, and take longer
+    #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
+    pub(crate) step: u32,
+    /// Folder of the sweep: finished cells, tables, figures and a report page; a sweep that ended early goes on in it
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Print the results as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace another sweep in the folder
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, Args)]

@@ -40,6 +40,7 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
         Command::Train(arguments) => commands::train::run(&arguments),
         Command::Compare(arguments) => commands::compare::run(&arguments),
         Command::Generalise(arguments) => commands::generalise::run(&arguments),
+        Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Evaluate(arguments) => commands::evaluate::run(&arguments),
         Command::Serve(arguments) => commands::serve::run(&arguments),
         Command::Operate(arguments) => commands::operate::run(&arguments),

@@ -2,8 +2,9 @@
 
 use std::time::Duration;
 
-use vertifleet_core::Purpose;
+use vertifleet_core::{Coded as _, Purpose};
 use vertifleet_serve::Role;
+use vertifleet_study::sweep::Factor;
 use vertifleet_study::{MOST_DAYS, PolicySource};
 
 pub(crate) fn parse_pair(text: &str) -> Result<(String, String), String> {
@@ -17,6 +18,14 @@ pub(crate) fn parse_pair(text: &str) -> Result<(String, String), String> {
 
 pub(crate) fn parse_model(text: &str) -> Result<(String, PolicySource), String> {
     parse_pair(text).map(|(name, path)| (name, PolicySource::File(path.into())))
+}
+
+/// A setting of a network and its values.
+pub(crate) fn parse_factor(text: &str) -> Result<Factor, String> {
+    Factor::parse(text).map_err(|error| {
+        let hint = error.hint().map_or_else(String::new, |hint| format!("; {hint}"));
+        format!("{error}{hint}")
+    })
 }
 
 /// What a token is called.

@@ -21,6 +21,7 @@ const COMMANDS: &[&str] = &[
     "train",
     "compare",
     "generalise",
+    "sweep",
     "evaluate",
     "serve",
     "operate",

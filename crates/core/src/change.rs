@@ -8,8 +8,8 @@ use crate::{Error, Network};
 
 impl Network {
     /// Returns the network whose file differs from this one's in some members. A path names members from the outside
-    /// in, separated by dots. An entry of a list is named by its `id` or by its position from 0, and `*` names all of
-    /// them: `fleet.0.count`, `vertiports.V3.stands`, `vertiports.*.stands`. Changes are made in order, so that later
+    /// in, separated by dots. An entry of a list is named by its `id` (in the fleet by its `type`) or by its position from
+    /// 0, and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`, `vertiports.*.stands`. Changes are made in order, so that later
     /// ones win. The changed file has to obey the format like any other.
     ///
     /// # Errors
@@ -68,9 +68,12 @@ fn set(at: &mut toml::Value, path: &[&str], value: &toml::Value) -> Result<(), S
     }
 }
 
-/// The position of the entry whose id is `part`, or else the position that `part` is.
+/// The position of the entry whose id (or, in the fleet, type) is `part`, or else the position that `part` is.
 fn position(entries: &[toml::Value], part: &str) -> Option<usize> {
-    let of_id = |entry: &toml::Value| entry.get("id").and_then(toml::Value::as_str) == Some(part);
+    let of_id = |entry: &toml::Value| {
+        let name = entry.get("id").or_else(|| entry.get("type"));
+        name.and_then(toml::Value::as_str) == Some(part)
+    };
     let counted = || part.parse().ok().filter(|&position| position < entries.len());
     entries.iter().position(of_id).or_else(counted)
 }

@@ -160,6 +160,11 @@ impl Network {
         self.idle_day.aircraft.len()
     }
 
+    /// What the fleet, the stands and the chargers cost whatever is decided, dollars a day.
+    pub fn fixed_cost_usd(&self) -> f64 {
+        self.idle_day.fixed_cost_usd()
+    }
+
     /// Start of each demand period; the last one lasts for the rest of the day.
     pub fn period_starts(&self) -> &[Time] {
         &self.idle_day.periods

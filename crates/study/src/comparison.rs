@@ -67,7 +67,11 @@ impl DrawnDays {
         Ok(())
     }
 
-    fn seed(&self, day: u32) -> Result<DaySeed, Error> {
+    /// The seed of a day, counted from 0.
+    ///
+    /// # Errors
+    /// Returns the error V118 of `vertifleet-core` if the purpose has no such day.
+    pub(crate) fn seed(&self, day: u32) -> Result<DaySeed, Error> {
         Ok(DaySeed::of_purpose(self.purpose, self.first.saturating_add(u64::from(day)))?)
     }
 

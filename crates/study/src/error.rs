@@ -155,6 +155,14 @@ pub enum Error {
         rule: String,
     },
 
+    /// V414. The folder holds another sweep: with other settings, days, policies, weights or another version of the
+    /// program. Fix: name another folder, or replace the sweep with `--force`.
+    #[error("{}: belongs to another sweep", path.display())]
+    OtherSweep {
+        /// The journal of the other sweep.
+        path: PathBuf,
+    },
+
     /// V307. No policy has this name. Cause: a typing error. Fix: give one of the names that the message lists.
     #[error("there is no policy {name:?}: known are {known}")]
     UnknownPolicy {
@@ -207,6 +215,7 @@ impl Coded for Error {
             Self::UnknownSuite { .. } => 411,
             Self::SuiteChanged { .. } => 412,
             Self::NotAResult { .. } => 413,
+            Self::OtherSweep { .. } => 414,
             Self::UnknownPolicy { .. } => 307,
         })
     }
@@ -244,6 +253,9 @@ impl Coded for Error {
             }
             Self::NotAResult { .. } => {
                 Some("results are written by `vertifleet evaluate --results`")
+            }
+            Self::OtherSweep { .. } => {
+                Some("name another folder, or replace that sweep with --force")
             }
             Self::NotFinite { .. } | Self::Stopped => None,
         }

@@ -7,11 +7,15 @@
 
 mod box_plot;
 mod day_differences;
+mod heat_map;
 mod key;
 mod learning_curves;
+mod response;
 mod share_by_size;
+mod tornado;
 
 use crate::comparison::ComparisonReport;
+use crate::sweep::SweepReport;
 
 pub(crate) use share_by_size::share_by_size;
 
@@ -36,6 +40,13 @@ pub fn all(summary: &ComparisonReport) -> Vec<Figure> {
         learning_curves::on_training_days(summary),
         learning_curves::on_validation_days(summary),
     ];
+    figures.into_iter().flatten().collect()
+}
+
+/// The figures of a sweep.
+pub(crate) fn of_sweep(report: &SweepReport) -> Vec<Figure> {
+    let figures =
+        [Some(response::curves(report)), heat_map::figure(report), tornado::figure(report)];
     figures.into_iter().flatten().collect()
 }
 

@@ -1,9 +1,9 @@
 //! Studies of many policies on many days: statistics, figures and reports.
 //!
 //! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`PolicySpec`] gives the names of policies their
-//! meaning, and [`competitor`] finds the policies of a study. There are three studies: [`comparison`], of policies on
-//! the days of one network, [`generalisation`], over one day of each of many networks, and [`evaluation`], on the days
-//! of a frozen [`Suite`]. All go from the request to records, and let [`run`] play the days. [`report`] writes the
+//! meaning, and [`competitor`] finds the policies of a study. There are four studies: [`comparison`], of policies on
+//! the days of one network, [`generalisation`], over one day of each of many networks, [`evaluation`], on the days of a
+//! frozen [`Suite`], and [`sweep`], over many settings of one network. All go from the request to records, and let [`run`] play the days. [`report`] writes the
 //! pages of the first two; an evaluation leaves result files, which can be verified. [`ComparisonReport`] turns records into
 //! statistics. The presentation computes nothing, and the statistics do not depend on the presentation.
 //!
@@ -51,6 +51,7 @@ mod starting_policies;
 pub mod statistics;
 mod study;
 mod suite;
+pub mod sweep;
 mod table;
 
 pub use comparison::ComparisonReport;

@@ -33,16 +33,19 @@ impl DayRecord {
     /// Profit as a share of the day's upper bound, if there is one. If the bound is not positive, it is the least
     /// possible loss as a share of the loss: 1 if the loss is the least possible, 0 if no loss was necessary.
     pub fn bound_share(&self) -> Option<f64> {
-        self.upper_bound_usd.map(|bound_usd| {
-            if bound_usd > 0.0 {
-                self.totals.profit_usd / bound_usd
-            } else if self.totals.profit_usd < 0.0 {
-                // The subtraction avoids -0 for a bound of 0.
-                (0.0 - bound_usd) / -self.totals.profit_usd
-            } else {
-                1.0
-            }
-        })
+        self.upper_bound_usd.map(|bound_usd| bound_share(self.totals.profit_usd, bound_usd))
+    }
+}
+
+/// Profit as a share of an upper bound, as [`DayRecord::bound_share`] defines it.
+pub(crate) fn bound_share(profit_usd: f64, bound_usd: f64) -> f64 {
+    if bound_usd > 0.0 {
+        profit_usd / bound_usd
+    } else if profit_usd < 0.0 {
+        // The subtraction avoids -0 for a bound of 0.
+        (0.0 - bound_usd) / -profit_usd
+    } else {
+        1.0
     }
 }
 

@@ -1,0 +1,55 @@
+//! `vertifleet sweep`: the same days and policies under many settings of a network.
+
+use std::process::ExitCode;
+
+use anstream::eprintln;
+use vertifleet_core::{Outputs, Stop};
+use vertifleet_optimize::Step;
+use vertifleet_progress::Bar;
+use vertifleet_study::comparison::DrawnDays;
+use vertifleet_study::competitor::Selection;
+use vertifleet_study::report::Records as _;
+use vertifleet_study::sweep::{Design, Sweep, SweepRequest};
+
+use crate::args::SweepArguments;
+use crate::commands::{command, find_network, reads_models, warn_of_days};
+use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
+use crate::output::print;
+
+pub(crate) fn run(arguments: &SweepArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
+    let (policies, models) = (&arguments.policies, &arguments.models);
+    let mut outputs = Outputs::new(arguments.force);
+    let network = find_network(&arguments.network, &mut outputs)?;
+    reads_models(models.iter().map(|(_, model)| model), &mut outputs);
+    outputs.replaces_folder(&arguments.out)?;
+    Sweep::check_folder(&arguments.out, arguments.force)?;
+    let selection = Selection { policies, models, seed: arguments.seed };
+    let sweep = Sweep::new(SweepRequest {
+        network: &network,
+        factors: arguments.vary.clone(),
+        design: match arguments.latin {
+            Some(cells) => Design::LatinHypercube { cells, seed: arguments.seed },
+            None => Design::Grid,
+        },
+        selection: &selection,
+        drawn: DrawnDays { purpose: arguments.split, first: arguments.seed, days: arguments.days },
+        bound_step: arguments.bound.then(|| Step::from_minutes(arguments.step)).transpose()?,
+    })?;
+    warn_of_days(sweep.first_day()?.as_ref());
+    // Ctrl-C ends the program itself; the cells that are finished are on the disk.
+    let (stop, folder) = (Stop::default(), &arguments.out);
+    let records = sweep.run(folder, command(), arguments.force, &stop, |done, all| {
+        if done > 0 {
+            eprintln!("{done} of {all} cells were there already");
+        }
+        let bar = Bar::new(all as u64, "cells");
+        bar.already_done(done as u64);
+        move || bar.advance(1)
+    })?;
+    records.write(folder)?;
+    print(&if arguments.json { records.json()? } else { records.text()? })?;
+    eprintln!("report: {}", folder.join("report.html").display());
+    Ok(ExitCode::SUCCESS)
+}

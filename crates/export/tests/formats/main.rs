@@ -1,0 +1,8 @@
+//! What the exports of a day promise: every flight of the trace, in a form that the readers of each format accept.
+
+mod calendars;
+mod days;
+mod feed;
+mod map;
+mod refusals;
+mod tables;

@@ -1,0 +1,304 @@
+//! A sweep: the same days and policies under many settings of one network, to answer what a change of the network is
+//! worth.
+//!
+//! Every cell of the design is the network with some members of its file changed. All cells meet the same days: demand,
+//! delays, closures and start positions have the same random numbers wherever the change allows it (common random
+//! numbers), so differences between cells are far less noisy than the cells themselves. Finished cells are on the disk,
+//! and a sweep that is started again goes on where it ended.
+
+mod cells_csv;
+mod days_csv;
+mod design;
+mod effects;
+mod headline;
+mod journal;
+mod page;
+mod record;
+mod summary;
+mod table;
+
+use std::fs;
+use std::hash::Hasher;
+use std::path::Path;
+use std::sync::Arc;
+
+use rayon::prelude::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use serde_json::{Value, json};
+use siphasher::sip128::{Hasher128, SipHasher13};
+use vertifleet_core::{Coded, FolderKind, Network, Scenario, Stop, check_folder, write_atomically};
+use vertifleet_optimize::Step;
+
+use crate::comparison::DrawnDays;
+use crate::competitor::{Competitor, Selection};
+use crate::error::Error;
+use crate::figure;
+use crate::kept_bounds::KeptBounds;
+use crate::report::{File, Records, pictures};
+use crate::run::{BoundedDay, Kept, run};
+
+use journal::Journal;
+
+pub use design::{Design, Factor, Levels, MOST_CELLS};
+pub use effects::{Effect, LevelEffect};
+pub use journal::JOURNAL;
+pub use record::{CellRecord, Size};
+pub(crate) use summary::shown;
+pub use summary::{CellResult, CellSummary, FORMAT, SweepReport};
+
+/// A folder that holds a sweep and nothing else.
+const FOLDER: FolderKind = FolderKind {
+    name: "sweep",
+    mark: (JOURNAL, &[journal::KIND]),
+    holds: |name| {
+        let end = Path::new(name).extension();
+        let picture = end.is_some_and(|end| end == "svg" || end == "png");
+        (picture && name.starts_with("figure-"))
+            || [JOURNAL, "cells.csv", "days.csv", "summary.json", "report.html"].contains(&name)
+    },
+};
+
+/// What a sweep is asked for.
+pub struct SweepRequest<'a> {
+    /// The network whose members are varied.
+    pub network: &'a Network,
+    /// What is varied.
+    pub factors: Vec<Factor>,
+    /// How values are combined.
+    pub design: Design,
+    /// The policies; cells are judged by the first.
+    pub selection: &'a Selection<'a>,
+    /// The days of every cell.
+    pub drawn: DrawnDays,
+    /// The step of the upper bounds, if days are to be bounded.
+    pub bound_step: Option<Step>,
+}
+
+/// The cells of a design, and the competitors that will play their days. Everything that can be checked beforehand has
+/// been checked.
+pub struct Sweep {
+    base: Network,
+    factors: Vec<Factor>,
+    cells: Vec<Cell>,
+    competitors: Vec<Competitor>,
+    drawn: DrawnDays,
+    bound_step: Option<Step>,
+    fingerprint: String,
+}
+
+/// A cell of the design.
+struct Cell {
+    settings: Vec<Value>,
+    /// The changed network, or the reason why there is none.
+    network: Result<Box<Network>, String>,
+}
+
+impl Sweep {
+    /// Makes the networks of all cells. A cell whose fleet has no place is left out; any other change that the format
+    /// refuses is an error.
+    ///
+    /// # Errors
+    /// Returns an error if a factor leads nowhere or has a value that the format refuses, if there are too many cells,
+    /// if there is no such policy, or if a policy cannot play the days.
+    pub fn new(request: SweepRequest<'_>) -> Result<Self, Error> {
+        let SweepRequest { network, factors, design, selection, drawn, bound_step } = request;
+        drawn.check()?;
+        let competitors = selection.resolve(network.name())?;
+        if competitors.is_empty() || drawn.days == 0 {
+            let days = drawn.days as usize;
+            return Err(Error::Empty { policies: competitors.len(), days });
+        }
+        let cell = |settings: Vec<Value>| {
+            let paths = factors.iter().map(|factor| &factor.path);
+            let network = match network.changed(paths.zip(&settings)) {
+                Ok(network) => Ok(Box::new(network)),
+                // A fleet without a place is what a grid over fleets and stands has in its corner.
+                Err(error) if error.code().0 == 117 => Err(error.to_string()),
+                Err(error) => return Err(Error::from(error)),
+            };
+            Ok(Cell { settings, network })
+        };
+        let settings = design.cells(&factors)?;
+        let cells: Vec<Cell> = settings.into_par_iter().map(cell).collect::<Result<_, Error>>()?;
+        let mut sweep = Self {
+            base: network.clone(),
+            factors,
+            cells,
+            competitors,
+            drawn,
+            bound_step,
+            fingerprint: String::new(),
+        };
+        sweep.fingerprint = sweep.print();
+        if let Some(day) = sweep.first_day()? {
+            sweep.competitors.iter().try_for_each(|competitor| competitor.check_fits(&day))?;
+        }
+        Ok(sweep)
+    }
+
+    /// The first day of the first cell that has a network, for warnings.
+    ///
+    /// # Errors
+    /// Returns an error if there is no such day.
+    pub fn first_day(&self) -> Result<Option<Scenario>, Error> {
+        let network = self.cells.iter().find_map(|cell| cell.network.as_ref().ok());
+        let seed = self.drawn.seed(0)?;
+        Ok(network.map(|network| network.draw_beside(&self.base, seed)))
+    }
+
+    /// Number of cells that will be played.
+    pub fn cells(&self) -> usize {
+        self.cells.iter().filter(|cell| cell.network.is_ok()).count()
+    }
+
+    /// A number that changes when anything changes that the results depend on.
+    fn print(&self) -> String {
+        let settings: Vec<&Vec<Value>> = self.cells.iter().map(|cell| &cell.settings).collect();
+        let policies: Vec<Value> = self
+            .competitors
+            .iter()
+            .map(|one| json!([one.name, one.description(), one.weights_sha256()]))
+            .collect();
+        let text = json!({
+            "program": env!("CARGO_PKG_VERSION"),
+            "network": self.base.toml(),
+            "factors": self.factors.iter().map(|factor| &factor.path).collect::<Vec<_>>(),
+            "cells": settings,
+            "policies": policies,
+            "days": [self.drawn.purpose.name(), self.drawn.first, self.drawn.days],
+            "bound_step_s": self.bound_step.map(|step| step.seconds()),
+        });
+        let mut hasher = SipHasher13::new();
+        hasher.write(text.to_string().as_bytes());
+        format!("{:032x}", hasher.finish128().as_u128())
+    }
+
+    /// Plays the days of a cell; `None` if the cell has no network.
+    ///
+    /// # Errors
+    /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a day is too large for its bound or a
+    /// policy cannot play one to its end.
+    pub fn play(&self, cell: usize, stop: &Stop) -> Result<Option<CellRecord>, Error> {
+        let Ok(network) = &self.cells[cell].network else { return Ok(None) };
+        let draw = |day| Ok(Arc::new(network.draw_beside(&self.base, self.drawn.seed(day)?)));
+        let days =
+            (0..self.drawn.days).into_par_iter().map(draw).collect::<Result<Vec<_>, Error>>()?;
+        let days: Vec<BoundedDay> = match self.bound_step {
+            Some(step) => KeptBounds::of_this_user().days(days, step, stop, &|| ())?,
+            None => days.into_iter().map(BoundedDay::unbounded).collect(),
+        };
+        let policies = run(&days, &self.competitors, Kept::Totals, stop, |_| || ())?;
+        let totals =
+            policies.into_iter().map(|one| one.days.iter().map(|day| day.totals).collect());
+        Ok(Some(CellRecord {
+            cell,
+            upper_bounds_usd: days.iter().filter_map(|day| day.upper_bound_usd).collect(),
+            totals: totals.collect(),
+        }))
+    }
+
+    /// Checks, before anything is played, that the sweep may be kept in this folder: it can be created, is empty, or
+    /// holds a sweep, or `force` is given.
+    ///
+    /// # Errors
+    /// Returns [`Error::CannotMakeFolder`], or [`Error::Core`] for a folder that holds something else (V143) or is
+    /// read-only (V144).
+    pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
+        check_folder(folder, &FOLDER, force)?;
+        fs::create_dir_all(folder)
+            .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })
+    }
+
+    /// Plays all cells that the folder does not hold yet, and keeps each as soon as it is finished. `begin` is called
+    /// with the number of cells that were there and of all cells; the function that it returns is called after each
+    /// further one, from any thread. With `force`, another sweep in the folder is replaced.
+    ///
+    /// # Errors
+    /// Returns [`Error::OtherSweep`] if the folder holds another sweep, [`Error::Stopped`] soon after `stop` is
+    /// requested, and the errors of [`play`](Self::play). Cells that were finished are kept.
+    pub fn run<Played: Fn() + Sync>(
+        &self,
+        folder: &Path,
+        command: String,
+        force: bool,
+        stop: &Stop,
+        begin: impl FnOnce(usize, usize) -> Played,
+    ) -> Result<SweepRecords<'_>, Error> {
+        let (journal, found) = Journal::open(folder, &self.fingerprint, self.cells.len(), force)?;
+        let mut records: Vec<Option<CellRecord>> = vec![None; self.cells.len()];
+        let played = begin(found.len(), self.cells());
+        for record in found {
+            let cell = record.cell;
+            records[cell] = Some(record);
+        }
+        let missing: Vec<usize> =
+            (0..records.len()).filter(|&cell| records[cell].is_none()).collect();
+        let play = |&cell: &usize| {
+            let record = self.play(cell, stop)?;
+            if let Some(record) = &record {
+                journal.add(record)?;
+                played();
+            }
+            Ok(record)
+        };
+        let fresh = missing.par_iter().map(play).collect::<Result<Vec<_>, Error>>()?;
+        for record in fresh.into_iter().flatten() {
+            let cell = record.cell;
+            records[cell] = Some(record);
+        }
+        Ok(self.records(records, command))
+    }
+
+    /// The records of the whole sweep, made from those of its cells in the order of the design.
+    pub fn records(&self, records: Vec<Option<CellRecord>>, command: String) -> SweepRecords<'_> {
+        SweepRecords { sweep: self, records, command }
+    }
+}
+
+/// A sweep with the records of its cells.
+pub struct SweepRecords<'a> {
+    sweep: &'a Sweep,
+    /// By cell; `None` for a cell without a network.
+    records: Vec<Option<CellRecord>>,
+    command: String,
+}
+
+impl SweepRecords<'_> {
+    /// Writes tables, figures and page into the folder of the sweep, each file whole or not at all, and the journal in
+    /// the order of the cells. The same sweep gives the same bytes, however often it was interrupted.
+    ///
+    /// # Errors
+    /// Returns [`Error::Core`] (V102) if a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        let mut files = self.files()?;
+        let records: Vec<CellRecord> = self.records.iter().flatten().cloned().collect();
+        let journal = journal::text(&self.sweep.fingerprint, self.records.len(), &records);
+        files.push((JOURNAL.to_owned(), journal.into_bytes()));
+        for (name, content) in files {
+            write_atomically(&folder.join(name), &content)?;
+        }
+        Ok(())
+    }
+}
+
+impl Records for SweepRecords<'_> {
+    fn text(&self) -> Result<String, Error> {
+        Ok(table::text(&SweepReport::of(self)?))
+    }
+
+    fn json(&self) -> Result<String, Error> {
+        Ok(SweepReport::of(self)?.to_json())
+    }
+
+    fn files(&self) -> Result<Vec<File>, Error> {
+        let report = SweepReport::of(self)?;
+        let figures = figure::of_sweep(&report);
+        let mut files = pictures(&figures);
+        files.extend([
+            ("cells.csv".to_owned(), cells_csv::text(&report).into_bytes()),
+            ("days.csv".to_owned(), days_csv::text(self).into_bytes()),
+            ("summary.json".to_owned(), (report.to_json() + "\n").into_bytes()),
+            ("report.html".to_owned(), page::text(&report, &figures).into_bytes()),
+        ]);
+        Ok(files)
+    }
+}

@@ -1,0 +1,214 @@
+//! The statistics of a sweep: what every cell earns, how far it is from the best one, and which design is the cheapest of
+//! those that earn nearly as much.
+
+use serde::Serialize;
+use serde_json::Value;
+use vertifleet_sim::DayTotals;
+
+use super::effects::Effect;
+use super::record::{CellRecord, Size};
+use super::{Sweep, SweepRecords};
+use crate::error::Error;
+use crate::record::bound_share;
+use crate::statistics::{Estimate, mean};
+
+/// The format of `summary.json`.
+pub const FORMAT: &str = "vertifleet-sweep/1";
+
+/// By how much a design may earn less than the best and still count as good, as a share.
+const NEARLY: f64 = 0.01;
+
+/// The statistics of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SweepReport {
+    /// [`FORMAT`].
+    pub format: &'static str,
+    /// The version of the program.
+    pub program_version: &'static str,
+    /// The command that gave these results.
+    pub command: String,
+    /// The name of the network.
+    pub network: String,
+    /// The seed or number of the first day.
+    pub first_day: u64,
+    /// The purpose of the days.
+    pub split: &'static str,
+    /// Days of each cell.
+    pub days: u32,
+    /// The length of the slices of the upper bounds in seconds, if bounds were asked for.
+    pub bound_step_s: Option<u32>,
+    /// The members of the network file that were varied.
+    pub factors: Vec<String>,
+    /// The policies; cells are judged by the first.
+    pub policies: Vec<String>,
+    /// The number of the cell in which the first policy earns most.
+    pub best: usize,
+    /// The number of the cheapest cell in which it earns at most 1 % less: the one with the lowest fixed cost, and among
+    /// equals with the fewest aircraft and then stands.
+    pub cheapest: usize,
+    /// How the profit follows each factor.
+    pub effects: Vec<Effect>,
+    /// The cells in the order of the design.
+    pub cells: Vec<CellSummary>,
+}
+
+/// A cell of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CellSummary {
+    /// Its number, from 0.
+    pub cell: usize,
+    /// The values of the factors.
+    pub settings: Vec<Value>,
+    /// Why the cell was not played.
+    pub left_out: Option<String>,
+    /// What its network has.
+    pub size: Option<Size>,
+    /// The results by policy; empty if the cell was not played.
+    pub results: Vec<CellResult>,
+}
+
+/// The results of one policy in one cell: means a day.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CellResult {
+    /// The policy.
+    pub policy: String,
+    /// Profit, dollars.
+    pub profit_usd: Estimate,
+    /// Profit less that of the same policy in the best cell on the same day, dollars; `None` in the best cell.
+    pub minus_best_usd: Option<Estimate>,
+    /// Profit as a share of the day's upper bound, where bounds were asked for.
+    pub bound_share: Option<Estimate>,
+    /// Fares paid, dollars.
+    pub revenue_usd: f64,
+    /// Flights, repositioning flights included.
+    pub flights: f64,
+    /// Flights without passengers.
+    pub repositioning_flights: f64,
+    /// Passengers carried.
+    pub passengers: f64,
+    /// Passengers who wanted to fly and were not carried.
+    pub spilled_passengers: f64,
+    /// Passengers carried as a share of those who wanted to fly; 1 if none did.
+    pub served_share: f64,
+    /// Passenger-miles over seat-miles.
+    pub load_factor: f64,
+}
+
+impl SweepReport {
+    /// Computes the statistics.
+    ///
+    /// # Errors
+    /// Returns [`Error::Empty`] if no cell was played.
+    pub(super) fn of(records: &SweepRecords<'_>) -> Result<Self, Error> {
+        let SweepRecords { sweep, records, command } = records;
+        let days = sweep.drawn.days;
+        let profits = |policy: usize, record: &CellRecord| -> Vec<f64> {
+            record.totals[policy].iter().map(|day| day.profit_usd).collect()
+        };
+        let played: Vec<(&CellRecord, Size, f64)> = records
+            .iter()
+            .flatten()
+            .filter_map(|record| {
+                let network = sweep.cells[record.cell].network.as_ref().ok()?;
+                Some((record, Size::of(network), mean(&profits(0, record))))
+            })
+            .collect();
+        let best = played
+            .iter()
+            .max_by(|one, other| one.2.total_cmp(&other.2).then(other.0.cell.cmp(&one.0.cell)));
+        let Some(&(best, _, best_usd)) = best else {
+            return Err(Error::Empty { policies: sweep.competitors.len(), days: 0 });
+        };
+        let enough_usd = best_usd - NEARLY * best_usd.abs();
+        let good = played.iter().filter(|(_, _, profit_usd)| *profit_usd >= enough_usd);
+        let cheapest = good.min_by(|(one, a, _), (other, b, _)| {
+            let cost = a.fixed_cost_usd.total_cmp(&b.fixed_cost_usd);
+            let size = |size: &Size| (size.aircraft, size.stands, size.chargers);
+            cost.then(size(a).cmp(&size(b))).then(one.cell.cmp(&other.cell))
+        });
+        let cheapest = cheapest.expect("the best cell is good").0.cell;
+        let cell = |(number, record): (usize, &Option<CellRecord>)| {
+            let cell = &sweep.cells[number];
+            let results = record.iter().flat_map(|record| {
+                (0..sweep.competitors.len()).map(move |policy| result(sweep, policy, record, best))
+            });
+            CellSummary {
+                cell: number,
+                settings: cell.settings.clone(),
+                left_out: cell.network.as_ref().err().cloned(),
+                size: cell.network.as_ref().ok().map(|network| Size::of(network)),
+                results: results.collect(),
+            }
+        };
+        Ok(Self {
+            format: FORMAT,
+            program_version: env!("CARGO_PKG_VERSION"),
+            command: command.clone(),
+            network: sweep.base.name().to_owned(),
+            first_day: sweep.drawn.first,
+            split: sweep.drawn.purpose.name(),
+            days,
+            bound_step_s: sweep.bound_step.map(|step| step.seconds()),
+            factors: sweep.factors.iter().map(|factor| factor.path.clone()).collect(),
+            policies: sweep.competitors.iter().map(|one| one.name.clone()).collect(),
+            best: best.cell,
+            cheapest,
+            effects: Effect::of_all(sweep, records),
+            cells: records.iter().enumerate().map(cell).collect(),
+        })
+    }
+
+    /// The cell of this number.
+    pub fn cell(&self, number: usize) -> &CellSummary {
+        &self.cells[number]
+    }
+
+    /// The settings of a cell in words: `fleet.0.count = 40, tariffs.fare_level = 1.1`.
+    pub fn settings(&self, cell: &CellSummary) -> String {
+        let pairs = self.factors.iter().zip(&cell.settings);
+        let pairs: Vec<String> =
+            pairs.map(|(path, value)| format!("{path} = {}", shown(value))).collect();
+        pairs.join(", ")
+    }
+
+    /// The statistics as JSON.
+    pub(super) fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("plain data")
+    }
+}
+
+/// A value as people write it: a text without quotes.
+pub(crate) fn shown(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+fn result(sweep: &Sweep, policy: usize, record: &CellRecord, best: &CellRecord) -> CellResult {
+    let days = &record.totals[policy];
+    let average =
+        |number: fn(&DayTotals) -> f64| mean(&days.iter().map(number).collect::<Vec<f64>>());
+    let profits: Vec<f64> = days.iter().map(|day| day.profit_usd).collect();
+    let differences = || {
+        let pairs = profits.iter().zip(&best.totals[policy]);
+        pairs.map(|(profit_usd, best)| profit_usd - best.profit_usd).collect::<Vec<f64>>()
+    };
+    let shares: Vec<f64> = profits
+        .iter()
+        .zip(&record.upper_bounds_usd)
+        .map(|(&profit_usd, &bound_usd)| bound_share(profit_usd, bound_usd))
+        .collect();
+    let (carried, spilled) =
+        (average(|day| day.passengers as f64), average(|day| day.spilled_passengers as f64));
+    CellResult {
+        policy: sweep.competitors[policy].name.clone(),
+        profit_usd: Estimate::of(&profits),
+        minus_best_usd: (record.cell != best.cell).then(|| Estimate::of(&differences())),
+        bound_share: (!shares.is_empty()).then(|| Estimate::of(&shares)),
+        revenue_usd: average(|day| day.revenue_usd),
+        flights: average(|day| day.flights.into()),
+        repositioning_flights: average(|day| day.repositioning_flights.into()),
+        passengers: carried,
+        spilled_passengers: spilled,
+        served_share: if carried + spilled > 0.0 { carried / (carried + spilled) } else { 1.0 },
+        load_factor: average(|day| day.load_factor),
+    }
+}
