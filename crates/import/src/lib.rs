@@ -1,1 +1,136 @@
-//! Networks from the data of planners.
+//! Networks from a planner's own data: vertiports, demand, trip records, corridors, fares and energy prices.
+//!
+//! [`import`] reads the files of a [`Request`] and makes the text of a network file. What planners have no data on, such
+//! as aircraft types and the fleet, comes from another network, the *base*, with its comments. The text is read again
+//! before it is returned, so that every import is a valid network.
+//!
+//! Small files are read whole, trip records in blocks (`trips.rs`); both kinds may be CSV or Parquet, and every value
+//! of either kind is a cell (`cell.rs`). Maps are GeoJSON, with longitude and latitude in degrees.
+
+mod cell;
+mod corridors;
+mod date_time;
+mod demand_comments;
+mod error;
+mod features;
+mod globe;
+mod hourly_demand;
+mod network_text;
+mod parquet_file;
+mod row;
+mod table;
+mod tariffs;
+mod trips;
+mod vertiports;
+mod zones;
+
+use std::path::Path;
+
+use vertifleet_core::{Network, Stop};
+
+use hourly_demand::HourlyDemand;
+use network_text::{FromFile, NetworkText};
+use vertiports::Vertiports;
+
+pub use date_time::{Date, NotADate, Weekday, Weekdays};
+pub use error::Error;
+pub use trips::{TripAccount, TripColumns, Trips};
+
+/// What to import.
+#[derive(Debug)]
+pub struct Request<'a> {
+    /// The network that aircraft types, fleet, operations, tariffs and disturbances are taken from.
+    pub base: &'a Network,
+    /// The name of the new network.
+    pub name: &'a str,
+    /// The vertiports: CSV with the columns `id,latitude,longitude` and, if it likes, `stands,chargers,busy,name`; or
+    /// GeoJSON points with such properties.
+    pub vertiports: &'a Path,
+    /// The demand.
+    pub demand: Demand<'a>,
+    /// The corridors: GeoJSON lines with the properties `from`, `to` and, if it likes, `both_ways`, which is true if
+    /// absent. All pairs may be flown if there is no such file.
+    pub corridors: Option<&'a Path>,
+    /// Fares and passenger costs of pairs: CSV with the columns `from,to,fare_usd,passenger_cost_usd`, of which one of
+    /// the last two may be left out.
+    pub tariffs: Option<&'a Path>,
+    /// Prices of electricity: CSV with the columns `period,price_usd_per_kwh`, a row for each demand period.
+    pub energy_prices: Option<&'a Path>,
+}
+
+/// Where the demand comes from.
+#[derive(Debug, Clone)]
+#[expect(clippy::large_enum_variant, reason = "there is one of them in an import")]
+pub enum Demand<'a> {
+    /// Mean passengers of a day by pair and period: CSV or Parquet with the columns `period,from,to,passengers`. A
+    /// period is a time as `HH:MM:SS` or an hour from 0 to 47; it lasts until the next one that the table has, and the
+    /// last one for the rest of the day.
+    Table(&'a Path),
+    /// Trip records.
+    Trips(Trips<'a>),
+}
+
+/// An imported network.
+#[derive(Debug)]
+pub struct Imported {
+    /// The network, checked.
+    pub network: Network,
+    /// The text of its file, with comments that say where everything is from.
+    pub toml: String,
+    /// What became of the trip records, if the demand comes from them.
+    pub account: Option<TripAccount>,
+}
+
+/// Makes a network of a planner's files. `progress` is told the share of the trip records that has been read.
+///
+/// # Errors
+/// A file cannot be read or breaks a rule, the network that comes out breaks one, or `stop` is requested.
+pub fn import(
+    request: &Request<'_>,
+    stop: &Stop,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<Imported, Error> {
+    stop.check()?;
+    let vertiports = Vertiports::read(request.vertiports)?;
+    let text = NetworkText {
+        base: request.base,
+        name: request.name,
+        vertiports: FromFile { what: &vertiports, path: request.vertiports },
+        corridors: read(request.corridors, |path| corridors::read(path, &vertiports))?,
+        pair_tariffs: read(request.tariffs, |path| tariffs::pairs(path, &vertiports))?,
+        energy_prices: request.energy_prices,
+    };
+    let operations = request.base.operations();
+    stop.check()?;
+    let (demand, source, account) = match &request.demand {
+        Demand::Table(path) => {
+            let demand = HourlyDemand::read(path, &vertiports, operations.start)?;
+            let source = demand_comments::of_table(path, &demand);
+            (demand, source, None)
+        }
+        Demand::Trips(trips) => {
+            // Trip records may take minutes to read. Whatever else is wrong is said before.
+            text.network(&trips::no_demand(operations), &[])?;
+            let (demand, account) = trips::demand(trips, &vertiports, operations, stop, progress)?;
+            (demand, demand_comments::of_trips(trips, &account), Some(account))
+        }
+    };
+    stop.check()?;
+    let (network, toml) = text.network(&demand, &source)?;
+    progress(1.0);
+    Ok(Imported { network, toml, account })
+}
+
+/// Reads a file that may be absent.
+fn read<T>(
+    path: Option<&Path>,
+    read: impl FnOnce(&Path) -> Result<T, Error>,
+) -> Result<Option<FromFile<'_, T>>, Error> {
+    path.map(|path| Ok(FromFile { what: read(path)?, path })).transpose()
+}
+
+/// The name of a file without its folder, for comments.
+fn file_name(path: &Path) -> String {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+    vertiports::printable(&name.unwrap_or_default())
+}

@@ -1,0 +1,124 @@
+//! Distances on the globe, and the middle of areas.
+//!
+//! Angles go through the `libm` crate, because the results of the system's library depend on the machine.
+
+/// Mean radius of the Earth (IUGG), miles; the same as for the distances of a network.
+pub(crate) const EARTH_RADIUS_MI: f64 = 3_958.761_3;
+
+/// A place on the globe, degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) latitude: f64,
+    pub(crate) longitude: f64,
+}
+
+impl Place {
+    /// The place of these degrees, if they are degrees.
+    #[inline]
+    pub(crate) fn new(latitude: f64, longitude: f64) -> Option<Self> {
+        let degrees = latitude.abs() <= 90.0 && longitude.abs() <= 180.0;
+        degrees.then_some(Self { latitude, longitude })
+    }
+
+    /// The great-circle distance by the haversine formula, miles.
+    #[inline]
+    pub(crate) fn distance_mi(self, to: Self) -> f64 {
+        let (from_north, to_north) = (self.latitude.to_radians(), to.latitude.to_radians());
+        let half_north = libm::sin((to_north - from_north) / 2.0);
+        let half_east = libm::sin((to.longitude - self.longitude).to_radians() / 2.0);
+        let haversine = half_north * half_north
+            + libm::cos(from_north) * libm::cos(to_north) * half_east * half_east;
+        2.0 * EARTH_RADIUS_MI * libm::asin(haversine.sqrt().min(1.0))
+    }
+}
+
+/// The length of a line, miles.
+pub(crate) fn length_mi(line: &[Place]) -> f64 {
+    line.windows(2).map(|ends| ends[0].distance_mi(ends[1])).sum()
+}
+
+/// The area of a surface and where its middle is. Parts are added up before the middle is taken.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Area {
+    /// Square degrees.
+    size: f64,
+    /// Size times the middle's latitude and longitude.
+    moment: (f64, f64),
+}
+
+impl Area {
+    /// Adds the area within a ring of places, or takes away that of a hole.
+    ///
+    /// The shoelace formula in degrees: a degree of longitude is shorter than one of latitude, which changes the area
+    /// but not where its middle is.
+    pub(crate) fn add_ring(&mut self, ring: &[Place], hole: bool) {
+        let Some(&origin) = ring.first() else { return };
+        let (mut double, mut north, mut east) = (0.0, 0.0, 0.0);
+        for ends in ring.windows(2) {
+            let from_origin = |place: Place| {
+                (place.latitude - origin.latitude, place.longitude - origin.longitude)
+            };
+            let ((ay, ax), (by, bx)) = (from_origin(ends[0]), from_origin(ends[1]));
+            let cross = ax * by - bx * ay;
+            double += cross;
+            north += (ay + by) * cross;
+            east += (ax + bx) * cross;
+        }
+        if double == 0.0 {
+            return;
+        }
+        let size = double.abs() / 2.0 * if hole { -1.0 } else { 1.0 };
+        self.size += size;
+        self.moment.0 += size * (origin.latitude + north / (3.0 * double));
+        self.moment.1 += size * (origin.longitude + east / (3.0 * double));
+    }
+
+    /// The middle of the area, if it has a size.
+    pub(crate) fn middle(self) -> Option<Place> {
+        if self.size <= 0.0 {
+            return None;
+        }
+        Place::new(self.moment.0 / self.size, self.moment.1 / self.size)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Area, Place, length_mi};
+
+    fn places(degrees: &[(f64, f64)]) -> Vec<Place> {
+        degrees.iter().map(|&(latitude, longitude)| Place { latitude, longitude }).collect()
+    }
+
+    #[test]
+    fn a_degree_of_latitude_is_sixty_nine_miles_and_lengths_add_up() {
+        let line = places(&[(40.0, -74.0), (41.0, -74.0), (40.0, -74.0)]);
+        assert!((length_mi(&line) - 2.0 * 69.094).abs() < 2e-3);
+        assert_eq!(length_mi(&line[..1]), 0.0);
+    }
+
+    #[test]
+    fn the_middle_of_a_square_with_a_hole_moves_away_from_the_hole() {
+        let mut area = Area::default();
+        let square = |s: f64, w: f64, side: f64| {
+            places(&[(s, w), (s, w + side), (s + side, w + side), (s + side, w), (s, w)])
+        };
+        area.add_ring(&square(40.0, -74.0, 2.0), false);
+        let middle = area.middle().expect("it has a size");
+        assert!((middle.latitude - 41.0).abs() < 1e-9 && (middle.longitude + 73.0).abs() < 1e-9);
+        let mut reversed = square(40.0, -74.0, 1.0);
+        reversed.reverse();
+        area.add_ring(&reversed, true);
+        let middle = area.middle().expect("it has a size");
+        // (4 x 41 - 40.5) / 3 and (4 x -73 + 73.5) / 3.
+        assert!((middle.latitude - 123.5 / 3.0).abs() < 1e-9, "{middle:?}");
+        assert!((middle.longitude + 218.5 / 3.0).abs() < 1e-9, "{middle:?}");
+    }
+
+    #[test]
+    fn a_ring_without_a_surface_has_no_middle() {
+        let mut area = Area::default();
+        area.add_ring(&places(&[(40.0, -74.0), (41.0, -74.0), (40.0, -74.0)]), false);
+        assert_eq!(area.middle(), None);
+    }
+}

@@ -1,0 +1,322 @@
+//! The text of the network file: the base's text, with what the planner's files say in place of what the base says.
+//!
+//! The text is edited and not written anew, so that comments stay beside what they explain. Whatever belongs to the
+//! vertiports or the demand of the base is removed or adapted, and the file says so.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use toml_edit::{
+    Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value,
+};
+use vertifleet_core::{Network, Time};
+
+use crate::corridors::Corridor;
+use crate::error::shortened;
+use crate::hourly_demand::HourlyDemand;
+use crate::tariffs::{self, PairTariff};
+use crate::vertiports::{ASSUMED_STANDS, Vertiport, Vertiports};
+use crate::{Error, file_name};
+
+/// What was read from a file, and the file.
+pub(crate) struct FromFile<'a, T> {
+    pub(crate) what: T,
+    pub(crate) path: &'a Path,
+}
+
+/// Everything that the network file is made of, except for the demand.
+pub(crate) struct NetworkText<'a> {
+    pub(crate) base: &'a Network,
+    pub(crate) name: &'a str,
+    pub(crate) vertiports: FromFile<'a, &'a Vertiports>,
+    pub(crate) corridors: Option<FromFile<'a, Vec<Corridor>>>,
+    pub(crate) pair_tariffs: Option<FromFile<'a, Vec<PairTariff>>>,
+    /// A table of prices, which can only be read when the demand periods are known.
+    pub(crate) energy_prices: Option<&'a Path>,
+}
+
+/// The members of a base that say something else of its demand or its vertiports, with the reason to leave them out.
+const LEFT_OUT: [(&[&str], &str); 9] = [
+    (&["corridors"], "names its vertiports"),
+    (&["closures"], "names its vertiports"),
+    (&["tariffs", "pairs"], "names its vertiports"),
+    (&["market", "elasticities"], "names its vertiports"),
+    (&["market", "demand_factor"], "belongs to its demand"),
+    (&["market", "reference"], "belongs to its demand"),
+    (&["disturbances", "takeoff_delays"], "names its vertiports"),
+    (&["disturbances", "closures"], "names its vertiports"),
+    (&["feature_scales"], "states the typical sizes of its quantities"),
+];
+
+/// The demand models, of which a base has one.
+const DEMAND_MODELS: [&str; 4] = ["demand", "daily_demand", "hourly_demand", "uniform_demand"];
+
+impl NetworkText<'_> {
+    /// Makes the text, and reads and checks it. `source` says where the demand is from.
+    pub(crate) fn network(
+        &self,
+        demand: &HourlyDemand,
+        source: &[String],
+    ) -> Result<(Network, String), Error> {
+        let text = self.text(demand, source)?;
+        let network = Network::from_toml(&text, "the imported network")?;
+        Ok((network, text))
+    }
+
+    fn text(&self, demand: &HourlyDemand, source: &[String]) -> Result<String, Error> {
+        let mut file: DocumentMut =
+            without_head(self.base.toml()).parse().map_err(|error: toml_edit::TomlError| {
+                Error::NotParsed {
+                    origin: self.base.name().to_owned(),
+                    kind: "TOML",
+                    problem: shortened(error.message(), 300),
+                }
+            })?;
+        let mut notes = Vec::new();
+        for (path, why) in LEFT_OUT {
+            if remove(file.as_table_mut(), path) {
+                notes.push(format!("{}, which {why}", path.join(".")));
+            }
+        }
+        for model in DEMAND_MODELS {
+            file.remove(model);
+        }
+        file["name"] = value(self.name);
+        self.put_vertiports(&mut file);
+        self.put_corridors(&mut file);
+        self.put_tariffs(&mut file, &demand.periods)?;
+        let mut text = self.head(&notes);
+        let _ = write!(text, "{file}");
+        if !text.ends_with('\n') {
+            text.push('\n');
+        }
+        self.put_demand(&mut text, demand, source);
+        Ok(text)
+    }
+
+    /// The comment at the head of the file.
+    fn head(&self, notes: &[String]) -> String {
+        let base = self.base.name();
+        let mut head = format!(
+            "# The network {}, imported from files of a planner, which comments below name. Everything else is from the network\n\
+             # {base}, with its comments.\n",
+            shortened(self.name, 40).escape_debug(),
+        );
+        if !notes.is_empty() {
+            let _ = writeln!(head, "#\n# Left out of {base}:");
+        }
+        for note in notes {
+            let _ = writeln!(head, "# - {note}");
+        }
+        head.push('\n');
+        head
+    }
+
+    fn put_vertiports(&self, file: &mut DocumentMut) {
+        let position = match file.remove("vertiports") {
+            Some(Item::ArrayOfTables(tables)) => tables.get(0).and_then(Table::position),
+            _ => None,
+        };
+        let FromFile { what: vertiports, path } = &self.vertiports;
+        let mut comment = format!("\n# Vertiports from {}.\n", file_name(path));
+        let assumed = vertiports.list.iter().filter(|vertiport| vertiport.stands.is_none()).count();
+        if assumed > 0 {
+            let _ = writeln!(
+                comment,
+                "# assumption: {ASSUMED_STANDS} stands at each of the {assumed} vertiports for which it gives none."
+            );
+        }
+        let mut tables = ArrayOfTables::new();
+        for vertiport in &vertiports.list {
+            let mut table = vertiport_table(vertiport);
+            table.set_position(position);
+            table.decor_mut().set_prefix(std::mem::replace(&mut comment, "\n".to_owned()));
+            tables.push(table);
+        }
+        file.insert("vertiports", Item::ArrayOfTables(tables));
+    }
+
+    fn put_corridors(&self, file: &mut DocumentMut) {
+        let Some(FromFile { what: corridors, path }) = &self.corridors else { return };
+        let entries = corridors.iter().map(|corridor| {
+            let mut entry = self.ends(corridor.ends);
+            entry.insert("both_ways", corridor.both_ways.into());
+            entry.insert("length_mi", number((corridor.length_mi * 1e4).ceil() / 1e4));
+            entry
+        });
+        let comment = format!(
+            "\n# Corridors from {}, with the lengths of their lines between the vertiports, in miles.\n",
+            file_name(path)
+        );
+        put(file.as_table_mut(), "corridors", list(entries), &comment);
+    }
+
+    fn put_tariffs(&self, file: &mut DocumentMut, periods: &[Time]) -> Result<(), Error> {
+        let Some(item) = file.get_mut("tariffs") else { return Ok(()) };
+        // Comments need lines of their own, which an inline table does not have.
+        if let Ok(table) = std::mem::take(item).into_table() {
+            *item = Item::Table(table);
+        }
+        let Some(tariffs) = item.as_table_mut() else { return Ok(()) };
+        for member in ["fare_factors", "energy_price_usd_per_kwh"] {
+            self.adapt_to_periods(tariffs, member, periods);
+        }
+        if let Some(path) = self.energy_prices {
+            let operations = self.base.operations();
+            let prices = tariffs::energy_prices_usd(path, periods, operations)?;
+            let comment = format!("# Prices of the demand periods from {}.\n", file_name(path));
+            let prices = prices.into_iter().map(number).collect::<Array>();
+            put(tariffs, "energy_price_usd_per_kwh", prices, &comment);
+        }
+        if let Some(FromFile { what: pairs, path }) = &self.pair_tariffs {
+            let entries = pairs.iter().map(|pair| {
+                let mut entry = self.ends(pair.ends);
+                for (member, amount) in
+                    [("fare_usd", pair.fare_usd), ("passenger_cost_usd", pair.passenger_cost_usd)]
+                {
+                    if let Some(amount) = amount {
+                        entry.insert(member, number(amount));
+                    }
+                }
+                entry
+            });
+            let comment =
+                format!("# Fares and passenger costs of pairs from {}.\n", file_name(path));
+            put(tariffs, "pairs", list(entries), &comment);
+        }
+        Ok(())
+    }
+
+    /// Gives each new demand period the entry that the base has for the time when it starts, if the member is a list by
+    /// period and the periods are others.
+    fn adapt_to_periods(&self, tariffs: &mut Table, member: &str, periods: &[Time]) {
+        let of_base = self.base.period_starts();
+        let Some(entries) = tariffs.get(member).and_then(Item::as_array) else { return };
+        if of_base == periods {
+            return;
+        }
+        let entry = |start: &Time| {
+            let at = of_base.partition_point(|of_base| of_base <= start).saturating_sub(1);
+            let mut entry = entries.get(at)?.clone();
+            entry.decor_mut().clear();
+            Some(entry)
+        };
+        let adapted: Array = periods.iter().filter_map(entry).collect();
+        let comment = format!(
+            "# The value of each demand period is the one that {} has when the period starts.\n",
+            self.base.name()
+        );
+        let before = tariffs.key(member).and_then(|key| key.leaf_decor().prefix()?.as_str());
+        let comment = format!("{}{comment}", before.unwrap_or_default());
+        put(tariffs, member, adapted, &comment);
+    }
+
+    /// Adds the section of the demand, which is by far the longest and therefore the last.
+    fn put_demand(&self, text: &mut String, demand: &HourlyDemand, source: &[String]) {
+        text.push('\n');
+        for line in source {
+            let _ = writeln!(text, "# {line}");
+        }
+        text.push_str("[hourly_demand]\nperiods = [");
+        for (at, period) in demand.periods.iter().enumerate() {
+            let part = if at == 0 {
+                ""
+            } else if at.is_multiple_of(8) {
+                ",\n    "
+            } else {
+                ", "
+            };
+            let _ = write!(text, "{part}\"{period}\"");
+        }
+        text.push_str("]\ndistribution = \"poisson\"\npairs = [\n");
+        for (&ends, means) in &demand.pairs {
+            let _ = write!(
+                text,
+                "    {{ {}, passengers = [",
+                self.ends(ends).to_string().trim_matches(['{', '}', ' '])
+            );
+            for (at, mean) in means.iter().enumerate() {
+                let part = if at == 0 { "" } else { ", " };
+                // Whole numbers without a fraction and small ones with an exponent keep the text short.
+                let _ = if mean.fract() == 0.0 {
+                    write!(text, "{part}{mean}")
+                } else {
+                    write!(text, "{part}{mean:?}")
+                };
+            }
+            text.push_str("] },\n");
+        }
+        text.push_str("]\n");
+    }
+
+    /// An inline table with the ids of two vertiports.
+    fn ends(&self, (from, to): (usize, usize)) -> InlineTable {
+        let id = |at: usize| self.vertiports.what.list[at].id.as_str();
+        let mut table = InlineTable::new();
+        table.insert("from", id(from).into());
+        table.insert("to", id(to).into());
+        table
+    }
+}
+
+/// A text without the comment at its head, which is about the file as a whole.
+fn without_head(text: &str) -> &str {
+    let is_head = |line: &&str| line.trim().is_empty() || line.starts_with('#');
+    let head: usize = text.split_inclusive('\n').take_while(is_head).map(str::len).sum();
+    &text[head..]
+}
+
+/// Removes the member that a path leads to, and returns whether it was there.
+fn remove(table: &mut dyn TableLike, path: &[&str]) -> bool {
+    match path {
+        [] => false,
+        [member] => table.remove(member).is_some(),
+        [section, rest @ ..] => table
+            .get_mut(section)
+            .and_then(Item::as_table_like_mut)
+            .is_some_and(|section| remove(section, rest)),
+    }
+}
+
+/// Puts a list under a name, with a comment above it.
+fn put(table: &mut Table, member: &str, list: Array, comment: &str) {
+    table.insert(member, value(list));
+    if let Some(mut key) = table.key_mut(member) {
+        key.leaf_decor_mut().set_prefix(comment);
+    }
+}
+
+/// A list with an entry on each line.
+fn list(entries: impl Iterator<Item = InlineTable>) -> Array {
+    let mut list = Array::new();
+    for entry in entries {
+        let mut entry = Value::from(entry);
+        entry.decor_mut().set_prefix("\n    ");
+        list.push_formatted(entry);
+    }
+    list.set_trailing_comma(true);
+    list.set_trailing("\n");
+    list
+}
+
+/// A number, without a fraction if it is whole.
+fn number(number: f64) -> Value {
+    #[expect(clippy::cast_possible_truncation, reason = "whole, and bounded by the readers")]
+    if number.fract() == 0.0 { Value::from(number as i64) } else { Value::from(number) }
+}
+
+fn vertiport_table(vertiport: &Vertiport) -> Table {
+    let mut table = Table::new();
+    table.insert("id", value(&vertiport.id));
+    table.insert("latitude", Item::Value(number(vertiport.place.latitude)));
+    table.insert("longitude", Item::Value(number(vertiport.place.longitude)));
+    table.insert("stands", value(i64::from(vertiport.stands.unwrap_or(ASSUMED_STANDS))));
+    if let Some(chargers) = vertiport.chargers {
+        table.insert("chargers", value(i64::from(chargers)));
+    }
+    table.insert("busy", value(vertiport.busy));
+    if let Some(name) = &vertiport.name {
+        table.decor_mut().set_suffix(format!("  # {name}"));
+    }
+    table
+}

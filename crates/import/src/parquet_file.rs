@@ -1,0 +1,362 @@
+//! Rows of a Parquet file, with only the columns that are needed, row group by row group.
+//!
+//! Pages are decoded with the library's low-level column readers. A file in which pages, levels or types contradict
+//! each other is an error here, also where the library would panic on it.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use parquet::basic::{ConvertedType, LogicalType, TimeUnit, Type};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::data_type::{
+    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type,
+    Int96, Int96Type,
+};
+use parquet::errors::ParquetError;
+use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
+use parquet::schema::types::ColumnDescriptor;
+
+use crate::Error;
+use crate::cell::Cell;
+use crate::date_time::Moment;
+use crate::error::shortened;
+
+/// The bytes with which a Parquet file begins.
+const MAGIC: &[u8] = b"PAR1";
+/// Rows that are decoded at once.
+const BATCH: usize = 8_192;
+
+/// Whether a file is Parquet, by its name or its first bytes.
+pub(crate) fn is_parquet(path: &Path, first_bytes: &[u8]) -> bool {
+    let named = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("parquet"));
+    named || first_bytes.starts_with(MAGIC)
+}
+
+/// An open Parquet file.
+pub(crate) struct ParquetFile {
+    reader: Box<dyn FileReader>,
+    origin: String,
+    /// The names of the columns that hold one value a row, and nothing for other columns.
+    columns: Vec<String>,
+}
+
+/// A column to read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wanted {
+    /// Its position in [`ParquetFile::columns`].
+    pub(crate) column: usize,
+    /// Whether it must hold dates with times, and not numbers or texts.
+    pub(crate) moment: bool,
+}
+
+impl ParquetFile {
+    /// Reads the description of a file.
+    pub(crate) fn open(file: impl ChunkReader + 'static, origin: &str) -> Result<Self, Error> {
+        guarded(origin, || {
+            let reader =
+                SerializedFileReader::new(file).map_err(|error| damaged(origin, &error))?;
+            let schema = reader.metadata().file_metadata().schema_descr();
+            let plain = |column: &ColumnDescriptor| {
+                column.path().parts().len() == 1 && column.max_rep_level() == 0
+            };
+            let name = |column: &ColumnDescriptor| {
+                if plain(column) { column.name().to_owned() } else { String::new() }
+            };
+            let columns = schema.columns().iter().map(|column| name(column)).collect();
+            Ok(Self { reader: Box::new(reader), origin: origin.to_owned(), columns })
+        })
+    }
+
+    /// The names of the columns. Columns that cannot be read have an empty name.
+    pub(crate) fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// Number of row groups.
+    pub(crate) fn groups(&self) -> usize {
+        self.reader.num_row_groups()
+    }
+
+    /// Number of rows of a row group, 0 if the file says nonsense.
+    pub(crate) fn group_rows(&self, group: usize) -> u64 {
+        u64::try_from(self.reader.metadata().row_group(group).num_rows()).unwrap_or(0)
+    }
+
+    /// Refuses columns whose type cannot be read.
+    pub(crate) fn check(&self, wanted: &[Option<Wanted>]) -> Result<(), Error> {
+        let schema = self.reader.metadata().file_metadata().schema_descr();
+        guarded(&self.origin, || {
+            for wanted in wanted.iter().flatten() {
+                let column = schema.column(wanted.column);
+                Meaning::of(&column, wanted.moment)
+                    .map_err(|error| error.in_column(&self.origin, column.name()))?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Calls `each` with every row of a row group: one cell for each of the wanted columns. `pause` is called before
+    /// each batch of rows and may end the reading.
+    pub(crate) fn rows(
+        &self,
+        group: usize,
+        wanted: &[Option<Wanted>],
+        pause: &dyn Fn() -> Result<(), Error>,
+        each: &mut dyn FnMut(&[Cell<'_>]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        self.check(wanted)?;
+        let (mut columns, mut left) = guarded(&self.origin, || self.batched(group, wanted))?;
+        let count = columns.len().min(MOST_COLUMNS);
+        while left > 0 {
+            pause()?;
+            let rows = left.min(BATCH);
+            guarded(&self.origin, || {
+                let read = |column: &mut BatchedColumn| column.read(rows);
+                columns
+                    .iter_mut()
+                    .flatten()
+                    .try_for_each(read)
+                    .map_err(|error| self.damaged(&error))
+            })?;
+            for row in 0..rows {
+                let mut cells = [Cell::Missing; MOST_COLUMNS];
+                for (cell, column) in cells.iter_mut().zip(&mut columns) {
+                    *cell = column.as_mut().map_or(Cell::Missing, |column| column.next(row));
+                }
+                each(&cells[..count])?;
+            }
+            left -= rows;
+        }
+        Ok(())
+    }
+
+    /// The readers of the wanted columns of a row group, and its number of rows.
+    fn batched(
+        &self,
+        group: usize,
+        wanted: &[Option<Wanted>],
+    ) -> Result<(Vec<Option<BatchedColumn>>, usize), Error> {
+        let group = self.reader.get_row_group(group).map_err(|error| self.damaged(&error))?;
+        let schema = self.reader.metadata().file_metadata().schema_descr();
+        let batched = |Wanted { column, moment }| {
+            let descriptor = schema.column(column);
+            let meaning = Meaning::of(&descriptor, moment)
+                .map_err(|error| error.in_column(&self.origin, descriptor.name()))?;
+            let reader = group.get_column_reader(column).map_err(|error| self.damaged(&error))?;
+            Ok(BatchedColumn::new(reader, &descriptor, meaning))
+        };
+        let columns = wanted.iter().map(|wanted| wanted.map(batched).transpose());
+        let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+        Ok((columns.collect::<Result<_, Error>>()?, rows))
+    }
+
+    fn damaged(&self, error: &ParquetError) -> Error {
+        damaged(&self.origin, error)
+    }
+}
+
+/// The most columns that any caller asks for.
+const MOST_COLUMNS: usize = 8;
+
+/// What the values of a column mean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Meaning {
+    /// Numbers, texts or truth values, as they are.
+    Plain,
+    /// A count of units since 1970, so many units to the second.
+    Units(i64),
+    /// Nanoseconds and a Julian day, as older programs write times.
+    JulianDay,
+}
+
+/// A type that a column must not have.
+struct WrongType {
+    expected: &'static str,
+    found: String,
+}
+
+impl WrongType {
+    fn in_column(self, origin: &str, column: &str) -> Error {
+        let Self { expected, found } = self;
+        Error::ColumnType {
+            origin: origin.to_owned(),
+            column: shortened(column, 64),
+            expected,
+            found,
+        }
+    }
+}
+
+impl Meaning {
+    /// The meaning of a column's values, if they can be used.
+    fn of(column: &ColumnDescriptor, moment: bool) -> Result<Self, WrongType> {
+        let logical = column.logical_type_ref();
+        let meaning = match (column.physical_type(), logical, column.converted_type()) {
+            (Type::INT64, Some(LogicalType::Timestamp(time)), _) => match time.unit {
+                TimeUnit::MILLIS => Some(Self::Units(1_000)),
+                TimeUnit::MICROS => Some(Self::Units(1_000_000)),
+                TimeUnit::NANOS => Some(Self::Units(1_000_000_000)),
+            },
+            (Type::INT64, None, ConvertedType::TIMESTAMP_MILLIS) => Some(Self::Units(1_000)),
+            (Type::INT64, None, ConvertedType::TIMESTAMP_MICROS) => Some(Self::Units(1_000_000)),
+            (Type::INT96, _, _) => Some(Self::JulianDay),
+            (Type::BYTE_ARRAY, None | Some(LogicalType::String | LogicalType::Enum), _)
+                if column.converted_type() != ConvertedType::DECIMAL =>
+            {
+                Some(Self::Plain)
+            }
+            (
+                Type::INT32 | Type::INT64,
+                None | Some(LogicalType::Integer(_)),
+                ConvertedType::NONE
+                | ConvertedType::INT_8
+                | ConvertedType::INT_16
+                | ConvertedType::INT_32
+                | ConvertedType::INT_64
+                | ConvertedType::UINT_8
+                | ConvertedType::UINT_16
+                | ConvertedType::UINT_32
+                | ConvertedType::UINT_64,
+            )
+            | (Type::BOOLEAN | Type::FLOAT | Type::DOUBLE, None, _)
+                if !moment =>
+            {
+                Some(Self::Plain)
+            }
+            _ => None,
+        };
+        meaning.ok_or_else(|| WrongType {
+            expected: if moment {
+                "timestamps, or texts as 2015-06-01 07:08:09"
+            } else {
+                "whole numbers, floating-point numbers or texts"
+            },
+            found: match logical {
+                Some(logical) => shortened(&format!("{logical:?}"), 80),
+                None => format!("{}", column.physical_type()),
+            },
+        })
+    }
+}
+
+/// The typed reader of a column with a batch of its values, packed without the missing ones.
+enum Values {
+    Bool(ColumnReaderImpl<BoolType>, Vec<bool>),
+    Int32(ColumnReaderImpl<Int32Type>, Vec<i32>),
+    Int64(ColumnReaderImpl<Int64Type>, Vec<i64>),
+    Int96(ColumnReaderImpl<Int96Type>, Vec<Int96>),
+    Float(ColumnReaderImpl<FloatType>, Vec<f32>),
+    Double(ColumnReaderImpl<DoubleType>, Vec<f64>),
+    Bytes(ColumnReaderImpl<ByteArrayType>, Vec<ByteArray>),
+    /// Fixed-length bytes, which no meaning accepts.
+    Other,
+}
+
+/// A column that is read in batches.
+struct BatchedColumn {
+    values: Values,
+    meaning: Meaning,
+    /// The level that says that a row has a value; 0 if every row has one.
+    present: i16,
+    levels: Vec<i16>,
+    /// Position of the next value in the batch.
+    next: usize,
+}
+
+impl BatchedColumn {
+    fn new(reader: ColumnReader, descriptor: &ColumnDescriptor, meaning: Meaning) -> Self {
+        let values = match reader {
+            ColumnReader::BoolColumnReader(reader) => Values::Bool(reader, Vec::new()),
+            ColumnReader::Int32ColumnReader(reader) => Values::Int32(reader, Vec::new()),
+            ColumnReader::Int64ColumnReader(reader) => Values::Int64(reader, Vec::new()),
+            ColumnReader::Int96ColumnReader(reader) => Values::Int96(reader, Vec::new()),
+            ColumnReader::FloatColumnReader(reader) => Values::Float(reader, Vec::new()),
+            ColumnReader::DoubleColumnReader(reader) => Values::Double(reader, Vec::new()),
+            ColumnReader::ByteArrayColumnReader(reader) => Values::Bytes(reader, Vec::new()),
+            ColumnReader::FixedLenByteArrayColumnReader(_) => Values::Other,
+        };
+        let present = descriptor.max_def_level();
+        Self { values, meaning, present, levels: Vec::new(), next: 0 }
+    }
+
+    /// Reads the next `rows` rows.
+    fn read(&mut self, rows: usize) -> Result<(), ParquetError> {
+        self.next = 0;
+        let levels = &mut self.levels;
+        let (read, values) = match &mut self.values {
+            Values::Bool(reader, values) => fill(reader, values, levels, rows),
+            Values::Int32(reader, values) => fill(reader, values, levels, rows),
+            Values::Int64(reader, values) => fill(reader, values, levels, rows),
+            Values::Int96(reader, values) => fill(reader, values, levels, rows),
+            Values::Float(reader, values) => fill(reader, values, levels, rows),
+            Values::Double(reader, values) => fill(reader, values, levels, rows),
+            Values::Bytes(reader, values) => fill(reader, values, levels, rows),
+            Values::Other => Ok((0, 0)),
+        }?;
+        let present = if self.present == 0 {
+            read
+        } else {
+            levels.iter().filter(|&&level| level == self.present).count()
+        };
+        if read == rows && present == values && (self.present == 0 || levels.len() == rows) {
+            return Ok(());
+        }
+        Err(ParquetError::General("a column has fewer values than the file has rows".to_owned()))
+    }
+
+    /// The value of the next row of the batch, which is its row `row`.
+    #[inline]
+    fn next(&mut self, row: usize) -> Cell<'_> {
+        if self.present != 0 && self.levels[row] != self.present {
+            return Cell::Missing;
+        }
+        let at = self.next;
+        self.next += 1;
+        match &self.values {
+            Values::Bool(_, values) => Cell::Text(if values[at] { b"true" } else { b"false" }),
+            Values::Int32(_, values) => Cell::Whole(values[at].into()),
+            Values::Int64(_, values) => match self.meaning {
+                Meaning::Units(per_second) => moment(values[at].div_euclid(per_second)),
+                Meaning::Plain | Meaning::JulianDay => Cell::Whole(values[at]),
+            },
+            Values::Int96(_, values) => moment(values[at].to_seconds()),
+            Values::Float(_, values) => Cell::Number(values[at].into()),
+            Values::Double(_, values) => Cell::Number(values[at]),
+            Values::Bytes(_, values) => Cell::text(values[at].data()),
+            Values::Other => Cell::Missing,
+        }
+    }
+}
+
+fn moment(seconds: i64) -> Cell<'static> {
+    Moment::from_seconds(seconds).map_or(Cell::Missing, Cell::Moment)
+}
+
+/// Reads a batch and returns the number of rows and the number of values.
+fn fill<T: DataType>(
+    reader: &mut ColumnReaderImpl<T>,
+    values: &mut Vec<T::T>,
+    levels: &mut Vec<i16>,
+    rows: usize,
+) -> Result<(usize, usize), ParquetError> {
+    values.clear();
+    levels.clear();
+    let (read, _, _) = reader.read_records(rows, Some(levels), None, values)?;
+    Ok((read, values.len()))
+}
+
+fn damaged(origin: &str, error: &ParquetError) -> Error {
+    Error::NotParsed {
+        origin: origin.to_owned(),
+        kind: "Parquet",
+        problem: shortened(&error.to_string(), 300),
+    }
+}
+
+/// Turns a panic of the library into an error, since some damaged files make it panic. What is under way then is
+/// dropped, so that nothing half-done is used.
+fn guarded<T>(origin: &str, read: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
+        Err(damaged(origin, &ParquetError::General("the file is damaged".to_owned())))
+    })
+}

@@ -1,0 +1,225 @@
+//! A row of a small table, or a feature of a map, with its values by column: every check of a value names the file, the
+//! place in it, the column and the rule.
+
+use std::borrow::Cow;
+
+use vertifleet_core::Time;
+
+use crate::Error;
+use crate::cell::Cell;
+use crate::error::{did_you_mean, shortened};
+use crate::globe::Place;
+use crate::vertiports::Vertiports;
+
+/// A column that is asked for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Column {
+    /// Its name, and other names by which it is known. The first that the file has counts.
+    pub(crate) names: &'static [&'static str],
+    pub(crate) required: bool,
+}
+
+/// A column that a file must have.
+pub(crate) const fn required(names: &'static [&'static str]) -> Column {
+    Column { names, required: true }
+}
+
+/// A column that a file may have.
+pub(crate) const fn optional(names: &'static [&'static str]) -> Column {
+    Column { names, required: false }
+}
+
+/// Where rows stand in their file.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Positions<'a> {
+    /// Positions are first bytes of lines of this text.
+    Lines(&'a [u8]),
+    /// Positions are numbers of features, from 1.
+    Features,
+    /// Positions are numbers of rows, from 1.
+    Rows,
+}
+
+/// A row or feature.
+#[derive(Debug)]
+pub(crate) struct Row<'a> {
+    pub(crate) origin: &'a str,
+    pub(crate) positions: Positions<'a>,
+    pub(crate) position: usize,
+    pub(crate) columns: &'a [Column],
+    /// One for each column.
+    pub(crate) cells: &'a [Cell<'a>],
+}
+
+impl Row<'_> {
+    /// The place of this row in its file, in words.
+    pub(crate) fn place(&self) -> String {
+        self.place_of(self.position)
+    }
+
+    /// The place of the row at this position in the same file, in words.
+    ///
+    /// Lines are counted anew, because the parser's own count lags behind where it skips empty lines or the second half
+    /// of a CR LF.
+    pub(crate) fn place_of(&self, position: usize) -> String {
+        match self.positions {
+            Positions::Lines(text) => {
+                let begin = position.min(text.len());
+                let skipped = text[begin..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
+                let begin = begin + skipped.count();
+                format!("line {}", text[..begin].split(|&byte| byte == b'\n').count())
+            }
+            Positions::Features => format!("feature {position}"),
+            Positions::Rows => format!("row {position}"),
+        }
+    }
+
+    /// Whether the row has a value in this column.
+    pub(crate) fn has(&self, column: usize) -> bool {
+        self.cells[column] != Cell::Missing
+    }
+
+    /// The text of a column, which must not be empty.
+    pub(crate) fn text(&self, column: usize) -> Result<Cow<'_, str>, Error> {
+        if !self.has(column) {
+            return Err(self.wrong(column, "given".to_owned()));
+        }
+        Ok(self.cells[column].shown())
+    }
+
+    /// An id: 1 to 64 characters, none of them a control character.
+    pub(crate) fn id(&self, column: usize) -> Result<String, Error> {
+        let id = self.text(column)?;
+        if id.chars().count() > 64 || id.chars().any(char::is_control) {
+            return Err(self.wrong(column, "1 to 64 characters that can be printed".to_owned()));
+        }
+        Ok(id.into_owned())
+    }
+
+    /// The number of a column, from `least` to `most`.
+    pub(crate) fn number(&self, column: usize, least: f64, most: f64) -> Result<f64, Error> {
+        let number = self.cells[column].number().filter(|number| (least..=most).contains(number));
+        // A zero with a sign would be written as such.
+        let number = number.map(|number| number + 0.0);
+        number.ok_or_else(|| self.wrong(column, format!("a number from {least} to {most}")))
+    }
+
+    /// The number of a column that may be empty.
+    pub(crate) fn optional_number(
+        &self,
+        column: usize,
+        least: f64,
+        most: f64,
+    ) -> Result<Option<f64>, Error> {
+        self.has(column).then(|| self.number(column, least, most)).transpose()
+    }
+
+    /// The whole number of a column that may be empty.
+    pub(crate) fn optional_whole(
+        &self,
+        column: usize,
+        least: i64,
+        most: i64,
+    ) -> Result<Option<i64>, Error> {
+        if !self.has(column) {
+            return Ok(None);
+        }
+        let whole = self.cells[column].whole().filter(|whole| (least..=most).contains(whole));
+        let rule = || format!("a whole number from {least} to {most}");
+        whole.map(Some).ok_or_else(|| self.wrong(column, rule()))
+    }
+
+    /// The truth value of a column that may be empty.
+    pub(crate) fn optional_flag(&self, column: usize) -> Result<Option<bool>, Error> {
+        if !self.has(column) {
+            return Ok(None);
+        }
+        match self.cells[column].shown().to_ascii_lowercase().as_str() {
+            "true" | "1" => Ok(Some(true)),
+            "false" | "0" => Ok(Some(false)),
+            _ => Err(self.wrong(column, "true or false".to_owned())),
+        }
+    }
+
+    /// The time of a column: `HH:MM:SS`, or an hour of the day.
+    pub(crate) fn time(&self, column: usize) -> Result<Time, Error> {
+        const LAST_HOUR: u32 = 47;
+        let cell = self.cells[column];
+        let hour = cell.whole().and_then(|hour| u32::try_from(hour).ok());
+        let time = match hour {
+            Some(hour) => Some(hour).filter(|&hour| hour <= LAST_HOUR).map(|hour| hour * 3600),
+            None => cell.shown().parse().ok().map(Time::seconds),
+        };
+        let time = time.filter(|&second| second < (LAST_HOUR + 1) * 3600).map(Time::from_seconds);
+        let rule = || format!("a time as HH:MM:SS, or an hour from 0 to {LAST_HOUR}");
+        time.ok_or_else(|| self.wrong(column, rule()))
+    }
+
+    /// The position of the vertiport that a column names.
+    pub(crate) fn vertiport(&self, column: usize, vertiports: &Vertiports) -> Result<usize, Error> {
+        let id = self.text(column)?;
+        vertiports.find(&id).ok_or_else(|| Error::UnknownVertiport {
+            origin: self.origin.to_owned(),
+            place: self.place(),
+            member: self.member(column),
+            meant: did_you_mean(&id, vertiports.ids()),
+            found: shortened(&id, 64),
+        })
+    }
+
+    /// The positions of the two different vertiports that two columns name.
+    pub(crate) fn pair(
+        &self,
+        from: usize,
+        to: usize,
+        vertiports: &Vertiports,
+    ) -> Result<(usize, usize), Error> {
+        let ends = (self.vertiport(from, vertiports)?, self.vertiport(to, vertiports)?);
+        if ends.0 == ends.1 {
+            return Err(Error::SameVertiport {
+                origin: self.origin.to_owned(),
+                place: self.place(),
+                vertiport: vertiports.list[ends.0].id.clone(),
+            });
+        }
+        Ok(ends)
+    }
+
+    /// The place that two columns give, within `most_latitude` degrees of the equator.
+    pub(crate) fn degrees(
+        &self,
+        latitude: usize,
+        longitude: usize,
+        most_latitude: f64,
+    ) -> Result<Place, Error> {
+        Ok(Place {
+            latitude: self.number(latitude, -most_latitude, most_latitude)?,
+            longitude: self.number(longitude, -180.0, 180.0)?,
+        })
+    }
+
+    /// An error that says that `what` stands at another position of the file already.
+    pub(crate) fn given_twice(&self, what: String, before: usize) -> Error {
+        Error::GivenTwice {
+            origin: self.origin.to_owned(),
+            place: self.place(),
+            what,
+            before: self.place_of(before),
+        }
+    }
+
+    /// An error that says that the value of a column breaks a rule.
+    pub(crate) fn wrong(&self, column: usize, rule: String) -> Error {
+        Error::WrongValue {
+            origin: self.origin.to_owned(),
+            place: self.place(),
+            member: self.member(column),
+            rule,
+            found: shortened(&self.cells[column].shown(), 80),
+        }
+    }
+
+    fn member(&self, column: usize) -> &'static str {
+        self.columns[column].names[0]
+    }
+}

@@ -1,0 +1,279 @@
+//! Trip records of a CSV file, in blocks of whole lines.
+//!
+//! One thread reads blocks while the others take records from the blocks before. A bounded queue lies between them, so
+//! that a few blocks are in memory at once, however long the file is. A line is a row: a row that is malformed, for
+//! example by a quote that is never closed, spoils no other row.
+
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::thread;
+
+use rayon::iter::{ParallelBridge, ParallelIterator};
+use vertifleet_core::Stop;
+
+use super::columns::{Layout, Places};
+use super::tally::{End, Record};
+use super::{Reading, cannot_read};
+use crate::Error;
+use crate::cell::Cell;
+use crate::globe::Place;
+use crate::table::without_mark;
+use crate::zones::Zones;
+
+/// Bytes of a block; some more at its end complete its last line.
+const BLOCK: usize = 4 << 20;
+/// Most blocks that wait to be read.
+const MOST_WAITING: usize = 8;
+/// The longest line.
+const LONGEST_LINE: usize = 64 << 10;
+
+/// Whole lines of a file.
+struct Block {
+    lines: Vec<u8>,
+    /// Position of the first byte in the file.
+    begin: u64,
+}
+
+/// Adds all records of a file.
+pub(super) fn read(path: &Path, reading: &Reading<'_>) -> Result<(), Error> {
+    let mut source = Source::open(path)?;
+    let Some(mut first) = source.next_block()? else {
+        return Err(Error::Nothing { origin: source.origin, what: "rows" });
+    };
+    let row = RowReader::of_header(&mut first, path, reading)?;
+    let waiting = rayon::current_num_threads().min(MOST_WAITING);
+    let origin = source.origin.clone();
+    thread::scope(|scope| {
+        let (sender, blocks) = sync_channel(waiting);
+        scope.spawn(move || source.send(first, &sender, reading.stop));
+        blocks.into_iter().par_bridge().try_for_each(|block: Result<Block, Error>| {
+            reading.stop.check()?;
+            let block = block?;
+            row.add_block(&block, &origin, reading)?;
+            reading.progress.add(block.lines.len() as u64);
+            Ok(())
+        })
+    })
+}
+
+/// A file that is read block by block.
+struct Source {
+    file: File,
+    origin: String,
+    path: std::path::PathBuf,
+    /// The begin of a line that the next block completes.
+    rest: Vec<u8>,
+    /// Position of the first byte of `rest` in the file.
+    begin: u64,
+}
+
+impl Source {
+    fn open(path: &Path) -> Result<Self, Error> {
+        let file = File::open(path).map_err(|cause| cannot_read(path, cause))?;
+        let origin = path.display().to_string();
+        Ok(Self { file, origin, path: path.to_owned(), rest: Vec::new(), begin: 0 })
+    }
+
+    /// Sends all blocks, the first of which has been read already. Ends when nobody takes them any more.
+    fn send(mut self, first: Block, blocks: &SyncSender<Result<Block, Error>>, stop: &Stop) {
+        let mut next = Ok(Some(first));
+        while !stop.is_requested() {
+            let sent = match next {
+                Ok(None) => return,
+                Ok(Some(block)) => blocks.send(Ok(block)),
+                Err(error) => {
+                    // Whoever reads the blocks has ended if this is not taken.
+                    let _ = blocks.send(Err(error));
+                    return;
+                }
+            };
+            if sent.is_err() {
+                return;
+            }
+            next = self.next_block();
+        }
+    }
+
+    /// Reads the next whole lines; `None` at the end of the file.
+    fn next_block(&mut self) -> Result<Option<Block>, Error> {
+        let mut lines = std::mem::take(&mut self.rest);
+        lines.reserve(BLOCK);
+        let mut limited = (&mut self.file).take(BLOCK as u64);
+        let read = loop {
+            match limited.read_to_end(&mut lines) {
+                Err(cause) if cause.kind() == ErrorKind::Interrupted => {}
+                Err(cause) => return Err(cannot_read(&self.path, cause)),
+                Ok(read) => break read,
+            }
+        };
+        let begin = self.begin;
+        if read == BLOCK {
+            let end =
+                lines.iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
+            if lines.len() - end > LONGEST_LINE {
+                return Err(too_long(&self.origin, begin + end as u64));
+            }
+            self.rest = lines.split_off(end);
+        }
+        self.begin += lines.len() as u64;
+        Ok((!lines.is_empty()).then_some(Block { lines, begin }))
+    }
+}
+
+fn too_long(origin: &str, begin: u64) -> Error {
+    Error::LineTooLong { origin: origin.to_owned(), begin, limit: LONGEST_LINE }
+}
+
+/// The values of a row that make a record, in this order: time, passengers, and the places.
+const SLOTS: usize = 6;
+
+/// Takes records from lines.
+struct RowReader<'a> {
+    /// For each column up to the last one that is needed, the slot of its values.
+    slots: Vec<Option<usize>>,
+    layout: Layout,
+    zones: &'a Zones,
+}
+
+impl<'a> RowReader<'a> {
+    /// Takes the header from the first block.
+    fn of_header(block: &mut Block, path: &Path, reading: &'a Reading<'_>) -> Result<Self, Error> {
+        let origin = path.display().to_string();
+        let end = block.lines.iter().position(|&byte| byte == b'\n');
+        let end = end.map_or(block.lines.len(), |newline| newline + 1);
+        if end > LONGEST_LINE {
+            return Err(too_long(&origin, block.begin));
+        }
+        let names = Fields::of(without_mark(&block.lines[..end]));
+        let names: Vec<String> =
+            names.map(|name| String::from_utf8_lossy(name.trim_ascii()).into_owned()).collect();
+        let layout = Layout::find(&reading.trips.columns, &names, &origin)?;
+        let zones = reading.zones_for(&layout, &origin)?;
+        reading.progress.add(end as u64);
+        block.lines.drain(..end);
+        block.begin += end as u64;
+        let columns = slot_columns(&layout);
+        let last = columns.iter().flatten().max().map_or(0, |last| last + 1);
+        let slot = |at| columns.iter().position(|column| *column == Some(at));
+        Ok(Self { slots: (0..last).map(slot).collect(), layout, zones })
+    }
+
+    /// Adds all records of a block.
+    fn add_block(&self, block: &Block, origin: &str, reading: &Reading<'_>) -> Result<(), Error> {
+        reading.tallies.with(|tally, rules| {
+            let mut begin = block.begin;
+            for line in block.lines.split_inclusive(|&byte| byte == b'\n') {
+                if line.len() > LONGEST_LINE {
+                    return Err(too_long(origin, begin));
+                }
+                begin += line.len() as u64;
+                if !line.trim_ascii().is_empty() {
+                    tally.add(&record(&self.cells(line), &self.layout, self.zones), rules);
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// The values of a line by slot.
+    #[inline]
+    fn cells<'line>(&self, line: &'line [u8]) -> [Cell<'line>; SLOTS] {
+        let mut cells = [Cell::Missing; SLOTS];
+        for (slot, field) in self.slots.iter().zip(Fields::of(line)) {
+            if let Some(slot) = *slot {
+                cells[slot] = Cell::text(field);
+            }
+        }
+        cells
+    }
+}
+
+/// The column of each slot.
+pub(super) fn slot_columns(layout: &Layout) -> [Option<usize>; SLOTS] {
+    let (time, passengers) = (Some(layout.time), layout.passengers);
+    match layout.places {
+        Places::Coordinates([a, b, c, d]) => [time, passengers, Some(a), Some(b), Some(c), Some(d)],
+        Places::Zones([from, to]) => [time, passengers, Some(from), Some(to), None, None],
+    }
+}
+
+/// The record that a row's values make.
+#[inline]
+pub(super) fn record(cells: &[Cell<'_>], layout: &Layout, zones: &Zones) -> Record {
+    let cell = |slot: usize| cells.get(slot).copied().unwrap_or(Cell::Missing);
+    let at = |latitude: usize| {
+        Some(End::At(Place::new(cell(latitude).number()?, cell(latitude + 1).number()?)?))
+    };
+    let zone = |slot: usize| zones.find(cell(slot)).map(End::Zone);
+    let (from, to) = match layout.places {
+        Places::Coordinates(_) => (at(2), at(4)),
+        Places::Zones(_) => (zone(2), zone(3)),
+    };
+    let passengers = match layout.passengers {
+        Some(_) => cell(1).number(),
+        None => Some(1.0),
+    };
+    Record { pickup: cell(0).moment(), from, to, passengers }
+}
+
+/// The fields of a line, split at commas that are not in quotes. The quotes around a field are left out.
+struct Fields<'a> {
+    rest: Option<&'a [u8]>,
+}
+
+impl<'a> Fields<'a> {
+    #[inline]
+    fn of(line: &'a [u8]) -> Self {
+        Self { rest: Some(line) }
+    }
+}
+
+impl<'a> Iterator for Fields<'a> {
+    type Item = &'a [u8];
+
+    #[inline]
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let rest = self.rest?;
+        if let [b'"', quoted @ ..] = rest {
+            return Some(self.quoted(quoted));
+        }
+        let end = rest.iter().position(|&byte| byte == b',');
+        self.rest = end.map(|end| &rest[end + 1..]);
+        Some(&rest[..end.unwrap_or(rest.len())])
+    }
+}
+
+impl<'a> Fields<'a> {
+    /// A field that began with a quote. Two quotes in it stand for one, which no value that is read here has.
+    fn quoted(&mut self, text: &'a [u8]) -> &'a [u8] {
+        let mut at = 0;
+        let end = loop {
+            match text.get(at..) {
+                None | Some([]) => break text.len(),
+                Some([b'"', b'"', ..]) => at += 2,
+                Some([b'"', ..]) => break at,
+                Some(_) => at += 1,
+            }
+        };
+        let after = &text[(end + 1).min(text.len())..];
+        let comma = after.iter().position(|&byte| byte == b',');
+        self.rest = comma.map(|comma| &after[comma + 1..]);
+        &text[..end]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Fields;
+
+    #[test]
+    fn commas_in_quotes_part_no_fields_and_a_lost_quote_spoils_only_its_line() {
+        let fields = |line: &'static [u8]| Fields::of(line).collect::<Vec<_>>();
+        assert_eq!(fields(b"a,,\"b,c\",d"), [b"a".as_slice(), b"", b"b,c", b"d"]);
+        assert_eq!(fields(b"\"a\"\"b\",c,"), [b"a\"\"b".as_slice(), b"c", b""]);
+        assert_eq!(fields(b"\"a,b"), [b"a,b".as_slice()]);
+        assert_eq!(fields(b""), [b"".as_slice()]);
+    }
+}

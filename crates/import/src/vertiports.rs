@@ -1,0 +1,129 @@
+//! The vertiports of a network, from a table or from the points of a map.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use crate::Error;
+use crate::features;
+use crate::globe::Place;
+use crate::row::{Column, Row, optional, required};
+use crate::table;
+
+/// The most vertiports that a network takes.
+const MOST: usize = 256;
+/// Stands of a vertiport for which the file gives none.
+pub(crate) const ASSUMED_STANDS: u32 = 4;
+/// The farthest from the equator that a vertiport may lie, degrees.
+const MOST_LATITUDE: f64 = 89.0;
+
+const ID: usize = 0;
+const STANDS: usize = 1;
+const CHARGERS: usize = 2;
+const BUSY: usize = 3;
+const NAME: usize = 4;
+const LATITUDE: usize = 5;
+const LONGITUDE: usize = 6;
+/// The columns of a table, and up to the name the properties of a point.
+const COLUMNS: [Column; 7] = [
+    required(&["id"]),
+    optional(&["stands"]),
+    optional(&["chargers"]),
+    optional(&["busy"]),
+    optional(&["name"]),
+    required(&["latitude"]),
+    required(&["longitude"]),
+];
+
+/// A vertiport as the planner's file gives it.
+#[derive(Debug)]
+pub(crate) struct Vertiport {
+    pub(crate) id: String,
+    pub(crate) place: Place,
+    /// Number of stands, if the file gives it.
+    pub(crate) stands: Option<u32>,
+    pub(crate) chargers: Option<u32>,
+    pub(crate) busy: bool,
+    pub(crate) name: Option<String>,
+}
+
+/// The vertiports in file order, found by id.
+#[derive(Debug, Default)]
+pub(crate) struct Vertiports {
+    pub(crate) list: Vec<Vertiport>,
+    positions: HashMap<String, usize>,
+}
+
+impl Vertiports {
+    /// Reads a CSV table or a GeoJSON file of points.
+    pub(crate) fn read(path: &Path) -> Result<Self, Error> {
+        let mut vertiports = Self::default();
+        // Where each vertiport stands in the file.
+        let mut places = Vec::new();
+        if features::is_geojson(path)? {
+            features::shapes(path, &COLUMNS[..=NAME], |shape| {
+                let place = shape.point()?;
+                if place.latitude.abs() > MOST_LATITUDE {
+                    return Err(shape.wrong("within 89 degrees of the equator"));
+                }
+                vertiports.add(&shape.row, place, &mut places)
+            })?;
+        } else {
+            table::rows(path, &COLUMNS, |row| {
+                let place = row.degrees(LATITUDE, LONGITUDE, MOST_LATITUDE)?;
+                vertiports.add(row, place, &mut places)
+            })?;
+        }
+        if vertiports.list.is_empty() {
+            let origin = path.display().to_string();
+            return Err(Error::Nothing { origin, what: "vertiports" });
+        }
+        Ok(vertiports)
+    }
+
+    fn add(&mut self, row: &Row<'_>, place: Place, places: &mut Vec<usize>) -> Result<(), Error> {
+        let id = row.id(ID)?;
+        let at = self.list.len();
+        if let Some(&before) = self.positions.get(&id) {
+            return Err(row.given_twice(format!("vertiport {id:?}"), places[before]));
+        }
+        if at == MOST {
+            return Err(Error::TooMany {
+                origin: row.origin.to_owned(),
+                what: "the number of vertiports",
+                most: MOST,
+                found: MOST + 1,
+            });
+        }
+        let count = |column| -> Result<Option<u32>, Error> {
+            let count = row.optional_whole(column, 1, 10_000)?;
+            Ok(count.and_then(|count| u32::try_from(count).ok()))
+        };
+        self.list.push(Vertiport {
+            place,
+            stands: count(STANDS)?,
+            chargers: count(CHARGERS)?,
+            busy: row.optional_flag(BUSY)?.unwrap_or(false),
+            name: row.has(NAME).then(|| row.text(NAME)).transpose()?.map(|name| printable(&name)),
+            id: id.clone(),
+        });
+        self.positions.insert(id, at);
+        places.push(row.position);
+        Ok(())
+    }
+
+    /// The position of the vertiport of this id.
+    pub(crate) fn find(&self, id: &str) -> Option<usize> {
+        self.positions.get(id).copied()
+    }
+
+    /// The ids in file order.
+    pub(crate) fn ids(&self) -> impl Iterator<Item = &str> {
+        self.list.iter().map(|vertiport| vertiport.id.as_str())
+    }
+}
+
+/// A text that fits on a line of comment.
+pub(crate) fn printable(text: &str) -> String {
+    let plain = |c: char| if c.is_control() { ' ' } else { c };
+    crate::error::shortened(&text.chars().map(plain).collect::<String>(), 80)
+}

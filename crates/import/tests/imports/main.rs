@@ -1,0 +1,9 @@
+//! What an import promises: networks from every kind of file, the same on every machine, and errors that say what to do.
+
+mod any_input;
+mod errors;
+mod made;
+mod network_file;
+mod parquet_types;
+mod planner;
+mod trips;

@@ -1,0 +1,165 @@
+//! Imports of every kind of file, and the network file that comes out.
+
+use crate::planner::{Folder, VERTIPORTS, line, map, new_york, point, request, run, run_table};
+use vertifleet_core::{Network, VertiportIx};
+use vertifleet_import::Demand;
+
+const TABLE: &str = "\
+from,to,period,passengers
+JRB,JFK,7,14
+JRB,JFK,08:00:00,22.5
+JFK,JRB,7,9
+";
+
+/// The network without its text.
+fn numbers(network: &Network) -> String {
+    format!("{:?} {:?} {:?}", network.vertiports(), network.period_starts(), network.mean_demand())
+}
+
+#[test]
+fn a_table_of_demand_becomes_periods_and_pairs_with_an_empty_period_before_it() {
+    let folder = Folder::new();
+    let imported = run_table(&folder, TABLE).expect("a network");
+    let network = &imported.network;
+    assert_eq!((network.name(), network.vertiports().len()), ("imported", 3));
+    let starts: Vec<String> = network.period_starts().iter().map(ToString::to_string).collect();
+    assert_eq!(starts, ["06:00:00", "07:00:00", "08:00:00"]);
+    let means = network.mean_demand();
+    let of =
+        |period: usize, from, to| means[period][(VertiportIx::new(from), VertiportIx::new(to))];
+    assert_eq!([of(0, 0, 1), of(1, 0, 1), of(2, 0, 1)], [0.0, 14.0, 22.5]);
+    assert_eq!([of(1, 1, 0), of(2, 1, 0), of(1, 0, 2)], [9.0, 0.0, 0.0]);
+    assert_eq!(network.vertiports()[1].chargers, Some(6));
+    assert!(imported.account.is_none());
+    assert_eq!(network.toml(), imported.toml, "what is returned is what was read");
+    assert_eq!(network.fleet_size(), new_york().fleet_size());
+}
+
+#[test]
+fn marks_line_ends_order_of_columns_and_further_columns_change_nothing() {
+    let folder = Folder::new();
+    let plain = run_table(&folder, TABLE).expect("a network");
+    let odd = "\u{feff}passengers,remark,TO,from,period\r\n14,\"a, b\",JFK,JRB,7\r\n\r\n22.5,,JFK, JRB ,8\r\n9.0,,JRB,JFK,7:00:00\r\n";
+    let odd = run_table(&folder, odd).expect("a network");
+    assert_eq!(numbers(&plain.network), numbers(&odd.network));
+    assert_eq!(plain.toml, odd.toml);
+}
+
+#[test]
+fn points_of_a_map_and_rows_of_a_table_give_the_same_vertiports() {
+    let folder = Folder::new();
+    let table = run_table(&folder, TABLE).expect("a network");
+    let of = |text: &str, longitude, latitude| point(text, longitude, latitude);
+    let features = [
+        of(
+            r#""id":"JRB","stands":12,"busy":true,"name":"Downtown Manhattan""#,
+            -74.008_80,
+            40.701_12,
+        ),
+        of(
+            r#""id":"JFK","stands":"20","chargers":6,"busy":false,"name":"Kennedy""#,
+            -73.778_69,
+            40.639_93,
+        ),
+        of(r#""stands":8,"name":"Newark""#, -74.168_69, 40.692_48).replacen(
+            r#""type":"Feature""#,
+            r#""type":"Feature","id":"EWR""#,
+            1,
+        ),
+    ];
+    let (base, places) = (new_york(), folder.file("places.geojson", map(&features)));
+    let demand = folder.path("demand.csv");
+    let from_map = run(&request(&base, &places, Demand::Table(&demand))).expect("a network");
+    assert_eq!(numbers(&table.network), numbers(&from_map.network));
+    // The kind of a file whose name does not say it is seen from its text.
+    let unnamed = folder.file("places", map(&features));
+    let unnamed = run(&request(&base, &unnamed, Demand::Table(&demand))).expect("a network");
+    assert_eq!(numbers(&table.network), numbers(&unnamed.network));
+}
+
+#[test]
+fn stands_that_no_file_gives_are_assumed_and_the_file_says_so() {
+    let folder = Folder::new();
+    let rows = (0..10).map(|n| format!("V{n},40.{n},-74\n")).collect::<Vec<_>>().concat();
+    folder.file("vertiports.csv", format!("id,latitude,longitude\n{rows}"));
+    let imported = run_table(&folder, "from,to,period,passengers\nV0,V1,6,1\n").expect("a network");
+    assert!(imported.network.vertiports().iter().all(|vertiport| vertiport.stands == 4));
+    assert!(imported.toml.contains("# assumption: 4 stands at each of the 10 vertiports"));
+}
+
+/// Everything at once, to be read by people.
+#[test]
+fn the_network_file_says_where_everything_is_from() {
+    let folder = Folder::new();
+    let (base, vertiports) = (new_york(), folder.path("vertiports.csv"));
+    let demand = folder.file("demand.csv", TABLE);
+    let corridors = folder.file(
+        "corridors.geojson",
+        map(&[
+            line(
+                r#""from":"JRB","to":"JFK""#,
+                "[-74.0088,40.70112],[-73.9,40.6],[-73.77869,40.63993]",
+            ),
+            line(r#""from":"EWR","to":"JRB","both_ways":false"#, "[-74.16,40.69],[-74.0088,40.7]"),
+        ]),
+    );
+    let tariffs = folder.file(
+        "fares.csv",
+        "from,to,fare_usd,passenger_cost_usd\nJRB,JFK,120,\nJFK,JRB,110.5,20\nEWR,JRB,,31\n",
+    );
+    let prices = folder
+        .file("prices.csv", "period,price_usd_per_kwh\n0,0.1\n6,0.15\n7,0.2\n8,0.25\n23,0.1\n");
+    let mut request = request(&base, &vertiports, Demand::Table(&demand));
+    request.corridors = Some(&corridors);
+    request.tariffs = Some(&tariffs);
+    request.energy_prices = Some(&prices);
+    let imported = run(&request).expect("a network");
+    insta::assert_snapshot!("network_file", imported.toml);
+}
+
+#[test]
+fn without_prices_of_their_own_periods_have_those_of_the_base_at_their_start() {
+    let folder = Folder::new();
+    let table = "from,to,period,passengers\nJRB,JFK,5,1\nJRB,JFK,11:30:00,1\nJRB,JFK,12,1\nJRB,JFK,22:30:00,1\n";
+    let imported = run_table(&folder, table).expect("a network");
+    assert!(
+        imported.toml.contains("energy_price_usd_per_kwh = [0.18, 0.18, 0.30, 0.18]"),
+        "{}",
+        imported.toml
+    );
+    assert!(imported.toml.contains("fare_factors = [1.0, 1.0, 1.0, 1.0]"));
+    assert!(imported.toml.contains("is the one that new-york has when the period starts"));
+}
+
+#[test]
+fn a_network_can_be_imported_with_every_shipped_network_as_its_base_and_with_an_import() {
+    let folder = Folder::new();
+    let roomy = VERTIPORTS.replace(",12,", ",200,").replace(",20,", ",200,");
+    let vertiports = folder.file("roomy.csv", roomy);
+    let demand = folder.file("demand.csv", TABLE);
+    let mut bases: Vec<Network> = Network::shipped_names().filter_map(Network::shipped).collect();
+    let again = run(&request(&bases[0], &vertiports, Demand::Table(&demand))).expect("a network");
+    let means = again.network.mean_demand();
+    bases.push(again.network);
+    for base in &bases {
+        let request = request(base, &vertiports, Demand::Table(&demand));
+        let (one, other) = (run(&request).expect("a network"), run(&request).expect("a network"));
+        assert_eq!(one.toml, other.toml, "{}", base.name());
+        assert_eq!(one.network.mean_demand(), means);
+        assert_eq!(one.network.aircraft_types(), base.aircraft_types());
+    }
+}
+
+#[test]
+fn members_of_a_base_in_one_line_are_edited_too() {
+    let folder = Folder::new();
+    let text = include_str!("data/in-one-line.toml");
+    let base = Network::from_toml(text, "in-one-line.toml").expect("a network");
+    let vertiports = folder.path("vertiports.csv");
+    let demand = folder.file("demand.csv", TABLE);
+    let tariffs = folder.file("fares.csv", "from,to,fare_usd\nJRB,JFK,120\n");
+    let mut request = request(&base, &vertiports, Demand::Table(&demand));
+    request.tariffs = Some(&tariffs);
+    let imported = run(&request).expect("a network");
+    insta::assert_snapshot!("in_one_line", imported.toml);
+}

@@ -1,0 +1,164 @@
+//! The types that columns of Parquet files may have: all that say the same give the same network.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use parquet::data_type::{
+    ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type, Int96,
+    Int96Type,
+};
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::parser::parse_message_type;
+use vertifleet_core::Coded;
+use vertifleet_import::{Demand, Error, Imported, Trips};
+
+use crate::planner::{Folder, new_york, request, run, run_table, run_trips};
+
+type Group<'a, 'b> = SerializedRowGroupWriter<'a, &'b mut Vec<u8>>;
+
+/// Writes the next column; of an optional column the values are those of the rows where `present` is 1.
+fn column<T: DataType>(group: &mut Group<'_, '_>, values: &[T::T], present: Option<&[i16]>) {
+    let mut column = group.next_column().expect("a file").expect("a column");
+    column.typed::<T>().write_batch(values, present, None).expect("written");
+    column.close().expect("written");
+}
+
+/// A file with one row group.
+fn file(
+    folder: &Folder,
+    name: &str,
+    schema: &str,
+    write: impl FnOnce(&mut Group<'_, '_>),
+) -> PathBuf {
+    let schema = parse_message_type(&format!("message table {{ {schema} }}")).expect("a schema");
+    let mut bytes = Vec::new();
+    let properties = Arc::new(WriterProperties::builder().build());
+    let mut writer =
+        SerializedFileWriter::new(&mut bytes, Arc::new(schema), properties).expect("a file");
+    let mut group = writer.next_row_group().expect("a group");
+    write(&mut group);
+    group.close().expect("written");
+    writer.close().expect("written");
+    folder.file(name, bytes)
+}
+
+fn texts(texts: &[&str]) -> Vec<ByteArray> {
+    texts.iter().map(|&text| text.into()).collect()
+}
+
+/// 2015-06-01 07:30:00 and 08:30:00.
+const SECONDS: [i64; 2] = [1_433_143_800, 1_433_147_400];
+
+fn times(per_second: i64) -> [i64; 2] {
+    SECONDS.map(|second| second * per_second)
+}
+
+/// Imports two trips from zone 12 to Kennedy of which the second has no passengers, with the first column as given.
+fn two_trips(
+    time_type: &str,
+    zone_type: &str,
+    write: impl FnOnce(&mut Group<'_, '_>),
+) -> Result<Imported, Error> {
+    let folder = Folder::new();
+    let zones = folder
+        .file("zones.csv", "zone,latitude,longitude\n12,40.70112,-74.0088\nK,40.63993,-73.77869\n");
+    let schema = format!(
+        "required {time_type}; required {zone_type}; required binary DOLocationID (UTF8); optional float passenger_count;"
+    );
+    let path = file(&folder, "trips.parquet", &schema, |group| {
+        write(group);
+        column::<ByteArrayType>(group, &texts(&["K", "K"]), None);
+        column::<FloatType>(group, &[2.0], Some(&[1, 0]));
+    });
+    let mut trips = Trips::new(vec![&path]);
+    (trips.zones, trips.mode_share) = (Some(zones.as_path()), 1.0);
+    run_trips(&folder, trips)
+}
+
+#[test]
+fn times_and_zones_may_have_any_type_that_says_them() {
+    const ZONE: &str = "int32 PULocationID";
+    let time = |annotation: &str| format!("int64 pickup_datetime ({annotation})");
+    let zone = |group: &mut Group<'_, '_>| column::<Int32Type>(group, &[12, 12], None);
+    let whole = |annotation: &str, per_second| {
+        two_trips(&time(annotation), ZONE, |group| {
+            column::<Int64Type>(group, &times(per_second), None);
+            zone(group);
+        })
+    };
+    let written = |annotation: &str| {
+        two_trips(&format!("binary pickup_datetime{annotation}"), "double PULocationID", |group| {
+            column::<ByteArrayType>(
+                group,
+                &texts(&["2015-06-01 07:30:00", "2015-06-01T08:30"]),
+                None,
+            );
+            column::<DoubleType>(group, &[12.0, 12.0], None);
+        })
+    };
+    let julian = two_trips("int96 pickup_datetime", ZONE, |group| {
+        let day = |second: u64| {
+            let mut time = Int96::new();
+            let nanos = second * 1_000_000_000;
+            #[expect(clippy::cast_possible_truncation, reason = "the halves of a 64-bit number")]
+            time.set_data(nanos as u32, (nanos >> 32) as u32, 2_457_175);
+            time
+        };
+        column::<Int96Type>(group, &[day(27_000), day(30_600)], None);
+        zone(group);
+    });
+    let all = [
+        whole("TIMESTAMP_MILLIS", 1_000),
+        whole("TIMESTAMP_MICROS", 1_000_000),
+        whole("TIMESTAMP(NANOS,false)", 1_000_000_000),
+        whole("TIMESTAMP(MILLIS,true)", 1_000),
+        written(" (UTF8)"),
+        written(""),
+        julian,
+    ];
+    let all: Vec<Imported> = all.into_iter().map(|one| one.expect("a network")).collect();
+    let account = all[0].account.as_ref().expect("an account");
+    assert_eq!((account.kept, account.no_passengers, account.passengers_a_day), (1, 1, 2.0));
+    for one in &all[1..] {
+        assert_eq!(one.toml, all[0].toml);
+    }
+}
+
+#[test]
+fn types_that_say_no_time_or_number_are_refused() {
+    let refused = [
+        two_trips("int64 pickup_datetime", "int32 PULocationID", |group| {
+            column::<Int64Type>(group, &times(1), None);
+            column::<Int32Type>(group, &[12, 12], None);
+        }),
+        two_trips(
+            "int64 pickup_datetime (TIMESTAMP_MILLIS)",
+            "int32 PULocationID (DECIMAL(9,2))",
+            |group| {
+                column::<Int64Type>(group, &times(1_000), None);
+                column::<Int32Type>(group, &[1200, 1200], None);
+            },
+        ),
+    ];
+    for result in refused {
+        assert_eq!(result.expect_err("a wrong type").code().0, 711);
+    }
+}
+
+#[test]
+fn a_table_of_demand_in_parquet_is_the_one_in_csv() {
+    let folder = Folder::new();
+    let csv = run_table(&folder, "period,from,to,passengers\n7,JRB,JFK,14\n8,JFK,JRB,2.5\n")
+        .expect("a network");
+    let schema = "required double passengers; required int32 period; required binary to (UTF8); required binary from (UTF8);";
+    let path = file(&folder, "demand.parquet", schema, |group| {
+        column::<DoubleType>(group, &[14.0, 2.5], None);
+        column::<Int32Type>(group, &[7, 8], None);
+        column::<ByteArrayType>(group, &texts(&["JFK", "JRB"]), None);
+        column::<ByteArrayType>(group, &texts(&["JRB", "JFK"]), None);
+    });
+    let (base, vertiports) = (new_york(), folder.path("vertiports.csv"));
+    let parquet = run(&request(&base, &vertiports, Demand::Table(&path))).expect("a network");
+    assert_eq!(parquet.toml.replace("demand.parquet", "demand.csv"), csv.toml);
+}
