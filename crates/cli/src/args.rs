@@ -1,5 +1,8 @@
 //! The arguments of the command line.
 
+mod network;
+mod planning;
+
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -9,13 +12,15 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use vertifleet_core::Purpose;
 use vertifleet_serve::Role;
 use vertifleet_study::PolicySource;
-use vertifleet_study::sweep::Factor;
 
 use crate::typed::{
-    Speed, parse_count, parse_factor, parse_minutes, parse_model, parse_name, parse_pair,
-    parse_role, parse_seconds, parse_seed, parse_seed_of_a_run, parse_share, parse_speed,
-    parse_split, parse_steps, parse_threads, parse_token_name,
+    Speed, parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_role,
+    parse_seconds, parse_seed, parse_seed_of_a_run, parse_share, parse_speed, parse_split,
+    parse_steps, parse_threads, parse_token_name,
 };
+
+pub(crate) use network::{ImportArguments, NetworkAction, NewArguments};
+pub(crate) use planning::{ExplainArguments, ExportArguments, ExportFormat, SweepArguments};
 
 /// Decides where every electric air taxi of an urban fleet flies next.
 #[derive(Debug, Parser)]
@@ -30,12 +35,17 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Make, check and show network files
+    #[command(subcommand)]
+    Network(NetworkAction),
     /// Draw days of a network as scenario files
     Scenario(ScenarioArguments),
     /// Play a day with one policy
     Simulate(SimulateArguments),
     /// Check a schedule against the rules, independently of the simulator
     Check(CheckArguments),
+    /// Say where a day's money is and is lost, and what one more stand, aircraft, seat or minute would be worth
+    Explain(ExplainArguments),
     /// Write a played or planned day in the formats of other programs
     Export(ExportArguments),
     /// Prove how much a known day can earn at most
@@ -220,48 +230,6 @@ pub(crate) struct CheckArguments {
     pub(crate) json: bool,
 }
 
-/// The formats of other programs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ExportFormat {
-    /// A row for each decision, for spreadsheets
-    Csv,
-    /// The same as columns, for data frames
-    Parquet,
-    /// Flights as lines with times, for maps
-    Geojson,
-    /// A feed for tools of public transport
-    Gtfs,
-    /// A calendar for each vertiport
-    Icalendar,
-    /// A picture of the day: map, aircraft, stands, demand
-    Svg,
-    /// The same picture as pixels
-    Png,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct ExportArguments {
-    /// Scenario file
-    pub(crate) scenario: PathBuf,
-    /// Trace of the day, as simulate --trace or plan writes it
-    pub(crate) trace: PathBuf,
-    /// The format
-    #[arg(long = "as", value_name = "FORMAT")]
-    pub(crate) format: ExportFormat,
-    /// The file; for icalendar the folder
-    #[arg(short, long, value_name = "FILE|DIR")]
-    pub(crate) output: PathBuf,
-    /// The date of the day; geojson, gtfs and icalendar need it
-    #[arg(long, value_name = "YYYY-MM-DD")]
-    pub(crate) date: Option<String>,
-    /// The time zone of the day's clock, by its name in the IANA database
-    #[arg(long, value_name = "ZONE", default_value = "UTC", requires = "date")]
-    pub(crate) time_zone: String,
-    /// Replace a file that this program did not write or that is read-only; never what the command reads
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
 #[derive(Debug, Args)]
 pub(crate) struct BoundArguments {
     /// Scenario file; several of them, or a folder with them (all *.json), give means over days too
@@ -414,49 +382,6 @@ pub(crate) struct GeneraliseArguments {
     pub(crate) step: u32,
     #[command(flatten)]
     pub(crate) presented: PresentedArguments,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct SweepArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
-    pub(crate) network: String,
-    /// A member of the network file and its values, as fleet.0.count=30..50/5 or tariffs.fare_level=0.8,1,1.2; may be given
-    /// several times
-    #[arg(long, value_name = "PATH=VALUES", required = true, value_parser = parse_factor)]
-    pub(crate) vary: Vec<Factor>,
-    /// Draw a Latin hypercube of this many cells in place of all combinations; ranges then need no step
-    #[arg(long, value_name = "CELLS")]
-    pub(crate) latin: Option<usize>,
-    /// Policies, separated by commas, as compare takes them; designs are judged by the first
-    #[arg(long, value_delimiter = ',', default_value = "gcaps-x", value_parser = parse_name)]
-    pub(crate) policies: Vec<String>,
-    /// Number of days of each cell
-    #[arg(long, default_value_t = 20, allow_hyphen_values = true, value_parser = parse_count)]
-    pub(crate) days: u32,
-    /// Seed of the first day, of the random policy and of the Latin hypercube
-    #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed)]
-    pub(crate) seed: u64,
-    /// Whose days: comparison, validation or training; with the latter two, the seed is the number of the first day
-    #[arg(long, default_value = "comparison", value_parser = parse_split)]
-    pub(crate) split: Purpose,
-    /// Weights for a policy name; may be given several times
-    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
-    pub(crate) models: Vec<(String, PolicySource)>,
-    /// Prove an upper bound of every day
-    #[arg(long)]
-    pub(crate) bound: bool,
-    /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer never give looser bounds, and take longer
-    #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
-    pub(crate) step: u32,
-    /// Folder of the sweep: finished cells, tables, figures and a report page; a sweep that ended early goes on in it
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
-    /// Print the results as JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Replace another sweep in the folder
-    #[arg(long)]
-    pub(crate) force: bool,
 }
 
 #[derive(Debug, Args)]

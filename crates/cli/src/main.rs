@@ -32,6 +32,7 @@ fn main() -> ExitCode {
 
 fn run(command: Command) -> Result<ExitCode, failure::Failure> {
     match command {
+        Command::Network(action) => commands::network::run(&action),
         Command::Scenario(arguments) => commands::scenario::run(&arguments),
         Command::Simulate(arguments) => commands::simulate::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
@@ -40,6 +41,7 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
         Command::Train(arguments) => commands::train::run(&arguments),
         Command::Compare(arguments) => commands::compare::run(&arguments),
         Command::Generalise(arguments) => commands::generalise::run(&arguments),
+        Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Export(arguments) => commands::export::run(&arguments),
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Evaluate(arguments) => commands::evaluate::run(&arguments),

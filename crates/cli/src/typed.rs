@@ -1,8 +1,11 @@
 //! Parses the values of arguments one by one. The error of a value that does not fit says what is expected.
 
+use std::fmt::Display;
+use std::str::FromStr;
 use std::time::Duration;
 
 use vertifleet_core::{Coded as _, Purpose};
+use vertifleet_import::NewVertiport;
 use vertifleet_serve::Role;
 use vertifleet_study::sweep::Factor;
 use vertifleet_study::{MOST_DAYS, PolicySource};
@@ -25,6 +28,29 @@ pub(crate) fn parse_factor(text: &str) -> Result<Factor, String> {
     Factor::parse(text).map_err(|error| {
         let hint = error.hint().map_or_else(String::new, |hint| format!("; {hint}"));
         format!("{error}{hint}")
+    })
+}
+
+/// A value of a type that reads itself and says what it expects.
+pub(crate) fn parse_known<T: FromStr<Err: Display>>(text: &str) -> Result<T, String> {
+    text.parse().map_err(|error: T::Err| error.to_string())
+}
+
+/// A vertiport as `ID,LATITUDE,LONGITUDE` with the number of its stands behind it, or else 4.
+pub(crate) fn parse_vertiport(text: &str) -> Result<NewVertiport, String> {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let (&[id, latitude, longitude], stands) = (match parts.as_slice() {
+        [place @ .., stands] if parts.len() == 4 => (place, *stands),
+        place => (place, "4"),
+    }) else {
+        return Err("expected ID,LATITUDE,LONGITUDE or ID,LATITUDE,LONGITUDE,STANDS".to_owned());
+    };
+    let number = |text: &str| text.parse().map_err(|_| format!("{text:?} is no number of degrees"));
+    Ok(NewVertiport {
+        id: id.to_owned(),
+        latitude: number(latitude)?,
+        longitude: number(longitude)?,
+        stands: stands.parse().map_err(|_| format!("{stands:?} is no number of stands"))?,
     })
 }
 

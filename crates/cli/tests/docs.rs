@@ -13,9 +13,11 @@ use vertifleet_learn::{ImitationSettings, TrainingSettings};
 type Names = BTreeSet<String>;
 
 const COMMANDS: &[&str] = &[
+    "network",
     "scenario",
     "simulate",
     "check",
+    "explain",
     "export",
     "bound",
     "plan",
@@ -30,6 +32,11 @@ const COMMANDS: &[&str] = &[
 
 /// Commands within commands.
 const SUBCOMMANDS: &[&str] = &[
+    "network import",
+    "network check",
+    "network show",
+    "network new",
+    "network diff",
     "serve token make",
     "serve token list",
     "serve token revoke",
@@ -264,7 +271,13 @@ fn the_command_reference_lists_the_flags_that_help_lists() {
         let section = section(&format!("vertifleet {command}"));
         let mut listed = flags_in_section(&section);
         listed.extend(everywhere.iter().cloned());
-        assert_eq!(listed, flags_in_help(&help(&[command, "--help"])), "{command}");
+        let mut known = flags_in_help(&help(&[command, "--help"]));
+        let inner = SUBCOMMANDS.iter().filter(|inner| inner.starts_with(&format!("{command} ")));
+        for inner in inner {
+            let words: Vec<&str> = inner.split(' ').chain(["--help"]).collect();
+            known.extend(flags_in_help(&help(&words)));
+        }
+        assert_eq!(listed, known, "{command}");
         assert!(help_of_the_program.contains(&format!("\n  {command} ")), "{command} is a command");
     }
     let (_, listed) = help_of_the_program.split_once("Commands:\n").expect("a list of commands");

@@ -28,8 +28,19 @@ pub(crate) fn corridors(
     distance_mi: &mut Matrix<f64>,
     origin: &str,
 ) -> Result<Vec<Route>, Error> {
-    each(raw, |corridor, at| {
-        let RawCorridor { from, to, both_ways, length_mi } = corridor;
+    each(raw, |corridor, at| corridor.check(at, places, distance_mi, origin))
+}
+
+impl RawCorridor {
+    /// Checks the corridor at a position of the list, and puts its length in place of the straight distance.
+    pub(crate) fn check(
+        self,
+        at: usize,
+        places: &Positions,
+        distance_mi: &mut Matrix<f64>,
+        origin: &str,
+    ) -> Result<Route, Error> {
+        let Self { from, to, both_ways, length_mi } = self;
         let member = format!("corridors[{at}]");
         let route = RawRoute { from, to, both_ways }.check(places, &member, origin)?;
         let Some(length_mi) = length_mi.filter(|_| route.from != route.to) else {
@@ -52,5 +63,5 @@ pub(crate) fn corridors(
             distance_mi[(route.to, route.from)] = length_mi;
         }
         Ok(route)
-    })
+    }
 }

@@ -23,6 +23,7 @@ mod code;
 mod corridors;
 mod demand_model;
 mod demand_table;
+mod differences;
 mod disturbance_model;
 mod disturbances;
 mod draw;
@@ -60,6 +61,7 @@ mod write;
 
 pub use closed_times::{ClosedSpan, ClosedTimes};
 pub use code::{Code, Coded, Exit};
+pub use differences::Difference;
 pub use disturbances::{Closure, Disturbances, Outage, Route, TakeoffDelays};
 pub use error::Error;
 pub use fares::Fares;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::demand_model::DemandModel;
+use crate::demand_model::{DemandModel, to_whole};
 use crate::disturbance_model::{DelayModel, DisturbanceModel};
 use crate::{
     AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Time, Vertiport,
@@ -53,6 +53,17 @@ impl Network {
             network_file::network(parse::utf8(&text, &origin)?, path.parent(), &origin)?;
         network.files.push(path.to_owned());
         Ok(network)
+    }
+
+    /// Every error of a network file that can be told at once, for people who are writing one; none if it can be read.
+    ///
+    /// # Errors
+    /// The file cannot be read, is no text, or is too long.
+    pub fn findings(path: impl AsRef<Path>) -> Result<Vec<Error>, Error> {
+        let path = path.as_ref();
+        let origin = files::origin(path);
+        let text = files::read_at_most(path, files::LONGEST_NETWORK)?;
+        Ok(network_file::findings(parse::utf8(&text, &origin)?, path.parent(), &origin))
     }
 
     /// Reads and checks the text of a network file, which must not name a table beside it. `origin` stands for the file
@@ -189,6 +200,17 @@ impl Network {
     /// setting makes flights late. The delays of slots and vertiports are independent.
     pub fn takeoff_delay_probabilities(&self) -> Option<Vec<Vec<f64>>> {
         self.disturbances.takeoff_delays.as_ref().map(DelayModel::probabilities)
+    }
+
+    /// The day on which everything is as its mean: demand is rounded to whole passengers, nothing is late, closed or out of
+    /// service but what is so every day, and aircraft stand anywhere that is allowed. For pictures and tables.
+    pub fn mean_day(&self) -> Scenario {
+        let mut day = self.idle_day.clone().into_day();
+        day.name.clone_from(&self.name);
+        for (table, means) in day.demand.iter_mut().zip(self.mean_demand()) {
+            *table = Matrix::from_fn(means.size(), |from, to| to_whole(means[(from, to)]));
+        }
+        Scenario::checked(day)
     }
 
     /// Mean passengers by period (of Eq. 1 on `paper`), around which the demand of days is drawn.

@@ -1,5 +1,7 @@
 //! Reads the network file, TOML of format `vertifleet-network/1`, into a checked [`Network`].
 
+mod findings;
+
 use std::path::Path;
 
 use serde::Deserialize;
@@ -21,6 +23,8 @@ use crate::{
     Aircraft, AircraftType, Day, Disturbances, Error, Matrix, Network, TypeIx, Vertiport,
     VertiportIx, check, demand_table, files, parse,
 };
+
+pub(crate) use findings::findings;
 
 const FORMAT: &str = "vertifleet-network/1";
 
@@ -178,6 +182,19 @@ struct DemandModels {
 }
 
 impl DemandModels {
+    /// Number of models that are given.
+    fn count(&self) -> usize {
+        [
+            self.equation_1.is_some(),
+            self.daily.is_some(),
+            self.hourly.is_some(),
+            self.uniform.is_some(),
+        ]
+        .into_iter()
+        .filter(|&given| given)
+        .count()
+    }
+
     /// Checks and returns the one that the file has.
     fn the_one(
         self,
@@ -185,7 +202,7 @@ impl DemandModels {
         places: &Positions,
         origin: &str,
     ) -> Result<DemandModel, Error> {
-        let size = vertiports.len();
+        let (size, found) = (vertiports.len(), self.count());
         match (self.equation_1, self.daily, self.hourly, self.uniform) {
             (Some(raw), None, None, None) => {
                 raw.check(vertiports.iter().map(|vertiport| vertiport.busy).collect(), origin)
@@ -193,14 +210,11 @@ impl DemandModels {
             (None, Some(raw), None, None) => raw.check(size, origin),
             (None, None, Some(raw), None) => raw.check(places, size, origin),
             (None, None, None, Some(raw)) => raw.check(size, origin),
-            (equation_1, daily, hourly, uniform) => Err(Error::NotOneOf {
+            _ => Err(Error::NotOneOf {
                 origin: origin.to_owned(),
                 member: "the network".to_owned(),
                 choices: "exactly one of demand, daily_demand, hourly_demand and uniform_demand",
-                found: [equation_1.is_some(), daily.is_some(), hourly.is_some(), uniform.is_some()]
-                    .into_iter()
-                    .filter(|&given| given)
-                    .count(),
+                found,
             }),
         }
     }

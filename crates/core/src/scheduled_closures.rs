@@ -34,9 +34,7 @@ pub(crate) fn closures(
 ) -> Result<Vec<Closure>, Error> {
     let mut closures = Vec::new();
     for (at, raw) in raw.into_iter().enumerate() {
-        let (start, end, known) = (raw.start, raw.end, raw.known);
-        let routes = raw.routes(&format!("closures[{at}]"), places, vertiports, origin)?;
-        closures.extend(routes.into_iter().map(|route| Closure { route, start, end, known }));
+        closures.extend(raw.check(at, places, vertiports, origin)?);
         // The length is checked as the list grows, because each vertiport of a closure stands for many routes.
         at_most(closures.len(), origin)?;
     }
@@ -53,6 +51,19 @@ pub(crate) fn at_most(found: usize, origin: &str) -> Result<(), Error> {
 }
 
 impl RawScheduledClosure {
+    /// Checks the closure at a position of the list, and returns one for each route that it closes.
+    pub(crate) fn check(
+        self,
+        at: usize,
+        places: &Positions,
+        vertiports: &[Vertiport],
+        origin: &str,
+    ) -> Result<Vec<Closure>, Error> {
+        let (start, end, known) = (self.start, self.end, self.known);
+        let routes = self.routes(&format!("closures[{at}]"), places, vertiports, origin)?;
+        Ok(routes.into_iter().map(|route| Closure { route, start, end, known }).collect())
+    }
+
     /// The routes that the entry closes.
     fn routes(
         self,

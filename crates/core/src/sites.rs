@@ -23,7 +23,7 @@ pub(crate) struct Sites {
 }
 
 /// A vertiport of the network file.
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of a vertiport")]
 pub(crate) struct RawSite {
     id: String,
@@ -40,7 +40,7 @@ pub(crate) struct RawSite {
 
 /// A position, given in one of two ways.
 #[derive(Clone, Copy)]
-enum Position {
+pub(crate) enum Position {
     /// Miles east and north.
     Plane(f64, f64),
     Globe(Degrees),
@@ -104,7 +104,8 @@ impl RawSite {
         &self.id
     }
 
-    fn check(
+    /// Checks the vertiport at a position of the list.
+    pub(crate) fn check(
         self,
         at: usize,
         costs: SiteCosts,

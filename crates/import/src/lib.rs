@@ -16,6 +16,7 @@ mod features;
 mod globe;
 mod hourly_demand;
 mod network_text;
+mod new_network;
 mod parquet_file;
 mod row;
 mod table;
@@ -34,6 +35,7 @@ use vertiports::Vertiports;
 
 pub use date_time::{Date, NotADate, Weekday, Weekdays};
 pub use error::Error;
+pub use new_network::{NewNetwork, NewVertiport};
 pub use trips::{TripAccount, TripColumns, Trips};
 
 /// What to import.

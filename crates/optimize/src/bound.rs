@@ -163,6 +163,21 @@ impl Bound {
         money::usd(prices.step_by(self.size()).sum())
     }
 
+    /// The same price by demand period, dollars; slices lie within one period each, so the prices of periods add up to
+    /// that of the whole day.
+    pub fn stand_shadow_prices_by_period_usd(
+        &self,
+        vertiport: VertiportIx,
+        periods: usize,
+    ) -> Vec<f64> {
+        let mut micro_usd = vec![0; periods];
+        let prices = self.prices.stand.iter().skip(vertiport.at()).step_by(self.size());
+        for (slice, price) in prices.enumerate() {
+            micro_usd[self.slices.period(slice)] += price;
+        }
+        micro_usd.into_iter().map(money::usd).collect()
+    }
+
     /// With one more passenger of a demand period, no schedule earns more than the bound plus this amount in dollars.
     /// It is the passenger's price, or the whole margin of a passenger where fewer want to fly than an aircraft has
     /// seats.

@@ -18,8 +18,10 @@ use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 
 /// The beginning of every picture, of ours and of others.
-const SVG_FILE: OutputKind = OutputKind { name: "SVG picture", skipped: 0, opening: "<svg xmlns=" };
-const PNG_FILE: OutputKind = OutputKind { name: "PNG picture", skipped: 1, opening: "PNG\r\n" };
+pub(crate) const SVG_FILE: OutputKind =
+    OutputKind { name: "SVG picture", skipped: 0, opening: "<svg xmlns=" };
+pub(crate) const PNG_FILE: OutputKind =
+    OutputKind { name: "PNG picture", skipped: 1, opening: "PNG\r\n" };
 
 pub(crate) fn run(arguments: &ExportArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;

@@ -1,0 +1,57 @@
+//! `vertifleet explain`: where a day's money is, and what one thing more would be worth.
+
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::OnceLock;
+
+use anstream::eprintln;
+use vertifleet_core::{Code, Outputs, Stop, write_atomically};
+use vertifleet_optimize::Step;
+use vertifleet_progress::Bar;
+use vertifleet_study::explain::{PAGE, explain};
+use vertifleet_study::{PolicySpec, ResolveFor};
+
+use crate::args::ExplainArguments;
+use crate::commands::{read_scenario, reads_models};
+use crate::failure::Failure;
+use crate::interrupt::end_on_interrupt;
+use crate::output::{print, warn};
+
+pub(crate) fn run(arguments: &ExplainArguments) -> Result<ExitCode, Failure> {
+    end_on_interrupt()?;
+    let scenario = Arc::new(read_scenario(&arguments.scenario)?);
+    let spec = PolicySpec::parse(&arguments.policy)?;
+    let days = ResolveFor::Day(&scenario);
+    let policy = spec.resolve(arguments.model.as_ref(), days, arguments.seed)?;
+    policy.check_fits(&scenario)?;
+    let mut outputs = Outputs::new(arguments.force);
+    outputs.reads(&arguments.scenario);
+    reads_models(&arguments.model, &mut outputs);
+    if let Some(replayed) = spec.replayed() {
+        outputs.reads(replayed);
+    }
+    outputs.prints();
+    if let Some(page) = &arguments.report {
+        outputs.writes(page, &PAGE)?;
+    }
+    if let Some(warning) = policy.warning_for(spec.name(), &scenario) {
+        warn(Code(310), &warning);
+    }
+    let step = Step::from_minutes(arguments.step)?;
+    let bar = OnceLock::new();
+    // Ctrl-C ends the program itself, so the work is never asked to stop.
+    let explanation =
+        explain(&scenario, spec.name(), &policy, step, &Stop::default(), &|changes| {
+            let bar: &Bar = bar.get_or_init(|| Bar::new(changes as u64, "changes"));
+            if changes == 0 {
+                bar.advance(1);
+            }
+        })?;
+    drop(bar);
+    if let Some(page) = &arguments.report {
+        write_atomically(page, explanation.page().as_bytes())?;
+        eprintln!("report: {}", page.display());
+    }
+    print(&if arguments.json { explanation.to_json() } else { explanation.text() })?;
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,92 @@
+//! What two network files say differently, by the paths that changes and sweeps take.
+
+use serde::Serialize;
+use toml::Value;
+
+use crate::Network;
+
+/// A member that two network files say differently.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Difference {
+    /// Where it is: `vertiports.JFK.stands`.
+    pub path: String,
+    /// What the first file says; `None` if it does not have the member.
+    pub before: Option<String>,
+    /// What the second file says.
+    pub after: Option<String>,
+}
+
+impl Network {
+    /// What another network's file says differently, in the order of this one's file. Comments and the order of members do
+    /// not count, nor does the order of vertiports and aircraft types, which have names.
+    pub fn differences(&self, other: &Self) -> Vec<Difference> {
+        let read = |network: &Self| -> Value {
+            toml::from_str(network.toml()).expect("the text has been read before")
+        };
+        let mut found = Vec::new();
+        compare(String::new(), Some(&read(self)), Some(&read(other)), &mut found);
+        found
+    }
+}
+
+fn compare(
+    path: String,
+    before: Option<&Value>,
+    after: Option<&Value>,
+    found: &mut Vec<Difference>,
+) {
+    let inside =
+        |part: &str| if path.is_empty() { part.to_owned() } else { format!("{path}.{part}") };
+    match (before, after) {
+        (Some(before), Some(after)) if before == after => {}
+        (Some(Value::Table(before)), Some(Value::Table(after))) => {
+            let added = after.keys().filter(|name| !before.contains_key(*name));
+            for name in before.keys().chain(added) {
+                compare(inside(name), before.get(name), after.get(name), found);
+            }
+        }
+        (Some(Value::Array(before)), Some(Value::Array(after))) => {
+            let Some((before, after)) = named(before).zip(named(after)) else {
+                return compare_positions(&path, before, after, found);
+            };
+            let added = after.iter().filter(|(name, _)| !before.iter().any(|one| one.0 == *name));
+            for &(name, _) in before.iter().chain(added) {
+                let one = before.iter().find(|one| one.0 == name).map(|one| one.1);
+                let other = after.iter().find(|one| one.0 == name).map(|one| one.1);
+                compare(inside(name), one, other, found);
+            }
+        }
+        (before, after) => {
+            let text =
+                |value: Option<&Value>| value.map(|value| value.to_string().trim().to_owned());
+            found.push(Difference { path, before: text(before), after: text(after) });
+        }
+    }
+}
+
+/// Lists of numbers are one difference, since the place of an entry says little; other lists are compared entry by entry.
+fn compare_positions(path: &str, before: &[Value], after: &[Value], found: &mut Vec<Difference>) {
+    let are_plain = |list: &[Value]| list.iter().all(|value| !value.is_table());
+    if are_plain(before) && are_plain(after) {
+        let text = |list: &[Value]| Some(Value::Array(list.to_vec()).to_string());
+        let (before, after) = (text(before), text(after));
+        found.push(Difference { path: path.to_owned(), before, after });
+        return;
+    }
+    for at in 0..before.len().max(after.len()) {
+        compare(format!("{path}.{at}"), before.get(at), after.get(at), found);
+    }
+}
+
+/// The entries of a list by their ids (or, in the fleet, types), if all have one and no two the same.
+fn named(list: &[Value]) -> Option<Vec<(&str, &Value)>> {
+    let mut entries = Vec::new();
+    for entry in list {
+        let name = entry.get("id").or_else(|| entry.get("type"))?.as_str()?;
+        if entries.iter().any(|&(before, _)| before == name) {
+            return None;
+        }
+        entries.push((name, entry));
+    }
+    Some(entries)
+}

@@ -1,0 +1,92 @@
+//! Every finding about a network file at once, for people who are writing one.
+//!
+//! Reading stops at the first error, because later checks rely on earlier ones. Here each entry of each list is checked by
+//! itself, and what refers to vertiports is checked if these are sound. A text that cannot be parsed has one finding.
+
+use std::path::Path;
+
+use super::{DemandModels, FORMAT, RawNetwork, fleet, name, network, time_zone};
+use crate::raw::Positions;
+use crate::sites::Sites;
+use crate::{Error, parse};
+
+/// The errors that have been found.
+struct Found(Vec<Error>);
+
+impl Found {
+    /// Keeps the error, or returns what was checked.
+    fn check<T>(&mut self, outcome: Result<T, Error>) -> Option<T> {
+        outcome.map_err(|error| self.0.push(error)).ok()
+    }
+}
+
+/// Every error of the text of a network file that can be told at once; none if it can be read.
+pub(crate) fn findings(text: &str, folder: Option<&Path>, origin: &str) -> Vec<Error> {
+    let Err(first) = network(text, folder, origin) else { return Vec::new() };
+    let text = text.strip_prefix(parse::MARK).unwrap_or(text);
+    let Ok(raw) = parse::toml::<RawNetwork>(text, FORMAT, origin) else { return vec![first] };
+    let mut found = Found(Vec::new());
+    raw.findings(&mut found, origin);
+    // What only shows in the whole, such as distances or a table of demand, comes last.
+    let said = first.to_string();
+    if found.0.iter().all(|error| error.to_string() != said) {
+        found.0.push(first);
+    }
+    found.0
+}
+
+impl RawNetwork {
+    fn findings(self, found: &mut Found, origin: &str) {
+        found.check(name(&self.name, origin));
+        found.check(self.time_zone.as_deref().map_or(Ok(()), |zone| time_zone(zone, origin)));
+        found.check(self.operations.check(origin));
+        let types = self.aircraft_types.len();
+        let kinds: Vec<_> = self
+            .aircraft_types
+            .into_iter()
+            .enumerate()
+            .filter_map(|(at, raw)| found.check(raw.check(at, origin)))
+            .collect();
+        let costs = self.tariffs.site_costs_usd();
+        let before = found.0.len();
+        for (at, site) in self.vertiports.iter().enumerate() {
+            found.check(site.clone().check(at, costs, origin));
+        }
+        if found.0.len() > before {
+            return;
+        }
+        let Some(Sites { vertiports, mut distance_mi }) =
+            found.check(Sites::of(self.vertiports, costs, origin))
+        else {
+            return;
+        };
+        let Some(places) = found.check(Positions::of_vertiports(&vertiports, origin)) else {
+            return;
+        };
+        if kinds.len() == types {
+            found.check(fleet(&self.fleet, &kinds, &vertiports, origin));
+        }
+        for (at, raw) in self.corridors.into_iter().flatten().enumerate() {
+            found.check(raw.check(at, &places, &mut distance_mi, origin));
+        }
+        for (at, raw) in self.closures.into_iter().enumerate() {
+            found.check(raw.check(at, &places, &vertiports, origin));
+        }
+        found.check(self.disturbances.check(&places, vertiports.len(), origin));
+        found.check(self.market.check(&places, vertiports.len(), origin));
+        found.check(self.feature_scales.map_or(Ok(()), |raw| raw.check(origin).map(|_| ())));
+        let models = DemandModels {
+            equation_1: self.demand,
+            daily: self.daily_demand,
+            // A table beside the file is read with the whole file.
+            hourly: self.hourly_demand.filter(|hourly| hourly.table.is_none()),
+            uniform: self.uniform_demand,
+        };
+        let is_given = models.count() > 0;
+        if let Some(demand) =
+            is_given.then(|| found.check(models.the_one(&vertiports, &places, origin))).flatten()
+        {
+            found.check(self.tariffs.check(demand.periods.len(), &places, origin));
+        }
+    }
+}

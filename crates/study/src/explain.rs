@@ -1,0 +1,137 @@
+//! Where a day's money is, and where it is lost: demand that is spilled, stands that are full, aircraft that wait; and what
+//! one more stand, aircraft, seat or a minute less would be worth on this day.
+//!
+//! What a change is worth is measured by solving the changed day again, once by the policy and once by the bound. The
+//! policy's difference is that of a single day, which chance moves by more than most changes are worth; the bound's is that
+//! of what is possible. A [sweep](crate::sweep) measures changes over many days.
+
+mod losses;
+mod page;
+mod table;
+mod usage;
+mod worth;
+
+use std::sync::Arc;
+
+use rayon::prelude::{IntoParallelIterator, ParallelIterator};
+use serde::Serialize;
+use vertifleet_core::{OutputKind, Scenario, Stop};
+use vertifleet_optimize::{Bound, Step, upper_bound_unless};
+use vertifleet_sim::{DayTotals, Trace};
+
+use crate::error::Error;
+use crate::resolved_policy::ResolvedPolicy;
+
+pub use losses::{PairLoss, PeriodLoss};
+pub use usage::{AircraftUse, VertiportUse};
+pub use worth::Worth;
+
+/// The format of the explanation as JSON.
+pub const FORMAT: &str = "vertifleet-explanation/1";
+
+/// The beginning of every page of an explanation.
+pub const PAGE: OutputKind = OutputKind {
+    name: "explanation of a day",
+    skipped: 0,
+    opening: "<!DOCTYPE html>\n<!-- vertifleet-explanation/",
+};
+
+/// A day, explained.
+#[derive(Debug, Clone, Serialize)]
+pub struct Explanation {
+    /// [`FORMAT`].
+    pub format: &'static str,
+    /// The name of the day.
+    pub day: String,
+    /// The policy that played it.
+    pub policy: String,
+    /// The numbers of the day.
+    pub totals: DayTotals,
+    /// What no schedule of the day can pass, dollars.
+    pub upper_bound_usd: f64,
+    /// The length of the bound's slices, seconds.
+    pub bound_step_s: u32,
+    /// Demand served and spilled by period.
+    pub periods: Vec<PeriodLoss>,
+    /// Demand served and spilled by pair, the pair with the most money spilled first.
+    pub pairs: Vec<PairLoss>,
+    /// How full the vertiports were, and what their stands are worth.
+    pub vertiports: Vec<VertiportUse>,
+    /// What every aircraft did.
+    pub aircraft: Vec<AircraftUse>,
+    /// What changes of the day are worth, by kind.
+    pub worth: Vec<Worth>,
+    #[serde(skip)]
+    trace: Trace,
+    #[serde(skip)]
+    scenario: Arc<Scenario>,
+}
+
+/// Plays a day with a policy, bounds it, and solves it again with one thing more or less at a time.
+///
+/// # Errors
+/// Returns an error if the policy cannot play the day or the day is too large for a bound, and [`Error::Stopped`] soon
+/// after `stop` is requested.
+pub fn explain(
+    scenario: &Arc<Scenario>,
+    name: &str,
+    policy: &ResolvedPolicy,
+    step: Step,
+    stop: &Stop,
+    solved: &(impl Fn(usize) + Sync),
+) -> Result<Explanation, Error> {
+    let (trace, totals) = policy.play(name, scenario, stop)?;
+    let bound = bound_of(scenario, step, stop)?;
+    let changes = worth::changes(scenario, &bound);
+    solved(changes.len());
+    // A replay knows nothing of other days.
+    let plays_again = !matches!(policy, ResolvedPolicy::Replay(_));
+    let solve = |(change, day): (String, Arc<Scenario>)| {
+        let again = plays_again.then(|| policy.play(name, &day, stop)).transpose()?;
+        let bounded = bound_of(&day, step, stop)?;
+        solved(0);
+        Ok(Worth {
+            change,
+            policy_usd: again.map(|(_, again)| again.profit_usd - totals.profit_usd),
+            bound_usd: bounded.upper_bound_usd() - bound.upper_bound_usd(),
+        })
+    };
+    let worth = changes.into_par_iter().map(solve).collect::<Result<Vec<Worth>, Error>>()?;
+    Ok(Explanation {
+        format: FORMAT,
+        day: scenario.name.clone(),
+        policy: name.to_owned(),
+        totals,
+        upper_bound_usd: bound.upper_bound_usd(),
+        bound_step_s: bound.step_s(),
+        periods: losses::by_period(scenario, &trace.rows),
+        pairs: losses::by_pair(scenario, &trace.rows),
+        vertiports: usage::of_vertiports(scenario, &trace.rows, &bound),
+        aircraft: usage::of_aircraft(scenario, &trace.rows),
+        worth,
+        trace,
+        scenario: Arc::clone(scenario),
+    })
+}
+
+impl Explanation {
+    /// The explanation as text for a terminal.
+    pub fn text(&self) -> String {
+        table::text(self)
+    }
+
+    /// The explanation as JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("plain data")
+    }
+
+    /// The explanation as a page: the ledger, a picture of the day, and all tables.
+    pub fn page(&self) -> String {
+        let picture = vertifleet_picture::schedule(&self.scenario, &self.trace.rows);
+        page::text(self, &picture)
+    }
+}
+
+fn bound_of(scenario: &Scenario, step: Step, stop: &Stop) -> Result<Bound, Error> {
+    upper_bound_unless(stop, scenario, step)?.ok_or(Error::Stopped)
+}

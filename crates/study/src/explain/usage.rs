@@ -1,0 +1,125 @@
+//! What aircraft and stands were used for.
+
+use serde::Serialize;
+use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
+use vertifleet_optimize::Bound;
+use vertifleet_sim::TraceRow;
+
+const HOUR_S: f64 = 3_600.0;
+
+/// How full a vertiport was, from the start to the end of operations.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VertiportUse {
+    /// Its id.
+    pub id: String,
+    /// Aircraft that it has room for: stands and chargers.
+    pub room: u32,
+    /// Flights that left.
+    pub departures: u32,
+    /// Flights that came.
+    pub arrivals: u32,
+    /// Mean share of the room that was taken by aircraft there or on their way there.
+    pub taken_share: f64,
+    /// Share of the time in which all of it was taken.
+    pub full_share: f64,
+    /// Shadow price of one more stand all day, dollars: by how much the bound rises at most.
+    pub stand_shadow_price_usd: f64,
+    /// The same by demand period, dollars.
+    pub stand_shadow_price_by_period_usd: Vec<f64>,
+}
+
+/// What an aircraft did, from the start to the end of operations.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AircraftUse {
+    /// Its id.
+    pub id: String,
+    /// Its type.
+    pub kind: String,
+    /// Flights.
+    pub flights: u32,
+    /// Flights without passengers.
+    pub repositioning_flights: u32,
+    /// Hours from decisions to fly until arrivals.
+    pub flying_h: f64,
+    /// Hours of charging.
+    pub charging_h: f64,
+    /// All other hours of operations: on a stand, charged.
+    pub waiting_h: f64,
+    /// Profit of its flights, dollars.
+    pub profit_usd: f64,
+}
+
+/// The use of every vertiport.
+pub(super) fn of_vertiports(day: &Scenario, rows: &[TraceRow], bound: &Bound) -> Vec<VertiportUse> {
+    VertiportIx::all(day.vertiports.len()).map(|at| of_vertiport(day, rows, bound, at)).collect()
+}
+
+fn of_vertiport(day: &Scenario, rows: &[TraceRow], bound: &Bound, at: VertiportIx) -> VertiportUse {
+    let vertiport = &day.vertiports[at.at()];
+    let room = u32::from(vertiport.stands) + u32::from(vertiport.chargers.unwrap_or(0));
+    let there = day.aircraft.iter().filter(|aircraft| aircraft.at == at).count();
+    let mut taken = i64::try_from(there).expect("a fleet is small");
+    let (start, end) = (day.operations.start, day.operations.end);
+    let (mut since, mut taken_s, mut full_s) = (start, 0.0, 0.0);
+    let (mut departures, mut arrivals) = (0, 0);
+    let mut pass = |since: Time, until: Time, taken: i64| {
+        let lasts_s = f64::from(until.seconds().saturating_sub(since.seconds()));
+        taken_s += taken as f64 * lasts_s;
+        full_s += if taken >= i64::from(room) { lasts_s } else { 0.0 };
+    };
+    for row in rows.iter().filter(|row| row.from != row.to && (row.from == at || row.to == at)) {
+        pass(since, row.time, taken);
+        since = row.time;
+        let leaves = row.from == at;
+        departures += u32::from(leaves);
+        arrivals += u32::from(!leaves);
+        taken += if leaves { -1 } else { 1 };
+    }
+    pass(since, end, taken);
+    let lasts_s = f64::from(end.since(start)).max(1.0);
+    VertiportUse {
+        id: vertiport.id.clone(),
+        room,
+        departures,
+        arrivals,
+        taken_share: taken_s / lasts_s / f64::from(room.max(1)),
+        full_share: full_s / lasts_s,
+        stand_shadow_price_usd: bound.stand_shadow_price_usd(at),
+        stand_shadow_price_by_period_usd: bound
+            .stand_shadow_prices_by_period_usd(at, day.periods.len()),
+    }
+}
+
+/// The use of every aircraft.
+pub(super) fn of_aircraft(day: &Scenario, rows: &[TraceRow]) -> Vec<AircraftUse> {
+    let all_h = f64::from(day.operations.end.since(day.operations.start)) / HOUR_S;
+    let mut uses: Vec<AircraftUse> = day
+        .aircraft
+        .iter()
+        .map(|aircraft| AircraftUse {
+            id: aircraft.id.clone(),
+            kind: day.aircraft_types[aircraft.kind.at()].id.clone(),
+            flights: 0,
+            repositioning_flights: 0,
+            flying_h: 0.0,
+            charging_h: 0.0,
+            waiting_h: all_h,
+            profit_usd: 0.0,
+        })
+        .collect();
+    let end = day.operations.end;
+    let within_h = |from: Time, to: Time| {
+        f64::from(to.min(end).seconds().saturating_sub(from.min(end).seconds())) / HOUR_S
+    };
+    for row in rows.iter().filter(|row| row.from != row.to) {
+        let AircraftIx(at) = row.aircraft;
+        let one = &mut uses[at as usize];
+        one.flights += 1;
+        one.repositioning_flights += u32::from(row.passengers == 0);
+        one.flying_h += within_h(row.time, row.arrival);
+        one.charging_h += within_h(row.arrival, row.ready);
+        one.waiting_h -= within_h(row.time, row.ready);
+        one.profit_usd += row.profit_usd();
+    }
+    uses
+}
