@@ -10,7 +10,8 @@ impl Network {
     /// Returns the network whose file differs from this one's in some members. A path names members from the outside
     /// in, separated by dots. An entry of a list is named by its `id` (in the fleet by its `type`) or by its position from
     /// 0, and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`, `vertiports.*.stands`. Changes are made in order, so that later
-    /// ones win. The changed file has to obey the format like any other.
+    /// ones win. Where stands change, the changed file says with `start_stands` that aircraft start as they do on this
+    /// network. The changed file has to obey the format like any other.
     ///
     /// # Errors
     /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form in TOML, and the
@@ -34,8 +35,25 @@ impl Network {
             let parts: Vec<&str> = path.split('.').collect();
             set(&mut file, &parts, &value).map_err(|part| nowhere(&part))?;
         }
+        self.keep_start_stands(&mut file);
         let text = toml::to_string(&file).expect("what was read can be written");
         Self::from_toml(&text, &origin)
+    }
+
+    /// Makes aircraft start where they start on this network, if the stands of the file are others than its own.
+    fn keep_start_stands(&self, file: &mut toml::Value) {
+        let toml::Value::Table(members) = file else { return };
+        let own = self.vertiports().iter().map(|vertiport| i64::from(vertiport.stands));
+        let changed = members.get("vertiports").and_then(toml::Value::as_array);
+        let stands = changed.into_iter().flatten().map(|entry| entry.get("stands"));
+        let stands: Option<Vec<i64>> = stands.map(|stands| stands?.as_integer()).collect();
+        let own: Vec<i64> = own.collect();
+        // Stands that are no whole numbers are refused when the text is read.
+        let Some(stands) = stands.filter(|stands| stands.len() == own.len()) else { return };
+        if stands != own && !members.contains_key("start_stands") {
+            let own = own.into_iter().map(toml::Value::Integer).collect();
+            members.insert("start_stands".to_owned(), toml::Value::Array(own));
+        }
     }
 }
 
@@ -53,10 +71,17 @@ fn set(at: &mut toml::Value, path: &[&str], value: &toml::Value) -> Result<(), S
             members.insert((*part).to_owned(), value.clone());
             Ok(())
         }
-        toml::Value::Table(members) => match members.get_mut(*part) {
-            Some(member) => set(member, rest, value),
-            None => lost(),
-        },
+        toml::Value::Table(members) => {
+            // A network without a market has the market that changes nothing.
+            if *part == "market" {
+                let empty = || toml::Value::Table(toml::Table::new());
+                members.entry("market").or_insert_with(empty);
+            }
+            match members.get_mut(*part) {
+                Some(member) => set(member, rest, value),
+                None => lost(),
+            }
+        }
         toml::Value::Array(entries) if *part == "*" => {
             entries.iter_mut().try_for_each(|entry| set(entry, rest, value))
         }
@@ -124,6 +149,14 @@ mod tests {
     fn a_star_is_every_entry() {
         let network = changed(&json!({"vertiports.*.stands": 8})).expect("a network");
         assert!(network.vertiports().iter().all(|vertiport| vertiport.stands == 8));
+    }
+
+    #[test]
+    fn a_network_without_a_market_can_get_one() {
+        let network = changed(&json!({"market.elasticity": 1.5, "tariffs.fare_level": 1.1}));
+        let paper = Network::shipped("paper").expect("a shipped network");
+        let (now, before) = (network.expect("a network").mean_demand(), paper.mean_demand());
+        assert!(now[3].cells()[1] < before[3].cells()[1]);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::demand_model::rounded_by_chance;
-use crate::{Day, DaySeed, Matrix, Network, Scenario, Vertiport, VertiportIx};
+use crate::{Day, DaySeed, Matrix, Network, Scenario, VertiportIx};
 
 /// The random streams of a day. Their numbers are part of what a seed means, so they must not change.
 #[derive(Debug, Clone, Copy)]
@@ -35,32 +35,20 @@ impl Stream {
 
 impl Network {
     /// Draws the day of this seed, called `{network}-{seed}`. The same seed always gives the same day.
-    pub fn draw(&self, seed: DaySeed) -> Scenario {
-        self.draw_from(self, seed)
-    }
-
-    /// Draws the day of this seed, on which aircraft start where they start on the day of `base`, as far as there are
-    /// stands for them; the others find a place by chance.
     ///
-    /// This makes the days of networks comparable that were [changed](Self::changed) from one base (common random
-    /// numbers): one more stand moves nobody, one less moves only those who stood there, and further aircraft leave the
-    /// first ones where they were. Demand, delays and closures have the same random numbers anyway. A network is drawn
-    /// beside itself as it is drawn alone, and so is one whose vertiports are others than those of `base`.
-    pub fn draw_beside(&self, base: &Self, seed: DaySeed) -> Scenario {
-        let ids = |network: &Self| -> Vec<String> {
-            network.vertiports().iter().map(|vertiport| vertiport.id.clone()).collect()
-        };
-        self.draw_from(if ids(self) == ids(base) { base } else { self }, seed)
-    }
-
-    fn draw_from(&self, base: &Self, seed: DaySeed) -> Scenario {
+    /// Aircraft start as if the vertiports had the stands that `start_stands` of the file names, as far as there are stands
+    /// for them; the others find a place by chance. A network that was [changed](Self::changed) keeps those of its base, so
+    /// that the days of both are comparable (common random numbers): one more stand moves nobody, one less moves only those
+    /// who stood there, and further aircraft leave the first ones where they were.
+    pub fn draw(&self, seed: DaySeed) -> Scenario {
         let mut day = self.idle_day.clone().into_day();
         day.name = format!("{}-{seed}", self.name);
         day.seed = seed.get();
         self.draw_demand(&mut day.demand, &mut Stream::Demand.of(seed));
         self.respond(&mut day.demand, &mut Stream::Market.of(seed));
-        let positions =
-            start_positions(base.vertiports(), &day.vertiports, day.aircraft.len(), seed);
+        let stands: Vec<u16> = day.vertiports.iter().map(|vertiport| vertiport.stands).collect();
+        let start_stands = self.start_stands.as_ref().unwrap_or(&stands);
+        let positions = start_positions(start_stands, stands.clone(), day.aircraft.len(), seed);
         for (aircraft, at) in day.aircraft.iter_mut().zip(positions) {
             aircraft.at = at;
         }
@@ -123,17 +111,16 @@ impl Network {
     }
 }
 
-/// Where `aircraft` aircraft start: where they would if the vertiports were those of `base`, as far as there are stands.
+/// Where `aircraft` aircraft start: where they would if the vertiports had `start_stands`, as far as there are stands.
 fn start_positions(
-    base: &[Vertiport],
-    vertiports: &[Vertiport],
+    start_stands: &[u16],
+    mut left: Vec<u16>,
     aircraft: usize,
     seed: DaySeed,
 ) -> Vec<VertiportIx> {
     let mut random = Stream::StartPositions.of(seed);
-    let mut there = StartPositions::of(base);
+    let mut there = StartPositions::of(start_stands);
     let wanted: Vec<Option<VertiportIx>> = (0..aircraft).map(|_| there.next(&mut random)).collect();
-    let mut left: Vec<u16> = vertiports.iter().map(|vertiport| vertiport.stands).collect();
     let mut take = |at: VertiportIx| {
         let stands = &mut left[at.at()];
         *stands = stands.checked_sub(1)?;
@@ -141,8 +128,7 @@ fn start_positions(
     };
     let found: Vec<Option<VertiportIx>> =
         wanted.into_iter().map(|at| at.and_then(&mut take)).collect();
-    let mut rest = StartPositions { free: Vec::new() };
-    rest.free.extend(VertiportIx::all(left.len()).zip(left).filter(|&(_, stands)| stands > 0));
+    let mut rest = StartPositions::of(&left);
     let mut random = Stream::Displaced.of(seed);
     let place = |at: Option<VertiportIx>| {
         at.or_else(|| rest.next(&mut random)).expect("a network has a stand for each aircraft")
@@ -157,9 +143,9 @@ struct StartPositions {
 }
 
 impl StartPositions {
-    fn of(vertiports: &[Vertiport]) -> Self {
-        let stands = vertiports.iter().map(|vertiport| vertiport.stands);
-        Self { free: VertiportIx::all(vertiports.len()).zip(stands).collect() }
+    fn of(stands: &[u16]) -> Self {
+        let all = VertiportIx::all(stands.len()).zip(stands.iter().copied());
+        Self { free: all.filter(|&(_, stands)| stands > 0).collect() }
     }
 
     /// Takes a stand at a vertiport chosen uniformly among those that have one left; `None` if none has.

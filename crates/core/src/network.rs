@@ -34,6 +34,8 @@ pub struct Network {
     /// Everything that is the same every day. The idle day has no passengers, and its aircraft stand anywhere that is
     /// allowed.
     pub(crate) idle_day: Scenario,
+    /// The stands that start positions are drawn for, where they are not those of the vertiports.
+    pub(crate) start_stands: Option<Vec<u16>>,
     pub(crate) demand: DemandModel,
     pub(crate) disturbances: DisturbanceModel,
     pub(crate) feature_scales: FeatureScales,

@@ -36,6 +36,7 @@ struct RawNetwork {
     name: String,
     #[serde(rename = "start_positions")]
     _start_positions: StartPositions,
+    start_stands: Option<Vec<f64>>,
     time_zone: Option<String>,
     operations: RawOperations,
     vertiports: Vec<RawSite>,
@@ -113,6 +114,8 @@ impl RawNetwork {
             Sites::of(raw.vertiports, raw.tariffs.site_costs_usd(), origin)?;
         let aircraft_types = each(raw.aircraft_types, |raw, at| raw.check(at, origin))?;
         let aircraft = fleet(&raw.fleet, &aircraft_types, &vertiports, origin)?;
+        let start_stands =
+            raw.start_stands.map(|raw| start_stands(raw, vertiports.len(), origin)).transpose()?;
         let places = Positions::of_vertiports(&vertiports, origin)?;
         let models = DemandModels {
             equation_1: raw.demand,
@@ -163,6 +166,7 @@ impl RawNetwork {
         Ok(Network {
             name: raw.name,
             time_zone: raw.time_zone,
+            start_stands,
             toml: text.to_owned(),
             files: Vec::new(),
             idle_day: idle_day.check(origin)?,
@@ -218,6 +222,21 @@ impl DemandModels {
             }),
         }
     }
+}
+
+/// Checks the stands that start positions are drawn for.
+fn start_stands(raw: Vec<f64>, vertiports: usize, origin: &str) -> Result<Vec<u16>, Error> {
+    if raw.len() != vertiports {
+        return Err(Error::WrongShape {
+            origin: origin.to_owned(),
+            member: "start_stands".to_owned(),
+            expected: format!("an entry for each of {vertiports} vertiports"),
+            found: raw.len(),
+        });
+    }
+    each(raw, |stands, at| {
+        limits::STANDS.whole_number(stands, origin, || format!("start_stands[{at}]"))
+    })
 }
 
 /// Checks the name of a network, which becomes part of names of days and files.

@@ -134,6 +134,8 @@ const NETWORK_CHANGES: &[Change] = &[
     ("fare_base = 2", "fare_base = 2\ncharger_cost_usd_per_day = nan"),
     ("fare_base = 2", "fare_base = 2\nfare_level = 101"),
     ("stands = 1", "stands = 1\nstand_cost_usd_per_day = -1"),
+    ("[operations]", "start_stands = [1]\n[operations]"),
+    ("[operations]", "start_stands = [1, 0]\n[operations]"),
     ("fare_base = 2", "fare_base = 2\npairs = [{ from = \"A\", to = \"B\" }]"),
     ("fare_base = 2", "fare_base = 2\npairs = [{ from = \"A\", to = \"A\", fare_usd = 1 }]"),
     ("fare_base = 2", "fare_base = 2\npairs = [{ from = \"A\", to = \"B\", fare_usd = -1 }]"),

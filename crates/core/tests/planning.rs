@@ -160,13 +160,18 @@ fn stands_and_chargers_cost_what_their_vertiport_or_the_tariffs_say() {
 }
 
 #[test]
-fn a_network_beside_itself_draws_its_own_days() {
-    for name in Network::shipped_names() {
-        let network = Network::shipped(name).expect("listed");
-        assert_eq!(network.draw_beside(&network, seed(5)), network.draw(seed(5)), "{name}");
-    }
-    let (paper, new_york) = (network(PAPER), network(NEW_YORK));
-    assert_eq!(paper.draw_beside(&new_york, seed(5)), paper.draw(seed(5)));
+fn a_change_of_stands_is_undone_by_its_reverse() {
+    let paper = network(PAPER);
+    let more = changed(&paper, &json!({"vertiports.*.stands": 9}));
+    assert_eq!(starts(&more.draw(seed(5))), starts(&paper.draw(seed(5))));
+    let text = Network::from_toml(more.toml(), "again").expect("a changed network");
+    assert_eq!(text.draw(seed(5)), more.draw(seed(5)), "the text says all");
+    let back = changed(&more, &json!({"vertiports.*.stands": 6}));
+    assert_eq!(back.draw(seed(5)), paper.draw(seed(5)));
+    let other_fares = changed(&paper, &json!({"tariffs.fare_level": 2}));
+    assert!(!other_fares.toml().contains("start_stands"));
+    let by_hand = network(&PAPER.replace("stands = 6", "stands = 9"));
+    assert_ne!(starts(&by_hand.draw(seed(5))), starts(&paper.draw(seed(5))));
 }
 
 /// The vertiports at which aircraft start.
@@ -188,7 +193,7 @@ proptest! {
             changes.insert(format!("vertiports.{at}.stands"), json!(stands));
         }
         let other = changed(&base, &Value::Object(changes));
-        let day = other.draw_beside(&base, seed(number));
+        let day = other.draw(seed(number));
         let day = day.into_day().check("drawn").expect("a valid day");
         let before = base.draw(seed(number));
         let mut there = [0_u16; 8];

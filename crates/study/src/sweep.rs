@@ -142,7 +142,7 @@ impl Sweep {
     pub fn first_day(&self) -> Result<Option<Scenario>, Error> {
         let network = self.cells.iter().find_map(|cell| cell.network.as_ref().ok());
         let seed = self.drawn.seed(0)?;
-        Ok(network.map(|network| network.draw_beside(&self.base, seed)))
+        Ok(network.map(|network| network.draw(seed)))
     }
 
     /// Number of cells that will be played.
@@ -179,7 +179,7 @@ impl Sweep {
     /// policy cannot play one to its end.
     pub fn play(&self, cell: usize, stop: &Stop) -> Result<Option<CellRecord>, Error> {
         let Ok(network) = &self.cells[cell].network else { return Ok(None) };
-        let draw = |day| Ok(Arc::new(network.draw_beside(&self.base, self.drawn.seed(day)?)));
+        let draw = |day| Ok(Arc::new(network.draw(self.drawn.seed(day)?)));
         let days =
             (0..self.drawn.days).into_par_iter().map(draw).collect::<Result<Vec<_>, Error>>()?;
         let days: Vec<BoundedDay> = match self.bound_step {

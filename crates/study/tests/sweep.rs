@@ -64,7 +64,7 @@ fn a_cell_is_the_changed_network_on_the_days_of_its_base() {
     let network = paper().changed(changes.as_object().expect("changes")).expect("a network");
     for (at, totals) in record.totals[0].iter().enumerate() {
         let seed = DaySeed::comparison(7 + at as u64).expect("a seed");
-        let day = network.draw_beside(&paper(), seed);
+        let day = network.draw(seed);
         assert_eq!(day.aircraft, paper().draw(seed).aircraft, "nothing about them has changed");
         let mut simulation = vertifleet_sim::Simulation::new(std::sync::Arc::new(day));
         let mut greedy = vertifleet_policy::Greedy;

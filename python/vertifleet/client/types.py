@@ -628,6 +628,7 @@ class Totals(TypedDict):
     energy_cost_usd: float
     flight_cost_usd: float
     aircraft_cost_usd: float
+    site_cost_usd: float
     energy_kwh: float
     potential_usd: float
     reward: float
@@ -1001,6 +1002,8 @@ class PolicyResult(TypedDict):
     """What flights cost with or without passengers, dollars."""
     aircraft_cost_usd: float
     """What the fleet costs whatever it does, dollars."""
+    site_cost_usd: float
+    """What stands and chargers cost whether or not they are used, dollars."""
     passengers: float
     """Passengers who were carried."""
     spilled_passengers: float

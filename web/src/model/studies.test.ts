@@ -22,6 +22,7 @@ function policy(name: string, mean: number, more: Partial<PolicyResult> = {}): P
     energy_cost_usd: 0,
     flight_cost_usd: 0,
     aircraft_cost_usd: 0,
+    site_cost_usd: 0,
     passengers: 0,
     spilled_passengers: 0,
     load_factor: 0,

@@ -149,6 +149,8 @@ export const editor = {
     flight_cost_usd: 'Cost of a flight, $',
     flight_cost_usd_per_mi: 'Cost of a flight a mile, $',
     aircraft_cost_usd_per_day: 'Cost of an aircraft a day, $',
+    stand_cost_usd_per_day: 'Cost of a stand a day, $',
+    charger_cost_usd_per_day: 'Cost of a charger a day, $',
     energy: 'Electricity, $ a kWh',
     energyAllDay: 'The same all day',
     energyByPeriod: 'By period',

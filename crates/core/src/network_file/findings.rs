@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use super::{DemandModels, FORMAT, RawNetwork, fleet, name, network, time_zone};
+use super::{DemandModels, FORMAT, RawNetwork, fleet, name, network, start_stands, time_zone};
 use crate::raw::Positions;
 use crate::sites::Sites;
 use crate::{Error, parse};
@@ -40,6 +40,11 @@ impl RawNetwork {
         found.check(name(&self.name, origin));
         found.check(self.time_zone.as_deref().map_or(Ok(()), |zone| time_zone(zone, origin)));
         found.check(self.operations.check(origin));
+        let vertiports = self.vertiports.len();
+        found.check(
+            self.start_stands
+                .map_or(Ok(()), |raw| start_stands(raw, vertiports, origin).map(|_| ())),
+        );
         let types = self.aircraft_types.len();
         let kinds: Vec<_> = self
             .aircraft_types
