@@ -44,7 +44,7 @@ pub(crate) enum Command {
     Simulate(SimulateArguments),
     /// Check a schedule against the rules, independently of the simulator
     Check(CheckArguments),
-    /// Say where a day's money is and is lost, and what one more stand, aircraft, seat or minute would be worth
+    /// Say where a day's money is and is lost, and what one more stand would be worth
     Explain(ExplainArguments),
     /// Write a played or planned day in the formats of other programs
     Export(ExportArguments),

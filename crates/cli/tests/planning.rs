@@ -184,7 +184,7 @@ fn differences_are_paths_that_a_sweep_takes() {
     let mine = paper.replacen("stands = 6", "stands = 8", 1).replace("count = 40", "count = 44");
     fs::write(here.join("mine.toml"), mine).expect("room");
     let differences = stdout(here, &["network", "diff", "paper", "mine.toml"]);
-    assert_eq!(differences, "vertiports.V1.stands: 6 -> 8\nfleet.cityairbus.count: 40 -> 44\n");
+    assert_eq!(differences, "fleet.cityairbus.count: 40 -> 44\nvertiports.V1.stands: 6 -> 8\n");
     assert_eq!(stdout(here, &["network", "diff", "paper", "paper"]), "no difference\n");
     let sweep = json(
         here,

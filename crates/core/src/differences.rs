@@ -17,8 +17,8 @@ pub struct Difference {
 }
 
 impl Network {
-    /// What another network's file says differently, in the order of this one's file. Comments and the order of members do
-    /// not count, nor does the order of vertiports and aircraft types, which have names.
+    /// What another network's file says differently, with members in the order of their names. Comments and the order of
+    /// members do not count, nor does the order of vertiports and aircraft types, which have names.
     pub fn differences(&self, other: &Self) -> Vec<Difference> {
         let read = |network: &Self| -> Value {
             toml::from_str(network.toml()).expect("the text has been read before")

@@ -39,6 +39,15 @@ impl NewNetwork {
     /// # Errors
     /// The error of the network file if a value breaks one of its rules.
     pub fn toml(&self) -> Result<String, Error> {
+        if self.vertiports.is_empty() {
+            // A TOML file cannot have an empty list of tables, so the text would only lack a member.
+            return Err(Error::Core(vertifleet_core::Error::EntryCount {
+                origin: "the new network".to_owned(),
+                member: "vertiports".to_owned(),
+                most: 256,
+                found: 0,
+            }));
+        }
         let text = self.text();
         Network::from_toml(&text, "the new network")?;
         Ok(text)
@@ -46,15 +55,16 @@ impl NewNetwork {
 
     fn text(&self) -> String {
         let quoted = |text: &str| toml_edit::Value::from(text).to_string();
+        let number = |number: f64| toml_edit::Value::from(number).to_string();
         let vertiports: String = self
             .vertiports
             .iter()
             .map(|one| {
                 format!(
-                    "[[vertiports]]\nid = {id}\nlatitude = {latitude:?}\nlongitude = {longitude:?}\nstands = {stands}\nbusy = false\n\n",
+                    "[[vertiports]]\nid = {id}\nlatitude = {latitude}\nlongitude = {longitude}\nstands = {stands}\nbusy = false\n\n",
                     id = quoted(&one.id),
-                    latitude = one.latitude,
-                    longitude = one.longitude,
+                    latitude = number(one.latitude),
+                    longitude = number(one.longitude),
                     stands = one.stands,
                 )
             })
@@ -64,8 +74,8 @@ impl NewNetwork {
             .replace("{name}", &quoted(&self.name))
             .replace("{vertiports}", &vertiports)
             .replace("{aircraft}", &self.aircraft.to_string())
-            .replace("{passengers}", &format!("{:?}", self.passengers_a_day))
-            .replace("{fare}", &format!("{:?}", self.fare_usd_per_mi))
+            .replace("{passengers}", &number(self.passengers_a_day))
+            .replace("{fare}", &number(self.fare_usd_per_mi))
             .replace("{weights}", &weights)
     }
 }
