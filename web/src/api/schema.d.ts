@@ -1316,6 +1316,11 @@ export interface components {
             sees: string;
             /**
              * Format: double
+             * @description What stands and chargers cost whether or not they are used, dollars.
+             */
+            site_cost_usd: number;
+            /**
+             * Format: double
              * @description Passengers who were not.
              */
             spilled_passengers: number;
@@ -1573,6 +1578,7 @@ export interface components {
             repositioning_flights: number;
             revenue_usd: number;
             reward: number;
+            site_cost_usd: number;
             spilled_passengers: number;
         };
         /** @description A vertiport of a network. */

@@ -45,6 +45,11 @@ pub(super) fn text(explanation: &Explanation, picture: &str) -> String {
     page.replacen("<!DOCTYPE html>", "<!DOCTYPE html>\n<!-- vertifleet-explanation/1 -->\n", 1)
 }
 
+/// A cell as it is set in type: numbers with a true minus sign, pairs with an arrow, ids as they are.
+fn shown(cell: &str) -> String {
+    if cell.starts_with('-') { typeset(cell) } else { cell.replace("->", "→") }
+}
+
 /// A table with its heading; the first row is that of the columns.
 fn section(title: &str, lead: &str, rows: &[Vec<String>]) -> Markup {
     let (head, rows) = rows.split_first().expect("a table has a heading");
@@ -53,7 +58,7 @@ fn section(title: &str, lead: &str, rows: &[Vec<String>]) -> Markup {
         @if !lead.is_empty() { p.lead { (lead) } }
         div.wide { table {
             thead { tr { @for cell in head { th scope="col" { (cell) } } } }
-            tbody { @for row in rows { tr { @for cell in row { td { (typeset(cell)) } } } } }
+            tbody { @for row in rows { tr { @for cell in row { td { (shown(cell)) } } } } }
         } }
     }
 }

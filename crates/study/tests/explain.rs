@@ -1,0 +1,106 @@
+//! What an explanation says adds up to the day, and what a change is worth is the difference of two solved days.
+
+use std::sync::Arc;
+
+use vertifleet_core::{DaySeed, Network, Stop};
+use vertifleet_optimize::{Step, upper_bound};
+use vertifleet_sim::Trace;
+use vertifleet_study::explain::{Explanation, PAGE, explain};
+use vertifleet_study::{PolicySpec, ResolveFor, ResolvedPolicy};
+
+fn day(network: &str) -> Arc<vertifleet_core::Scenario> {
+    let network = Network::shipped(network).expect("shipped");
+    Arc::new(network.draw(DaySeed::comparison(3).expect("a seed")))
+}
+
+fn explained(network: &str, policy: &ResolvedPolicy) -> Explanation {
+    let step = Step::from_minutes(60).expect("a step");
+    explain(&day(network), "greedy", policy, step, &Stop::default(), &|_| ()).expect("a day")
+}
+
+fn greedy() -> ResolvedPolicy {
+    let spec = PolicySpec::parse("greedy").expect("a policy");
+    spec.resolve(None, ResolveFor::Day(&day("paper")), 0).expect("it has no weights")
+}
+
+#[test]
+fn periods_pairs_and_aircraft_add_up_to_the_day() {
+    for network in ["paper", "disrupted"] {
+        let found = explained(network, &greedy());
+        let totals = &found.totals;
+        let sum = |numbers: Vec<u64>| numbers.into_iter().sum::<u64>();
+        let periods = &found.periods;
+        assert_eq!(sum(periods.iter().map(|one| one.carried).collect()), totals.passengers);
+        assert_eq!(sum(periods.iter().map(|one| one.spilled).collect()), totals.spilled_passengers);
+        assert_eq!(
+            sum(periods.iter().map(|one| one.flights.into()).collect()),
+            u64::from(totals.flights)
+        );
+        assert_eq!(
+            sum(periods.iter().map(|one| one.holds.into()).collect()),
+            u64::from(totals.holds)
+        );
+        let pairs = &found.pairs;
+        assert_eq!(sum(pairs.iter().map(|one| one.carried).collect()), totals.passengers);
+        assert_eq!(
+            sum(pairs.iter().map(|one| one.flights.into()).collect()),
+            u64::from(totals.flights)
+        );
+        assert!(pairs.is_sorted_by(|one, next| one.spilled_margin_usd >= next.spilled_margin_usd));
+        let earned = |usd: f64| (usd - totals.profit_usd).abs() < 1e-6 * totals.revenue_usd;
+        assert!(earned(pairs.iter().map(|one| one.profit_usd).sum()));
+        assert!(earned(found.aircraft.iter().map(|one| one.profit_usd).sum()));
+        let hours = 12.0;
+        for one in &found.aircraft {
+            assert!(
+                (one.flying_h + one.charging_h + one.waiting_h - hours).abs() < 1e-9,
+                "{one:?}"
+            );
+        }
+        for one in &found.vertiports {
+            assert!(
+                (0.0..=1.0).contains(&one.taken_share) && one.full_share <= one.taken_share + 1e-9
+            );
+            let by_period: f64 = one.stand_shadow_price_by_period_usd.iter().sum();
+            assert!((by_period - one.stand_shadow_price_usd).abs() < 1e-4, "{one:?}");
+        }
+    }
+}
+
+#[test]
+fn a_worth_is_the_difference_of_two_days_that_were_solved() {
+    let found = explained("paper", &greedy());
+    let changes: Vec<&str> = found.worth.iter().map(|one| one.change.as_str()).collect();
+    assert_eq!(changes.len(), 8 + 3, "{changes:?}");
+    let seat = found.worth.iter().find(|one| one.change.contains("seat")).expect("a seat");
+    let mut changed = vertifleet_core::Scenario::clone(&day("paper")).into_day();
+    changed.aircraft_types[0].seats += 1;
+    let changed = Arc::new(changed.check("a changed day").expect("a day"));
+    let (_, totals) = greedy().play("greedy", &changed, &Stop::default()).expect("a whole day");
+    assert_eq!(seat.policy_usd, Some(totals.profit_usd - found.totals.profit_usd));
+    let bound = upper_bound(&changed, Step::from_minutes(60).expect("a step")).expect("a bound");
+    assert_eq!(seat.bound_usd, bound.upper_bound_usd() - found.upper_bound_usd);
+    assert!(seat.bound_usd > 5_000.0, "a fifth seat is worth much where flights are full");
+}
+
+#[test]
+fn a_trace_is_explained_without_playing_other_days() {
+    let (trace, _) = greedy().play("greedy", &day("paper"), &Stop::default()).expect("a day");
+    let found = explained("paper", &ResolvedPolicy::Replay(Arc::new(Trace::clone(&trace))));
+    assert!(found.worth.iter().all(|one| one.policy_usd.is_none() && one.bound_usd.is_finite()));
+    assert_eq!(found.totals, explained("paper", &greedy()).totals);
+}
+
+#[test]
+fn page_and_text_say_what_json_says() {
+    let found = explained("paper", &greedy());
+    let page = found.page();
+    assert!(page.starts_with(PAGE.opening), "the program recognises its own pages");
+    for part in ["<svg", "Ledger", "V1 → V2", "one more cityairbus"] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(found.text().contains("where most money is spilled"));
+    let json: serde_json::Value = serde_json::from_str(&found.to_json()).expect("JSON");
+    assert_eq!(json["format"], "vertifleet-explanation/1");
+    assert_eq!(json["worth"].as_array().expect("a list").len(), found.worth.len());
+}

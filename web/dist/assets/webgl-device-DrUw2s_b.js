@@ -1,0 +1,1 @@
+export{t as WebGLDevice}from"./deck-DNMF3n0E.js";

@@ -1,1 +1,0 @@
-export{t as WebGLDevice}from"./deck-C8_59iNm.js";
