@@ -36,7 +36,7 @@ pub(crate) struct NetworkText<'a> {
 }
 
 /// The members of a base that say something else of its demand or its vertiports, with the reason to leave them out.
-const LEFT_OUT: [(&[&str], &str); 9] = [
+const LEFT_OUT: [(&[&str], &str); 11] = [
     (&["corridors"], "names its vertiports"),
     (&["closures"], "names its vertiports"),
     (&["tariffs", "pairs"], "names its vertiports"),
@@ -46,6 +46,8 @@ const LEFT_OUT: [(&[&str], &str); 9] = [
     (&["disturbances", "takeoff_delays"], "names its vertiports"),
     (&["disturbances", "closures"], "names its vertiports"),
     (&["feature_scales"], "states the typical sizes of its quantities"),
+    (&["time_zone"], "is that of its place"),
+    (&["start_stands"], "has a number for each of its vertiports"),
 ];
 
 /// The demand models, of which a base has one.

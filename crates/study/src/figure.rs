@@ -45,8 +45,7 @@ pub fn all(summary: &ComparisonReport) -> Vec<Figure> {
 
 /// The figures of a sweep.
 pub(crate) fn of_sweep(report: &SweepReport) -> Vec<Figure> {
-    let figures =
-        [Some(response::curves(report)), heat_map::figure(report), tornado::figure(report)];
+    let figures = [response::curves(report), heat_map::figure(report), tornado::figure(report)];
     figures.into_iter().flatten().collect()
 }
 

@@ -27,11 +27,15 @@ struct Panel {
 }
 
 /// The figure with a panel for each factor.
-pub(super) fn curves(report: &SweepReport) -> Figure {
+pub(super) fn curves(report: &SweepReport) -> Option<Figure> {
+    let effects: Vec<&Effect> = report.varied().collect();
+    if effects.is_empty() {
+        return None;
+    }
     let names: Vec<String> = report.policies.iter().map(|name| shortened(name, 22)).collect();
     let (places, last_row) = key::places(&names, KEY_MARK, WIDTH);
-    let columns = report.effects.len().min(2);
-    let rows = report.effects.len().div_ceil(columns);
+    let columns = effects.len().min(2);
+    let rows = effects.len().div_ceil(columns);
     let top = last_row + 40.0;
     let height = top + (rows - 1) as f64 * PANEL_STEP + PANEL_HEIGHT + BOTTOM;
     let title = "Profit against each setting";
@@ -41,7 +45,7 @@ pub(super) fn curves(report: &SweepReport) -> Figure {
         canvas.marker((x + 6.0, y), position);
         canvas.text((x + KEY_MARK, y + 4.0), Lettering::LABEL, name);
     }
-    let ends = report.effects.iter().flat_map(|effect| &effect.levels).flat_map(|level| {
+    let ends = effects.iter().flat_map(|effect| &effect.levels).flat_map(|level| {
         level.profit_usd.iter().flat_map(|profit| {
             let half = profit.half_width_95.unwrap_or(0.0);
             [profit.mean - half, profit.mean + half]
@@ -49,20 +53,20 @@ pub(super) fn curves(report: &SweepReport) -> Figure {
     });
     let ends: Vec<f64> = ends.collect();
     let width = (WIDTH - LEFT - RIGHT - (columns - 1) as f64 * BETWEEN) / columns as f64;
-    for (at, effect) in report.effects.iter().enumerate() {
+    for (at, &effect) in effects.iter().enumerate() {
         let left = LEFT + (at % columns) as f64 * (width + BETWEEN);
         let top = top + (at / columns) as f64 * PANEL_STEP;
         let panel = Panel { left, right: left + width, top };
         let y = Scale::around(ends.iter().copied(), top + PANEL_HEIGHT, top, 5);
         draw_panel(&mut canvas, effect, &panel, &y);
     }
-    Figure {
+    Some(Figure {
         slug: "figure-response-curves",
         caption: "All panels have the same vertical scale, so that settings can be compared by their slopes. Designs of a panel differ in \
                   the other settings too, over which it takes the mean."
             .to_owned(),
         svg: canvas.into_svg(),
-    }
+    })
 }
 
 fn draw_panel(canvas: &mut Canvas, effect: &Effect, panel: &Panel, y: &Scale) {

@@ -17,10 +17,10 @@ const BOTTOM: f64 = 56.0;
 
 /// The figure; `None` if there is a single factor.
 pub(super) fn figure(report: &SweepReport) -> Option<Figure> {
-    if report.effects.len() < 2 {
+    let mut effects: Vec<&Effect> = report.varied().collect();
+    if effects.len() < 2 {
         return None;
     }
-    let mut effects: Vec<&Effect> = report.effects.iter().collect();
     effects.sort_by(|one, other| other.span_usd.total_cmp(&one.span_usd));
     let middle_usd = middle(report);
     let mean = |level: &crate::sweep::LevelEffect| level.profit_usd[0].mean - middle_usd;

@@ -40,9 +40,9 @@ pub(super) fn text(report: &SweepReport) -> String {
             earns(cheapest)
         );
     }
-    let largest =
-        report.effects.iter().max_by(|one, other| one.span_usd.total_cmp(&other.span_usd));
-    if let Some(effect) = largest.filter(|effect| report.factors.len() > 1 && effect.span_usd > 0.0)
+    let largest = report.varied().max_by(|one, other| one.span_usd.total_cmp(&other.span_usd));
+    if let Some(effect) =
+        largest.filter(|effect| report.varied().count() > 1 && effect.span_usd > 0.0)
     {
         text += &format!(
             " {} matters most: between its values mean profits are up to ${} apart.",

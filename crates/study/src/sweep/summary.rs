@@ -163,12 +163,19 @@ impl SweepReport {
         &self.cells[number]
     }
 
-    /// The settings of a cell in words: `fleet.0.count = 40, tariffs.fare_level = 1.1`.
+    /// How profit follows those factors that have more than one value.
+    pub fn varied(&self) -> impl Iterator<Item = &Effect> + Clone {
+        self.effects.iter().filter(|effect| effect.levels.len() > 1)
+    }
+
+    /// The settings of a cell in words: `fleet.0.count = 40, tariffs.fare_level = 1.1`. A setting that is the same in all
+    /// cells is left out.
     pub fn settings(&self, cell: &CellSummary) -> String {
-        let pairs = self.factors.iter().zip(&cell.settings);
+        let pairs = self.effects.iter().zip(&cell.settings);
+        let varied = pairs.filter(|(effect, _)| effect.levels.len() > 1);
         let pairs: Vec<String> =
-            pairs.map(|(path, value)| format!("{path} = {}", shown(value))).collect();
-        pairs.join(", ")
+            varied.map(|(effect, value)| format!("{} = {}", effect.factor, shown(value))).collect();
+        if pairs.is_empty() { "the only design".to_owned() } else { pairs.join(", ") }
     }
 
     /// The statistics as JSON.

@@ -1,0 +1,50 @@
+//! The commands of the guide "Plan a city in an hour" do what the guide says, as they stand there.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use assert_cmd::cargo::cargo_bin;
+
+fn guide() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/guide")
+}
+
+#[test]
+fn every_command_of_the_guide_runs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for table in ["vertiports.csv", "demand.csv"] {
+        fs::copy(guide().join("bay").join(table), folder.path().join(table)).expect("it is there");
+    }
+    let page = fs::read_to_string(guide().join("plan-a-city.md")).expect("it is there");
+    let commands: Vec<&str> = page.lines().filter_map(|line| line.strip_prefix("    ")).collect();
+    assert!(
+        commands.len() > 12,
+        "the guide still writes its commands in a way that this test finds"
+    );
+    let programs = cargo_bin!("vertifleet").parent().expect("a folder").to_owned();
+    let path = std::env::var("PATH").expect("a path");
+    for command in commands {
+        let output = Command::new("sh")
+            .args(["-c", command])
+            .current_dir(folder.path())
+            .env("PATH", format!("{}:{path}", programs.display()))
+            .output()
+            .expect("a shell");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{command}: {said}");
+    }
+    for file in [
+        "bay.png",
+        "day.html",
+        "day.svg",
+        "fleet/report.html",
+        "fare/figure-response-curves.svg",
+        "stands/cells.csv",
+        "flights.geojson",
+        "feed.zip",
+        "flights.parquet",
+    ] {
+        assert!(folder.path().join(file).exists(), "{file}");
+    }
+}
