@@ -3,7 +3,7 @@
 
 use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
 use serde_json::{Value, json};
-use vertifleet_core::{Coded, DaySeed, Network, Scenario, VertiportIx};
+use vertifleet_core::{Coded, DaySeed, Matrix, Network, Scenario, VertiportIx};
 
 const PAPER: &str = include_str!("../../../networks/paper.toml");
 const NEW_YORK: &str = include_str!("../../../networks/new-york.toml");
@@ -22,7 +22,7 @@ fn changed(network: &Network, changes: &Value) -> Network {
 }
 
 fn passengers(day: &Scenario) -> u64 {
-    day.demand.iter().flat_map(|table| table.cells()).map(|&one| u64::from(one)).sum()
+    day.demand.iter().flat_map(Matrix::cells).map(|&one| u64::from(one)).sum()
 }
 
 #[test]

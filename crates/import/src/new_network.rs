@@ -56,19 +56,16 @@ impl NewNetwork {
     fn text(&self) -> String {
         let quoted = |text: &str| toml_edit::Value::from(text).to_string();
         let number = |number: f64| toml_edit::Value::from(number).to_string();
-        let vertiports: String = self
-            .vertiports
-            .iter()
-            .map(|one| {
-                format!(
-                    "[[vertiports]]\nid = {id}\nlatitude = {latitude}\nlongitude = {longitude}\nstands = {stands}\nbusy = false\n\n",
-                    id = quoted(&one.id),
-                    latitude = number(one.latitude),
-                    longitude = number(one.longitude),
-                    stands = one.stands,
-                )
-            })
-            .collect();
+        let vertiport = |one: &NewVertiport| {
+            format!(
+                "[[vertiports]]\nid = {id}\nlatitude = {latitude}\nlongitude = {longitude}\nstands = {stands}\nbusy = false\n\n",
+                id = quoted(&one.id),
+                latitude = number(one.latitude),
+                longitude = number(one.longitude),
+                stands = one.stands,
+            )
+        };
+        let vertiports = self.vertiports.iter().map(vertiport).collect::<Vec<_>>().concat();
         let weights = vec!["1"; self.vertiports.len()].join(", ");
         TEMPLATE
             .replace("{name}", &quoted(&self.name))

@@ -67,7 +67,8 @@ pub struct Explanation {
     scenario: Arc<Scenario>,
 }
 
-/// Plays a day with a policy, bounds it, and solves it again with one thing more or less at a time.
+/// Plays a day with a policy, bounds it, and solves it again with one thing more or less at a time. `solved` is called with
+/// the number of changes once they are known, and with 0 after each of them, from any thread.
 ///
 /// # Errors
 /// Returns an error if the policy cannot play the day or the day is too large for a bound, and [`Error::Stopped`] soon
@@ -76,19 +77,19 @@ pub fn explain(
     scenario: &Arc<Scenario>,
     name: &str,
     policy: &ResolvedPolicy,
-    step: Step,
+    slices: Step,
     stop: &Stop,
     solved: &(impl Fn(usize) + Sync),
 ) -> Result<Explanation, Error> {
     let (trace, totals) = policy.play(name, scenario, stop)?;
-    let bound = bound_of(scenario, step, stop)?;
+    let bound = bound_of(scenario, slices, stop)?;
     let changes = worth::changes(scenario, &bound);
     solved(changes.len());
     // A replay knows nothing of other days.
     let plays_again = !matches!(policy, ResolvedPolicy::Replay(_));
     let solve = |(change, day): (String, Arc<Scenario>)| {
         let again = plays_again.then(|| policy.play(name, &day, stop)).transpose()?;
-        let bounded = bound_of(&day, step, stop)?;
+        let bounded = bound_of(&day, slices, stop)?;
         solved(0);
         Ok(Worth {
             change,
@@ -132,6 +133,6 @@ impl Explanation {
     }
 }
 
-fn bound_of(scenario: &Scenario, step: Step, stop: &Stop) -> Result<Bound, Error> {
-    upper_bound_unless(stop, scenario, step)?.ok_or(Error::Stopped)
+fn bound_of(scenario: &Scenario, slices: Step, stop: &Stop) -> Result<Bound, Error> {
+    upper_bound_unless(stop, scenario, slices)?.ok_or(Error::Stopped)
 }

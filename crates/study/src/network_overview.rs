@@ -112,8 +112,8 @@ impl NetworkOverview {
             vertiports: ixs.zip(&day.vertiports).map(vertiport).collect(),
             aircraft_types: day.aircraft_types.iter().enumerate().map(kind).collect(),
             size: Size::of(network),
-            distance_mi: spread(pairs().map(|pair| day.distance_mi[pair]).collect()),
-            fare_usd: spread(fares.collect()),
+            distance_mi: spread(&pairs().map(|pair| day.distance_mi[pair]).collect::<Vec<f64>>()),
+            fare_usd: spread(&fares.collect::<Vec<f64>>()),
             periods: network.period_starts().iter().map(ToString::to_string).collect(),
             passengers: means.iter().map(rows).collect(),
             passengers_a_day: all.cells().iter().sum(),
@@ -150,7 +150,7 @@ impl NetworkOverview {
             append_aligned(&mut text, &self.matrix_rows());
         }
         for warning in &self.warnings {
-            text += &format!("\nwarning: {warning}\n");
+            text = text + "\nwarning: " + warning + "\n";
         }
         text
     }
@@ -210,13 +210,13 @@ fn total(means: &[Matrix<f64>]) -> Matrix<f64> {
 }
 
 /// The least, the mean and the greatest of some numbers; 0 if there are none.
-fn spread(numbers: Vec<f64>) -> [f64; 3] {
+fn spread(numbers: &[f64]) -> [f64; 3] {
     if numbers.is_empty() {
         return [0.0; 3];
     }
     let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
     let most = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    [least, crate::statistics::mean(&numbers), most]
+    [least, crate::statistics::mean(numbers), most]
 }
 
 fn cells(texts: &[&str]) -> Vec<String> {

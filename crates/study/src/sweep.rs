@@ -165,7 +165,7 @@ impl Sweep {
             "cells": settings,
             "policies": policies,
             "days": [self.drawn.purpose.name(), self.drawn.first, self.drawn.days],
-            "bound_step_s": self.bound_step.map(|step| step.seconds()),
+            "bound_step_s": self.bound_step.map(Step::seconds),
         });
         let mut hasher = SipHasher13::new();
         hasher.write(text.to_string().as_bytes());
@@ -183,7 +183,7 @@ impl Sweep {
         let days =
             (0..self.drawn.days).into_par_iter().map(draw).collect::<Result<Vec<_>, Error>>()?;
         let days: Vec<BoundedDay> = match self.bound_step {
-            Some(step) => KeptBounds::of_this_user().days(days, step, stop, &|| ())?,
+            Some(slices) => KeptBounds::of_this_user().days(days, slices, stop, &|| ())?,
             None => days.into_iter().map(BoundedDay::unbounded).collect(),
         };
         let policies = run(&days, &self.competitors, Kept::Totals, stop, |_| || ())?;

@@ -70,8 +70,8 @@ fn periods_pairs_and_aircraft_add_up_to_the_day() {
 #[test]
 fn a_worth_is_the_difference_of_two_days_that_were_solved() {
     let found = explained("paper", &greedy());
-    let changes: Vec<&str> = found.worth.iter().map(|one| one.change.as_str()).collect();
-    assert_eq!(changes.len(), 8 + 3, "{changes:?}");
+    let words: Vec<&str> = found.worth.iter().map(|one| one.change.as_str()).collect();
+    assert_eq!(words.len(), 8 + 3, "{words:?}");
     let seat = found.worth.iter().find(|one| one.change.contains("seat")).expect("a seat");
     let mut changed = vertifleet_core::Scenario::clone(&day("paper")).into_day();
     changed.aircraft_types[0].seats += 1;

@@ -37,8 +37,10 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<ExitCode, Failure> {
     let (kind, content) = match arguments.format {
         ExportFormat::Csv => (CSV_FILE, csv(&flown, calendar.as_ref())),
         ExportFormat::Parquet => (PARQUET_FILE, parquet(&flown, calendar.as_ref())),
-        ExportFormat::Geojson => (GEOJSON_FILE, geojson(&flown, dated(&calendar)?)?.into_bytes()),
-        ExportFormat::Gtfs => (GTFS_FILE, gtfs(&flown, dated(&calendar)?)?),
+        ExportFormat::Geojson => {
+            (GEOJSON_FILE, geojson(&flown, dated(calendar.as_ref())?)?.into_bytes())
+        }
+        ExportFormat::Gtfs => (GTFS_FILE, gtfs(&flown, dated(calendar.as_ref())?)?),
         ExportFormat::Svg => {
             (SVG_FILE, vertifleet_picture::schedule(&scenario, &trace.rows).into_bytes())
         }
@@ -47,7 +49,7 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<ExitCode, Failure> {
             (PNG_FILE, vertifleet_picture::png(&picture))
         }
         ExportFormat::Icalendar => {
-            write_calendars(&flown, dated(&calendar)?, path, &mut outputs)?;
+            write_calendars(&flown, dated(calendar.as_ref())?, path, &mut outputs)?;
             return Ok(ExitCode::SUCCESS);
         }
     };
@@ -58,8 +60,8 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<ExitCode, Failure> {
 }
 
 /// The calendar of a format that cannot do without.
-fn dated(calendar: &Option<Calendar>) -> Result<&Calendar, Failure> {
-    calendar.as_ref().ok_or_else(|| {
+fn dated(calendar: Option<&Calendar>) -> Result<&Calendar, Failure> {
+    calendar.ok_or_else(|| {
         let message = "this format has dates, and the day has none".to_owned();
         Failure::usage(message, "add --date, as 2026-11-24, and --time-zone, as America/New_York")
     })

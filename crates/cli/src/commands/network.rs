@@ -1,7 +1,7 @@
 //! `vertifleet network`: makes, checks and shows network files.
 
 use std::io::{IsTerminal, Write as _, stdin};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anstream::{eprint, eprintln};
@@ -24,7 +24,7 @@ use crate::typed::parse_vertiport;
 const NEW_FILE: OutputKind = OutputKind { name: "new network file", skipped: 0, opening: "\0" };
 
 /// The steps of the progress of an import.
-const STEPS: f64 = 1_000.0;
+const STEPS: u32 = 1_000;
 
 pub(crate) fn run(action: &NetworkAction) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
@@ -66,11 +66,11 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
         tariffs: arguments.fares.as_deref(),
         energy_prices: arguments.energy_prices.as_deref(),
     };
-    let bar = Bar::new(STEPS as u64, "of 1000 parts read");
+    let bar = Bar::new(STEPS.into(), "thousandths read");
     let done = std::sync::Mutex::new(0);
     let progress = |share: f64| {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1000")]
-        let now = (STEPS * share.clamp(0.0, 1.0)) as u64;
+        let now = (f64::from(STEPS) * share.clamp(0.0, 1.0)) as u64;
         let mut before = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         bar.advance(now.saturating_sub(*before));
         *before = now.max(*before);
@@ -94,7 +94,7 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
 
 /// The trip records and how they become demand.
 fn trips(arguments: &ImportArguments) -> Trips<'_> {
-    let start = Trips::new(arguments.trips.iter().map(|path| path.as_path()).collect());
+    let start = Trips::new(arguments.trips.iter().map(PathBuf::as_path).collect());
     Trips {
         zones: arguments.zones.as_deref(),
         radius_mi: arguments.radius.unwrap_or(start.radius_mi),
@@ -108,7 +108,7 @@ fn trips(arguments: &ImportArguments) -> Trips<'_> {
 }
 
 /// Prints every finding about some network files. The exit code is that of bad input if any of them cannot be used.
-fn check(files: &[std::path::PathBuf], as_json: bool) -> Result<ExitCode, Failure> {
+fn check(files: &[PathBuf], as_json: bool) -> Result<ExitCode, Failure> {
     let (mut lines, mut list, mut errors) = (Vec::new(), Vec::new(), 0);
     for file in files {
         let findings = Network::findings(file)?;

@@ -23,7 +23,7 @@ pub struct Worth {
 /// The changed days, each with its change in words. What the change costs is not counted, except for the fixed costs that
 /// the day states for it.
 pub(super) fn changes(day: &Scenario, bound: &Bound) -> Vec<(String, Arc<Scenario>)> {
-    let mut changes: Vec<(String, Day)> = Vec::new();
+    let mut days: Vec<(String, Day)> = Vec::new();
     let mut vertiports: Vec<VertiportIx> = VertiportIx::all(day.vertiports.len()).collect();
     vertiports.sort_by(|&one, &other| {
         bound.stand_shadow_price_usd(other).total_cmp(&bound.stand_shadow_price_usd(one))
@@ -36,27 +36,27 @@ pub(super) fn changes(day: &Scenario, bound: &Bound) -> Vec<(String, Arc<Scenari
             None => vertiport.stands += 1,
         }
         let what = if vertiport.chargers.is_some() { "charger" } else { "stand" };
-        changes.push((format!("one more {what} at {}", vertiport.id), changed));
+        days.push((format!("one more {what} at {}", vertiport.id), changed));
     }
     for kind in 0..day.aircraft_types.len() {
         if let Some(changed) = with_aircraft(day, kind) {
-            changes.push((format!("one more {}", day.aircraft_types[kind].id), changed));
+            days.push((format!("one more {}", day.aircraft_types[kind].id), changed));
         }
         let mut changed = day.clone().into_day();
         changed.aircraft_types[kind].seats += 1;
-        changes.push((format!("one more seat in every {}", day.aircraft_types[kind].id), changed));
+        days.push((format!("one more seat in every {}", day.aircraft_types[kind].id), changed));
     }
     let windows_s = day.operations.takeoff_s + day.operations.landing_s;
     if day.operations.takeoff_s >= 60 && windows_s >= 120 {
         let mut changed = day.clone().into_day();
         changed.operations.takeoff_s -= 60;
-        changes.push(("a minute less for every take-off".to_owned(), changed));
+        days.push(("a minute less for every take-off".to_owned(), changed));
     }
     let checked = |(change, day): (String, Day)| {
         // A change that the format does not allow, such as a stand beyond the most, is left out.
         day.check("a changed day").ok().map(|day| (change, Arc::new(day)))
     };
-    changes.into_iter().filter_map(checked).collect()
+    days.into_iter().filter_map(checked).collect()
 }
 
 /// The day with one more aircraft, which starts where most stands are free; `None` if none is.

@@ -13,13 +13,13 @@ pub(super) fn text(report: &SweepReport) -> String {
             profit.half_width_95.map_or_else(String::new, |half| format!(" ± {}", dollars(half)));
         format!("{}{half}", dollars(profit.mean))
     };
-    let mut text = format!(
+    let mut sentences = vec![format!(
         "{} earns most with {}: {} a day on average over {}.",
         report.policies[0],
         report.settings(best),
         earns(best),
         counted(report.days as usize, "day", "days")
-    );
+    )];
     let cheapest = report.cell(report.cheapest);
     if let (Some(size), Some(most)) = (cheapest.size, best.size)
         && cheapest.cell != best.cell
@@ -32,23 +32,23 @@ pub(super) fn text(report: &SweepReport) -> String {
         } else {
             String::new()
         };
-        text += &format!(
-            " The cheapest design within 1 % of that is {} ({} and {}{cost}): {}.",
+        sentences.push(format!(
+            "The cheapest design within 1 % of that is {} ({} and {}{cost}): {}.",
             report.settings(cheapest),
             counted(size.aircraft, "aircraft", "aircraft"),
             counted(size.stands as usize, "stand", "stands"),
             earns(cheapest)
-        );
+        ));
     }
     let largest = report.varied().max_by(|one, other| one.span_usd.total_cmp(&other.span_usd));
     if let Some(effect) =
         largest.filter(|effect| report.varied().count() > 1 && effect.span_usd > 0.0)
     {
-        text += &format!(
-            " {} matters most: between its values mean profits are up to ${} apart.",
+        sentences.push(format!(
+            "{} matters most: between its values mean profits are up to ${} apart.",
             effect.factor,
             grouped(effect.span_usd, 0)
-        );
+        ));
     }
-    text
+    sentences.join(" ")
 }

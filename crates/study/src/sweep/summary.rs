@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 use serde_json::Value;
+use vertifleet_optimize::Step;
 use vertifleet_sim::DayTotals;
 
 use super::effects::Effect;
@@ -148,7 +149,7 @@ impl SweepReport {
             first_day: sweep.drawn.first,
             split: sweep.drawn.purpose.name(),
             days,
-            bound_step_s: sweep.bound_step.map(|step| step.seconds()),
+            bound_step_s: sweep.bound_step.map(Step::seconds),
             factors: sweep.factors.iter().map(|factor| factor.path.clone()).collect(),
             policies: sweep.competitors.iter().map(|one| one.name.clone()).collect(),
             best: best.cell,

@@ -47,12 +47,14 @@ pub(super) fn text(report: &SweepReport) -> String {
     append_aligned(&mut text, &rows);
     if cells.len() > MOST_ROWS {
         let more = counted(cells.len() - MOST_ROWS, "more cell", "more cells");
-        text += &format!("... and {more}, in cells.csv\n");
+        text = text + "... and " + &more + ", in cells.csv\n";
     }
     if left_out > 0 {
         let cells = counted(left_out, "cell is", "cells are");
-        text +=
-            &format!("{cells} left out, because the fleet has no place; cells.csv says which\n");
+        text = text
+            + &cells
+            + " left out, because the fleet has no place; cells.csv says which
+";
     }
     text + "\n" + &headline::text(report)
 }
