@@ -153,9 +153,9 @@ mod tests {
     fn a_journal_of_another_sweep_is_refused_and_replaced_on_request() {
         let folder = tempfile::tempdir().expect("a folder");
         open(folder.path()).0.add(&record(3)).expect("room");
-        let other = Journal::open(folder.path(), "abd", 20, false).err().expect("another sweep");
+        let other = Journal::open(folder.path(), "xyz", 20, false).err().expect("another sweep");
         assert_eq!(other.code().to_string(), "V414");
-        let (_, records) = Journal::open(folder.path(), "abd", 20, true).expect("anew");
+        let (_, records) = Journal::open(folder.path(), "xyz", 20, true).expect("anew");
         assert!(records.is_empty());
     }
 
