@@ -20,8 +20,8 @@ use std::path::Path;
 
 use anstream::eprintln;
 use vertifleet_core::{Network, Outputs, Scenario, World};
-use vertifleet_study::PolicySource;
 use vertifleet_study::report::{self, Records};
+use vertifleet_study::{PolicySource, PolicySpec};
 
 use crate::args::PresentedArguments;
 use crate::failure::Failure;
@@ -56,6 +56,14 @@ fn reads_models<'a>(models: impl IntoIterator<Item = &'a PolicySource>, outputs:
         if let PolicySource::File(path) = model {
             outputs.reads(path);
         }
+    }
+}
+
+/// Protects what a policy is read from: its weights, and the trace that it replays.
+fn reads_policy(spec: &PolicySpec, model: Option<&PolicySource>, outputs: &mut Outputs) {
+    reads_models(model, outputs);
+    if let Some(replayed) = spec.replayed() {
+        outputs.reads(replayed);
     }
 }
 

@@ -22,7 +22,7 @@ use vertifleet_sim::{DayTotals, Trace};
 use crate::error::Error;
 use crate::resolved_policy::ResolvedPolicy;
 
-pub use losses::{PairLoss, PeriodLoss};
+pub use losses::{Loss, PairLoss, PeriodLoss};
 pub use usage::{AircraftUse, VertiportUse};
 pub use worth::Worth;
 

@@ -30,8 +30,11 @@ fn periods_pairs_and_aircraft_add_up_to_the_day() {
         let totals = &found.totals;
         let sum = |numbers: Vec<u64>| numbers.into_iter().sum::<u64>();
         let periods = &found.periods;
-        assert_eq!(sum(periods.iter().map(|one| one.carried).collect()), totals.passengers);
-        assert_eq!(sum(periods.iter().map(|one| one.spilled).collect()), totals.spilled_passengers);
+        assert_eq!(sum(periods.iter().map(|one| one.demand.carried).collect()), totals.passengers);
+        assert_eq!(
+            sum(periods.iter().map(|one| one.demand.spilled).collect()),
+            totals.spilled_passengers
+        );
         assert_eq!(
             sum(periods.iter().map(|one| one.flights.into()).collect()),
             u64::from(totals.flights)
@@ -41,12 +44,14 @@ fn periods_pairs_and_aircraft_add_up_to_the_day() {
             u64::from(totals.holds)
         );
         let pairs = &found.pairs;
-        assert_eq!(sum(pairs.iter().map(|one| one.carried).collect()), totals.passengers);
+        assert_eq!(sum(pairs.iter().map(|one| one.demand.carried).collect()), totals.passengers);
         assert_eq!(
             sum(pairs.iter().map(|one| one.flights.into()).collect()),
             u64::from(totals.flights)
         );
-        assert!(pairs.is_sorted_by(|one, next| one.spilled_margin_usd >= next.spilled_margin_usd));
+        assert!(pairs.is_sorted_by(
+            |one, next| one.demand.spilled_margin_usd >= next.demand.spilled_margin_usd
+        ));
         let earned = |usd: f64| (usd - totals.profit_usd).abs() < 1e-6 * totals.revenue_usd;
         assert!(earned(pairs.iter().map(|one| one.profit_usd).sum()));
         assert!(earned(found.aircraft.iter().map(|one| one.profit_usd).sum()));

@@ -12,7 +12,7 @@ use vertifleet_study::explain::{PAGE, explain};
 use vertifleet_study::{PolicySpec, ResolveFor};
 
 use crate::args::ExplainArguments;
-use crate::commands::{read_scenario, reads_models};
+use crate::commands::{read_scenario, reads_policy};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::{print, warn};
@@ -26,10 +26,7 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<ExitCode, Failure> {
     policy.check_fits(&scenario)?;
     let mut outputs = Outputs::new(arguments.force);
     outputs.reads(&arguments.scenario);
-    reads_models(&arguments.model, &mut outputs);
-    if let Some(replayed) = spec.replayed() {
-        outputs.reads(replayed);
-    }
+    reads_policy(&spec, arguments.model.as_ref(), &mut outputs);
     outputs.prints();
     if let Some(page) = &arguments.report {
         outputs.writes(page, &PAGE)?;

@@ -9,7 +9,7 @@ use vertifleet_study::replay::{self, Play, ReplayedDay};
 use vertifleet_study::{PolicySpec, ResolveFor};
 
 use crate::args::SimulateArguments;
-use crate::commands::{read_scenario, reads_models};
+use crate::commands::{read_scenario, reads_policy};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::{print, warn};
@@ -47,10 +47,7 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
 fn claim(arguments: &SimulateArguments, spec: &PolicySpec) -> Result<(), Failure> {
     let mut outputs = Outputs::new(arguments.force);
     outputs.reads(&arguments.scenario);
-    reads_models(&arguments.model, &mut outputs);
-    if let Some(replayed) = spec.replayed() {
-        outputs.reads(replayed);
-    }
+    reads_policy(spec, arguments.model.as_ref(), &mut outputs);
     outputs.prints();
     if let Some(trace) = &arguments.trace {
         outputs.writes(trace, &Trace::FILE)?;

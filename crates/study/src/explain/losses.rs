@@ -1,14 +1,12 @@
 //! Who was carried and who was not, by period and by pair.
 
 use serde::Serialize;
-use vertifleet_core::{Scenario, VertiportIx};
+use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_sim::TraceRow;
 
-/// Demand served and spilled in a period.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PeriodLoss {
-    /// The start of the period.
-    pub period: String,
+/// Demand served and spilled.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Loss {
     /// Passengers who wanted to fly.
     pub wanted: u64,
     /// Passengers carried.
@@ -17,6 +15,16 @@ pub struct PeriodLoss {
     pub spilled: u64,
     /// What those would have paid less what carrying them costs, dollars.
     pub spilled_margin_usd: f64,
+}
+
+/// Demand served and spilled in a period.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PeriodLoss {
+    /// The start of the period.
+    pub period: String,
+    /// Its demand.
+    #[serde(flatten)]
+    pub demand: Loss,
     /// Flights that were decided in the period.
     pub flights: u32,
     /// Flights without passengers.
@@ -32,20 +40,24 @@ pub struct PairLoss {
     pub from: String,
     /// Where they want to go.
     pub to: String,
-    /// Passengers who wanted to fly.
-    pub wanted: u64,
-    /// Passengers carried.
-    pub carried: u64,
-    /// Passengers who were not.
-    pub spilled: u64,
-    /// What those would have paid less what carrying them costs, dollars.
-    pub spilled_margin_usd: f64,
+    /// Its demand.
+    #[serde(flatten)]
+    pub demand: Loss,
     /// Flights.
     pub flights: u32,
     /// Flights without passengers.
     pub repositioning_flights: u32,
     /// Profit of the flights, dollars.
     pub profit_usd: f64,
+}
+
+impl Loss {
+    fn add(&mut self, other: Self) {
+        self.wanted += other.wanted;
+        self.carried += other.carried;
+        self.spilled += other.spilled;
+        self.spilled_margin_usd += other.spilled_margin_usd;
+    }
 }
 
 /// Passengers carried by period, from and to.
@@ -69,19 +81,14 @@ impl Carried {
         (period * self.size + from.at()) * self.size + to.at()
     }
 
-    /// Passengers who wanted to fly, who were carried, and the margin of those who were not.
-    fn loss(
-        &self,
-        day: &Scenario,
-        period: usize,
-        from: VertiportIx,
-        to: VertiportIx,
-    ) -> (u64, u64, f64) {
+    /// The loss of a pair in a period.
+    fn loss(&self, day: &Scenario, period: usize, (from, to): (VertiportIx, VertiportIx)) -> Loss {
         let wanted = u64::from(day.demand[period][(from, to)]);
         let carried = self.passengers[self.position(period, from, to)];
+        let spilled = wanted.saturating_sub(carried);
         let margin_usd =
             day.fare_usd.in_period(period)[(from, to)] - day.passenger_cost_usd[(from, to)];
-        (wanted, carried, wanted.saturating_sub(carried) as f64 * margin_usd.max(0.0))
+        Loss { wanted, carried, spilled, spilled_margin_usd: spilled as f64 * margin_usd.max(0.0) }
     }
 }
 
@@ -94,31 +101,21 @@ fn pairs(size: usize) -> impl Iterator<Item = (VertiportIx, VertiportIx)> {
 /// The losses by period.
 pub(super) fn by_period(day: &Scenario, rows: &[TraceRow]) -> Vec<PeriodLoss> {
     let carried = Carried::of(day, rows);
-    let of_period = |(period, start): (usize, &vertifleet_core::Time)| {
-        let mut loss = PeriodLoss {
+    let of_period = |(period, start): (usize, &Time)| {
+        let mut demand = Loss::default();
+        for pair in pairs(day.vertiports.len()) {
+            demand.add(carried.loss(day, period, pair));
+        }
+        let decided = rows.iter().filter(|row| day.period_at(row.time) == period);
+        let (flights, holds): (Vec<&TraceRow>, Vec<&TraceRow>) =
+            decided.partition(|row| row.from != row.to);
+        PeriodLoss {
             period: start.to_string(),
-            wanted: 0,
-            carried: 0,
-            spilled: 0,
-            spilled_margin_usd: 0.0,
-            flights: 0,
-            repositioning_flights: 0,
-            holds: 0,
-        };
-        for (from, to) in pairs(day.vertiports.len()) {
-            let (wanted, carried, margin_usd) = carried.loss(day, period, from, to);
-            loss.wanted += wanted;
-            loss.carried += carried;
-            loss.spilled += wanted.saturating_sub(carried);
-            loss.spilled_margin_usd += margin_usd;
+            demand,
+            flights: count(&flights),
+            repositioning_flights: empty(&flights),
+            holds: count(&holds),
         }
-        for row in rows.iter().filter(|row| day.period_at(row.time) == period) {
-            let flies = row.from != row.to;
-            loss.flights += u32::from(flies);
-            loss.repositioning_flights += u32::from(flies && row.passengers == 0);
-            loss.holds += u32::from(!flies);
-        }
-        loss
     };
     day.periods.iter().enumerate().map(of_period).collect()
 }
@@ -127,33 +124,34 @@ pub(super) fn by_period(day: &Scenario, rows: &[TraceRow]) -> Vec<PeriodLoss> {
 pub(super) fn by_pair(day: &Scenario, rows: &[TraceRow]) -> Vec<PairLoss> {
     let carried = Carried::of(day, rows);
     let id = |at: VertiportIx| day.vertiports[at.at()].id.clone();
-    let of_pair = |(from, to): (VertiportIx, VertiportIx)| {
-        let mut loss = PairLoss {
-            from: id(from),
-            to: id(to),
-            wanted: 0,
-            carried: 0,
-            spilled: 0,
-            spilled_margin_usd: 0.0,
-            flights: 0,
-            repositioning_flights: 0,
-            profit_usd: 0.0,
-        };
+    let of_pair = |pair: (VertiportIx, VertiportIx)| {
+        let mut demand = Loss::default();
         for period in 0..day.periods.len() {
-            let (wanted, carried, margin_usd) = carried.loss(day, period, from, to);
-            loss.wanted += wanted;
-            loss.carried += carried;
-            loss.spilled += wanted.saturating_sub(carried);
-            loss.spilled_margin_usd += margin_usd;
+            demand.add(carried.loss(day, period, pair));
         }
-        for row in rows.iter().filter(|row| (row.from, row.to) == (from, to)) {
-            loss.flights += 1;
-            loss.repositioning_flights += u32::from(row.passengers == 0);
-            loss.profit_usd += row.profit_usd();
+        let flights: Vec<&TraceRow> =
+            rows.iter().filter(|row| (row.from, row.to) == pair).collect();
+        PairLoss {
+            from: id(pair.0),
+            to: id(pair.1),
+            demand,
+            flights: count(&flights),
+            repositioning_flights: empty(&flights),
+            profit_usd: flights.iter().map(|row| row.profit_usd()).sum(),
         }
-        loss
     };
     let mut losses: Vec<PairLoss> = pairs(day.vertiports.len()).map(of_pair).collect();
-    losses.sort_by(|one, other| other.spilled_margin_usd.total_cmp(&one.spilled_margin_usd));
+    losses.sort_by(|one, other| {
+        other.demand.spilled_margin_usd.total_cmp(&one.demand.spilled_margin_usd)
+    });
     losses
+}
+
+fn count(rows: &[&TraceRow]) -> u32 {
+    u32::try_from(rows.len()).expect("a day has a bounded number of decisions")
+}
+
+/// Number of flights without passengers.
+fn empty(flights: &[&TraceRow]) -> u32 {
+    count(&flights.iter().copied().filter(|row| row.passengers == 0).collect::<Vec<_>>())
 }

@@ -13,7 +13,7 @@ const MOST_PAIRS: usize = 40;
 pub(super) fn text(explanation: &Explanation, picture: &str) -> String {
     let totals = &explanation.totals;
     let share = 100.0 * totals.profit_usd / explanation.upper_bound_usd.max(f64::MIN_POSITIVE);
-    let spilled: f64 = explanation.periods.iter().map(|one| one.spilled_margin_usd).sum();
+    let spilled: f64 = explanation.periods.iter().map(|one| one.demand.spilled_margin_usd).sum();
     let body = html! {
         p.program { "Vertifleet " (env!("CARGO_PKG_VERSION")) " · where a day’s money is, and where it is lost" }
         h1 { (explanation.day) " with " (explanation.policy) }

@@ -73,10 +73,10 @@ pub(super) fn periods(explanation: &Explanation) -> Vec<Vec<String>> {
     rows.extend(explanation.periods.iter().map(|one| {
         vec![
             one.period.clone(),
-            grouped(one.wanted as f64, 0),
-            grouped(one.carried as f64, 0),
-            grouped(one.spilled as f64, 0),
-            grouped(one.spilled_margin_usd, 0),
+            grouped(one.demand.wanted as f64, 0),
+            grouped(one.demand.carried as f64, 0),
+            grouped(one.demand.spilled as f64, 0),
+            grouped(one.demand.spilled_margin_usd, 0),
             one.flights.to_string(),
             one.repositioning_flights.to_string(),
             one.holds.to_string(),
@@ -101,10 +101,10 @@ pub(super) fn pairs(explanation: &Explanation, most: usize) -> Vec<Vec<String>> 
     rows.extend(explanation.pairs.iter().take(most).map(|one| {
         vec![
             format!("{} -> {}", one.from, one.to),
-            grouped(one.wanted as f64, 0),
-            grouped(one.carried as f64, 0),
-            grouped(one.spilled as f64, 0),
-            grouped(one.spilled_margin_usd, 0),
+            grouped(one.demand.wanted as f64, 0),
+            grouped(one.demand.carried as f64, 0),
+            grouped(one.demand.spilled as f64, 0),
+            grouped(one.demand.spilled_margin_usd, 0),
             one.flights.to_string(),
             one.repositioning_flights.to_string(),
             grouped(one.profit_usd, 0),
