@@ -196,24 +196,21 @@ impl Sweep {
         }))
     }
 
-    /// Checks, before anything is played, that the sweep may be kept in this folder: it can be created, is empty, or
-    /// holds a sweep, or `force` is given.
+    /// Checks, before anything is played, that the sweep may be kept in this folder: there is none, it is empty, or it holds
+    /// a sweep, or `force` is given.
     ///
     /// # Errors
-    /// Returns [`Error::CannotMakeFolder`], or [`Error::Core`] for a folder that holds something else (V143) or is
-    /// read-only (V144).
+    /// Returns [`Error::Core`] for a folder that holds something else (V143) or is read-only (V144).
     pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
-        check_folder(folder, &FOLDER, force)?;
-        fs::create_dir_all(folder)
-            .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })
+        Ok(check_folder(folder, &FOLDER, force)?)
     }
 
-    /// Plays all cells that the folder does not hold yet, and keeps each as soon as it is finished. `begin` is called
+    /// Plays all cells that the folder, which is made if it is not there, does not hold yet, and keeps each as soon as it is finished. `begin` is called
     /// with the number of cells that were there and of all cells; the function that it returns is called after each
     /// further one, from any thread. With `force`, another sweep in the folder is replaced.
     ///
     /// # Errors
-    /// Returns [`Error::OtherSweep`] if the folder holds another sweep, [`Error::Stopped`] soon after `stop` is
+    /// Returns [`Error::CannotMakeFolder`], [`Error::OtherSweep`] if the folder holds another sweep, [`Error::Stopped`] soon after `stop` is
     /// requested, and the errors of [`play`](Self::play). Cells that were finished are kept.
     pub fn run<Played: Fn() + Sync>(
         &self,
@@ -223,6 +220,8 @@ impl Sweep {
         stop: &Stop,
         begin: impl FnOnce(usize, usize) -> Played,
     ) -> Result<SweepRecords<'_>, Error> {
+        fs::create_dir_all(folder)
+            .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })?;
         let (journal, found) = Journal::open(folder, &self.fingerprint, self.cells.len(), force)?;
         let mut records: Vec<Option<CellRecord>> = vec![None; self.cells.len()];
         let played = begin(found.len(), self.cells());
