@@ -32,29 +32,29 @@ const VERTIPORTS: &str = "id,latitude,longitude,stands\n\
 const DEMAND: &str = "period,from,to,passengers\n\
                       6,SFO,OAK,12\n7,SFO,OAK,20\n7,OAK,SFO,18\n8,SJC,SFO,9.5\n17,SFO,SJC,22\n";
 
+/// The command that makes a network of the tables.
+const IMPORT: [&str; 12] = [
+    "network",
+    "import",
+    "--vertiports",
+    "vertiports.csv",
+    "--demand",
+    "demand.csv",
+    "--base",
+    "base.toml",
+    "--name",
+    "bay",
+    "--output",
+    "bay.toml",
+];
+
 /// A folder with a network that was made of tables.
 fn imported() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("vertiports.csv"), VERTIPORTS).expect("room");
     fs::write(folder.path().join("demand.csv"), DEMAND).expect("room");
     fs::write(folder.path().join("base.toml"), small_base()).expect("room");
-    stdout(
-        folder.path(),
-        &[
-            "network",
-            "import",
-            "--vertiports",
-            "vertiports.csv",
-            "--demand",
-            "demand.csv",
-            "--base",
-            "base.toml",
-            "--name",
-            "bay",
-            "--output",
-            "bay.toml",
-        ],
-    );
+    stdout(folder.path(), &IMPORT);
     folder
 }
 
@@ -87,23 +87,7 @@ fn tables_become_a_network_that_can_be_played() {
         ],
     );
     assert!(played["policies"][0]["passengers"].as_f64().expect("a number") > 10.0);
-    let again = vertifleet(
-        here,
-        &[
-            "network",
-            "import",
-            "--vertiports",
-            "vertiports.csv",
-            "--demand",
-            "demand.csv",
-            "--base",
-            "base.toml",
-            "--name",
-            "bay",
-            "--output",
-            "bay.toml",
-        ],
-    );
+    let again = vertifleet(here, &IMPORT);
     assert_eq!(again.status.code(), Some(2), "a file that may have been edited is not replaced");
     assert!(String::from_utf8_lossy(&again.stderr).contains("V143"));
 }

@@ -79,6 +79,7 @@ pub use random_network::random_network;
 pub use random_places::{RANDOM_PLACES, random_places};
 pub use scenario::{Aircraft, AircraftType, Day, Degrees, Operations, Scenario, Vertiport};
 pub use seeds::{DaySeed, Purpose};
+pub use sites::{EARTH_RADIUS_MI, great_circle_mi};
 pub use stop::{Stop, Stopped};
 pub use time::Time;
 pub use warning::{Cause, Warning};

@@ -13,7 +13,7 @@ use crate::tariffs::SiteCosts;
 use crate::{Degrees, Error, Matrix, Vertiport, check};
 
 /// Mean radius of the Earth (IUGG), miles.
-const EARTH_RADIUS_MI: f64 = 3_958.761_3;
+pub const EARTH_RADIUS_MI: f64 = 3_958.761_3;
 
 /// The vertiports with the distances between them.
 pub(crate) struct Sites {
@@ -163,8 +163,8 @@ impl RawSite {
     }
 }
 
-/// The haversine formula; places are latitude and longitude in degrees.
-pub(crate) fn great_circle_mi(from: (f64, f64), to: (f64, f64)) -> f64 {
+/// The great-circle distance by the haversine formula, miles; places are latitude and longitude in degrees.
+pub fn great_circle_mi(from: (f64, f64), to: (f64, f64)) -> f64 {
     let (from_north, to_north) = (from.0.to_radians(), to.0.to_radians());
     let half_north = libm::sin((to_north - from_north) / 2.0);
     let half_east = libm::sin((to.1 - from.1).to_radians() / 2.0);

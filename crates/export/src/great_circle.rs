@@ -3,10 +3,7 @@
 //! The globe is a sphere here. Trigonometry comes from `libm`, because the operating system's own functions may differ
 //! in the last bit, and the same day is to give the same file everywhere.
 
-use vertifleet_core::Degrees;
-
-/// The mean radius of the earth, miles, as the distances of networks take it.
-const RADIUS_MI: f64 = 3_958.761_3;
+use vertifleet_core::{Degrees, EARTH_RADIUS_MI};
 
 /// Below this distance from 0 or 180 degrees, in radians, two places do not tell which great circle leads from one to
 /// the other.
@@ -37,7 +34,7 @@ impl GreatCircle {
 
     /// The length of the way, miles.
     pub(crate) fn length_mi(&self) -> f64 {
-        RADIUS_MI * self.angle
+        EARTH_RADIUS_MI * self.angle
     }
 
     /// The place after a share of the way, from 0 to 1, to the nearest 1e-7 degrees, which is about a centimetre; the

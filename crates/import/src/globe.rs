@@ -1,9 +1,8 @@
 //! Distances on the globe, and the middle of areas.
 //!
-//! Angles go through the `libm` crate, because the results of the system's library depend on the machine.
+//! Distances are those of a network, so that an import has the distances that the network has.
 
-/// Mean radius of the Earth (IUGG), miles; the same as for the distances of a network.
-pub(crate) const EARTH_RADIUS_MI: f64 = 3_958.761_3;
+use vertifleet_core::great_circle_mi;
 
 /// A place on the globe, degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,12 +22,7 @@ impl Place {
     /// The great-circle distance by the haversine formula, miles.
     #[inline]
     pub(crate) fn distance_mi(self, to: Self) -> f64 {
-        let (from_north, to_north) = (self.latitude.to_radians(), to.latitude.to_radians());
-        let half_north = libm::sin((to_north - from_north) / 2.0);
-        let half_east = libm::sin((to.longitude - self.longitude).to_radians() / 2.0);
-        let haversine = half_north * half_north
-            + libm::cos(from_north) * libm::cos(to_north) * half_east * half_east;
-        2.0 * EARTH_RADIUS_MI * libm::asin(haversine.sqrt().min(1.0))
+        great_circle_mi((self.latitude, self.longitude), (to.latitude, to.longitude))
     }
 }
 

@@ -3,7 +3,9 @@
 //! The decision is the haversine distance's. It costs four sines and cosines, so it is taken only of vertiports around
 //! which a box of latitudes and longitudes holds the place. The box is the smallest that holds the circle of the radius.
 
-use crate::globe::{EARTH_RADIUS_MI, Place};
+use vertifleet_core::EARTH_RADIUS_MI;
+
+use crate::globe::Place;
 
 /// The vertiport near a place.
 #[derive(Debug, Clone, Copy, PartialEq)]

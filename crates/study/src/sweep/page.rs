@@ -26,7 +26,7 @@ pub(super) fn text(report: &SweepReport, figures: &[Figure]) -> String {
 }
 
 fn opening(report: &SweepReport) -> Markup {
-    let played = report.cells.iter().filter(|cell| !cell.results.is_empty()).count();
+    let played = report.ranked().len();
     html! {
         p.program { "Vertifleet " (report.program_version) " · what a change of the network is worth" }
         h1 { (counted(played, "design", "designs")) " of “" (report.network) "”" }
@@ -47,11 +47,7 @@ fn opening(report: &SweepReport) -> Markup {
 }
 
 fn cells(report: &SweepReport) -> Markup {
-    let mut cells: Vec<&CellSummary> =
-        report.cells.iter().filter(|cell| !cell.results.is_empty()).collect();
-    cells.sort_by(|one, other| {
-        other.results[0].profit_usd.mean.total_cmp(&one.results[0].profit_usd.mean)
-    });
+    let cells = report.ranked();
     html! {
         h2 { "Designs" }
         p.lead { "By the mean profit of " (report.policies[0]) ", best first. ± is the 95 % interval of the mean over the days; "

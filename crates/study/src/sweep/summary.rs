@@ -164,6 +164,16 @@ impl SweepReport {
         &self.cells[number]
     }
 
+    /// The cells that were played, by the mean profit of the first policy, best first.
+    pub fn ranked(&self) -> Vec<&CellSummary> {
+        let mut cells: Vec<&CellSummary> =
+            self.cells.iter().filter(|cell| !cell.results.is_empty()).collect();
+        cells.sort_by(|one, other| {
+            other.results[0].profit_usd.mean.total_cmp(&one.results[0].profit_usd.mean)
+        });
+        cells
+    }
+
     /// How profit follows those factors that have more than one value.
     pub fn varied(&self) -> impl Iterator<Item = &Effect> + Clone {
         self.effects.iter().filter(|effect| effect.levels.len() > 1)

@@ -11,10 +11,7 @@ const MOST_ROWS: usize = 40;
 
 /// The best cells by the first policy, and the headline.
 pub(super) fn text(report: &SweepReport) -> String {
-    let mut cells: Vec<_> = report.cells.iter().filter(|cell| !cell.results.is_empty()).collect();
-    cells.sort_by(|one, other| {
-        other.results[0].profit_usd.mean.total_cmp(&one.results[0].profit_usd.mean)
-    });
+    let cells = report.ranked();
     let left_out = report.cells.len() - cells.len();
     let mut head = vec!["cell".to_owned()];
     head.extend(report.factors.iter().cloned());
