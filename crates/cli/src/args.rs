@@ -20,7 +20,9 @@ use crate::typed::{
 };
 
 pub(crate) use network::{ImportArguments, NetworkAction, NewArguments};
-pub(crate) use planning::{ExplainArguments, ExportArguments, ExportFormat, SweepArguments};
+pub(crate) use planning::{
+    ExplainArguments, ExportArguments, ExportFormat, SizeArguments, SweepArguments,
+};
 
 /// Decides where every electric air taxi of an urban fleet flies next.
 #[derive(Debug, Parser)]
@@ -60,6 +62,8 @@ pub(crate) enum Command {
     Generalise(GeneraliseArguments),
     /// Play the same days under many settings of a network: what is a change worth?
     Sweep(SweepArguments),
+    /// Find how many aircraft, stands and chargers a network should have
+    Size(SizeArguments),
     /// Measure policies on a frozen suite of days, and verify results
     Evaluate(EvaluateArguments),
     /// Run the dispatch service: live days over HTTP

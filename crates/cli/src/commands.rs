@@ -13,6 +13,7 @@ pub(crate) mod plan;
 pub(crate) mod scenario;
 pub(crate) mod serve;
 pub(crate) mod simulate;
+pub(crate) mod size;
 pub(crate) mod sweep;
 pub(crate) mod train;
 

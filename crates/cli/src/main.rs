@@ -44,6 +44,7 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Export(arguments) => commands::export::run(&arguments),
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
+        Command::Size(arguments) => commands::size::run(&arguments),
         Command::Evaluate(arguments) => commands::evaluate::run(&arguments),
         Command::Serve(arguments) => commands::serve::run(&arguments),
         Command::Operate(arguments) => commands::operate::run(&arguments),

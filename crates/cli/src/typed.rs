@@ -7,6 +7,7 @@ use std::time::Duration;
 use vertifleet_core::{Coded as _, Purpose};
 use vertifleet_import::NewVertiport;
 use vertifleet_serve::Role;
+use vertifleet_study::size::Goal;
 use vertifleet_study::sweep::Factor;
 use vertifleet_study::{MOST_DAYS, PolicySource};
 
@@ -25,10 +26,17 @@ pub(crate) fn parse_model(text: &str) -> Result<(String, PolicySource), String> 
 
 /// A setting of a network and its values.
 pub(crate) fn parse_factor(text: &str) -> Result<Factor, String> {
-    Factor::parse(text).map_err(|error| {
-        let hint = error.hint().map_or_else(String::new, |hint| format!("; {hint}"));
-        format!("{error}{hint}")
-    })
+    Factor::parse(text).map_err(with_hint)
+}
+
+/// What a design is to achieve.
+pub(crate) fn parse_goal(text: &str) -> Result<Goal, String> {
+    Goal::parse(text).map_err(with_hint)
+}
+
+fn with_hint(error: vertifleet_study::Error) -> String {
+    let hint = error.hint().map_or_else(String::new, |hint| format!("; {hint}"));
+    format!("{error}{hint}")
 }
 
 /// A value of a type that reads itself and says what it expects.

@@ -40,6 +40,23 @@ impl Network {
         Self::from_toml(&text, &origin)
     }
 
+    /// The members of the network's file that a path names, as [`changed`](Self::changed) reads it, each with a path that
+    /// names it alone: `fleet.*.count` gives `fleet.midnight.count` and the others.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchMember`] if the path leads nowhere.
+    pub fn members(&self, path: &str) -> Result<Vec<(String, Value)>, Error> {
+        let file: toml::Value = toml::from_str(self.toml()).expect("the text has been read before");
+        let parts: Vec<&str> = path.split('.').collect();
+        let mut found = Vec::new();
+        let outcome = find(&file, &parts, &mut Vec::new(), &mut found);
+        outcome.map_err(|part| Error::NoSuchMember {
+            path: path.to_owned(),
+            part: shortened(&part, 64),
+        })?;
+        Ok(found)
+    }
+
     /// Makes aircraft start where they start on this network, if the stands of the file are others than its own.
     fn keep_start_stands(&self, file: &mut toml::Value) {
         let toml::Value::Table(members) = file else { return };
@@ -93,12 +110,54 @@ fn set(at: &mut toml::Value, path: &[&str], value: &toml::Value) -> Result<(), S
     }
 }
 
+/// Finds the members that a path leads to. `passed` are the parts of the path before. The error is the part that leads
+/// nowhere.
+fn find(
+    at: &toml::Value,
+    path: &[&str],
+    passed: &mut Vec<String>,
+    found: &mut Vec<(String, Value)>,
+) -> Result<(), String> {
+    let [part, rest @ ..] = path else {
+        found.push((passed.join("."), serde_json::to_value(at).expect("TOML has a form in JSON")));
+        return Ok(());
+    };
+    let lost = || (*part).to_owned();
+    let members: Vec<(String, &toml::Value)> = match at {
+        toml::Value::Table(members) => {
+            vec![((*part).to_owned(), members.get(*part).ok_or_else(lost)?)]
+        }
+        toml::Value::Array(entries) if *part == "*" => {
+            (0..entries.len()).map(|at| (own_name(entries, at), &entries[at])).collect()
+        }
+        toml::Value::Array(entries) => {
+            let at = position(entries, part).ok_or_else(lost)?;
+            vec![(own_name(entries, at), &entries[at])]
+        }
+        _ => return Err(lost()),
+    };
+    for (name, member) in members {
+        passed.push(name);
+        find(member, rest, passed, found)?;
+        passed.pop();
+    }
+    Ok(())
+}
+
+/// The name of an entry: its id or type if this leads to it, else its position.
+fn own_name(entries: &[toml::Value], at: usize) -> String {
+    let name = name_of(&entries[at]).filter(|name| position(entries, name) == Some(at));
+    name.map_or_else(|| at.to_string(), str::to_owned)
+}
+
+/// The id of an entry, or, in the fleet, its type.
+fn name_of(entry: &toml::Value) -> Option<&str> {
+    entry.get("id").or_else(|| entry.get("type")).and_then(toml::Value::as_str)
+}
+
 /// The position of the entry whose id (or, in the fleet, type) is `part`, or else the position that `part` is.
 fn position(entries: &[toml::Value], part: &str) -> Option<usize> {
-    let of_id = |entry: &toml::Value| {
-        let name = entry.get("id").or_else(|| entry.get("type"));
-        name.and_then(toml::Value::as_str) == Some(part)
-    };
+    let of_id = |entry: &toml::Value| name_of(entry) == Some(part);
     let counted = || part.parse().ok().filter(|&position| position < entries.len());
     entries.iter().position(of_id).or_else(counted)
 }
@@ -112,6 +171,30 @@ mod tests {
     fn changed(changes: &Value) -> Result<Network, Error> {
         let paper = Network::shipped("paper").expect("a shipped network");
         paper.changed(changes.as_object().expect("changes by their paths"))
+    }
+
+    #[test]
+    fn a_fleet_may_do_without_a_type_but_not_without_aircraft() {
+        let york = Network::shipped("new-york").expect("a shipped network");
+        let with = |changes: &Value| york.changed(changes.as_object().expect("changes"));
+        let one = with(&json!({"fleet.midnight.count": 0})).expect("a fleet of one type");
+        assert_eq!(one.fleet_size(), 16);
+        let none = with(&json!({"fleet.*.count": 0})).expect_err("no aircraft");
+        assert!(none.to_string().contains("fleet, counted by aircraft"), "{none}");
+    }
+
+    #[test]
+    fn a_path_with_a_star_names_members_one_by_one() {
+        let york = Network::shipped("new-york").expect("a shipped network");
+        let members = york.members("fleet.*.count").expect("a fleet");
+        let own = |path: &str, count: i64| (path.to_owned(), json!(count));
+        assert_eq!(members, [own("fleet.midnight.count", 16), own("fleet.joby-s4.count", 16)]);
+        let stands = york.members("vertiports.3.stands").expect("a vertiport");
+        assert_eq!(stands, [own("vertiports.JFK.stands", 8)]);
+        for path in ["fleet.*.cont", "fleet.9.count", "vertiports.JFK.stands.more", "fleets"] {
+            let error = york.members(path).expect_err(path);
+            assert_eq!(error.code().to_string(), "V123", "{path}");
+        }
     }
 
     #[test]

@@ -471,7 +471,7 @@ impl Coded for Error {
             Self::UnknownNetwork { .. } => Some("a network file is TOML, see networks/paper.toml"),
             Self::Output(refusal) => refusal.hint(),
             Self::NoSuchMember { .. } => Some(
-                "members are named as in the network file, entries of a list by id, position or *",
+                "members are named as in the network file, entries of a list by id (in the fleet by type), position or *",
             ),
             Self::WrongKind { expected: FileKind::Scenario, .. } => Some(
                 "`vertifleet scenario FILE --seed 1 --output DAY.json` draws a scenario from a network",

@@ -154,7 +154,8 @@ pub(crate) const ENERGY_PRICE_USD: Limits =
 pub(crate) const TARIFF: Limits = Limits::between(0.0, 1e3);
 pub(crate) const FEATURE_SCALE: Limits =
     Limits::above_zero(1e9).hint("a learned policy sees each quantity divided by its scale");
-pub(crate) const FLEET_COUNT: Limits = Limits::whole(1, 10_000);
+/// A type may have no aircraft, so that studies can do without it; the whole fleet has one at least.
+pub(crate) const FLEET_COUNT: Limits = Limits::whole(0, 10_000);
 /// Mean and standard deviation of a period's demand; far enough below `PASSENGERS` for any draw to stay within it.
 pub(crate) const DEMAND_MEAN: Limits = Limits::between(0.0, 1e5);
 pub(crate) const DEMAND_SD: Limits = Limits::between(0.0, 1e4);

@@ -274,14 +274,18 @@ fn fleet(
 ) -> Result<Vec<Aircraft>, Error> {
     check::entry_count(origin, "fleet", raw.len(), entries::AIRCRAFT)?;
     let positions = Positions::of_types(aircraft_types, origin)?;
+    let counted = |aircraft| {
+        check::entry_count(origin, "fleet, counted by aircraft,", aircraft, entries::AIRCRAFT)
+    };
     let mut kinds = Vec::new();
     for (at, entry) in raw.iter().enumerate() {
         let kind = positions.position(&entry.kind, origin, || format!("fleet[{at}]: type"))?;
         let count: u16 = limits::FLEET_COUNT
             .whole_number(entry.count, origin, || format!("fleet[{at}]: count"))?;
         kinds.extend(std::iter::repeat_n(TypeIx::new(kind), count.into()));
-        check::entry_count(origin, "fleet, counted by aircraft,", kinds.len(), entries::AIRCRAFT)?;
+        counted(kinds.len().max(1))?;
     }
+    counted(kinds.len())?;
     let stands = vertiports.iter().enumerate().flat_map(|(at, vertiport)| {
         std::iter::repeat_n(VertiportIx::new(at), vertiport.stands.into())
     });

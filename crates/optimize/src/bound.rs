@@ -9,6 +9,7 @@
 mod best_itineraries;
 mod certificate;
 mod descent;
+mod designs;
 mod itinerary;
 mod kept;
 mod ladder;
@@ -34,6 +35,7 @@ use slices::Slices;
 use step::STEPS;
 use time_expanded_day::TimeExpandedDay;
 
+pub use designs::{DesignBound, day_of_passengers};
 pub use kept::kept_upper_bound;
 pub(crate) use ladder::{Relaxed, Watch, search};
 pub use step::Step;

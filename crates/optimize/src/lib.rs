@@ -41,8 +41,8 @@ mod proven_plan;
 mod rolling;
 
 pub use bound::{
-    Bound, Step, bound_without_foresight, gap, kept_upper_bound, upper_bound, upper_bound_of_rest,
-    upper_bound_unless,
+    Bound, DesignBound, Step, bound_without_foresight, day_of_passengers, gap, kept_upper_bound,
+    upper_bound, upper_bound_of_rest, upper_bound_unless,
 };
 pub use error::Error;
 pub use plan::{

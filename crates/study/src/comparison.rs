@@ -75,7 +75,8 @@ impl DrawnDays {
         Ok(DaySeed::of_purpose(self.purpose, self.first.saturating_add(u64::from(day)))?)
     }
 
-    fn draw(&self, network: &Network, stop: &Stop) -> Result<Vec<Arc<Scenario>>, Error> {
+    /// Draws the days of a network.
+    pub(crate) fn draw(&self, network: &Network, stop: &Stop) -> Result<Vec<Arc<Scenario>>, Error> {
         // The last seed is checked first, so that no day is drawn if one of them cannot be.
         self.check()?;
         let draw = |day: u32| {

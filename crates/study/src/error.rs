@@ -155,11 +155,11 @@ pub enum Error {
         rule: String,
     },
 
-    /// V414. The folder holds another sweep: with other settings, days, policies, weights or another version of the
-    /// program. Fix: name another folder, or replace the sweep with `--force`.
-    #[error("{}: belongs to another sweep", path.display())]
-    OtherSweep {
-        /// The journal of the other sweep.
+    /// V414. The folder holds another study: with other settings, days, policies, weights or another version of the
+    /// program. Fix: name another folder, or replace the study with `--force`.
+    #[error("{}: belongs to another study", path.display())]
+    OtherStudy {
+        /// The journal of the other study.
         path: PathBuf,
     },
 
@@ -215,7 +215,7 @@ impl Coded for Error {
             Self::UnknownSuite { .. } => 411,
             Self::SuiteChanged { .. } => 412,
             Self::NotAResult { .. } => 413,
-            Self::OtherSweep { .. } => 414,
+            Self::OtherStudy { .. } => 414,
             Self::UnknownPolicy { .. } => 307,
         })
     }
@@ -254,8 +254,8 @@ impl Coded for Error {
             Self::NotAResult { .. } => {
                 Some("results are written by `vertifleet evaluate --results`")
             }
-            Self::OtherSweep { .. } => {
-                Some("name another folder, or replace that sweep with --force")
+            Self::OtherStudy { .. } => {
+                Some("name another folder, or replace that study with --force")
             }
             Self::NotFinite { .. } | Self::Stopped => None,
         }

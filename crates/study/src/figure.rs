@@ -7,6 +7,7 @@
 
 mod box_plot;
 mod day_differences;
+mod designs;
 mod heat_map;
 mod key;
 mod learning_curves;
@@ -15,6 +16,7 @@ mod share_by_size;
 mod tornado;
 
 use crate::comparison::ComparisonReport;
+use crate::size::SizeReport;
 use crate::sweep::SweepReport;
 
 pub(crate) use share_by_size::share_by_size;
@@ -47,6 +49,11 @@ pub fn all(summary: &ComparisonReport) -> Vec<Figure> {
 pub(crate) fn of_sweep(report: &SweepReport) -> Vec<Figure> {
     let figures = [response::curves(report), heat_map::figure(report), tornado::figure(report)];
     figures.into_iter().flatten().collect()
+}
+
+/// The figures of a search for a design.
+pub(crate) fn of_size(report: &SizeReport) -> Vec<Figure> {
+    vec![designs::figure(report)]
 }
 
 #[cfg(test)]

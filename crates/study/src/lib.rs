@@ -1,9 +1,10 @@
 //! Studies of many policies on many days: statistics, figures and reports.
 //!
 //! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`PolicySpec`] gives the names of policies their
-//! meaning, and [`competitor`] finds the policies of a study. There are four studies: [`comparison`], of policies on
+//! meaning, and [`competitor`] finds the policies of a study. There are five studies: [`comparison`], of policies on
 //! the days of one network, [`generalisation`], over one day of each of many networks, [`evaluation`], on the days of a
-//! frozen [`Suite`], and [`sweep`], over many settings of one network. All go from the request to records, and let [`run`] play the days. [`report`] writes the
+//! frozen [`Suite`], [`sweep`], over many settings of one network, and [`size`], which searches for the best numbers of
+//! aircraft, stands and chargers. All go from the request to records, and let [`run`] play the days. [`report`] writes the
 //! pages of the first two; an evaluation leaves result files, which can be verified. [`ComparisonReport`] turns records into
 //! statistics. The presentation computes nothing, and the statistics do not depend on the presentation.
 //!
@@ -35,6 +36,7 @@ pub mod evaluation;
 pub mod explain;
 pub mod figure;
 pub mod generalisation;
+mod journal;
 mod kept_bounds;
 pub mod network_overview;
 mod origin;
@@ -49,6 +51,7 @@ mod resolved_policy;
 pub mod run;
 mod sees;
 mod share;
+pub mod size;
 mod starting_policies;
 pub mod statistics;
 mod study;

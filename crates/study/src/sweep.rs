@@ -11,7 +11,6 @@ mod days_csv;
 mod design;
 mod effects;
 mod headline;
-mod journal;
 mod page;
 mod record;
 mod summary;
@@ -20,35 +19,38 @@ mod table;
 use std::fs;
 use std::hash::Hasher;
 use std::path::Path;
-use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
 use siphasher::sip128::{Hasher128, SipHasher13};
-use vertifleet_core::{Coded, FolderKind, Network, Scenario, Stop, check_folder, write_atomically};
+use vertifleet_core::{
+    Coded, FolderKind, Network, OutputKind, Scenario, Stop, check_folder, write_atomically,
+};
 use vertifleet_optimize::Step;
 
 use crate::comparison::DrawnDays;
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
 use crate::figure;
+use crate::journal::{self, Head, Journal};
 use crate::kept_bounds::KeptBounds;
 use crate::report::{File, Records, pictures};
 use crate::run::{BoundedDay, Kept, run};
 
-use journal::Journal;
-
 pub use design::{Design, Factor, Levels, MOST_CELLS};
 pub use effects::{Effect, LevelEffect};
-pub use journal::JOURNAL;
 pub use record::{CellRecord, Size};
 pub(crate) use summary::shown;
 pub use summary::{CellResult, CellSummary, FORMAT, SweepReport};
 
+/// The name of the journal in the folder of a sweep.
+pub const JOURNAL: &str = "cells.jsonl";
+const JOURNAL_FORMAT: &str = "vertifleet-sweep-cells/1";
+
 /// A folder that holds a sweep and nothing else.
 const FOLDER: FolderKind = FolderKind {
     name: "sweep",
-    mark: (JOURNAL, &[journal::KIND]),
+    mark: (JOURNAL, &[KIND]),
     holds: |name| {
         let end = Path::new(name).extension();
         let picture = end.is_some_and(|end| end == "svg" || end == "png");
@@ -56,6 +58,10 @@ const FOLDER: FolderKind = FolderKind {
             || [JOURNAL, "cells.csv", "days.csv", "summary.json", "report.html"].contains(&name)
     },
 };
+
+/// The beginning of every journal of a sweep, in any version of the format.
+const KIND: OutputKind =
+    OutputKind { name: "sweep", skipped: 0, opening: "{\"format\":\"vertifleet-sweep-cells/" };
 
 /// What a sweep is asked for.
 pub struct SweepRequest<'a> {
@@ -172,6 +178,11 @@ impl Sweep {
         format!("{:032x}", hasher.finish128().as_u128())
     }
 
+    /// The head of the sweep's journal.
+    fn head(&self) -> Head {
+        Head { format: JOURNAL_FORMAT.to_owned(), study: self.fingerprint.clone() }
+    }
+
     /// Plays the days of a cell; `None` if the cell has no network.
     ///
     /// # Errors
@@ -179,9 +190,7 @@ impl Sweep {
     /// policy cannot play one to its end.
     pub fn play(&self, cell: usize, stop: &Stop) -> Result<Option<CellRecord>, Error> {
         let Ok(network) = &self.cells[cell].network else { return Ok(None) };
-        let draw = |day| Ok(Arc::new(network.draw(self.drawn.seed(day)?)));
-        let days =
-            (0..self.drawn.days).into_par_iter().map(draw).collect::<Result<Vec<_>, Error>>()?;
+        let days = self.drawn.draw(network, stop)?;
         let days: Vec<BoundedDay> = match self.bound_step {
             Some(slices) => KeptBounds::of_this_user().days(days, slices, stop, &|| ())?,
             None => days.into_iter().map(BoundedDay::unbounded).collect(),
@@ -210,7 +219,7 @@ impl Sweep {
     /// further one, from any thread. With `force`, another sweep in the folder is replaced.
     ///
     /// # Errors
-    /// Returns [`Error::CannotMakeFolder`], [`Error::OtherSweep`] if the folder holds another sweep, [`Error::Stopped`] soon after `stop` is
+    /// Returns [`Error::CannotMakeFolder`], [`Error::OtherStudy`] if the folder holds another sweep, [`Error::Stopped`] soon after `stop` is
     /// requested, and the errors of [`play`](Self::play). Cells that were finished are kept.
     pub fn run<Played: Fn() + Sync>(
         &self,
@@ -222,7 +231,11 @@ impl Sweep {
     ) -> Result<SweepRecords<'_>, Error> {
         fs::create_dir_all(folder)
             .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })?;
-        let (journal, found) = Journal::open(folder, &self.fingerprint, self.cells.len(), force)?;
+        let mut known = vec![false; self.cells.len()];
+        let is_new = |record: &CellRecord| {
+            known.get_mut(record.cell).is_some_and(|known| !std::mem::replace(known, true))
+        };
+        let (journal, found) = Journal::open(&folder.join(JOURNAL), &self.head(), force, is_new)?;
         let mut records: Vec<Option<CellRecord>> = vec![None; self.cells.len()];
         let played = begin(found.len(), self.cells());
         for record in found {
@@ -270,7 +283,7 @@ impl SweepRecords<'_> {
     pub fn write(&self, folder: &Path) -> Result<(), Error> {
         let mut files = self.files()?;
         let records: Vec<CellRecord> = self.records.iter().flatten().cloned().collect();
-        let journal = journal::text(&self.sweep.fingerprint, self.records.len(), &records);
+        let journal = journal::text(&self.sweep.head(), &records);
         files.push((JOURNAL.to_owned(), journal.into_bytes()));
         for (name, content) in files {
             write_atomically(&folder.join(name), &content)?;

@@ -6,10 +6,12 @@ use clap::builder::{PathBufValueParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 use vertifleet_core::Purpose;
 use vertifleet_study::PolicySource;
+use vertifleet_study::size::Goal;
 use vertifleet_study::sweep::Factor;
 
 use crate::typed::{
-    parse_count, parse_factor, parse_minutes, parse_model, parse_name, parse_seed, parse_split,
+    parse_count, parse_factor, parse_goal, parse_minutes, parse_model, parse_name, parse_seed,
+    parse_split,
 };
 
 #[derive(Debug, Args)]
@@ -51,6 +53,51 @@ pub(crate) struct SweepArguments {
     #[arg(long)]
     pub(crate) json: bool,
     /// Replace another sweep in the folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SizeArguments {
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
+    pub(crate) network: String,
+    /// profit; served=0.95 or another share of those who want to fly, with the least cost; zero-spill, which is served=1; or
+    /// least-spill
+    #[arg(long, default_value = "profit", value_parser = parse_goal)]
+    pub(crate) goal: Goal,
+    /// What may vary, as fleet.*.count=10..60, vertiports.JFK.stands=4..12/2, or a setting of all designs, as
+    /// tariffs.aircraft_cost_usd_per_day=900; may be given several times [default: all aircraft, stands and chargers, up to
+    /// twice the file; for least-spill not the aircraft]
+    #[arg(long, value_name = "PATH=VALUES", value_parser = parse_factor)]
+    pub(crate) vary: Vec<Factor>,
+    /// The policy that plays the days, as compare takes it
+    #[arg(long, default_value = "gcaps-x", value_parser = parse_name)]
+    pub(crate) policy: String,
+    /// Number of days of each design; as many that follow them tell how good the best one is
+    #[arg(long, default_value_t = 20, allow_hyphen_values = true, value_parser = parse_count)]
+    pub(crate) days: u32,
+    /// Seed of the first day and of the random policy
+    #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed)]
+    pub(crate) seed: u64,
+    /// Whose days: comparison, validation or training; with the latter two, the seed is the number of the first day
+    #[arg(long, default_value = "comparison", value_parser = parse_split)]
+    pub(crate) split: Purpose,
+    /// Weights of a learned policy [default: the shipped ones of the network]
+    #[arg(long, value_name = "PATH", value_parser = PathBufValueParser::new().map(PolicySource::File))]
+    pub(crate) model: Option<PolicySource>,
+    /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer give a tighter certificate, and take longer
+    #[arg(long, value_name = "MIN", default_value_t = 60, allow_hyphen_values = true, value_parser = parse_minutes)]
+    pub(crate) step: u32,
+    /// The most designs to play
+    #[arg(long, value_name = "NUMBER", default_value_t = 40)]
+    pub(crate) designs: usize,
+    /// Folder of the search: designs, a report page and the network file of the best one; a search that ended early goes on in it
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Print the results as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Replace another search in the folder
     #[arg(long)]
     pub(crate) force: bool,
 }

@@ -1,0 +1,270 @@
+//! Sizing: how many aircraft, stands and chargers a network should have.
+//!
+//! The search ([`Goal`]) goes over designs, each of which is the network with other numbers of aircraft, stands and
+//! chargers. All designs meet the same days with common random numbers, as the cells of a [sweep](crate::sweep) do. Bounds
+//! of a few designs bound all of them ([`vertifleet_optimize::DesignBound`]), which shows where good designs are and proves how far the best
+//! that was found can be from the best there is. The best is played again on days that the search has not seen, because the
+//! best of many looks better than it is.
+
+mod ceiling;
+mod csv;
+mod goal;
+mod headline;
+mod journal;
+mod page;
+mod search;
+mod solver;
+mod space;
+mod summary;
+mod table;
+
+use std::fs;
+use std::hash::Hasher;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use siphasher::sip128::{Hasher128, SipHasher13};
+use vertifleet_core::{FolderKind, Network, Scenario, Stop, check_folder, write_atomically};
+use vertifleet_optimize::Step;
+
+use crate::comparison::DrawnDays;
+use crate::competitor::{Competitor, Selection};
+use crate::error::Error;
+use crate::figure;
+use crate::journal::{Head, Journal};
+use crate::report::{File, Records, pictures};
+use crate::sweep::Factor;
+
+use search::{Aim, search};
+use solver::Played;
+use space::Space;
+
+pub use goal::Goal;
+pub use journal::JOURNAL;
+pub use summary::{Certificate, DesignSummary, DimensionSummary, FORMAT, SizeReport};
+
+/// The most designs that a search may play.
+pub const MOST_DESIGNS: usize = 1_000;
+
+/// A folder that holds a search for a design and nothing else.
+const FOLDER: FolderKind = FolderKind {
+    name: "search for a design",
+    mark: (JOURNAL, &[journal::KIND]),
+    holds: |name| {
+        let end = Path::new(name).extension();
+        let picture = end.is_some_and(|end| end == "svg" || end == "png");
+        (picture && name.starts_with("figure-"))
+            || [JOURNAL, "designs.csv", "summary.json", "report.html", "best.toml"].contains(&name)
+    },
+};
+
+/// What a search is asked for.
+pub struct SizeRequest<'a> {
+    /// The network whose numbers are searched.
+    pub network: &'a Network,
+    /// What may vary, and settings that are the same in every design.
+    pub factors: Vec<Factor>,
+    /// What is wanted.
+    pub goal: Goal,
+    /// The policy that plays the days: exactly one.
+    pub selection: &'a Selection<'a>,
+    /// The days of every design. As many that follow them tell how good the best design is.
+    pub drawn: DrawnDays,
+    /// The step of the bounds.
+    pub bound_step: Step,
+    /// The most designs to play.
+    pub designs: usize,
+}
+
+/// A search that is ready to begin. Everything that can be checked beforehand has been checked.
+pub struct Sizing {
+    space: Space,
+    goal: Goal,
+    competitor: [Competitor; 1],
+    drawn: DrawnDays,
+    again: DrawnDays,
+    bound_step: Step,
+    designs: usize,
+    fingerprint: String,
+}
+
+impl Sizing {
+    /// Reads the request.
+    ///
+    /// # Errors
+    /// Returns an error if a factor leads nowhere or varies something else than aircraft, stands and chargers, if no design
+    /// has an aircraft and a stand for it, if there is no such policy, or if it cannot play the days.
+    pub fn new(request: SizeRequest<'_>) -> Result<Self, Error> {
+        let SizeRequest { network, factors, goal, selection, drawn, bound_step, designs } = request;
+        let again = DrawnDays { first: drawn.first + u64::from(drawn.days), ..drawn };
+        again.check()?;
+        let competitors = selection.resolve(network.name())?;
+        let policies = competitors.len();
+        let days = drawn.days as usize;
+        if days == 0 {
+            return Err(Error::Empty { policies, days });
+        }
+        let competitor = <[Competitor; 1]>::try_from(competitors).map_err(|_| Error::Asked {
+            rule: format!("one policy plays the days of a search, found {policies}"),
+            hint: "give one name",
+        })?;
+        if !(2..=MOST_DESIGNS).contains(&designs) {
+            return Err(Error::Asked {
+                rule: format!("a search plays 2 to {MOST_DESIGNS} designs, found {designs}"),
+                hint: "ask for more designs or fewer",
+            });
+        }
+        let space = Space::new(network, &factors, goal)?;
+        let fingerprint = String::new();
+        let mut sizing =
+            Self { space, goal, competitor, drawn, again, bound_step, designs, fingerprint };
+        sizing.fingerprint = sizing.print();
+        sizing.competitor[0].check_fits(&sizing.first_day()?)?;
+        Ok(sizing)
+    }
+
+    /// The first day of the network as it is, for warnings.
+    ///
+    /// # Errors
+    /// Returns an error if there is no such day.
+    pub fn first_day(&self) -> Result<Scenario, Error> {
+        Ok(self.space.network.draw(self.drawn.seed(0)?))
+    }
+
+    /// The most designs that are played.
+    pub fn designs(&self) -> usize {
+        self.designs
+    }
+
+    /// A number that changes when anything changes that the results depend on.
+    fn print(&self) -> String {
+        let dimension = |one: &space::Dimension| json!([one.path, one.low, one.step, one.steps]);
+        let [policy] = &self.competitor;
+        let text = json!({
+            "program": env!("CARGO_PKG_VERSION"),
+            "network": self.space.network.toml(),
+            "dimensions": self.space.dimensions.iter().map(dimension).collect::<Vec<Value>>(),
+            "goal": self.goal.name(),
+            "policy": [policy.name.clone(), policy.description()],
+            "weights": policy.weights_sha256(),
+            "days": [self.drawn.purpose.name(), self.drawn.first, self.drawn.days],
+            "bound_step_s": self.bound_step.seconds(),
+            "designs": self.designs,
+        });
+        let mut hasher = SipHasher13::new();
+        hasher.write(text.to_string().as_bytes());
+        format!("{:032x}", hasher.finish128().as_u128())
+    }
+
+    /// Checks, before anything is played, that the search may be kept in this folder: there is none, it is empty, or it holds
+    /// a search, or `force` is given.
+    ///
+    /// # Errors
+    /// Returns [`Error::Core`] for a folder that holds something else (V143) or is read-only (V144).
+    pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
+        Ok(check_folder(folder, &FOLDER, force)?)
+    }
+
+    /// Searches. What is found out of each design is in the folder, which is made if it is not there, before the next one,
+    /// and what is there already is not found out again. `played` is called after each design that was played. With `force`,
+    /// another search in the folder is replaced.
+    ///
+    /// # Errors
+    /// Returns [`Error::CannotMakeFolder`], [`Error::OtherStudy`] if the folder holds another search, [`Error::Stopped`]
+    /// soon after `stop` is requested, and an error if a day is too large for its bound or a policy cannot play one.
+    pub fn run(
+        &self,
+        folder: &Path,
+        command: String,
+        force: bool,
+        stop: &Stop,
+        played: &mut dyn FnMut(),
+    ) -> Result<SizeRecords, Error> {
+        fs::create_dir_all(folder)
+            .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })?;
+        let head = Head { format: journal::FORMAT.to_owned(), study: self.fingerprint.clone() };
+        let (journal, parts) = Journal::open(&folder.join(JOURNAL), &head, force, |_| true)?;
+        let mut solver = Played::new(self, &journal, parts, stop, played);
+        let wanted = self.wanted()?;
+        let aim = self.aim(wanted);
+        let found = search(&self.space, &aim, self.designs, &mut solver)?;
+        let report = SizeReport::of(self, command, &aim, &found, &mut solver)?;
+        Ok(SizeRecords { report, best: self.space.network(&found.best)?.toml().to_owned() })
+    }
+
+    /// The mean number of passengers a day who want to fly.
+    fn wanted(&self) -> Result<f64, Error> {
+        let days = self.drawn.draw(&self.space.network, &Stop::default())?;
+        let cells = days.iter().flat_map(|day| &day.demand).flat_map(|table| table.cells());
+        Ok(cells.map(|&passengers| f64::from(passengers)).sum::<f64>() / f64::from(self.drawn.days))
+    }
+
+    /// What is wanted. Where nothing costs anything, designs are compared by their aircraft, and by their stands where they
+    /// have equally many.
+    fn aim(&self, wanted: f64) -> Aim {
+        let need = if let Goal::Served(share) = self.goal { share * wanted } else { 0.0 };
+        let of_size = |one: &space::Dimension| match one.what {
+            space::What::Aircraft(_) => 1.0,
+            space::What::Stands(_) | space::What::Chargers(_) => 1e-3,
+        };
+        let costs = if self.has_costs() {
+            self.space.costs_of_one_usd()
+        } else {
+            self.space.dimensions.iter().map(of_size).collect()
+        };
+        Aim { goal: self.goal, need, costs }
+    }
+
+    /// Whether anything that varies has a cost.
+    fn has_costs(&self) -> bool {
+        self.space.costs_of_one_usd().iter().any(|&cost| cost > 0.0)
+    }
+}
+
+/// The outcome of a search.
+pub struct SizeRecords {
+    report: SizeReport,
+    /// The network file of the best design.
+    best: String,
+}
+
+impl SizeRecords {
+    /// The numbers.
+    pub fn report(&self) -> &SizeReport {
+        &self.report
+    }
+
+    /// Writes tables, figure, page and the network file of the best design into the folder of the search, each file whole
+    /// or not at all. The same search gives the same bytes, however often it was interrupted.
+    ///
+    /// # Errors
+    /// Returns [`Error::Core`] (V102) if a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        for (name, content) in self.files()? {
+            write_atomically(&folder.join(name), &content)?;
+        }
+        Ok(())
+    }
+}
+
+impl Records for SizeRecords {
+    fn text(&self) -> Result<String, Error> {
+        Ok(table::text(&self.report))
+    }
+
+    fn json(&self) -> Result<String, Error> {
+        Ok(self.report.to_json())
+    }
+
+    fn files(&self) -> Result<Vec<File>, Error> {
+        let figures = figure::of_size(&self.report);
+        let mut files = pictures(&figures);
+        files.extend([
+            ("designs.csv".to_owned(), csv::text(&self.report).into_bytes()),
+            ("summary.json".to_owned(), (self.report.to_json() + "\n").into_bytes()),
+            ("report.html".to_owned(), page::text(&self.report, &figures).into_bytes()),
+            ("best.toml".to_owned(), self.best.clone().into_bytes()),
+        ]);
+        Ok(files)
+    }
+}

@@ -1,0 +1,102 @@
+//! The result of a search in a few sentences.
+
+use vertifleet_picture::numbers::{counted, dollars, grouped, signed};
+
+use super::{Certificate, DesignSummary, SizeReport};
+
+/// Says what was found, what it brings on days that the search has not seen, and how far from the best it can be.
+pub(super) fn text(report: &SizeReport) -> String {
+    [found(report), again(report), certificate(report)].join(" ")
+}
+
+fn found(report: &SizeReport) -> String {
+    let best = report.found();
+    let size = &best.size;
+    let chargers =
+        if size.chargers > 0 { format!(", {} chargers", size.chargers) } else { String::new() };
+    let has = format!(
+        "{} and {}{chargers}",
+        counted(size.aircraft, "aircraft", "aircraft"),
+        counted(size.stands as usize, "stand", "stands")
+    );
+    let does =
+        format!("{} earns {} a day and carries {}", report.policy, earns(best), carries(best));
+    if report.goal_is_reached {
+        format!("Found: {has}, with which {does}.")
+    } else {
+        format!(
+            "No design that was played carries enough. With the one that carries most, {has}, {does}."
+        )
+    }
+}
+
+fn again(report: &SizeReport) -> String {
+    let days = counted(report.days as usize, "further day", "further days");
+    let best = &report.best_again;
+    let does = format!("{}, {} carried", earns(best), carries(best));
+    match &report.again_minus_now_usd {
+        Some(more) => {
+            let half = more
+                .half_width_95
+                .map_or_else(String::new, |half| format!(" ± {}", grouped(half, 0)));
+            let than = report.now_again.served_share;
+            format!(
+                "On {days}, which the search has not seen: {does}; that is {}{half} $ a day against the network as it is, \
+                 which carries {:.1} %.",
+                signed(more.mean, 0),
+                100.0 * than
+            )
+        }
+        None => {
+            format!("It is the network as it is. On {days}, which the search has not seen: {does}.")
+        }
+    }
+}
+
+/// What is proven.
+pub(super) fn certificate(report: &SizeReport) -> String {
+    match report.certificate {
+        Certificate::MostProfit { no_design_earns_more_than_usd: most, gap } => format!(
+            "No design within these limits earns more than {} a day on the days of the search, whatever decides: this one, with {}, \
+             is {:.1} % below that, and its own bound {:.1} %.",
+            dollars(most),
+            report.policy,
+            100.0 * gap,
+            100.0 * vertifleet_optimize::gap(most, report.found().ceiling)
+        ),
+        Certificate::MostPassengers { no_design_carries_more_than: most, gap } => format!(
+            "No design within these limits carries more than {} passengers a day on the days of the search, whatever decides, which \
+             spills {} at least: this one, with {}, carries {:.1} % less.",
+            grouped(most, 1),
+            grouped((report.wanted_passengers - most).max(0.0), 1),
+            report.policy,
+            100.0 * gap
+        ),
+        Certificate::LeastCost { no_design_costs_less_than_usd: least } => format!(
+            "No design that carries enough on the days of the search costs less than {} a day, whatever decides; this one costs {}.",
+            dollars(least),
+            dollars(report.found().size.fixed_cost_usd)
+        ),
+        Certificate::FewestAircraft { no_design_has_fewer_than: least } => format!(
+            "No design that carries enough on the days of the search has fewer than {least} aircraft, whatever decides; this one has {}.",
+            report.found().size.aircraft
+        ),
+        Certificate::OutOfReach { no_design_carries_more_than: most } => format!(
+            "No design within these limits carries more than {} of the {} passengers a day who would have to be carried on the days \
+             of the search, whatever decides.",
+            grouped(most, 1),
+            grouped(report.needed_passengers.unwrap_or(0.0), 1)
+        ),
+    }
+}
+
+fn earns(design: &DesignSummary) -> String {
+    let profit = design.profit_usd;
+    let half =
+        profit.half_width_95.map_or_else(String::new, |half| format!(" ± {}", grouped(half, 0)));
+    format!("{}{half}", dollars(profit.mean))
+}
+
+fn carries(design: &DesignSummary) -> String {
+    format!("{:.1} %", 100.0 * design.served_share)
+}

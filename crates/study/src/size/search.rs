@@ -1,0 +1,438 @@
+//! The search for the best design.
+//!
+//! *Bounds first.* Bounds of a few designs make a ceiling (`ceiling.rs`) over all of them. It is made tighter where it is
+//! highest, by a level method (C. Lemaréchal, A. Nemirovskii, Y. Nesterov, *New variants of bundle methods*, Mathematical
+//! Programming 69, 1995), and says where good designs are.
+//!
+//! *Then days.* A policy plays the days of single designs: first of the best by the ceiling, then of designs around the best
+//! so far, from large steps to small ones (a pattern search: R. Hooke, T. Jeeves, Journal of the ACM 8, 1961). What a design
+//! will be found to earn is foretold from the slopes of the ceiling. A policy does not make of a further stand what the best
+//! schedule makes of it, so every design that is played corrects the slopes of what it changed (S. Kaczmarz, 1937).
+
+use std::collections::BTreeMap;
+
+use super::ceiling::{Ceiling, Cut};
+use super::goal::Goal;
+use super::space::{Design, Space, What};
+use crate::error::Error;
+
+/// The most bounds that the ceiling is made of before days are played.
+const MOST_BOUNDS: usize = 14;
+/// The ceiling is tight enough if it is higher than a bound by this share.
+const TIGHT: f64 = 0.005;
+/// A design is worth playing if it is foretold to be worse than the best by no more than this share.
+const WORTH_PLAYING: f64 = 0.01;
+/// As many designs in a row may be played in vain before the steps become smaller. With single steps, each dimension may be
+/// tried both ways.
+const IN_VAIN: usize = 3;
+/// How much of what it was wrong by a design that was played corrects.
+const CORRECTED: f64 = 0.7;
+
+/// What the search asks about designs.
+pub(super) trait Solver {
+    /// Bounds what is wanted of all designs, near the truth with so many things above the lowest numbers.
+    fn bound(&mut self, above: &Design) -> Result<Cut, Error>;
+    /// Plays the days of a design.
+    fn play(&mut self, design: &Design) -> Result<Played, Error>;
+}
+
+/// Means a day of a design that was played.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Played {
+    pub(super) profit_usd: f64,
+    /// Passengers carried.
+    pub(super) carried: f64,
+}
+
+/// What is wanted.
+#[derive(Debug, Clone)]
+pub(super) struct Aim {
+    pub(super) goal: Goal,
+    /// Passengers a day who must be carried, for [`Goal::Served`].
+    pub(super) need: f64,
+    /// What one more thing costs by dimension.
+    pub(super) costs: Vec<f64>,
+}
+
+impl Aim {
+    /// What is bounded and wanted high: profit, or the number of passengers carried.
+    fn value(&self, played: Played) -> f64 {
+        if self.goal == Goal::MostProfit { played.profit_usd } else { played.carried }
+    }
+
+    /// What so many things above the lowest numbers cost.
+    fn cost(&self, above: &[u32]) -> f64 {
+        self.costs.iter().zip(above).map(|(cost, &above)| cost * f64::from(above)).sum()
+    }
+
+    fn reaches(&self, value: f64) -> bool {
+        !matches!(self.goal, Goal::Served(_)) || value >= self.need
+    }
+}
+
+/// What the search found.
+pub(super) struct Found {
+    pub(super) best: Design,
+    /// Whether the best design reaches what must be carried. If not, it is the one that carries most.
+    pub(super) reaches: bool,
+    pub(super) ceiling: Ceiling,
+    /// The designs that were played, in this order.
+    pub(super) order: Vec<Design>,
+}
+
+/// Searches for the best design, and plays at most `budget` of them.
+///
+/// # Errors
+/// Returns the errors of the solver.
+pub(super) fn search(
+    space: &Space,
+    aim: &Aim,
+    budget: usize,
+    solver: &mut impl Solver,
+) -> Result<Found, Error> {
+    let mut search = Search::new(space, aim, budget, solver);
+    let first = match aim.goal {
+        Goal::Served(_) => search.bound_the_cheapest()?,
+        Goal::MostProfit | Goal::LeastSpill => search.bound_the_highest()?,
+    };
+    search.play(&search.possible(space, space.start()))?;
+    match aim.goal {
+        Goal::Served(_) => search.play_until_enough(first)?,
+        Goal::MostProfit | Goal::LeastSpill => search.play(&first)?,
+    }
+    search.play_around()?;
+    let best = search.best().clone();
+    search.bound(&space.above(&best))?;
+    let reaches = aim.reaches(search.played[&best]);
+    Ok(Found { best, reaches, ceiling: search.ceiling, order: search.order })
+}
+
+struct Search<'a, S> {
+    space: &'a Space,
+    /// The same designs with all numbers in between, which are bounded but not played.
+    all_numbers: Space,
+    aim: &'a Aim,
+    budget: usize,
+    solver: &'a mut S,
+    ceiling: Ceiling,
+    /// The values of the designs that were played.
+    played: BTreeMap<Design, f64>,
+    order: Vec<Design>,
+    /// By how much more a step raises what is played than the ceiling, by dimension.
+    corrections: Vec<f64>,
+}
+
+impl<'a, S: Solver> Search<'a, S> {
+    fn new(space: &'a Space, aim: &'a Aim, budget: usize, solver: &'a mut S) -> Self {
+        let all_numbers = space.with_all_numbers();
+        let ceiling =
+            Ceiling::new(all_numbers.dimensions.iter().map(|one| one.steps), space.room());
+        let corrections = vec![0.0; space.dimensions.len()];
+        let (played, order) = (BTreeMap::new(), Vec::new());
+        Self { space, all_numbers, aim, budget, solver, ceiling, played, order, corrections }
+    }
+
+    /// Bounds designs until the ceiling is hardly higher than the highest bound, and returns the design nearest to that.
+    fn bound_the_highest(&mut self) -> Result<Design, Error> {
+        let mut bounded: BTreeMap<Design, f64> = BTreeMap::new();
+        let mut trial = self.possible(&self.all_numbers, self.space.above(&self.space.start()));
+        let mut center = trial.clone();
+        while bounded.len() < MOST_BOUNDS {
+            let value = self.bound(&trial)?;
+            bounded.insert(trial.clone(), value);
+            if value >= bounded[&center] {
+                center = trial;
+            }
+            let (least, most) = (bounded[&center], self.ceiling.most());
+            if most - least <= TIGHT * most.abs() {
+                break;
+            }
+            // Half of the way up is a design that is not too far away; if it is known, look farther up.
+            let levels = [0.5, 0.8, 0.95].map(|share| least + share * (most - least));
+            let trials = levels.iter().filter_map(|&level| self.ceiling.toward(&center, level));
+            let trials = trials.map(|trial| self.possible(&self.all_numbers, rounded(&trial)));
+            let Some(next) = trials.into_iter().find(|one| !bounded.contains_key(one)) else {
+                break;
+            };
+            trial = next;
+        }
+        Ok(self.nearest(&center))
+    }
+
+    /// Bounds designs until the cheapest one that might carry enough can do so by its own bound, and returns the cheapest
+    /// that may be played.
+    fn bound_the_cheapest(&mut self) -> Result<Design, Error> {
+        let mut trial = self.possible(&self.all_numbers, self.space.above(&self.space.start()));
+        let mut bounded = Vec::new();
+        while bounded.len() < MOST_BOUNDS && !bounded.contains(&trial) {
+            self.bound(&trial)?;
+            bounded.push(trial);
+            trial = self.cheapest(&self.ceiling, &self.all_numbers, self.aim.need);
+        }
+        Ok(self.cheapest(&self.ceiling, self.space, self.aim.need))
+    }
+
+    /// Adds the bound of a design to the ceiling, and returns its value.
+    fn bound(&mut self, above: &Design) -> Result<f64, Error> {
+        let cut = self.solver.bound(above)?;
+        let value = cut.at(above);
+        self.ceiling.add(cut);
+        Ok(value)
+    }
+
+    /// Plays the cheapest designs by the ceiling, each time aiming higher by what the last one lacked, until one carries
+    /// enough or the largest design was played.
+    fn play_until_enough(&mut self, first: Design) -> Result<(), Error> {
+        let (mut design, mut wanted) = (first, self.aim.need);
+        while self.order.len() < self.budget {
+            self.play(&design)?;
+            let lacks = self.aim.need - self.played[&design];
+            if lacks <= 0.0 {
+                return Ok(());
+            }
+            wanted += lacks.max(1e-3 * self.aim.need);
+            let next = self.cheapest(&self.ceiling, self.space, wanted);
+            if self.played.contains_key(&next) || self.ceiling_at(&next) < wanted {
+                break;
+            }
+            self.bound(&self.space.above(&next))?;
+            design = next;
+        }
+        let largest = self.space.dimensions.iter().map(|one| one.steps).collect();
+        self.play(&self.possible(self.space, largest))
+    }
+
+    /// Plays designs around the best so far, from large steps to single ones.
+    fn play_around(&mut self) -> Result<(), Error> {
+        let widest = self.space.dimensions.iter().map(|one| one.steps).max().unwrap_or(0);
+        let mut reach = (widest / 4).max(1);
+        while reach > 0 {
+            let both_ways = 2 * self.space.dimensions.len();
+            let most_in_vain = if reach == 1 { both_ways.max(IN_VAIN) } else { IN_VAIN };
+            let mut in_vain = 0;
+            while in_vain < most_in_vain && self.order.len() < self.budget {
+                let best = self.best().clone();
+                let next = self.leap(&best).or_else(|| self.most_promising(&best, reach));
+                let Some(next) = next else { break };
+                self.play(&next)?;
+                self.correct(&best, &next);
+                in_vain = if *self.best() == best { in_vain + 1 } else { 0 };
+            }
+            reach /= 2;
+        }
+        Ok(())
+    }
+
+    /// Corrects the slopes of what two designs that were played differ in.
+    fn correct(&mut self, from: &Design, to: &Design) {
+        let changes = changes(from, to);
+        let wrong = self.played[to] - self.foretold(from, to);
+        let size: f64 = changes.iter().map(|change| change * change).sum();
+        for (correction, change) in self.corrections.iter_mut().zip(changes) {
+            *correction += CORRECTED * wrong * change / size;
+        }
+    }
+
+    /// The value that a design will be found to have, foretold from one that was played.
+    fn foretold(&self, from: &Design, to: &Design) -> f64 {
+        let corrections = self.corrections.iter().zip(changes(from, to));
+        let corrected: f64 = corrections.map(|(correction, change)| correction * change).sum();
+        self.played[from] + self.ceiling_at(to) - self.ceiling_at(from) + corrected
+    }
+
+    fn ceiling_at(&self, design: &Design) -> f64 {
+        self.ceiling.at(&self.space.above(design))
+    }
+
+    fn play(&mut self, design: &Design) -> Result<(), Error> {
+        if !self.played.contains_key(design) {
+            let played = self.solver.play(design)?;
+            self.played.insert(design.clone(), self.aim.value(played));
+            self.order.push(design.clone());
+        }
+        Ok(())
+    }
+
+    /// The best design that was played; among equals the cheapest.
+    fn best(&self) -> &Design {
+        let better = |one: &&Design, other: &&Design| self.rank(one).total_cmp(&self.rank(other));
+        let best = self.order.iter().max_by(|one, other| {
+            let cost = self.cost(other).total_cmp(&self.cost(one));
+            better(one, other).then(cost)
+        });
+        best.expect("a design was played")
+    }
+
+    fn cost(&self, design: &Design) -> f64 {
+        self.aim.cost(&self.space.above(design))
+    }
+
+    /// How good a design is that was played: its value, or, for [`Goal::Served`], less cost once it carries enough.
+    fn rank(&self, design: &Design) -> f64 {
+        let value = self.played[design];
+        match self.aim.goal {
+            Goal::Served(_) if self.aim.reaches(value) => 1e15 - self.cost(design),
+            _ => value,
+        }
+    }
+
+    /// The design that is foretold to be best of all, if it is new and foretold to be better than the best so far.
+    fn leap(&self, best: &Design) -> Option<Design> {
+        let steps = self.space.dimensions.iter().map(|one| f64::from(one.step));
+        let more: Vec<f64> = self
+            .corrections
+            .iter()
+            .zip(steps)
+            .map(|(correction, step)| correction / step)
+            .collect();
+        let here = self.space.above(best);
+        let corrected = more.iter().zip(&here).map(|(more, &above)| more * f64::from(above));
+        let constant = self.played[best] - self.ceiling.at(&here) - corrected.sum::<f64>();
+        let expected = self.ceiling.corrected(&more, constant);
+        let found = if self.is_enough(best) {
+            self.cheapest(&expected, self.space, self.aim.need)
+        } else {
+            let above = expected.highest(&here)?;
+            self.nearest(&rounded(&above))
+        };
+        let is_better = if self.is_enough(best) {
+            self.cost(&found) < self.cost(best)
+        } else {
+            expected.at(&self.space.above(&found)) > self.played[best]
+        };
+        (is_better && !self.played.contains_key(&found)).then_some(found)
+    }
+
+    /// Whether the goal is a number of passengers and a design carries as many, so that only its cost matters.
+    fn is_enough(&self, design: &Design) -> bool {
+        matches!(self.aim.goal, Goal::Served(_)) && self.aim.reaches(self.played[design])
+    }
+
+    /// The design around another that is foretold to be best, if one is worth playing.
+    fn most_promising(&self, best: &Design, reach: u32) -> Option<Design> {
+        let value = self.played[best];
+        let around = around(self.space, best, reach);
+        let new = around
+            .into_iter()
+            .filter(|one| self.space.is_possible(one) && !self.played.contains_key(one));
+        let foretold = new.map(|one| (self.foretold(best, &one), one));
+        if self.is_enough(best) {
+            let (need, cost) = (self.aim.need, self.cost(best));
+            let lacks = |value: f64| (need - value).max(0.0);
+            return foretold
+                .filter(|(value, one)| {
+                    lacks(*value) <= WORTH_PLAYING * need && self.cost(one) < cost
+                })
+                .min_by(|one, other| {
+                    let cost = self.cost(&one.1).total_cmp(&self.cost(&other.1));
+                    lacks(one.0).total_cmp(&lacks(other.0)).then(cost)
+                })
+                .map(|(_, one)| one);
+        }
+        let enough = value - WORTH_PLAYING * value.abs();
+        foretold
+            .filter(|(value, _)| *value > enough)
+            .max_by(|one, other| one.0.total_cmp(&other.0))
+            .map(|(_, one)| one)
+    }
+
+    /// The design that may be played and is nearest to a bounded one.
+    fn nearest(&self, above: &Design) -> Design {
+        let steps = above.iter().zip(&self.space.dimensions);
+        let nearest = steps.map(|(&above, one)| ((above + one.step / 2) / one.step).min(one.steps));
+        self.possible(self.space, nearest.collect())
+    }
+
+    /// The cheapest possible design of a space at which a ceiling reaches `need`, or the largest design if none does.
+    fn cheapest(&self, ceiling: &Ceiling, space: &Space, need: f64) -> Design {
+        let largest = || space.dimensions.iter().map(|one| one.steps).collect();
+        let steps = |above: Vec<f64>| -> Vec<f64> {
+            above
+                .iter()
+                .zip(&space.dimensions)
+                .map(|(above, one)| above / f64::from(one.step))
+                .collect()
+        };
+        let found = ceiling.cheapest(&self.aim.costs, need);
+        let found = found.map_or_else(largest, |above| rounded(&steps(above)));
+        let mut design = self.possible(space, found);
+        // Rounding may have lost some passengers.
+        let value = |design: &Design| ceiling.at(&space.above(design));
+        while value(&design) < need {
+            let gain = |at: usize| {
+                let mut more = design.clone();
+                more[at] += 1;
+                let cost = self.aim.costs[at] * f64::from(space.dimensions[at].step);
+                (value(&more) - value(&design)) / cost.max(1e-9)
+            };
+            let room = (0..design.len()).filter(|&at| design[at] < space.dimensions[at].steps);
+            let best = room.max_by(|&one, &other| gain(one).total_cmp(&gain(other)));
+            let Some(best) = best else { break };
+            design[best] += 1;
+        }
+        self.possible(space, design)
+    }
+
+    /// The design, with stands for its aircraft and with one aircraft at least.
+    fn possible(&self, space: &Space, mut design: Design) -> Design {
+        let is_aircraft = |at: usize| matches!(space.dimensions[at].what, What::Aircraft(_));
+        while !space.is_possible(&design) {
+            let none = space.counts(&design).aircraft.iter().sum::<u32>() == 0;
+            let fewer = (0..design.len()).filter(|&at| !none && is_aircraft(at) && design[at] > 0);
+            let slope = |at: usize| self.ceiling.slope(&space.above(&design), at);
+            let least_lost = fewer.min_by(|&one, &other| slope(one).total_cmp(&slope(other)));
+            let more = (0..design.len())
+                .filter(|&at| none == is_aircraft(at) && design[at] < space.dimensions[at].steps);
+            // An aircraft that is on the ground when the day begins needs a stand, whatever chargers there are.
+            let more =
+                more.min_by_key(|&at| matches!(space.dimensions[at].what, What::Chargers(_)));
+            match (least_lost, more) {
+                (Some(at), _) => design[at] -= 1,
+                (None, Some(at)) => design[at] += 1,
+                (None, None) => unreachable!("a space has a possible design"),
+            }
+        }
+        design
+    }
+}
+
+/// By how many steps two designs differ, by dimension.
+fn changes(from: &Design, to: &Design) -> Vec<f64> {
+    from.iter().zip(to).map(|(&from, &to)| f64::from(to) - f64::from(from)).collect()
+}
+
+/// Designs that differ by `reach` steps in one dimension, or in two of which one gives what the other takes or both are an
+/// aircraft and its place.
+fn around(space: &Space, design: &Design, reach: u32) -> Vec<Design> {
+    let moved = |design: &Design, at: usize, up: bool| {
+        let mut moved = design.clone();
+        let most = space.dimensions[at].steps;
+        moved[at] =
+            if up { (design[at] + reach).min(most) } else { design[at].saturating_sub(reach) };
+        (moved[at] != design[at]).then_some(moved)
+    };
+    let is_aircraft = |at: usize| matches!(space.dimensions[at].what, What::Aircraft(_));
+    let mut found = Vec::new();
+    for at in 0..design.len() {
+        for up in [true, false] {
+            let Some(one) = moved(design, at, up) else { continue };
+            for other in (0..design.len()).filter(|&other| other != at) {
+                let both_ways = if is_aircraft(at) == is_aircraft(other) { !up } else { up };
+                found.extend(moved(&one, other, both_ways));
+            }
+            found.push(one);
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of a box")]
+fn rounded(steps: &[f64]) -> Design {
+    steps.iter().map(|steps| steps.round().max(0.0) as u32).collect()
+}
+
+#[cfg(test)]
+#[path = "search_tests.rs"]
+mod tests;

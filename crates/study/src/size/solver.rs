@@ -1,0 +1,148 @@
+//! Bounds designs and plays their days, and remembers what it has found out.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
+use vertifleet_core::{Network, Scenario, Stop};
+use vertifleet_optimize::{DesignBound, day_of_passengers, upper_bound_unless};
+use vertifleet_sim::DayTotals;
+
+use super::Sizing;
+use super::ceiling::Cut;
+use super::goal::Goal;
+use super::journal::{Finding, Part};
+use super::search::{Played as Means, Solver};
+use super::space::{Design, Dimension, Space, What};
+use crate::comparison::DrawnDays;
+use crate::error::Error;
+use crate::journal::Journal;
+use crate::run::{BoundedDay, Kept, run};
+
+/// The solver of a search, with everything that was found out.
+pub(super) struct Played<'a> {
+    sizing: &'a Sizing,
+    journal: &'a Journal,
+    stop: &'a Stop,
+    /// Called after each design that was played.
+    played: &'a mut dyn FnMut(),
+    bounds: BTreeMap<Design, Cut>,
+    days: BTreeMap<Design, Vec<DayTotals>>,
+    again: BTreeMap<Design, Vec<DayTotals>>,
+}
+
+impl<'a> Played<'a> {
+    /// A solver that knows what the journal held.
+    pub(super) fn new(
+        sizing: &'a Sizing,
+        journal: &'a Journal,
+        parts: Vec<Part>,
+        stop: &'a Stop,
+        played: &'a mut dyn FnMut(),
+    ) -> Self {
+        let (bounds, days, again) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        let mut solver = Self { sizing, journal, stop, played, bounds, days, again };
+        parts.into_iter().for_each(|part| solver.remember(part));
+        solver
+    }
+
+    fn remember(&mut self, Part { design, found }: Part) {
+        match found {
+            Finding::Bound(cut) => drop(self.bounds.insert(design, cut)),
+            Finding::Days(days) => drop(self.days.insert(design, days)),
+            Finding::Again(days) => drop(self.again.insert(design, days)),
+        }
+    }
+
+    fn keep(&mut self, design: &Design, found: Finding) -> Result<(), Error> {
+        let part = Part { design: design.clone(), found };
+        self.journal.add(&part)?;
+        self.remember(part);
+        Ok(())
+    }
+
+    /// The numbers of the days of a design that was played.
+    pub(super) fn days(&self, design: &Design) -> &[DayTotals] {
+        &self.days[design]
+    }
+
+    /// The numbers of the days that follow.
+    pub(super) fn again(&mut self, design: &Design) -> Result<&[DayTotals], Error> {
+        if !self.again.contains_key(design) {
+            let days = self.play_days(design, self.sizing.again)?;
+            self.keep(design, Finding::Again(days))?;
+        }
+        Ok(&self.again[design])
+    }
+
+    fn play_days(&self, design: &Design, drawn: DrawnDays) -> Result<Vec<DayTotals>, Error> {
+        let network = self.sizing.space.network(design)?;
+        let days = drawn.draw(&network, self.stop)?;
+        let days: Vec<BoundedDay> = days.into_iter().map(BoundedDay::unbounded).collect();
+        let records = run(&days, &self.sizing.competitor, Kept::Totals, self.stop, |_| || ())?;
+        let policy = records.into_iter().next().expect("there is one policy");
+        Ok(policy.days.iter().map(|day| day.totals).collect())
+    }
+
+    /// The sum of the bounds of all days.
+    fn bound_days(&self, network: &Network) -> Result<DesignBound, Error> {
+        let (sizing, stop) = (self.sizing, self.stop);
+        let days = sizing.drawn.draw(network, stop)?;
+        let bound = |day: &Arc<Scenario>| {
+            let day = match sizing.goal {
+                Goal::MostProfit => Scenario::clone(day),
+                Goal::Served(_) | Goal::LeastSpill => day_of_passengers(day),
+            };
+            let bound = upper_bound_unless(stop, &day, sizing.bound_step)?.ok_or(Error::Stopped)?;
+            Ok(bound.of_designs(&day)?)
+        };
+        let bounds = days.par_iter().map(bound).collect::<Result<Vec<DesignBound>, Error>>()?;
+        Ok(bounds.into_iter().sum())
+    }
+}
+
+impl Solver for Played<'_> {
+    fn bound(&mut self, above: &Design) -> Result<Cut, Error> {
+        if !self.bounds.contains_key(above) {
+            let sizing = self.sizing;
+            let space = sizing.space.with_all_numbers();
+            let bound = self.bound_days(&space.network(above)?)?;
+            let days = f64::from(sizing.drawn.days);
+            let cut = cut_of(&space, &bound, days, sizing.goal == Goal::MostProfit);
+            self.keep(above, Finding::Bound(cut))?;
+        }
+        Ok(self.bounds[above].clone())
+    }
+
+    fn play(&mut self, design: &Design) -> Result<Means, Error> {
+        if !self.days.contains_key(design) {
+            let days = self.play_days(design, self.sizing.drawn)?;
+            self.keep(design, Finding::Days(days))?;
+        }
+        (self.played)();
+        let days = &self.days[design];
+        let count = days.len() as f64;
+        Ok(Means {
+            profit_usd: days.iter().map(|day| day.profit_usd).sum::<f64>() / count,
+            carried: days.iter().map(|day| day.passengers as f64).sum::<f64>() / count,
+        })
+    }
+}
+
+/// The bound of the mean day as a function of how many there are of each thing above its lowest number, after fixed costs
+/// where profit is wanted.
+fn cut_of(space: &Space, bound: &DesignBound, days: f64, after_costs: bool) -> Cut {
+    let lowest: Design = vec![0; space.dimensions.len()];
+    let counts = space.counts(&lowest);
+    let mut constant = bound.upper_bound_usd(&counts.aircraft, &counts.places()) / days;
+    let slope = |one: &Dimension| match one.what {
+        What::Aircraft(kind) => bound.aircraft_shadow_price_usd(kind) / days,
+        What::Stands(at) | What::Chargers(at) => bound.place_shadow_price_usd(at) / days,
+    };
+    let mut slopes: Vec<f64> = space.dimensions.iter().map(slope).collect();
+    if after_costs {
+        constant -= space.fixed_cost_usd(&lowest);
+        slopes.iter_mut().zip(space.costs_of_one_usd()).for_each(|(slope, cost)| *slope -= cost);
+    }
+    Cut { constant, slopes }
+}
