@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use vertifleet_core::{Network, great_circle_mi};
+use vertifleet_core::{Matrix, Network, great_circle_mi};
 
 /// The networks whose sites are in `networks/sources/sites.csv`.
 const CITIES: [&str; 5] = ["san-francisco", "los-angeles", "dallas", "paris", "new-york"];
@@ -71,7 +71,7 @@ fn a_hundred_passengers_a_day_want_to_fly_for_each_aircraft_of_a_made_network() 
     for city in &CITIES[..4] {
         let network = shipped(city);
         let means = network.mean_demand();
-        let passengers: f64 = means.iter().flat_map(|table| table.cells()).sum();
+        let passengers: f64 = means.iter().flat_map(Matrix::cells).sum();
         let due = 100.0 * f64::from(u32::try_from(network.fleet_size()).expect("a small fleet"));
         assert!((passengers - due).abs() < 0.002 * due, "{city}: {passengers} and not {due}");
     }
