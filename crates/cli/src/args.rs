@@ -180,7 +180,7 @@ pub(crate) struct OperateArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct ScenarioArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
     pub(crate) network: String,
     /// Seed of the first day; the following days take the following seeds
     #[arg(long, allow_hyphen_values = true, value_parser = parse_seed)]
@@ -305,7 +305,7 @@ impl Trainable {
 
 #[derive(Debug, Args)]
 pub(crate) struct TrainArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER;
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER;
     /// random or random-places:SIZE for a new network each day
     #[arg(long)]
     pub(crate) network: String,
@@ -337,7 +337,7 @@ pub(crate) struct TrainArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
     #[arg(long, required_unless_present = "days_from")]
     pub(crate) network: Option<String>,
     /// Days of your own in place of drawn ones: scenario files, or a folder with them (all *.json, in the order of their names)

@@ -20,6 +20,10 @@ const SHIPPED: &[(&str, &str)] = &[
     ("new-york", include_str!("../../../networks/new-york.toml")),
     ("large", include_str!("../../../networks/large.toml")),
     ("as-coded", include_str!("../../../networks/as-coded.toml")),
+    ("san-francisco", include_str!("../../../networks/san-francisco.toml")),
+    ("los-angeles", include_str!("../../../networks/los-angeles.toml")),
+    ("dallas", include_str!("../../../networks/dallas.toml")),
+    ("paris", include_str!("../../../networks/paris.toml")),
 ];
 
 /// A checked network: every day drawn from it is a valid [`Scenario`].

@@ -22,7 +22,7 @@ pub(crate) enum NetworkAction {
     },
     /// Show what a network holds
     Show {
-        /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
+        /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
         network: String,
         /// Draw a map and the demand by hour; the ending of the file says whether as SVG or PNG
         #[arg(long, value_name = "FILE")]

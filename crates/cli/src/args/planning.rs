@@ -16,7 +16,7 @@ use crate::typed::{
 
 #[derive(Debug, Args)]
 pub(crate) struct SweepArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
     pub(crate) network: String,
     /// A member of the network file and its values, as fleet.0.count=30..50/5 or tariffs.fare_level=0.8,1,1.2; may be given
     /// several times

@@ -1,7 +1,7 @@
 //! Imports of every kind of file, and the network file that comes out.
 
 use crate::planner::{Folder, VERTIPORTS, line, map, new_york, point, request, run, run_table};
-use vertifleet_core::{Network, VertiportIx};
+use vertifleet_core::{Network, Time, VertiportIx};
 use vertifleet_import::Demand;
 
 const TABLE: &str = "\
@@ -145,7 +145,10 @@ fn a_network_can_be_imported_with_every_shipped_network_as_its_base_and_with_an_
         let request = request(base, &vertiports, Demand::Table(&demand));
         let (one, other) = (run(&request).expect("a network"), run(&request).expect("a network"));
         assert_eq!(one.toml, other.toml, "{}", base.name());
-        assert_eq!(one.network.mean_demand(), means);
+        // `paris` opens at 7:00, when the table begins, and has no empty period before.
+        let found = one.network.mean_demand();
+        let empty = usize::from(base.operations().start < Time::from_seconds(7 * 3_600));
+        assert_eq!((found.len(), means.ends_with(&found)), (2 + empty, true), "{}", base.name());
         assert_eq!(one.network.aircraft_types(), base.aircraft_types());
     }
 }

@@ -1,6 +1,7 @@
 //! Days that are not drawn from seeds: with networks, forecasts, places and dates of one's own, and policies too.
 
 use serde_json::{Value, json};
+use vertifleet_core::Network;
 
 use crate::api::service;
 
@@ -92,7 +93,8 @@ fn a_network_is_uploaded_listed_and_used() {
         .iter()
         .filter_map(|one| one["name"].as_str())
         .collect();
-    assert_eq!(names, ["paper", "disrupted", "new-york", "large", "as-coded", "town"]);
+    let shipped: Vec<&str> = Network::shipped_names().collect();
+    assert_eq!(names, [&shipped[..], &["town"]].concat());
     assert_eq!(service.get("/v1/networks/town").json["toml"], TOWN);
     let day = service.post("/v1/days", &json!({"network": "town", "date": "2026-11-23"}));
     assert_eq!((day.status, &day.json["name"]), (201, &json!("town 2026-11-23")), "{day:?}");

@@ -4,7 +4,8 @@ import { addTable, append, apply, remove, set, type Splice } from './edits'
 import { TomlError, TomlFile } from './toml'
 
 const networks = new URL('../../../../networks/', import.meta.url)
-const shipped = ['paper', 'disrupted', 'new-york', 'large', 'as-coded']
+const cities = ['san-francisco', 'los-angeles', 'dallas', 'paris']
+const shipped = ['paper', 'disrupted', 'new-york', 'large', 'as-coded', ...cities]
 const read = (name: string) => new TomlFile(readFileSync(new URL(`${name}.toml`, networks), 'utf8'))
 
 /** The lines that a change took away and those that it brought. */

@@ -117,7 +117,7 @@ describe('demand', () => {
   })
 
   it('is the same as a table of pairs', () => {
-    for (const name of ['new-york', 'paper', 'as-coded']) {
+    for (const name of ['new-york', 'paper', 'as-coded', 'paris']) {
       const file = read(name)
       const table = new TomlFile(withDailyDemand(file))
       const [before, now] = [draftOf(file.value), draftOf(table.value)]
