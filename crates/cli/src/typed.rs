@@ -26,15 +26,15 @@ pub(crate) fn parse_model(text: &str) -> Result<(String, PolicySource), String> 
 
 /// A setting of a network and its values.
 pub(crate) fn parse_factor(text: &str) -> Result<Factor, String> {
-    Factor::parse(text).map_err(with_hint)
+    Factor::parse(text).map_err(|error| with_hint(&error))
 }
 
 /// What a design is to achieve.
 pub(crate) fn parse_goal(text: &str) -> Result<Goal, String> {
-    Goal::parse(text).map_err(with_hint)
+    Goal::parse(text).map_err(|error| with_hint(&error))
 }
 
-fn with_hint(error: vertifleet_study::Error) -> String {
+fn with_hint(error: &vertifleet_study::Error) -> String {
     let hint = error.hint().map_or_else(String::new, |hint| format!("; {hint}"));
     format!("{error}{hint}")
 }

@@ -25,6 +25,7 @@ const COMMANDS: &[&str] = &[
     "compare",
     "generalise",
     "sweep",
+    "size",
     "evaluate",
     "serve",
     "operate",

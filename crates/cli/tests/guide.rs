@@ -39,6 +39,7 @@ fn every_command_of_the_guide_runs() {
         "day.html",
         "day.svg",
         "fleet/report.html",
+        "best/best.toml",
         "fare/figure-response-curves.svg",
         "stands/cells.csv",
         "flights.geojson",

@@ -38,8 +38,10 @@ fn redesigned(day: &Scenario, mix: u32) -> Scenario {
     let mut day = day.clone().into_day();
     let types = day.aircraft_types.len();
     let mut left = Vec::new();
+    let mut digits = mix;
     for (at, vertiport) in day.vertiports.iter_mut().enumerate() {
-        vertiport.stands = 1 + u16::try_from(mix.rotate_left(3 * at as u32) % 5).expect("small");
+        digits = digits.rotate_left(3);
+        vertiport.stands = 1 + u16::try_from(digits % 5).expect("small");
         left.extend(std::iter::repeat_n(VertiportIx::new(at), vertiport.stands.into()));
     }
     let first = mix as usize % left.len();

@@ -24,7 +24,9 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use siphasher::sip128::{Hasher128, SipHasher13};
-use vertifleet_core::{FolderKind, Network, Scenario, Stop, check_folder, write_atomically};
+use vertifleet_core::{
+    FolderKind, Matrix, Network, Scenario, Stop, check_folder, write_atomically,
+};
 use vertifleet_optimize::Step;
 
 use crate::comparison::DrawnDays;
@@ -36,7 +38,7 @@ use crate::report::{File, Records, pictures};
 use crate::sweep::Factor;
 
 use search::{Aim, search};
-use solver::Played;
+use solver::KnownDesigns;
 use space::Space;
 
 pub use goal::Goal;
@@ -184,7 +186,7 @@ impl Sizing {
             .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })?;
         let head = Head { format: journal::FORMAT.to_owned(), study: self.fingerprint.clone() };
         let (journal, parts) = Journal::open(&folder.join(JOURNAL), &head, force, |_| true)?;
-        let mut solver = Played::new(self, &journal, parts, stop, played);
+        let mut solver = KnownDesigns::new(self, &journal, parts, stop, played);
         let wanted = self.wanted()?;
         let aim = self.aim(wanted);
         let found = search(&self.space, &aim, self.designs, &mut solver)?;
@@ -195,7 +197,7 @@ impl Sizing {
     /// The mean number of passengers a day who want to fly.
     fn wanted(&self) -> Result<f64, Error> {
         let days = self.drawn.draw(&self.space.network, &Stop::default())?;
-        let cells = days.iter().flat_map(|day| &day.demand).flat_map(|table| table.cells());
+        let cells = days.iter().flat_map(|day| &day.demand).flat_map(Matrix::cells);
         Ok(cells.map(|&passengers| f64::from(passengers)).sum::<f64>() / f64::from(self.drawn.days))
     }
 

@@ -59,7 +59,7 @@ pub(crate) struct SweepArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct SizeArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded), random:NUMBER, or random-places:SIZE:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
     pub(crate) network: String,
     /// profit; served=0.95 or another share of those who want to fly, with the least cost; zero-spill, which is served=1; or
     /// least-spill

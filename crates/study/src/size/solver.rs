@@ -12,7 +12,7 @@ use super::Sizing;
 use super::ceiling::Cut;
 use super::goal::Goal;
 use super::journal::{Finding, Part};
-use super::search::{Played as Means, Solver};
+use super::search::{Played, Solver};
 use super::space::{Design, Dimension, Space, What};
 use crate::comparison::DrawnDays;
 use crate::error::Error;
@@ -20,29 +20,31 @@ use crate::journal::Journal;
 use crate::run::{BoundedDay, Kept, run};
 
 /// The solver of a search, with everything that was found out.
-pub(super) struct Played<'a> {
+pub(super) struct KnownDesigns<'a> {
     sizing: &'a Sizing,
     journal: &'a Journal,
     stop: &'a Stop,
     /// Called after each design that was played.
-    played: &'a mut dyn FnMut(),
+    when_played: &'a mut dyn FnMut(),
     bounds: BTreeMap<Design, Cut>,
     days: BTreeMap<Design, Vec<DayTotals>>,
     again: BTreeMap<Design, Vec<DayTotals>>,
 }
 
-impl<'a> Played<'a> {
+impl<'a> KnownDesigns<'a> {
     /// A solver that knows what the journal held.
     pub(super) fn new(
         sizing: &'a Sizing,
         journal: &'a Journal,
         parts: Vec<Part>,
         stop: &'a Stop,
-        played: &'a mut dyn FnMut(),
+        when_played: &'a mut dyn FnMut(),
     ) -> Self {
         let (bounds, days, again) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
-        let mut solver = Self { sizing, journal, stop, played, bounds, days, again };
-        parts.into_iter().for_each(|part| solver.remember(part));
+        let mut solver = Self { sizing, journal, stop, when_played, bounds, days, again };
+        for part in parts {
+            solver.remember(part);
+        }
         solver
     }
 
@@ -101,7 +103,7 @@ impl<'a> Played<'a> {
     }
 }
 
-impl Solver for Played<'_> {
+impl Solver for KnownDesigns<'_> {
     fn bound(&mut self, above: &Design) -> Result<Cut, Error> {
         if !self.bounds.contains_key(above) {
             let sizing = self.sizing;
@@ -114,15 +116,15 @@ impl Solver for Played<'_> {
         Ok(self.bounds[above].clone())
     }
 
-    fn play(&mut self, design: &Design) -> Result<Means, Error> {
+    fn play(&mut self, design: &Design) -> Result<Played, Error> {
         if !self.days.contains_key(design) {
             let days = self.play_days(design, self.sizing.drawn)?;
             self.keep(design, Finding::Days(days))?;
         }
-        (self.played)();
+        (self.when_played)();
         let days = &self.days[design];
         let count = days.len() as f64;
-        Ok(Means {
+        Ok(Played {
             profit_usd: days.iter().map(|day| day.profit_usd).sum::<f64>() / count,
             carried: days.iter().map(|day| day.passengers as f64).sum::<f64>() / count,
         })

@@ -6,7 +6,7 @@ use vertifleet_sim::DayTotals;
 
 use super::goal::Goal;
 use super::search::{Aim, Found};
-use super::solver::Played;
+use super::solver::KnownDesigns;
 use super::space::{Design, What};
 use super::{Sizing, search};
 use crate::error::Error;
@@ -144,7 +144,7 @@ impl SizeReport {
         command: String,
         aim: &Aim,
         found: &Found,
-        solver: &mut Played<'_>,
+        solver: &mut KnownDesigns<'_>,
     ) -> Result<Self, Error> {
         let start = &found.order[0];
         let summary = |design: &Design, days: &[DayTotals]| {

@@ -26,7 +26,7 @@ fn dimensions(report: &SizeReport) -> Vec<Vec<String>> {
             format!("{} to {}{step}", one.lowest, one.highest),
             one.now.to_string(),
             one.found.to_string(),
-            signed(one.one_more_is_worth_at_most, if unit == "$" { 0 } else { 1 }),
+            signed(one.one_more_is_worth_at_most, usize::from(unit != "$")),
         ]);
     }
     rows
