@@ -28,6 +28,7 @@
 //! # }
 //! ```
 
+pub mod account;
 pub mod comparison;
 pub mod competitor;
 mod error;
