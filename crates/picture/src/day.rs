@@ -9,8 +9,8 @@ use crate::map::{Area, pair, room};
 use crate::numbers::{counted, grouped};
 use crate::panel::heading;
 
-const WIDTH: f64 = 1_000.0;
-const HEIGHT: f64 = 470.0;
+pub(crate) const WIDTH: f64 = 1_000.0;
+pub(crate) const HEIGHT: f64 = 470.0;
 
 /// The picture of a day as SVG.
 pub fn day(day: &Scenario) -> String {
@@ -20,7 +20,7 @@ pub fn day(day: &Scenario) -> String {
 }
 
 /// Who wants to fly between which vertiports, and when, side by side.
-fn map_and_demand(canvas: &mut Canvas, day: &Scenario) {
+pub(crate) fn map_and_demand(canvas: &mut Canvas, day: &Scenario) {
     let map = Area { left: 16.0, top: 92.0, width: 470.0, height: 330.0 };
     let demand = Area { left: 560.0, top: 92.0, width: WIDTH - 560.0 - 24.0, height: 320.0 };
     heading(canvas, map, "passengers who want to fly");
@@ -28,7 +28,7 @@ fn map_and_demand(canvas: &mut Canvas, day: &Scenario) {
     wanted(canvas, demand, day);
 }
 
-fn subtitle(day: &Scenario) -> String {
+pub(crate) fn subtitle(day: &Scenario) -> String {
     let stands: u32 = day.vertiports.iter().map(room).sum();
     let wanted = all_passengers(day);
     format!(

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use vertifleet_core::{DaySeed, Network, Scenario, Time, VertiportIx};
 use vertifleet_picture::{
-    FRAME, Moment, Occupancy, PlayedPicture, Whereabouts, day, frame, ledger_lines, png, rgb,
-    schedule, text,
+    FRAME, Moment, Occupancy, PlayedPicture, Whereabouts, day, frame, ledger_lines, network, png,
+    rgb, schedule, text,
 };
 use vertifleet_sim::{Simulation, TraceRow};
 
@@ -58,8 +58,10 @@ fn all_pictures_can_be_painted_and_none_has_a_number_that_is_none() {
         let (of, rows) = played(name);
         let noon = Moment::of(&of, &rows, Time::from_seconds(12 * 3_600));
         let deciding = Some(VertiportIx::new(1));
+        let found = Network::find(name).expect("a network");
         let mut pictures = vec![
             day(&of),
+            network(&found.mean_day(), &found.mean_demand()),
             schedule(&of, &rows),
             schedule(&of, &[]),
             frame(&of, &noon, deciding),
