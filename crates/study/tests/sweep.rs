@@ -161,7 +161,12 @@ fn written(field: &Field) -> String {
 
 #[test]
 fn parquet_has_the_columns_and_the_rows_of_csv() {
-    let factors = ["fleet.0.count=40,42", "vertiports.*.stands=5,6", "tariffs.fare_level=1.25"];
+    let factors = [
+        "fleet.0.count=40,42",
+        "vertiports.*.stands=5,6",
+        "tariffs.fare_level=1.25",
+        r#"closures=[],[{"start":"07:00:00","end":"09:00:00","vertiports":["V1"]}]"#,
+    ];
     let folder = tempfile::tempdir().expect("a folder");
     let files = run(&sweep(&factors, Design::Grid, 2).expect("a sweep"), folder.path());
     for table in ["cells", "days"] {
@@ -189,6 +194,20 @@ fn parquet_has_the_columns_and_the_rows_of_csv() {
             assert!(matches!(typed[1].1, Field::Long(_)) && matches!(typed[3].1, Field::Double(_)));
         }
     }
+}
+
+#[test]
+fn closures_can_be_varied() {
+    let closed = r#"[{"start":"07:00:00","end":"12:00:00","vertiports":["V1"]}]"#;
+    let sweep = sweep(&[&format!("closures=[],{closed}")], Design::Grid, 2).expect("a sweep");
+    let play = |cell| {
+        let record = sweep.play(cell, &Stop::default()).expect("it can be played");
+        record.expect("a network").totals
+    };
+    let (open, closed) = (play(0), play(1));
+    assert_ne!(open, closed, "the closure matters");
+    let (profit_usd, of_open_usd) = (closed[1][0].profit_usd, open[1][0].profit_usd);
+    assert!(profit_usd < of_open_usd, "{profit_usd} {of_open_usd}");
 }
 
 #[test]
