@@ -212,7 +212,7 @@ pub(crate) struct SimulateArguments {
     /// Write every decision to this CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
-    /// Write a page that replays the day to this HTML file
+    /// Write a page with ledger, map, aircraft, stands, demand and replay of the day to this HTML file
     #[arg(long, value_name = "FILE")]
     pub(crate) report: Option<PathBuf>,
     /// Replace a file that this program did not write or that is read-only; never what the command reads

@@ -225,13 +225,8 @@ fn a_report_is_a_folder_with_a_page_figures_and_tables() {
     }
     let page = fs::read_to_string(folder.path().join("out/report.html")).expect("a page");
     assert!(page.contains("The first 3 days as each policy played them"), "{page}");
-    // The replay is within the page, so that the page can be sent to somebody by itself.
-    let (_, frame) = page.split_once(r#"<iframe class="replay""#).expect("a frame");
-    let (_, within) = frame.split_once("srcdoc=\"").expect("its page");
-    let within = within.split('"').next().expect("its end");
-    let within = within.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"");
     let replay = fs::read_to_string(folder.path().join("out/replay.html")).expect("a page");
-    assert_eq!(within.replace("&amp;", "&"), replay);
+    assert_eq!(framed(&page), replay, "the page can be sent to somebody by itself");
     for figure in ["figure-3-learning-curves", "figure-4-reward", "figure-5-profit"] {
         for kind in ["svg", "png"] {
             let name = format!("{figure}.{kind}");
@@ -240,9 +235,19 @@ fn a_report_is_a_folder_with_a_page_figures_and_tables() {
     }
 }
 
-/// The days that a replay page carries.
+/// The page of the replay that stands in the frame of a page.
+fn framed(page: &str) -> String {
+    let (_, frame) = page.split_once(r#"<iframe class="replay""#).expect("a frame");
+    let (_, within) = frame.split_once("srcdoc=\"").expect("its page");
+    let within = within.split('"').next().expect("its end");
+    let within = within.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"");
+    within.replace("&amp;", "&")
+}
+
+/// The days that a page carries, which is a replay or has one in a frame.
 fn replayed(page: &Path) -> Vec<Value> {
     let page = fs::read_to_string(page).expect("a page");
+    let page = if page.contains("<iframe") { framed(&page) } else { page };
     let (_, data) = page.split_once(r#"id="vertifleet-data">"#).expect("a place for the days");
     let (data, _) = data.split_once("</script>").expect("its end");
     let data: Value = serde_json::from_str(data).expect("JSON");
@@ -263,6 +268,23 @@ fn a_page_replays_the_day_that_was_simulated() {
     assert!(day["scenario"] == scenario, "the page carries the whole scenario");
     assert_eq!((&day["name"], &day["plays"][0]["policy"]), (&scenario["name"], &"prices".into()));
     assert_eq!(day["plays"][0]["profit_usd"], printed["profit_usd"]);
+
+    let page = fs::read_to_string(at.join("day.html")).expect("a page");
+    assert!(page.starts_with("<!DOCTYPE html>\n<!-- vertifleet-day/1 -->"));
+    for picture in ["ledger", "map", "aircraft", "occupancy", "demand"] {
+        assert!(page.contains(&format!("<h2 id=\"{picture}\">")), "{picture}");
+        for kind in ["svg", "png"] {
+            assert!(page.contains(&format!("download=\"new-york-3-{picture}.{kind}\"")));
+            let file = format!("{picture}.{kind}");
+            stdout(
+                at,
+                &format!("export day.json day.csv --as {kind} --picture {picture} -o {file}"),
+            );
+        }
+    }
+
+    let exported = fs::read_to_string(at.join("occupancy.svg")).expect("a picture");
+    assert!(page.contains(&exported), "the page shows what export writes");
 
     // The trace of the page is that of the file, rounded to the cent, and still a schedule that the checker takes.
     let (text, exact) =

@@ -12,6 +12,8 @@
 //! | [`gtfs()`] | a GTFS Schedule feed, one trip a flight | trip planners and tools of public transport |
 //! | [`icalendar()`] | iCalendar, one calendar a vertiport | calendars |
 //!
+//! [`typed_table`] writes tables of any kind as Parquet, such as the results of sweeps.
+//!
 //! In every format the departure of a flight is the time of its decision, which is when boarding begins. The aircraft
 //! cruises once the take-off time and any delay are over; it arrives when landing is over, which is when passengers
 //! leave it.
@@ -47,6 +49,7 @@ mod parquet_table;
 mod safe_ids;
 mod spreadsheet;
 mod transit_feed;
+mod typed_table;
 mod vertiport_calendars;
 
 pub use calendar::Calendar;
@@ -57,4 +60,5 @@ pub use output_kinds::{CSV_FILE, GEOJSON_FILE, GTFS_FILE, ICALENDAR_FILE, PARQUE
 pub use parquet_table::parquet;
 pub use spreadsheet::csv;
 pub use transit_feed::gtfs;
+pub use typed_table::{Cells, TypedColumn, typed_table};
 pub use vertiport_calendars::{VertiportCalendar, icalendar};

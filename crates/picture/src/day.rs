@@ -4,26 +4,31 @@ use vertifleet_core::{Scenario, VertiportIx};
 
 use crate::canvas::{Canvas, shortened};
 use crate::demand::{all_passengers, wanted};
+use crate::flows::draw_flows;
 use crate::map::{Area, pair, room};
 use crate::numbers::{counted, grouped};
 use crate::panel::heading;
-use crate::schedule::draw_flows;
 
-const WIDTH: f64 = 1_000.0;
-const HEIGHT: f64 = 470.0;
+pub(crate) const WIDTH: f64 = 1_000.0;
+pub(crate) const HEIGHT: f64 = 470.0;
 
 /// The picture of a day as SVG.
 pub fn day(day: &Scenario) -> String {
-    let map = Area { left: 16.0, top: 92.0, width: 470.0, height: 350.0 };
-    let demand = Area { left: 560.0, top: 92.0, width: WIDTH - 560.0 - 24.0, height: 320.0 };
     let mut canvas = Canvas::new(WIDTH, HEIGHT, &shortened(&day.name, 60), &subtitle(day));
-    heading(&mut canvas, map, "passengers who want to fly");
-    draw_flows(&mut canvas, map, day, &both_ways(day));
-    wanted(&mut canvas, demand, day);
+    map_and_demand(&mut canvas, day);
     canvas.into_svg()
 }
 
-fn subtitle(day: &Scenario) -> String {
+/// Who wants to fly between which vertiports, and when, side by side.
+pub(crate) fn map_and_demand(canvas: &mut Canvas, day: &Scenario) {
+    let map = Area { left: 16.0, top: 92.0, width: 470.0, height: 330.0 };
+    let demand = Area { left: 560.0, top: 92.0, width: WIDTH - 560.0 - 24.0, height: 320.0 };
+    heading(canvas, map, "passengers who want to fly");
+    draw_flows(canvas, map, day, &both_ways(day));
+    wanted(canvas, demand, day);
+}
+
+pub(crate) fn subtitle(day: &Scenario) -> String {
     let stands: u32 = day.vertiports.iter().map(room).sum();
     let wanted = all_passengers(day);
     format!(

@@ -23,7 +23,6 @@ pub(crate) fn served_and_spilled(
     day: &Scenario,
     rows: &[TraceRow],
 ) {
-    heading(canvas, area, "passengers by demand period");
     let mut served = vec![0_u32; day.periods.len()];
     for row in rows {
         served[day.period_at(row.time)] += u32::from(row.passengers);

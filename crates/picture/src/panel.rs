@@ -11,6 +11,8 @@ use crate::numbers::grouped;
 use crate::palette::Paint;
 
 const HOUR_S: u32 = 3_600;
+/// Room for the label of an hour, pixels.
+const LABEL_WIDTH: f64 = 42.0;
 
 /// A heading above an area.
 pub(crate) fn heading(canvas: &mut Canvas, area: Area, text: &str) {
@@ -33,6 +35,10 @@ impl Clock {
         Self { area, start_s, end_s: end.seconds().max(start_s + 1) }
     }
 
+    pub(crate) fn area(&self) -> Area {
+        self.area
+    }
+
     pub(crate) fn pixel(&self, time: Time) -> f64 {
         let passed = f64::from(time.seconds().saturating_sub(self.start_s));
         let share = passed / f64::from(self.end_s - self.start_s);
@@ -41,14 +47,9 @@ impl Clock {
 
     /// Lines at full hours, with labels below the area.
     pub(crate) fn draw(&self, canvas: &mut Canvas) {
-        let hours = (self.end_s - self.start_s) / HOUR_S;
-        let every = if hours > 30 {
-            6
-        } else if hours > 14 {
-            2
-        } else {
-            1
-        };
+        let hours = f64::from(self.end_s - self.start_s) / f64::from(HOUR_S);
+        let fits = |every: &usize| self.area.width / hours * *every as f64 >= LABEL_WIDTH;
+        let every = [1, 2, 3, 4, 6, 12].into_iter().find(fits).unwrap_or(24);
         let first = self.start_s.div_ceil(HOUR_S);
         for hour in (first..=self.end_s / HOUR_S).step_by(every) {
             let x = self.pixel(Time::from_seconds(hour * HOUR_S));

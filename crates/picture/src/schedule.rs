@@ -1,54 +1,159 @@
-//! A whole trace as a picture: where passengers flew, what every aircraft did, how full the vertiports were, and how
-//! much demand was served and spilled.
+//! A played day as pictures: where passengers flew, what every aircraft did, how full the vertiports were, how much demand
+//! was served and spilled, and where the money went. Each can be had by itself, or the first four on one sheet.
 
-use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
+use vertifleet_core::{Scenario, Time};
 use vertifleet_sim::TraceRow;
 
-use crate::canvas::{Anchor, Canvas, Lettering, Look, Stroke, shortened};
+use crate::canvas::{Canvas, shortened};
 use crate::demand::{all_passengers, served_and_spilled};
-use crate::map::{Area, Map, pair, room};
+use crate::map::Area;
 use crate::moment::Moment;
-use crate::numbers::{dollars, grouped};
-use crate::palette::Paint;
-use crate::panel::{Blocks, Clock, heading, key};
+use crate::numbers::{counted, dollars, grouped};
+use crate::panel::{Clock, heading};
+use crate::{fleet, flows, ledger, stands};
 
 const WIDTH: f64 = 1_000.0;
 const LEFT: f64 = 64.0;
 const RIGHT: f64 = 24.0;
-/// The most aircraft and vertiports that have a row of their own.
-const MOST_ROWS: usize = 60;
-/// Length of a cell of the occupancy, seconds.
-const CELL_S: u32 = 900;
-/// Steps in which the load of a flight is shown.
-const LOADS: usize = 4;
+/// Where a picture begins below its title and subtitle.
+const TOP: f64 = 76.0;
 
-/// The picture of a trace as SVG.
+/// A picture of a played day.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlayedPicture {
+    /// Where passengers flew.
+    Map,
+    /// What every aircraft did.
+    Aircraft,
+    /// The stands taken at every vertiport, against its capacity.
+    Occupancy,
+    /// Demand served and spilled.
+    Demand,
+    /// How revenue becomes profit.
+    Ledger,
+}
+
+impl PlayedPicture {
+    /// All of them, in the order of a page.
+    pub const ALL: [Self; 5] =
+        [Self::Ledger, Self::Map, Self::Aircraft, Self::Occupancy, Self::Demand];
+
+    /// Its name in commands and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Map => "map",
+            Self::Aircraft => "aircraft",
+            Self::Occupancy => "occupancy",
+            Self::Demand => "demand",
+            Self::Ledger => "ledger",
+        }
+    }
+
+    /// The picture as SVG. `rows` is the trace of the day.
+    pub fn draw(self, day: &Scenario, rows: &[TraceRow]) -> String {
+        let (title, subtitle, height) = self.heading(day, rows);
+        let title = format!("{title}, {}", shortened(&day.name, 50));
+        let below = if matches!(self, Self::Aircraft | Self::Demand) { 48.0 } else { 30.0 };
+        let mut canvas = Canvas::new(WIDTH, TOP + height + below, &title, &subtitle);
+        let area = Area { left: LEFT, top: TOP, width: WIDTH - LEFT - RIGHT, height };
+        let end = end_of(day, rows);
+        match self {
+            Self::Map => flows::carried(&mut canvas, area, day, rows),
+            Self::Aircraft => {
+                fleet::timeline(&mut canvas, Clock::of(day, end, area), day, rows);
+            }
+            Self::Occupancy => stands::panels(&mut canvas, area, (day, rows, end)),
+            Self::Demand => served_and_spilled(&mut canvas, area, day, rows),
+            Self::Ledger => {
+                let area = Area { left: 130.0, width: WIDTH - 130.0 - 230.0, ..area };
+                ledger::bars(&mut canvas, area, day, rows);
+            }
+        }
+        canvas.into_svg()
+    }
+
+    /// Title, subtitle with the unit, and the height of what is drawn.
+    fn heading(self, day: &Scenario, rows: &[TraceRow]) -> (&'static str, String, f64) {
+        match self {
+            Self::Map => {
+                let carried = grouped(carried(rows) as f64, 0);
+                let subtitle = format!(
+                    "{carried} passengers; lines are as wide as passengers flew, north is up"
+                );
+                ("Passengers carried", subtitle, 440.0)
+            }
+            Self::Aircraft => {
+                let flown = counted(
+                    rows.iter().filter(|row| row.to != row.from).count(),
+                    "flight",
+                    "flights",
+                );
+                let subtitle = format!(
+                    "{flown} by time of the day; a row for each aircraft{}",
+                    fleet::left_out(day)
+                );
+                ("What every aircraft did", subtitle, fleet::height(day))
+            }
+            Self::Occupancy => {
+                let subtitle = format!(
+                    "Aircraft at each vertiport or on their way to it, by time of the day{}",
+                    stands::left_out(day)
+                );
+                ("Stands taken against capacity", subtitle, stands::height(day))
+            }
+            Self::Demand => {
+                let wanted = all_passengers(day);
+                let spilled = grouped(wanted.saturating_sub(carried(rows)) as f64, 0);
+                let wanted = grouped(wanted as f64, 0);
+                let subtitle = format!(
+                    "Passengers by the period in which they want to fly; {spilled} of {wanted} are not carried"
+                );
+                ("Demand served and spilled", subtitle, 240.0)
+            }
+            Self::Ledger => (
+                "From revenue to profit",
+                subtitle(day, rows, end_of(day, rows)),
+                ledger::height(day, rows),
+            ),
+        }
+    }
+}
+
+/// Map, aircraft, stands and demand on one sheet, as SVG.
 pub fn schedule(day: &Scenario, rows: &[TraceRow]) -> String {
-    let end = rows.iter().map(|row| row.ready).max().unwrap_or(day.operations.end);
-    let end = end.max(day.operations.end);
-    let (aircraft, vertiports) =
-        (day.aircraft.len().min(MOST_ROWS), day.vertiports.len().min(MOST_ROWS));
-    let map = Area { left: 16.0, top: 92.0, width: 470.0, height: 340.0 };
+    let end = end_of(day, rows);
+    let map = Area { left: 16.0, top: 92.0, width: 470.0, height: 320.0 };
     let demand = Area { left: 560.0, top: 92.0, width: WIDTH - 560.0 - RIGHT, height: 300.0 };
-    let band = |top, rows: usize, row: f64| Area {
-        left: LEFT,
-        top,
-        width: WIDTH - LEFT - RIGHT,
-        height: row * rows as f64,
-    };
-    let fleet = band(486.0, aircraft, if aircraft > 30 { 7.0 } else { 10.0 });
-    let occupancy = band(fleet.bottom() + 76.0, vertiports, 14.0);
+    let band = |top, height| Area { left: LEFT, top, width: WIDTH - LEFT - RIGHT, height };
+    let aircraft = band(486.0, fleet::height(day));
+    let taken = band(aircraft.bottom() + 86.0, stands::height(day));
     let mut canvas = Canvas::new(
         WIDTH,
-        occupancy.bottom() + 48.0,
+        taken.bottom() + 32.0,
         &shortened(&day.name, 60),
         &subtitle(day, rows, end),
     );
-    flows(&mut canvas, map, day, rows);
+    heading(&mut canvas, map, "passengers carried");
+    flows::carried(&mut canvas, map, day, rows);
+    heading(&mut canvas, demand, "passengers by demand period");
     served_and_spilled(&mut canvas, demand, day, rows);
-    gantt(&mut canvas, Clock::of(day, end, fleet), fleet, day, rows);
-    stands(&mut canvas, Clock::of(day, end, occupancy), occupancy, (day, rows, end));
+    heading(&mut canvas, aircraft, &format!("aircraft{}", fleet::left_out(day)));
+    fleet::timeline(&mut canvas, Clock::of(day, end, aircraft), day, rows);
+    let text = format!("stands taken, against capacity{}", stands::left_out(day));
+    heading(&mut canvas, taken, &text);
+    stands::panels(&mut canvas, taken, (day, rows, end));
     canvas.into_svg()
+}
+
+/// The end of operations, or of the last charging if that is later.
+fn end_of(day: &Scenario, rows: &[TraceRow]) -> Time {
+    let ready = rows.iter().map(|row| row.ready).max();
+    ready.unwrap_or(day.operations.end).max(day.operations.end)
+}
+
+/// Passengers carried.
+fn carried(rows: &[TraceRow]) -> u64 {
+    rows.iter().map(|row| u64::from(row.passengers)).sum()
 }
 
 fn subtitle(day: &Scenario, rows: &[TraceRow], end: Time) -> String {
@@ -63,142 +168,4 @@ fn subtitle(day: &Scenario, rows: &[TraceRow], end: Time) -> String {
         grouped(passengers as f64, 0),
         grouped(wanted.saturating_sub(passengers) as f64, 0)
     )
-}
-
-/// Lines as wide as passengers flew between two vertiports, both ways together.
-fn flows(canvas: &mut Canvas, area: Area, day: &Scenario, rows: &[TraceRow]) {
-    heading(canvas, area, "passengers carried");
-    let size = day.vertiports.len();
-    let mut carried = vec![0_u32; size * size];
-    for row in rows {
-        carried[pair(size, row.from.at(), row.to.at())] += u32::from(row.passengers);
-    }
-    draw_flows(canvas, area, day, &carried);
-}
-
-/// Lines as wide as the numbers of an upper triangle, and the vertiports.
-pub(crate) fn draw_flows(canvas: &mut Canvas, area: Area, day: &Scenario, numbers: &[u32]) {
-    let (map, size) = (Map::of(day, area), day.vertiports.len());
-    let most = f64::from(numbers.iter().copied().max().unwrap_or(0).max(1));
-    for from in VertiportIx::all(size) {
-        for to in VertiportIx::all(size).skip(from.at() + 1) {
-            let share = f64::from(numbers[pair(size, from.at(), to.at())]) / most;
-            if share > 0.01 {
-                let paint = Paint::Series(0);
-                let stroke = Stroke::solid(paint, 0.4 + 6.6 * share);
-                canvas.line(map.at(from), map.at(to), stroke);
-            }
-        }
-    }
-    let radius = if map.is_named() { 7.0 } else { 4.0 };
-    for at in VertiportIx::all(size) {
-        map.disc(canvas, at, radius, 0.0);
-        map.name(canvas, day, at, radius);
-    }
-}
-
-/// What each aircraft does: flights by load, charging, and the rest of the time on a stand.
-fn gantt(canvas: &mut Canvas, clock: Clock, area: Area, day: &Scenario, rows: &[TraceRow]) {
-    let shown = day.aircraft.len().min(MOST_ROWS);
-    let more = if shown < day.aircraft.len() {
-        format!(", the first {shown} of {}", day.aircraft.len())
-    } else {
-        String::new()
-    };
-    heading(canvas, area, &format!("aircraft{more}"));
-    clock.draw(canvas);
-    let row_height = area.height / shown as f64;
-    let top = |aircraft: AircraftIx| area.top + row_height * aircraft.at() as f64;
-    let (mut charging, mut empty) = (Blocks::default(), Blocks::default());
-    let mut loaded: [Blocks; LOADS] = Default::default();
-    for row in rows.iter().filter(|row| row.to != row.from && row.aircraft.at() < shown) {
-        let (start, arrival) = (clock.pixel(row.time), clock.pixel(row.arrival));
-        let (y, height) = (top(row.aircraft) + 1.0, row_height - 2.0);
-        let seats = day.aircraft_types[day.aircraft[row.aircraft.at()].kind.at()].seats;
-        let step = (usize::from(row.passengers) * LOADS).div_ceil(usize::from(seats.max(1)));
-        let blocks = match step {
-            0 => &mut empty,
-            step => &mut loaded[step.min(LOADS) - 1],
-        };
-        blocks.add((start, y), ((arrival - start).max(0.5), height));
-        let ready = clock.pixel(row.ready);
-        charging.add((arrival, y + 0.3 * height), ((ready - arrival).max(0.0), 0.4 * height));
-    }
-    charging.draw(canvas, Look { fill: Some((Paint::Series(2), 0.5)), stroke: None });
-    empty.draw(canvas, empty_look());
-    for (step, blocks) in loaded.iter().enumerate() {
-        blocks.draw(canvas, loaded_look(step));
-    }
-    let every = if row_height < 9.0 { 5 } else { 2 };
-    for aircraft in AircraftIx::all(shown).step_by(every) {
-        let label = Lettering { size: 10.0, ..Lettering::SMALL }.anchored(Anchor::End);
-        let id = shortened(&day.aircraft[aircraft.at()].id, 8);
-        canvas.text((area.left - 6.0, top(aircraft) + 0.5 * row_height + 3.5), label, &id);
-    }
-    let entries = [
-        (loaded_look(LOADS - 1), "flight, full"),
-        (loaded_look(0), "a quarter full"),
-        (empty_look(), "empty"),
-        (Look { fill: Some((Paint::Series(2), 0.5)), stroke: None }, "charging"),
-    ];
-    key(canvas, (area.left, area.bottom() + 32.0), &entries);
-}
-
-fn loaded_look(step: usize) -> Look {
-    let share = (step + 1) as f64 / LOADS as f64;
-    Look { fill: Some((Paint::Series(0), 0.2 + 0.8 * share)), stroke: None }
-}
-
-fn empty_look() -> Look {
-    Look { fill: Some((Paint::Ground, 1.0)), stroke: Some(Stroke::solid(Paint::Series(0), 0.8)) }
-}
-
-/// The share of each vertiport's stands that aircraft stand on or fly towards.
-fn stands(
-    canvas: &mut Canvas,
-    clock: Clock,
-    area: Area,
-    (day, rows, end): (&Scenario, &[TraceRow], Time),
-) {
-    heading(canvas, area, "stands taken, at each vertiport");
-    clock.draw(canvas);
-    let shown = day.vertiports.len().min(MOST_ROWS);
-    let row_height = area.height / shown as f64;
-    let start_s = day.operations.start.seconds();
-    let mut cells: [Blocks; LOADS] = Default::default();
-    for from_s in (start_s..end.seconds()).step_by(CELL_S as usize) {
-        let moment = Moment::of(day, rows, Time::from_seconds(from_s + CELL_S / 2));
-        let x = clock.pixel(Time::from_seconds(from_s));
-        let width = clock.pixel(Time::from_seconds(from_s + CELL_S)) - x;
-        for at in 0..shown {
-            let one = &day.vertiports[at];
-            let stands = room(one);
-            let taken = moment.standing[at] + moment.coming[at];
-            let step = ((taken as usize * LOADS).div_ceil(stands.max(1) as usize)).min(LOADS);
-            if step > 0 {
-                let y = area.top + row_height * at as f64;
-                cells[step - 1].add((x, y + 1.0), (width, row_height - 2.0));
-            }
-        }
-    }
-    for (step, blocks) in cells.iter().enumerate() {
-        blocks.draw(canvas, taken_look(step));
-    }
-    for (at, one) in day.vertiports.iter().enumerate().take(shown) {
-        let label = Lettering { size: 10.0, ..Lettering::SMALL }.anchored(Anchor::End);
-        let y = area.top + row_height * (at as f64 + 0.5) + 3.5;
-        canvas.text((area.left - 6.0, y), label, &shortened(&one.id, 8));
-    }
-    let entries = [
-        (taken_look(0), "up to a quarter"),
-        (taken_look(1), "half"),
-        (taken_look(2), "three quarters"),
-        (taken_look(3), "nearly all or all"),
-    ];
-    key(canvas, (area.left, area.bottom() + 32.0), &entries);
-}
-
-fn taken_look(step: usize) -> Look {
-    let share = (step + 1) as f64 / LOADS as f64;
-    Look { fill: Some((Paint::Series(1), share * share)), stroke: None }
 }

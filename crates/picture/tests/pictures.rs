@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use vertifleet_core::{DaySeed, Network, Scenario, Time, VertiportIx};
-use vertifleet_picture::{FRAME, Moment, Whereabouts, day, frame, png, rgb, schedule, text};
+use vertifleet_picture::{
+    FRAME, Moment, Occupancy, PlayedPicture, Whereabouts, day, frame, ledger_lines, network, png,
+    rgb, schedule, text,
+};
 use vertifleet_sim::{Simulation, TraceRow};
 
 const NETWORKS: [&str; 6] =
@@ -55,14 +58,57 @@ fn all_pictures_can_be_painted_and_none_has_a_number_that_is_none() {
         let (of, rows) = played(name);
         let noon = Moment::of(&of, &rows, Time::from_seconds(12 * 3_600));
         let deciding = Some(VertiportIx::new(1));
-        for svg in [day(&of), schedule(&of, &rows), schedule(&of, &[]), frame(&of, &noon, deciding)]
-        {
+        let found = Network::find(name).expect("a network");
+        let mut pictures = vec![
+            day(&of),
+            network(&found.mean_day(), &found.mean_demand()),
+            schedule(&of, &rows),
+            schedule(&of, &[]),
+            frame(&of, &noon, deciding),
+        ];
+        for picture in PlayedPicture::ALL {
+            pictures.extend([picture.draw(&of, &rows), picture.draw(&of, &[])]);
+        }
+        for svg in pictures {
             assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{name}");
             assert!(png(&svg).starts_with(b"\x89PNG"), "{name}");
         }
         let pixels = rgb(&frame(&of, &noon, None));
         assert_eq!(pixels.len(), (FRAME.0 * FRAME.1 * 3) as usize);
         assert!(pixels.iter().any(|&value| value < 64) && pixels[0] == 255, "dark marks on white");
+    }
+}
+
+#[test]
+fn the_occupancy_of_a_vertiport_is_that_of_every_moment() {
+    for name in NETWORKS {
+        let (day, rows) = played(name);
+        for at in VertiportIx::all(day.vertiports.len()) {
+            let occupancy = Occupancy::of(&day, &rows, at);
+            assert!(occupancy.steps.is_sorted_by(|(one, _), (next, _)| one < next));
+            for &(time, taken) in &occupancy.steps {
+                let moment = Moment::of(&day, &rows, time);
+                assert_eq!(moment.standing[at.at()] + moment.coming[at.at()], taken, "{name}");
+                assert!(taken <= occupancy.room, "{name}");
+            }
+            let (mean, full) = (occupancy.mean_share(), occupancy.full_share());
+            assert!((0.0..=1.0).contains(&full) && full <= mean + 1e-9 && mean <= 1.0 + 1e-9);
+        }
+    }
+}
+
+#[test]
+fn the_ledger_leads_from_revenue_to_the_profit_of_the_day() {
+    for name in NETWORKS {
+        let (day, rows) = played(name);
+        let lines = ledger_lines(&day, &rows);
+        let (&(last, profit_usd), before) = lines.split_last().expect("a ledger has lines");
+        assert_eq!((lines[0].0, last), ("revenue", "profit"));
+        let left_usd = before.iter().map(|(_, usd)| usd).sum::<f64>();
+        let end = rows.iter().map(|row| row.ready).max().expect("a day has decisions");
+        let of_moment = Moment::of(&day, &rows, end).profit_usd;
+        let about = |usd: f64| (usd - profit_usd).abs() < 1e-6 * lines[0].1.max(1.0);
+        assert!(about(left_usd) && about(of_moment), "{name}: {lines:?}");
     }
 }
 

@@ -5,10 +5,8 @@
 //! policy's difference is that of a single day, which chance moves by more than most changes are worth; the bound's is that
 //! of what is possible. A [sweep](crate::sweep) measures changes over many days.
 
-mod losses;
 mod page;
 mod table;
-mod usage;
 mod worth;
 
 use std::sync::Arc;
@@ -17,13 +15,11 @@ use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde::Serialize;
 use vertifleet_core::{OutputKind, Scenario, Stop};
 use vertifleet_optimize::{Bound, Step, upper_bound_unless};
-use vertifleet_sim::{DayTotals, Trace};
 
+use crate::account::Account;
 use crate::error::Error;
 use crate::resolved_policy::ResolvedPolicy;
 
-pub use losses::{Loss, PairLoss, PeriodLoss};
-pub use usage::{AircraftUse, VertiportUse};
 pub use worth::Worth;
 
 /// The format of the explanation as JSON.
@@ -41,30 +37,15 @@ pub const PAGE: OutputKind = OutputKind {
 pub struct Explanation {
     /// [`FORMAT`].
     pub format: &'static str,
-    /// The name of the day.
-    pub day: String,
-    /// The policy that played it.
-    pub policy: String,
-    /// The numbers of the day.
-    pub totals: DayTotals,
+    /// The numbers of the day as the policy played it, and what its stands are worth.
+    #[serde(flatten)]
+    pub account: Account,
     /// What no schedule of the day can pass, dollars.
     pub upper_bound_usd: f64,
     /// The length of the bound's slices, seconds.
     pub bound_step_s: u32,
-    /// Demand served and spilled by period.
-    pub periods: Vec<PeriodLoss>,
-    /// Demand served and spilled by pair, the pair with the most money spilled first.
-    pub pairs: Vec<PairLoss>,
-    /// How full the vertiports were, and what their stands are worth.
-    pub vertiports: Vec<VertiportUse>,
-    /// What every aircraft did.
-    pub aircraft: Vec<AircraftUse>,
     /// What changes of the day are worth, by kind.
     pub worth: Vec<Worth>,
-    #[serde(skip)]
-    trace: Trace,
-    #[serde(skip)]
-    scenario: Arc<Scenario>,
 }
 
 /// Plays a day with a policy, bounds it, and solves it again with one thing more or less at a time. `solved` is called with
@@ -100,18 +81,10 @@ pub fn explain(
     let worth = changes.into_par_iter().map(solve).collect::<Result<Vec<Worth>, Error>>()?;
     Ok(Explanation {
         format: FORMAT,
-        day: scenario.name.clone(),
-        policy: name.to_owned(),
-        totals,
+        account: Account::of(scenario, name, trace, totals).with_worth_of_stands(&bound),
         upper_bound_usd: bound.upper_bound_usd(),
         bound_step_s: bound.step_s(),
-        periods: losses::by_period(scenario, &trace.rows),
-        pairs: losses::by_pair(scenario, &trace.rows),
-        vertiports: usage::of_vertiports(scenario, &trace.rows, &bound),
-        aircraft: usage::of_aircraft(scenario, &trace.rows),
         worth,
-        trace,
-        scenario: Arc::clone(scenario),
     })
 }
 
@@ -126,10 +99,9 @@ impl Explanation {
         serde_json::to_string_pretty(self).expect("plain data")
     }
 
-    /// The explanation as a page: the ledger, a picture of the day, and all tables.
+    /// The explanation as a page: that of the [account](Account::page), the bound, and what changes are worth.
     pub fn page(&self) -> String {
-        let picture = vertifleet_picture::schedule(&self.scenario, &self.trace.rows);
-        page::text(self, &picture)
+        page::text(self)
     }
 }
 

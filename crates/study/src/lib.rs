@@ -29,6 +29,7 @@
 //! # }
 //! ```
 
+pub mod account;
 pub mod comparison;
 pub mod competitor;
 mod error;

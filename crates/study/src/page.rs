@@ -1,4 +1,4 @@
-//! What the pages of both studies have in common: one page that opens offline, follows the reader's light or dark
+//! What the pages of studies and of days have in common: one page that opens offline, follows the reader's light or dark
 //! setting, and prints.
 //!
 //! The template escapes every text that it is given; only the figures and the style sheet, which the program itself
@@ -35,6 +35,11 @@ fn style() -> String {
         "{}@media screen and (prefers-color-scheme:dark){{{figures}}}\n",
         include_str!("page/style.css")
     )
+}
+
+/// The page of a replay in a frame of its own, which keeps its style and its scripts apart from the page.
+pub(crate) fn replay_frame(page: &str) -> Markup {
+    html! { iframe.replay title="Replay" loading="lazy" srcdoc=(page) {} }
 }
 
 /// A mean with its interval.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 use serde_json::value::RawValue;
-use vertifleet_core::{OutputKind, Scenario, VertiportIx};
+use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_sim::{Simulation, Trace, TraceRow};
 
 use crate::record::PolicyRecord;
@@ -15,10 +15,6 @@ pub(crate) const MOST_DAYS: usize = 3;
 /// Fewer days are shown if there would be more decisions than this on all of them: about 4 MiB of text. The first day
 /// is shown in any case.
 const MOST_DECISIONS: usize = 60_000;
-
-/// The beginning of every replay page that this program wrote.
-pub const PAGE: OutputKind =
-    OutputKind { name: "replay", skipped: 0, opening: vertifleet_console::REPLAY_OPENING };
 
 /// A day, and what policies did on it.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,6 +15,7 @@ mod page;
 mod record;
 mod summary;
 mod table;
+mod typed_tables;
 
 use std::fs;
 use std::hash::Hasher;
@@ -47,6 +48,9 @@ pub use summary::{CellResult, CellSummary, FORMAT, SweepReport};
 pub const JOURNAL: &str = "cells.jsonl";
 const JOURNAL_FORMAT: &str = "vertifleet-sweep-cells/1";
 
+/// The tables of a sweep, each as text and with types.
+const TABLES: [&str; 4] = ["cells.csv", "cells.parquet", "days.csv", "days.parquet"];
+
 /// A folder that holds a sweep and nothing else.
 const FOLDER: FolderKind = FolderKind {
     name: "sweep",
@@ -55,7 +59,8 @@ const FOLDER: FolderKind = FolderKind {
         let end = Path::new(name).extension();
         let picture = end.is_some_and(|end| end == "svg" || end == "png");
         (picture && name.starts_with("figure-"))
-            || [JOURNAL, "cells.csv", "days.csv", "summary.json", "report.html"].contains(&name)
+            || TABLES.contains(&name)
+            || [JOURNAL, "summary.json", "report.html"].contains(&name)
     },
 };
 
@@ -307,7 +312,9 @@ impl Records for SweepRecords<'_> {
         let mut files = pictures(&figures);
         files.extend([
             ("cells.csv".to_owned(), cells_csv::text(&report).into_bytes()),
+            ("cells.parquet".to_owned(), typed_tables::cells(&report)),
             ("days.csv".to_owned(), days_csv::text(self).into_bytes()),
+            ("days.parquet".to_owned(), typed_tables::days(self)),
             ("summary.json".to_owned(), (report.to_json() + "\n").into_bytes()),
             ("report.html".to_owned(), page::text(&report, &figures).into_bytes()),
         ]);

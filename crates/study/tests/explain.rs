@@ -27,9 +27,9 @@ fn greedy() -> ResolvedPolicy {
 fn periods_pairs_and_aircraft_add_up_to_the_day() {
     for network in ["paper", "disrupted"] {
         let found = explained(network, &greedy());
-        let totals = &found.totals;
+        let totals = &found.account.totals;
         let sum = |numbers: Vec<u64>| numbers.into_iter().sum::<u64>();
-        let periods = &found.periods;
+        let periods = &found.account.periods;
         assert_eq!(sum(periods.iter().map(|one| one.demand.carried).collect()), totals.passengers);
         assert_eq!(
             sum(periods.iter().map(|one| one.demand.spilled).collect()),
@@ -43,7 +43,7 @@ fn periods_pairs_and_aircraft_add_up_to_the_day() {
             sum(periods.iter().map(|one| one.holds.into()).collect()),
             u64::from(totals.holds)
         );
-        let pairs = &found.pairs;
+        let pairs = &found.account.pairs;
         assert_eq!(sum(pairs.iter().map(|one| one.demand.carried).collect()), totals.passengers);
         assert_eq!(
             sum(pairs.iter().map(|one| one.flights.into()).collect()),
@@ -54,20 +54,21 @@ fn periods_pairs_and_aircraft_add_up_to_the_day() {
         ));
         let earned = |usd: f64| (usd - totals.profit_usd).abs() < 1e-6 * totals.revenue_usd;
         assert!(earned(pairs.iter().map(|one| one.profit_usd).sum()));
-        assert!(earned(found.aircraft.iter().map(|one| one.profit_usd).sum()));
+        assert!(earned(found.account.aircraft.iter().map(|one| one.profit_usd).sum()));
         let hours = 12.0;
-        for one in &found.aircraft {
+        for one in &found.account.aircraft {
             assert!(
                 (one.flying_h + one.charging_h + one.waiting_h - hours).abs() < 1e-9,
                 "{one:?}"
             );
         }
-        for one in &found.vertiports {
+        for one in &found.account.vertiports {
             assert!(
                 (0.0..=1.0).contains(&one.taken_share) && one.full_share <= one.taken_share + 1e-9
             );
-            let by_period: f64 = one.stand_shadow_price_by_period_usd.iter().sum();
-            assert!((by_period - one.stand_shadow_price_usd).abs() < 1e-4, "{one:?}");
+            let worth = one.stand_worth.as_ref().expect("the day has a bound");
+            let by_period: f64 = worth.stand_shadow_price_by_period_usd.iter().sum();
+            assert!((by_period - worth.stand_shadow_price_usd).abs() < 1e-4, "{one:?}");
         }
     }
 }
@@ -82,7 +83,7 @@ fn a_worth_is_the_difference_of_two_days_that_were_solved() {
     changed.aircraft_types[0].seats += 1;
     let changed = Arc::new(changed.check("a changed day").expect("a day"));
     let (_, totals) = greedy().play("greedy", &changed, &Stop::default()).expect("a whole day");
-    assert_eq!(seat.policy_usd, Some(totals.profit_usd - found.totals.profit_usd));
+    assert_eq!(seat.policy_usd, Some(totals.profit_usd - found.account.totals.profit_usd));
     let bound = upper_bound(&changed, Step::from_minutes(60).expect("a step")).expect("a bound");
     assert_eq!(seat.bound_usd, bound.upper_bound_usd() - found.upper_bound_usd);
     assert!(seat.bound_usd > 5_000.0, "a fifth seat is worth much where flights are full");
@@ -93,7 +94,7 @@ fn a_trace_is_explained_without_playing_other_days() {
     let (trace, _) = greedy().play("greedy", &day("paper"), &Stop::default()).expect("a day");
     let found = explained("paper", &ResolvedPolicy::Replay(Arc::new(Trace::clone(&trace))));
     assert!(found.worth.iter().all(|one| one.policy_usd.is_none() && one.bound_usd.is_finite()));
-    assert_eq!(found.totals, explained("paper", &greedy()).totals);
+    assert_eq!(found.account.totals, explained("paper", &greedy()).account.totals);
 }
 
 #[test]
@@ -101,7 +102,8 @@ fn page_and_text_say_what_json_says() {
     let found = explained("paper", &greedy());
     let page = found.page();
     assert!(page.starts_with(PAGE.opening), "the program recognises its own pages");
-    for part in ["<svg", "Ledger", "V1 → V2", "one more cityairbus"] {
+    for part in ["<svg", "Ledger", "V1 → V2", "one more cityairbus", "one more stand, $", "iframe"]
+    {
         assert!(page.contains(part), "{part}");
     }
     assert!(found.text().contains("where most money is spilled"));

@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use bytes::Bytes;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
 use vertifleet_core::{Coded, DaySeed, Network, Stop};
 use vertifleet_study::comparison::DrawnDays;
 use vertifleet_study::competitor::Selection;
@@ -142,6 +145,69 @@ fn the_report_says_which_design_is_best_and_which_is_the_cheapest_good_one() {
     let least = good.map(cost).fold(f64::INFINITY, f64::min);
     let cheapest = usize::try_from(json["cheapest"].as_u64().expect("a cell")).expect("small");
     assert_eq!(cost(&cells[cheapest]), least);
+}
+
+/// A field of Parquet as the CSV files write it.
+fn written(field: &Field) -> String {
+    match field {
+        Field::Null => String::new(),
+        Field::Bool(flag) => flag.to_string(),
+        Field::Long(number) => number.to_string(),
+        Field::Double(number) => number.to_string(),
+        Field::Str(text) => text.clone(),
+        other => panic!("no column has this type: {other:?}"),
+    }
+}
+
+#[test]
+fn parquet_has_the_columns_and_the_rows_of_csv() {
+    let factors = [
+        "fleet.0.count=40,42",
+        "vertiports.*.stands=5,6",
+        "tariffs.fare_level=1.25",
+        r#"closures=[],[{"start":"07:00:00","end":"09:00:00","vertiports":["V1"]}]"#,
+    ];
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = run(&sweep(&factors, Design::Grid, 2).expect("a sweep"), folder.path());
+    for table in ["cells", "days"] {
+        let mut csv = csv::Reader::from_reader(&files[&format!("{table}.csv")][..]);
+        let names: Vec<String> = csv.headers().expect("names").iter().map(str::to_owned).collect();
+        let rows: Vec<Vec<String>> = csv
+            .records()
+            .map(|row| row.expect("a row").iter().map(str::to_owned).collect())
+            .collect();
+        let parquet = Bytes::from(files[&format!("{table}.parquet")].clone());
+        let reader = SerializedFileReader::new(parquet).expect("a Parquet file");
+        let typed = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row"));
+        let typed: Vec<Vec<(String, Field)>> = typed
+            .map(|row| row.get_column_iter().map(|(n, f)| (n.clone(), f.clone())).collect())
+            .collect();
+        assert_eq!(typed.len(), rows.len(), "{table}");
+        let left_out = rows.iter().filter(|row| row.last().is_some_and(|one| !one.is_empty()));
+        assert!(table == "days" || left_out.count() == 2, "40 stands are too few for 42 aircraft");
+        for (typed, row) in typed.iter().zip(&rows) {
+            assert!(typed.iter().map(|(name, _)| name).eq(&names), "{table}");
+            assert!(
+                typed.iter().map(|(_, field)| written(field)).eq(row.iter().cloned()),
+                "{table}"
+            );
+            assert!(matches!(typed[1].1, Field::Long(_)) && matches!(typed[3].1, Field::Double(_)));
+        }
+    }
+}
+
+#[test]
+fn closures_can_be_varied() {
+    let closed = r#"[{"start":"07:00:00","end":"12:00:00","vertiports":["V1"]}]"#;
+    let sweep = sweep(&[&format!("closures=[],{closed}")], Design::Grid, 2).expect("a sweep");
+    let play = |cell| {
+        let record = sweep.play(cell, &Stop::default()).expect("it can be played");
+        record.expect("a network").totals
+    };
+    let (open, closed) = (play(0), play(1));
+    assert_ne!(open, closed, "the closure matters");
+    let (profit_usd, of_open_usd) = (closed[1][0].profit_usd, open[1][0].profit_usd);
+    assert!(profit_usd < of_open_usd, "{profit_usd} {of_open_usd}");
 }
 
 #[test]

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::builder::{PathBufValueParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
-use vertifleet_core::Purpose;
+use vertifleet_core::{Purpose, Scenario};
+use vertifleet_picture::{PlayedPicture, schedule};
+use vertifleet_sim::TraceRow;
 use vertifleet_study::PolicySource;
 use vertifleet_study::size::Goal;
 use vertifleet_study::sweep::Factor;
@@ -115,10 +117,41 @@ pub(crate) enum ExportFormat {
     Gtfs,
     /// A calendar for each vertiport
     Icalendar,
-    /// A picture of the day: map, aircraft, stands, demand
+    /// A picture of the day
     Svg,
-    /// The same picture as pixels
+    /// The same as pixels
     Png,
+}
+
+/// The pictures of a played day.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ExportPicture {
+    /// Map, aircraft, occupancy and demand on one sheet
+    Day,
+    /// Where passengers flew
+    Map,
+    /// What every aircraft did
+    Aircraft,
+    /// The stands taken at every vertiport, against its capacity
+    Occupancy,
+    /// Demand served and spilled
+    Demand,
+    /// How revenue becomes profit
+    Ledger,
+}
+
+impl ExportPicture {
+    /// The picture as SVG.
+    pub(crate) fn draw(self, day: &Scenario, rows: &[TraceRow]) -> String {
+        match self {
+            Self::Day => schedule(day, rows),
+            Self::Map => PlayedPicture::Map.draw(day, rows),
+            Self::Aircraft => PlayedPicture::Aircraft.draw(day, rows),
+            Self::Occupancy => PlayedPicture::Occupancy.draw(day, rows),
+            Self::Demand => PlayedPicture::Demand.draw(day, rows),
+            Self::Ledger => PlayedPicture::Ledger.draw(day, rows),
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -133,6 +166,9 @@ pub(crate) struct ExportArguments {
     /// The file; for icalendar the folder
     #[arg(short, long, value_name = "FILE|DIR")]
     pub(crate) output: PathBuf,
+    /// The picture that svg and png draw
+    #[arg(long, value_name = "NAME", default_value = "day")]
+    pub(crate) picture: ExportPicture,
     /// The date of the day; geojson, gtfs and icalendar need it
     #[arg(long, value_name = "YYYY-MM-DD")]
     pub(crate) date: Option<String>,
@@ -160,7 +196,7 @@ pub(crate) struct ExplainArguments {
     /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer never give looser bounds, and take longer
     #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Write a page with the ledger, a picture of the day and all tables to this HTML file
+    /// Write the page of the day with its bound and what changes are worth to this HTML file
     #[arg(long, value_name = "FILE")]
     pub(crate) report: Option<PathBuf>,
     /// Replace a file that this program did not write or that is read-only; never what the command reads

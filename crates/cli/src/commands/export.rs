@@ -42,10 +42,10 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<ExitCode, Failure> {
         }
         ExportFormat::Gtfs => (GTFS_FILE, gtfs(&flown, dated(calendar.as_ref())?)?),
         ExportFormat::Svg => {
-            (SVG_FILE, vertifleet_picture::schedule(&scenario, &trace.rows).into_bytes())
+            (SVG_FILE, arguments.picture.draw(&scenario, &trace.rows).into_bytes())
         }
         ExportFormat::Png => {
-            let picture = vertifleet_picture::schedule(&scenario, &trace.rows);
+            let picture = arguments.picture.draw(&scenario, &trace.rows);
             (PNG_FILE, vertifleet_picture::png(&picture))
         }
         ExportFormat::Icalendar => {

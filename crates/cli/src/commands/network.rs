@@ -150,7 +150,7 @@ fn show(
     let mut outputs = Outputs::new(force);
     let network = find_network(network, &mut outputs)?;
     if let Some(path) = picture {
-        let svg = || vertifleet_picture::day(&network.mean_day());
+        let svg = || vertifleet_picture::network(&network.mean_day(), &network.mean_demand());
         match path.extension().and_then(|end| end.to_str()) {
             Some("svg") => {
                 outputs.writes(path, &SVG_FILE)?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{Code, Outputs, Scenario, Stop, write_atomically};
 use vertifleet_sim::{DayTotals, Trace};
-use vertifleet_study::replay::{self, Play, ReplayedDay};
+use vertifleet_study::account::{Account, PAGE};
 use vertifleet_study::{PolicySpec, ResolveFor};
 
 use crate::args::SimulateArguments;
@@ -31,9 +31,8 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
         trace.write(&scenario, path)?;
     }
     if let Some(path) = &arguments.report {
-        let play = Play { policy: spec.name().to_owned(), trace, profit_usd: totals.profit_usd };
-        let day = ReplayedDay { scenario: Arc::clone(&scenario), plays: vec![play] };
-        write_atomically(path, replay::page(&[day]).as_bytes())?;
+        let account = Account::of(&scenario, spec.name(), trace, totals);
+        write_atomically(path, account.page().as_bytes())?;
     }
     if arguments.json {
         print(&serde_json::to_string_pretty(&totals).expect("numbers are plain data"))?;
@@ -53,7 +52,7 @@ fn claim(arguments: &SimulateArguments, spec: &PolicySpec) -> Result<(), Failure
         outputs.writes(trace, &Trace::FILE)?;
     }
     if let Some(page) = &arguments.report {
-        outputs.writes(page, &replay::PAGE)?;
+        outputs.writes(page, &PAGE)?;
     }
     Ok(())
 }

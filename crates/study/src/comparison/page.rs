@@ -10,7 +10,7 @@ use super::headline;
 use super::summary::{ComparisonReport, PolicySummary};
 use crate::figure::Figure;
 use crate::origin::NetworkOrigin;
-use crate::page::{document, estimate, links, picture};
+use crate::page::{document, estimate, links, picture, replay_frame};
 use crate::published::{NOTE, PublishedResult};
 
 /// The replay of days, which is shown within the page.
@@ -292,7 +292,7 @@ fn replay(&Replay { days, page }: &Replay<'_>, has_files: bool) -> Markup {
             @if has_files {
                 " The file " a href="replay.html" { "replay.html" } " shows the same in a whole window."
             } }
-        iframe.replay title="Replay" loading="lazy" srcdoc=(page) {}
+        (replay_frame(page))
     }
 }
 

@@ -47,21 +47,23 @@ pub enum Design {
 }
 
 impl Factor {
-    /// Reads `PATH=VALUE,VALUE,...`, `PATH=LOW..HIGH/STEP` or, for a Latin hypercube, `PATH=LOW..HIGH`.
+    /// Reads `PATH=VALUE,VALUE,...`, `PATH=LOW..HIGH/STEP` or, for a Latin hypercube, `PATH=LOW..HIGH`. A value that begins
+    /// with a bracket, a brace or a quote is JSON, and may hold commas and dots.
     ///
     /// # Errors
     /// Returns [`Error::Asked`] if the text has another form, or if a range is empty or endless.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let asked = |rule: String| Error::Asked {
             rule,
-            hint: "a factor is PATH=VALUE,VALUE or PATH=LOW..HIGH/STEP, for example fleet.0.count=30..50/5",
+            hint: "a factor is PATH=VALUE,VALUE or PATH=LOW..HIGH/STEP, for example fleet.0.count=30..50/5; a list is in brackets, as JSON",
         };
         let (path, values) = text
             .split_once('=')
             .filter(|(path, values)| !path.is_empty() && !values.is_empty())
             .ok_or_else(|| asked(format!("{text:?} is no factor")))?;
-        let levels = match values.split_once("..") {
-            None => Levels::List(values.split(',').map(value).collect()),
+        let dots = values.split_once("..").filter(|(low, _)| !is_json(low) && !low.contains(','));
+        let levels = match dots {
+            None => Levels::List(list(values).map_err(asked)?),
             Some((low, rest)) => {
                 let range = range(low, rest);
                 range.ok_or_else(|| asked(format!("{values:?} is no range with values in it")))?
@@ -69,6 +71,45 @@ impl Factor {
         };
         Ok(Self { path: path.to_owned(), levels })
     }
+}
+
+/// Whether a value is written as JSON: a list, a table, or a text in quotes.
+fn is_json(text: &str) -> bool {
+    text.starts_with(['[', '{', '"'])
+}
+
+/// The values of a list, which commas part. The error says what is wrong.
+fn list(text: &str) -> Result<Vec<Value>, String> {
+    let mut values = Vec::new();
+    let mut rest = text;
+    loop {
+        let (value, after) = if is_json(rest) { json(rest)? } else { plain(rest)? };
+        values.push(value);
+        match after.strip_prefix(',') {
+            Some(next) => rest = next,
+            None if after.is_empty() => return Ok(values),
+            None => return Err(format!("{after:?} follows a value, where a comma was expected")),
+        }
+    }
+}
+
+/// The value in JSON with which a text begins, and what comes after it.
+fn json(text: &str) -> Result<(Value, &str), String> {
+    let mut values = serde_json::Deserializer::from_str(text).into_iter();
+    match values.next() {
+        Some(Ok(value)) => Ok((value, &text[values.byte_offset()..])),
+        Some(Err(error)) => Err(format!("{text:?} begins as JSON and is none: {error}")),
+        None => Err(format!("{text:?} is no value")),
+    }
+}
+
+/// The value up to the next comma, and what comes after it.
+fn plain(text: &str) -> Result<(Value, &str), String> {
+    let (value, after) = text.split_at(text.find(',').unwrap_or(text.len()));
+    if value.contains("..") {
+        return Err(format!("{value:?} is a range, which cannot stand among other values"));
+    }
+    Ok((serde_json::from_str(value).unwrap_or_else(|_| Value::from(value)), after))
 }
 
 /// The range from `low` on; `rest` is its end, and perhaps a slash and a step.
@@ -101,11 +142,6 @@ fn number(value: f64, whole: bool) -> Value {
     }
     let rounded: f64 = format!("{value:.12e}").parse().expect("a number just written");
     Value::from(rounded)
-}
-
-/// A value as it is typed: a number, true or false, a list in brackets, or else a text.
-fn value(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_else(|_| Value::from(text))
 }
 
 impl Design {
@@ -181,7 +217,9 @@ fn latin_hypercube(factors: &[Factor], cells: usize, seed: u64) -> Vec<Vec<Value
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
+    use proptest::collection::vec;
+    use proptest::prelude::{Just, Strategy, any, prop_assert_eq, prop_oneof, proptest};
+    use serde_json::{Value, json};
     use vertifleet_core::Coded;
 
     use super::{Design, Factor, Levels};
@@ -207,6 +245,56 @@ mod tests {
     }
 
     #[test]
+    fn values_in_brackets_hold_commas() {
+        let list = |text: &str| match factor(text).levels {
+            Levels::List(values) => json!(values),
+            Levels::Range(..) => panic!("a range"),
+        };
+        assert_eq!(list("closures=[]"), json!([[]]));
+        assert_eq!(list("a=[1,2],[3],4,x"), json!([[1, 2], [3], 4, "x"]));
+        assert_eq!(list(r#"a="1,2","[..",x"#), json!(["1,2", "[..", "x"]));
+        assert_eq!(
+            list(r#"closures=[],[{"start":"07:00:00","end":"09:00:00","vertiports":["V1","V2"]}]"#),
+            json!([[], [{"start": "07:00:00", "end": "09:00:00", "vertiports": ["V1", "V2"]}]])
+        );
+        assert_eq!(list(r#"a=1,["x..y"]"#), json!([1, ["x..y"]]));
+        assert_eq!(list("a=1,,2"), json!([1, "", 2]), "an empty text is a text");
+    }
+
+    /// Values as JSON has them, lists and tables within each other included.
+    fn values() -> impl Strategy<Value = Value> {
+        let plain = prop_oneof![
+            any::<i32>().prop_map(Value::from),
+            any::<bool>().prop_map(Value::from),
+            Just(json!(0.25)),
+            "[ -~]{0,6}".prop_map(Value::from),
+        ];
+        plain.prop_recursive(3, 12, 3, |inner| {
+            prop_oneof![
+                vec(inner.clone(), 0..4).prop_map(Value::from),
+                vec(("[a-z,\"\\[\\]]{1,4}", inner), 0..3)
+                    .prop_map(|members| Value::Object(members.into_iter().collect())),
+            ]
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn values_that_are_written_as_json_are_read_as_they_are(values in vec(values(), 1..5)) {
+            let texts: Vec<String> = values.iter().map(Value::to_string).collect();
+            let read = Factor::parse(&format!("a={}", texts.join(","))).expect("a list");
+            prop_assert_eq!(read.levels, Levels::List(values));
+        }
+
+        #[test]
+        fn any_text_is_a_factor_or_refused_with_its_code(text in "[ -~]{0,24}") {
+            if let Err(error) = Factor::parse(&format!("a={text}")) {
+                prop_assert_eq!(error.code().to_string(), "V407");
+            }
+        }
+    }
+
+    #[test]
     fn what_is_no_factor_is_refused() {
         for text in [
             "",
@@ -219,6 +307,14 @@ mod tests {
             "a=2..1",
             "a=1..nan",
             "a=1..",
+            "a=[1,2",
+            "a=[1,2]3",
+            "a=[1,2] ,3",
+            "a=\"x",
+            "a={b:1}",
+            "a=1,[x]",
+            "a=1,2..3",
+            "a=[1],2..3",
         ] {
             let error = Factor::parse(text).expect_err(text);
             assert_eq!(error.code().to_string(), "V407", "{text}: {error}");

@@ -100,7 +100,8 @@ fn closing(report: &SweepReport, figures: &[Figure]) -> Markup {
             p { "The best of many designs looks better than it is, since chance helps it. Play it and its neighbours again on "
                 "other days (another " code { "--seed" } ") before you decide." }
             p { "Files: " a href="cells.csv" { "cells.csv" } " (means), " a href="days.csv" { "days.csv" }
-                " (every day), " a href="summary.json" { "summary.json" } (page::links(figures)) "." }
+                " (every day), both also as Parquet (" a href="cells.parquet" { "cells.parquet" } ", "
+                a href="days.parquet" { "days.parquet" } "), " a href="summary.json" { "summary.json" } (page::links(figures)) "." }
             p { "Smallest difference that the days of this sweep can tell from the best: " (smallest(report)) "." }
         }
     }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 use vertifleet_optimize::Bound;
+use vertifleet_picture::Occupancy;
 use vertifleet_sim::TraceRow;
 
 const HOUR_S: f64 = 3_600.0;
@@ -22,10 +23,29 @@ pub struct VertiportUse {
     pub taken_share: f64,
     /// Share of the time in which all of it was taken.
     pub full_share: f64,
+    /// What one more stand would be worth; `None` without a bound.
+    #[serde(flatten)]
+    pub stand_worth: Option<StandWorth>,
+}
+
+/// What one more stand of a vertiport would be worth by a bound of the day.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StandWorth {
     /// Shadow price of one more stand all day, dollars: by how much the bound rises at most.
     pub stand_shadow_price_usd: f64,
     /// The same by demand period, dollars.
     pub stand_shadow_price_by_period_usd: Vec<f64>,
+}
+
+impl StandWorth {
+    /// The worth at the vertiport in this position, on a day with so many demand periods.
+    pub(super) fn of(bound: &Bound, at: usize, periods: usize) -> Self {
+        let at = VertiportIx::new(at);
+        Self {
+            stand_shadow_price_usd: bound.stand_shadow_price_usd(at),
+            stand_shadow_price_by_period_usd: bound.stand_shadow_prices_by_period_usd(at, periods),
+        }
+    }
 }
 
 /// What an aircraft did, from the start to the end of operations.
@@ -49,45 +69,27 @@ pub struct AircraftUse {
     pub profit_usd: f64,
 }
 
-/// The use of every vertiport.
-pub(super) fn of_vertiports(day: &Scenario, rows: &[TraceRow], bound: &Bound) -> Vec<VertiportUse> {
-    VertiportIx::all(day.vertiports.len()).map(|at| of_vertiport(day, rows, bound, at)).collect()
+/// The use of every vertiport, as long as nothing is known of what its stands are worth.
+pub(super) fn of_vertiports(day: &Scenario, rows: &[TraceRow]) -> Vec<VertiportUse> {
+    VertiportIx::all(day.vertiports.len()).map(|at| of_vertiport(day, rows, at)).collect()
 }
 
-fn of_vertiport(day: &Scenario, rows: &[TraceRow], bound: &Bound, at: VertiportIx) -> VertiportUse {
-    let vertiport = &day.vertiports[at.at()];
-    let room = u32::from(vertiport.stands) + u32::from(vertiport.chargers.unwrap_or(0));
-    let there = day.aircraft.iter().filter(|aircraft| aircraft.at == at).count();
-    let mut taken = i64::try_from(there).expect("a fleet is small");
-    let (start, end) = (day.operations.start, day.operations.end);
-    let (mut since, mut taken_s, mut full_s) = (start, 0.0, 0.0);
-    let (mut departures, mut arrivals) = (0, 0);
-    let mut pass = |since: Time, until: Time, taken: i64| {
-        let lasts_s = f64::from(until.seconds().saturating_sub(since.seconds()));
-        taken_s += taken as f64 * lasts_s;
-        full_s += if taken >= i64::from(room) { lasts_s } else { 0.0 };
-    };
-    for row in rows.iter().filter(|row| row.from != row.to && (row.from == at || row.to == at)) {
-        pass(since, row.time, taken);
-        since = row.time;
-        let leaves = row.from == at;
-        departures += u32::from(leaves);
-        arrivals += u32::from(!leaves);
-        taken += if leaves { -1 } else { 1 };
-    }
-    pass(since, end, taken);
-    let lasts_s = f64::from(end.since(start)).max(1.0);
+fn of_vertiport(day: &Scenario, rows: &[TraceRow], at: VertiportIx) -> VertiportUse {
+    let occupancy = Occupancy::of(day, rows, at);
+    let flights = || rows.iter().filter(|row| row.from != row.to);
     VertiportUse {
-        id: vertiport.id.clone(),
-        room,
-        departures,
-        arrivals,
-        taken_share: taken_s / lasts_s / f64::from(room.max(1)),
-        full_share: full_s / lasts_s,
-        stand_shadow_price_usd: bound.stand_shadow_price_usd(at),
-        stand_shadow_price_by_period_usd: bound
-            .stand_shadow_prices_by_period_usd(at, day.periods.len()),
+        id: day.vertiports[at.at()].id.clone(),
+        room: occupancy.room,
+        departures: number(flights().filter(|row| row.from == at)),
+        arrivals: number(flights().filter(|row| row.to == at)),
+        taken_share: occupancy.mean_share(),
+        full_share: occupancy.full_share(),
+        stand_worth: None,
     }
+}
+
+fn number<'a>(rows: impl Iterator<Item = &'a TraceRow>) -> u32 {
+    u32::try_from(rows.count()).expect("a day has a bounded number of decisions")
 }
 
 /// The use of every aircraft.

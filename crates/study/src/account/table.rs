@@ -1,0 +1,133 @@
+//! The tables of an account, for a terminal and for a page.
+
+use vertifleet_picture::ledger_lines;
+use vertifleet_picture::numbers::grouped;
+
+use super::{Account, AircraftUse};
+
+fn cells(texts: &[&str]) -> Vec<String> {
+    texts.iter().map(|&text| text.to_owned()).collect()
+}
+
+/// Where the money comes from and goes to.
+pub(crate) fn ledger(account: &Account) -> Vec<Vec<String>> {
+    let lines = ledger_lines(&account.scenario, &account.trace.rows);
+    let revenue_usd = lines[0].1;
+    let share = |usd: f64| {
+        if revenue_usd > 0.0 {
+            format!("{:.1} %", 100.0 * usd / revenue_usd)
+        } else {
+            String::new()
+        }
+    };
+    let mut rows = vec![cells(&["ledger", "$", "share of revenue"])];
+    for (name, usd) in lines {
+        rows.push(vec![name.to_owned(), grouped(usd, 2), share(usd)]);
+    }
+    rows
+}
+
+/// Demand served and spilled by period.
+pub(crate) fn periods(account: &Account) -> Vec<Vec<String>> {
+    let head =
+        ["from", "wanted", "carried", "spilled", "margin spilled, $", "flights", "empty", "holds"];
+    let mut rows = vec![cells(&head)];
+    rows.extend(account.periods.iter().map(|one| {
+        vec![
+            one.period.clone(),
+            grouped(one.demand.wanted as f64, 0),
+            grouped(one.demand.carried as f64, 0),
+            grouped(one.demand.spilled as f64, 0),
+            grouped(one.demand.spilled_margin_usd, 0),
+            one.flights.to_string(),
+            one.repositioning_flights.to_string(),
+            one.holds.to_string(),
+        ]
+    }));
+    rows
+}
+
+/// The pairs with the most money spilled.
+pub(crate) fn pairs(account: &Account, most: usize) -> Vec<Vec<String>> {
+    let head = [
+        "pair",
+        "wanted",
+        "carried",
+        "spilled",
+        "margin spilled, $",
+        "flights",
+        "empty",
+        "profit, $",
+    ];
+    let mut rows = vec![cells(&head)];
+    rows.extend(account.pairs.iter().take(most).map(|one| {
+        vec![
+            format!("{} -> {}", one.from, one.to),
+            grouped(one.demand.wanted as f64, 0),
+            grouped(one.demand.carried as f64, 0),
+            grouped(one.demand.spilled as f64, 0),
+            grouped(one.demand.spilled_margin_usd, 0),
+            one.flights.to_string(),
+            one.repositioning_flights.to_string(),
+            grouped(one.profit_usd, 0),
+        ]
+    }));
+    rows
+}
+
+/// How full the vertiports were, and what their stands are worth if that is known.
+pub(crate) fn vertiports(account: &Account) -> Vec<Vec<String>> {
+    let is_worth_known = account.vertiports.iter().any(|one| one.stand_worth.is_some());
+    let mut head = cells(&["vertiport", "room", "departures", "arrivals", "taken", "full"]);
+    head.extend(is_worth_known.then(|| "one more stand, $".to_owned()));
+    let mut rows = vec![head];
+    rows.extend(account.vertiports.iter().map(|one| {
+        let mut row = vec![
+            one.id.clone(),
+            one.room.to_string(),
+            one.departures.to_string(),
+            one.arrivals.to_string(),
+            format!("{:.0} %", 100.0 * one.taken_share),
+            format!("{:.0} % of the time", 100.0 * one.full_share),
+        ];
+        row.extend(one.stand_worth.as_ref().map(|worth| grouped(worth.stand_shadow_price_usd, 0)));
+        row
+    }));
+    rows
+}
+
+/// What aircraft did, as means by type.
+pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
+    let head = [
+        "type",
+        "aircraft",
+        "flights",
+        "empty",
+        "flying, h",
+        "charging, h",
+        "waiting, h",
+        "profit, $",
+    ];
+    let mut rows = vec![cells(&head)];
+    let mut kinds: Vec<&str> = account.aircraft.iter().map(|one| one.kind.as_str()).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    for kind in kinds {
+        let of_kind: Vec<&AircraftUse> =
+            account.aircraft.iter().filter(|one| one.kind == kind).collect();
+        let mean = |number: fn(&AircraftUse) -> f64| {
+            of_kind.iter().map(|one| number(one)).sum::<f64>() / of_kind.len() as f64
+        };
+        rows.push(vec![
+            kind.to_owned(),
+            of_kind.len().to_string(),
+            grouped(mean(|one| one.flights.into()), 1),
+            grouped(mean(|one| one.repositioning_flights.into()), 1),
+            grouped(mean(|one| one.flying_h), 1),
+            grouped(mean(|one| one.charging_h), 1),
+            grouped(mean(|one| one.waiting_h), 1),
+            grouped(mean(|one| one.profit_usd), 0),
+        ]);
+    }
+    rows
+}

@@ -1,0 +1,12 @@
+//! The reader of zones (CSV, Parquet, GeoJSON) on any bytes: it never panics, and days can be drawn from every network that it makes.
+
+#![no_main]
+
+mod planner_files;
+
+use libfuzzer_sys::fuzz_target;
+use planner_files::import_with;
+
+fuzz_target!(|bytes: &[u8]| {
+    import_with("zones", bytes);
+});
