@@ -137,6 +137,13 @@ impl Comparison {
     }
 }
 
+impl Comparison {
+    /// The records of the comparison.
+    pub(crate) fn records(&self) -> &ComparisonRecords {
+        &self.study
+    }
+}
+
 /// The arguments of a comparison, by their names in Python. `policies` are names as in `vertifleet compare`. `models`
 /// maps names to weight files, `Model`s or functions. `bound` requests upper bounds with slices of `step` minutes.
 /// `policy_seed` is the seed of the random policy and of the planner's search.

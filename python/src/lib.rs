@@ -33,6 +33,7 @@ mod policy;
 mod policy_source;
 mod recording;
 mod scenario;
+mod sweep;
 mod threads;
 mod trace;
 mod training;
@@ -73,6 +74,8 @@ mod _native {
     use crate::recording::record;
     #[pymodule_export]
     use crate::scenario::Scenario;
+    #[pymodule_export]
+    use crate::sweep::sweep_report;
     #[pymodule_export]
     use crate::trace::{Trace, check};
     #[pymodule_export]

@@ -1,5 +1,7 @@
 """Sweeps: every combination is a comparison of its own, and columns and table have its results."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -120,3 +122,24 @@ def test_what_cannot_be_swept_is_refused(paper, changes, code):
     with pytest.raises(vertifleet.Error) as refused:
         vertifleet.sweep(paper, changes, ["greedy"], days=1)
     assert refused.value.code == code
+
+
+def test_the_report_is_that_of_the_program(swept, tmp_path):
+    folder = tmp_path / "sweep"
+    page = swept.report(folder)
+    assert page == folder / "report.html"
+    assert "fleet.0.count" in page.read_text()
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["format"] == "vertifleet-sweep/1"
+    assert summary["policies"] == POLICIES
+    assert summary["factors"] == list(CHANGES)
+    means = [result["profit_usd"]["mean"] for cell in summary["cells"] for result in cell["results"]]
+    np.testing.assert_allclose(means, swept.columns["profit_usd"], rtol=1e-12)
+    rows = (folder / "days.csv").read_text().splitlines()
+    assert len(rows) == 1 + 6 * 2 * 3
+    assert {"cells.parquet", "days.parquet", "figure-tornado.svg"} <= {file.name for file in folder.iterdir()}
+    swept.report(folder)
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "letter.txt").write_text("mine")
+    with pytest.raises(vertifleet.Error, match="V143"):
+        swept.report(tmp_path / "other")

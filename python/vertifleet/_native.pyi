@@ -841,6 +841,20 @@ def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]:
     from. A folder stands for all files in it whose names end in `.json`.
     """
 
+def sweep_report(
+    network: Network,
+    paths: Sequence[str],
+    values: str,
+    comparisons: Sequence[Comparison],
+    folder: _Path,
+    *,
+    force: bool,
+    command: str,
+) -> Path:
+    """Writes tables, figures and a report page of a sweep into a folder, and returns the path of the page.
+    `values` is a JSON list with a list for each of the `comparisons`: the value of each of the `paths`.
+    """
+
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]:
     """The settings of a training preset, `default` or `paper` (Table 2), as a dict, with the given
     changes: `settings("paper", n_envs=16)`. Changed settings are checked in the same way as by

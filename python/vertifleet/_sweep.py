@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import itertools
+import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
+from vertifleet import _native
 from vertifleet._compare import ComparisonRequest, DrawnDays, Split, network_of
 from vertifleet._errors import Error
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Iterable, Iterator, Sequence
+    from pathlib import Path
 
     import pandas
     import polars
@@ -39,6 +42,10 @@ class Sweep:
     """The policies, in the order they were asked for."""
     points: tuple[tuple[dict[str, Any], Comparison], ...]
     """The variations in their order: what was changed, and the comparison with that change."""
+    varied: Network = field(kw_only=True)
+    """The network that was varied."""
+    command: str = field(kw_only=True)
+    """The call, for the report."""
 
     @property
     def columns(self) -> dict[str, NDArray[Any]]:
@@ -70,6 +77,27 @@ class Sweep:
         from polars import DataFrame
 
         return DataFrame(self.columns)
+
+    def report(self, folder: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Writes the folder that ``vertifleet sweep --out`` writes, and returns the path of its page.
+
+        The folder has tables as CSV and Parquet, ``summary.json``, figures as SVG and PNG, and a page with response
+        curves, a heat map, what matters most, and the cheapest point within 1 % of the best. Points are judged by the
+        first policy. An earlier sweep in the folder is replaced.
+
+        Args:
+            folder: a folder that is empty, is not there yet, or holds a sweep.
+            force: whether to write into a folder that holds anything else.
+
+        Raises:
+            Error: V143 if the folder holds something else, V407 if a point has changes that others have not.
+        """
+        paths = list(self.points[0][0])
+        values = json.dumps([[changes[path] for path in paths] for changes, _ in self.points])
+        comparisons = [comparison for _, comparison in self.points]
+        return _native.sweep_report(
+            self.varied, paths, values, comparisons, folder, force=force, command=self.command
+        )
 
     def __str__(self) -> str:
         summary = self.points[0][1].summary
@@ -135,7 +163,21 @@ def sweep(
     )
     request.check(variation for _, variation in points)
     comparisons = [request.compare(variation, threads) for _, variation in points]
-    return Sweep(network.name, request.policies, together(points, comparisons))
+    return Sweep(
+        network.name,
+        request.policies,
+        together(points, comparisons),
+        varied=network,
+        command=command("vertifleet.sweep", network, changes, request),
+    )
+
+
+def command(
+    function: str, network: Network, changes: Mapping[str, Iterable[Any]], request: ComparisonRequest
+) -> str:
+    """The call as it would be typed, for the report."""
+    varied = ", ".join(f"{path!r}: [...]" for path in changes)
+    return f"{function}({network.name!r}, {{{varied}}}, {list(request.policies)!r}, {request.days.text})"
 
 
 def variations(

@@ -12,6 +12,7 @@ mod design;
 mod effects;
 mod headline;
 mod page;
+mod played;
 mod record;
 mod summary;
 mod table;
@@ -90,6 +91,9 @@ pub struct Sweep {
     base: Network,
     factors: Vec<Factor>,
     cells: Vec<Cell>,
+    /// The names of the policies.
+    policies: Vec<String>,
+    /// The policies, where this program plays their days.
     competitors: Vec<Competitor>,
     drawn: DrawnDays,
     bound_step: Option<Step>,
@@ -101,6 +105,19 @@ struct Cell {
     settings: Vec<Value>,
     /// The changed network, or the reason why there is none.
     network: Result<Box<Network>, String>,
+}
+
+impl Cell {
+    fn of(base: &Network, factors: &[Factor], settings: Vec<Value>) -> Result<Self, Error> {
+        let paths = factors.iter().map(|factor| &factor.path);
+        let network = match base.changed(paths.zip(&settings)) {
+            Ok(network) => Ok(Box::new(network)),
+            // A fleet without a place is what a grid over fleets and stands has in its corner.
+            Err(error) if error.code().0 == 117 => Err(error.to_string()),
+            Err(error) => return Err(Error::from(error)),
+        };
+        Ok(Self { settings, network })
+    }
 }
 
 impl Sweep {
@@ -118,22 +135,14 @@ impl Sweep {
             let days = drawn.days as usize;
             return Err(Error::Empty { policies: competitors.len(), days });
         }
-        let cell = |settings: Vec<Value>| {
-            let paths = factors.iter().map(|factor| &factor.path);
-            let network = match network.changed(paths.zip(&settings)) {
-                Ok(network) => Ok(Box::new(network)),
-                // A fleet without a place is what a grid over fleets and stands has in its corner.
-                Err(error) if error.code().0 == 117 => Err(error.to_string()),
-                Err(error) => return Err(Error::from(error)),
-            };
-            Ok(Cell { settings, network })
-        };
+        let cell = |settings| Cell::of(network, &factors, settings);
         let settings = design.cells(&factors)?;
         let cells: Vec<Cell> = settings.into_par_iter().map(cell).collect::<Result<_, Error>>()?;
         let mut sweep = Self {
             base: network.clone(),
             factors,
             cells,
+            policies: competitors.iter().map(|one| one.name.clone()).collect(),
             competitors,
             drawn,
             bound_step,
@@ -174,6 +183,7 @@ impl Sweep {
             "network": self.base.toml(),
             "factors": self.factors.iter().map(|factor| &factor.path).collect::<Vec<_>>(),
             "cells": settings,
+            "names": self.policies,
             "policies": policies,
             "days": [self.drawn.purpose.name(), self.drawn.first, self.drawn.days],
             "bound_step_s": self.bound_step.map(Step::seconds),

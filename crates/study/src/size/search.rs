@@ -20,11 +20,12 @@ use crate::error::Error;
 const MOST_BOUNDS: usize = 14;
 /// The ceiling is tight enough if it is higher than a bound by this share.
 const TIGHT: f64 = 0.005;
-/// A design is worth playing if it is foretold to be worse than the best by no more than this share.
-const WORTH_PLAYING: f64 = 0.01;
+/// A step in one dimension is worth playing if it is foretold to be worse than the best by no more than this share, because
+/// what is foretold of a policy may be wrong by as much. Steps in two dimensions have to be foretold to be better.
+const WORTH_PLAYING: f64 = 0.05;
 /// As many designs in a row may be played in vain before the steps become smaller. With single steps, each dimension may be
 /// tried both ways.
-const IN_VAIN: usize = 3;
+const IN_VAIN: usize = 6;
 /// How much of what it was wrong by a design that was played corrects.
 const CORRECTED: f64 = 0.7;
 
@@ -312,6 +313,10 @@ impl<'a, S: Solver> Search<'a, S> {
     fn most_promising(&self, best: &Design, reach: u32) -> Option<Design> {
         let value = self.played[best];
         let around = around(self.space, best, reach);
+        let doubt = |one: &Design| {
+            let moved = best.iter().zip(one).filter(|(from, to)| from != to).count();
+            if moved == 1 { WORTH_PLAYING } else { 0.0 }
+        };
         let new = around
             .into_iter()
             .filter(|one| self.space.is_possible(one) && !self.played.contains_key(one));
@@ -320,18 +325,15 @@ impl<'a, S: Solver> Search<'a, S> {
             let (need, cost) = (self.aim.need, self.cost(best));
             let lacks = |value: f64| (need - value).max(0.0);
             return foretold
-                .filter(|(value, one)| {
-                    lacks(*value) <= WORTH_PLAYING * need && self.cost(one) < cost
-                })
+                .filter(|(value, one)| lacks(*value) <= doubt(one) * need && self.cost(one) < cost)
                 .min_by(|one, other| {
                     let cost = self.cost(&one.1).total_cmp(&self.cost(&other.1));
                     lacks(one.0).total_cmp(&lacks(other.0)).then(cost)
                 })
                 .map(|(_, one)| one);
         }
-        let enough = value - WORTH_PLAYING * value.abs();
         foretold
-            .filter(|(value, _)| *value > enough)
+            .filter(|(foretold, one)| *foretold > value - doubt(one) * value.abs())
             .max_by(|one, other| one.0.total_cmp(&other.0))
             .map(|(_, one)| one)
     }

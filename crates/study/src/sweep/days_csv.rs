@@ -17,11 +17,11 @@ pub(super) fn text(records: &SweepRecords<'_>) -> String {
     writer.write_record(head.chain(["upper_bound_usd"])).expect(TO_MEMORY);
     for record in records.records.iter().flatten() {
         let settings = &sweep.cells[record.cell].settings;
-        for (competitor, days) in sweep.competitors.iter().zip(&record.totals) {
+        for (policy, days) in sweep.policies.iter().zip(&record.totals) {
             for (at, day) in days.iter().enumerate() {
                 let mut row = vec![record.cell.to_string()];
                 row.extend(settings.iter().map(shown));
-                row.extend([competitor.name.clone(), (sweep.drawn.first + at as u64).to_string()]);
+                row.extend([policy.clone(), (sweep.drawn.first + at as u64).to_string()]);
                 row.extend(day.numbers().map(|(_, number)| match number {
                     DayNumber::Amount(amount) => amount.to_string(),
                     DayNumber::Count(count) => count.to_string(),

@@ -105,6 +105,6 @@ fn level<'a>(
         },
         value: numbers.map(|all| all.iter().sum::<f64>() / all.len() as f64),
         cells: group.len(),
-        profit_usd: (0..sweep.competitors.len()).map(of_policy).collect(),
+        profit_usd: (0..sweep.policies.len()).map(of_policy).collect(),
     }
 }

@@ -118,7 +118,7 @@ impl SweepReport {
             .iter()
             .max_by(|one, other| one.2.total_cmp(&other.2).then(other.0.cell.cmp(&one.0.cell)));
         let Some(&(best, _, best_usd)) = best else {
-            return Err(Error::Empty { policies: sweep.competitors.len(), days: 0 });
+            return Err(Error::Empty { policies: sweep.policies.len(), days: 0 });
         };
         let enough_usd = best_usd - NEARLY * best_usd.abs();
         let good = played.iter().filter(|(_, _, profit_usd)| *profit_usd >= enough_usd);
@@ -131,7 +131,7 @@ impl SweepReport {
         let cell = |(number, record): (usize, &Option<CellRecord>)| {
             let cell = &sweep.cells[number];
             let results = record.iter().flat_map(|record| {
-                (0..sweep.competitors.len()).map(move |policy| result(sweep, policy, record, best))
+                (0..sweep.policies.len()).map(move |policy| result(sweep, policy, record, best))
             });
             CellSummary {
                 cell: number,
@@ -151,7 +151,7 @@ impl SweepReport {
             days,
             bound_step_s: sweep.bound_step.map(Step::seconds),
             factors: sweep.factors.iter().map(|factor| factor.path.clone()).collect(),
-            policies: sweep.competitors.iter().map(|one| one.name.clone()).collect(),
+            policies: sweep.policies.clone(),
             best: best.cell,
             cheapest,
             effects: Effect::of_all(sweep, records),
@@ -217,7 +217,7 @@ fn result(sweep: &Sweep, policy: usize, record: &CellRecord, best: &CellRecord) 
     let (carried, spilled) =
         (average(|day| day.passengers as f64), average(|day| day.spilled_passengers as f64));
     CellResult {
-        policy: sweep.competitors[policy].name.clone(),
+        policy: sweep.policies[policy].clone(),
         profit_usd: Estimate::of(&profits),
         minus_best_usd: (record.cell != best.cell).then(|| Estimate::of(&differences())),
         bound_share: (!shares.is_empty()).then(|| Estimate::of(&shares)),

@@ -89,8 +89,7 @@ pub(super) fn days(records: &SweepRecords<'_>) -> Vec<u8> {
     let sweep = records.sweep;
     let mut rows: Vec<DayRow<'_>> = Vec::new();
     for record in records.records.iter().flatten() {
-        for (competitor, days) in sweep.competitors.iter().zip(&record.totals) {
-            let policy = competitor.name.as_str();
+        for (policy, days) in sweep.policies.iter().zip(&record.totals) {
             rows.extend(days.iter().enumerate().map(|(day, totals)| {
                 let upper_bound_usd = record.upper_bounds_usd.get(day).copied();
                 DayRow { cell: record.cell, policy, day, totals, upper_bound_usd }
