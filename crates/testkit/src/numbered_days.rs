@@ -80,6 +80,7 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
             takeoff_s: random.random_range(30..900),
             landing_s: random.random_range(30..900),
             hold_s: random.random_range(300..1800),
+            passenger_wait_s: 0,
         },
         aircraft_types: (0..types)
             .map(|kind| AircraftType {
