@@ -111,6 +111,7 @@ impl Check<'_> {
         self.seed()?;
         self.operations()?;
         self.periods()?;
+        self.passenger_wait()?;
         self.vertiports()?;
         self.aircraft_types()?;
         self.aircraft()?;
@@ -166,6 +167,26 @@ impl Check<'_> {
         }
         let last = periods.len() - 1;
         not_too_late(periods[last], self.origin, || format!("periods[{last}]"))
+    }
+
+    /// Checks that passengers who wait into the next period have left when that one ends.
+    fn passenger_wait(&self) -> Result<(), Error> {
+        let wait_s = self.day.operations.passenger_wait_s;
+        let member = || "operations: passenger_wait_s".to_owned();
+        limits::PASSENGER_WAIT_S.check(f64::from(wait_s), self.origin, member)?;
+        let lengths_s = self.day.periods.windows(2).map(|pair| pair[1].since(pair[0]));
+        let Some(shortest_s) = lengths_s.min().filter(|&shortest_s| wait_s > shortest_s) else {
+            return Ok(());
+        };
+        Err(Error::OutOfRange {
+            origin: self.origin.to_owned(),
+            member: member(),
+            rule: format!(
+                "at most {shortest_s}, the length of the shortest demand period that another one follows"
+            ),
+            found: wait_s.to_string(),
+            hint: Some(limits::PASSENGER_WAIT_HINT),
+        })
     }
 
     fn vertiports(&self) -> Result<(), Error> {

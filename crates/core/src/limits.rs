@@ -124,6 +124,9 @@ pub(crate) const FLIGHT_S: Limits = Limits::between(60.0, f64::INFINITY)
 pub(crate) const PHASE_S: Limits = Limits::whole(0, 86_400);
 pub(crate) const HOLD_S: Limits =
     Limits::whole(60, 86_400).hint("an aircraft that holds is asked again after hold_s seconds");
+/// `check.rs` further bounds it by the length of the demand periods.
+pub(crate) const PASSENGER_WAIT_S: Limits = Limits::whole(0, 86_400).hint(PASSENGER_WAIT_HINT);
+pub(crate) const PASSENGER_WAIT_HINT: &str = "passengers wait for passenger_wait_s seconds into the next demand period, and into no period after it";
 
 pub(crate) const POSITION_MI: Limits = Limits::between(-1e6, 1e6);
 pub(crate) const STANDS: Limits = Limits::whole(1, 10_000)
@@ -189,8 +192,8 @@ pub(crate) const PASSENGERS: Limits = Limits::whole(0, 1_000_000);
 mod tests {
     use super::{
         BATTERY_KWH, CHARGE_KW, CHARGERS, DISTANCE_MI, ENERGY_KWH_PER_MI, ENERGY_PRICE_USD, HOLD_S,
-        LATITUDE, LONGITUDE, Limits, MONEY_USD, PASSENGERS, PHASE_S, SEATS, SELF_DISCHARGE_PER_H,
-        SLOT_S, SPEED_MPH, STANDS, entries,
+        LATITUDE, LONGITUDE, Limits, MONEY_USD, PASSENGER_WAIT_S, PASSENGERS, PHASE_S, SEATS,
+        SELF_DISCHARGE_PER_H, SLOT_S, SPEED_MPH, STANDS, entries,
     };
 
     /// A number as it is written in the book: `1,000,000`.
@@ -224,6 +227,7 @@ mod tests {
         for (member, limits) in [
             ("`operations` `takeoff_s`, `landing_s`", PHASE_S),
             ("`operations` `hold_s`", HOLD_S),
+            ("`operations` `passenger_wait_s`", PASSENGER_WAIT_S),
             ("`vertiports` `stands`", STANDS),
             ("`vertiports` `chargers`", CHARGERS),
             ("`vertiports` `stand_cost`, `charger_cost`", MONEY_USD),

@@ -20,6 +20,8 @@ pub(crate) struct RawOperations {
     takeoff_s: f64,
     landing_s: f64,
     hold_s: f64,
+    #[serde(default)]
+    passenger_wait_s: f64,
 }
 
 impl RawOperations {
@@ -33,6 +35,11 @@ impl RawOperations {
             takeoff_s: seconds(self.takeoff_s, &limits::PHASE_S, "takeoff_s")?,
             landing_s: seconds(self.landing_s, &limits::PHASE_S, "landing_s")?,
             hold_s: seconds(self.hold_s, &limits::HOLD_S, "hold_s")?,
+            passenger_wait_s: seconds(
+                self.passenger_wait_s,
+                &limits::PASSENGER_WAIT_S,
+                "passenger_wait_s",
+            )?,
         })
     }
 }

@@ -20,6 +20,8 @@ pub struct Operations {
     pub landing_s: u32,
     /// Seconds until an aircraft that holds is asked again (t_wait).
     pub hold_s: u32,
+    /// Seconds for which passengers who were not carried wait into the next demand period; 0 in the paper.
+    pub passenger_wait_s: u32,
 }
 
 /// A place where aircraft land, charge and stand.

@@ -69,8 +69,12 @@ impl Scenario {
 
     fn operations_json(&self) -> String {
         let day = &self.operations;
+        let wait = match day.passenger_wait_s {
+            0 => String::new(),
+            wait_s => format!(r#", "passenger_wait_s": {wait_s}"#),
+        };
         format!(
-            r#"{{"start": "{}", "end": "{}", "takeoff_s": {}, "landing_s": {}, "hold_s": {}}}"#,
+            r#"{{"start": "{}", "end": "{}", "takeoff_s": {}, "landing_s": {}, "hold_s": {}{wait}}}"#,
             day.start, day.end, day.takeoff_s, day.landing_s, day.hold_s
         )
     }

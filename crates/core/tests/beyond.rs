@@ -65,6 +65,7 @@ fn everything() -> Day {
     late.cells_mut().iter_mut().for_each(|fare| *fare *= 1.25);
     day.fare_usd = Fares::by_period(vec![fares, late]);
     day.vertiports[2].chargers = Some(2);
+    day.operations.passenger_wait_s = 1800;
     day.corridors = Some(vec![route(0, 1, true), route(2, 0, false)]);
     let mut forecast = day.demand.clone();
     forecast[1][(VertiportIx(0), VertiportIx(1))] = 12;
@@ -109,6 +110,41 @@ fn a_day_with_everything_reads_back_as_it_was_written() {
     let text = scenario.to_json();
     assert_eq!(Scenario::from_json(text.as_bytes(), "again").expect("our own text"), scenario);
     insta::assert_snapshot!(text);
+}
+
+#[test]
+fn passengers_of_a_network_wait_as_long_as_it_says_and_of_a_shipped_one_not_at_all() {
+    let text = PAPER.replace("hold_s = 900", "hold_s = 900\npassenger_wait_s = 600");
+    let (paper, waiting) = (with("").draw(seed(1)).into_day(), network(&text).draw(seed(1)));
+    assert_eq!(waiting.operations.passenger_wait_s, 600);
+    let mut same = waiting.into_day();
+    same.operations.passenger_wait_s = 0;
+    assert_eq!(same, paper, "they change nothing else that is drawn");
+    for name in Network::shipped_names() {
+        assert_eq!(shipped(name).operations().passenger_wait_s, 0, "{name}");
+    }
+}
+
+#[test]
+fn passengers_may_wait_as_long_as_the_shortest_period_that_another_one_follows() {
+    let of = |periods: &[&str], wait_s: u32| {
+        let mut day = everything();
+        let count = periods.len();
+        day.periods = periods.iter().map(|text| text.parse().expect("a time")).collect();
+        day.fare_usd = day.fare_usd.in_period(0).clone().into();
+        day.disturbances = Disturbances::default();
+        day.demand = vec![day.demand[0].clone(); count];
+        day.energy_price_usd = vec![0.2; count];
+        day.operations.passenger_wait_s = wait_s;
+        day.check("day").map(|_| ()).map_err(|error| error.code().to_string())
+    };
+    let three = ["06:00:00", "06:50:00", "08:00:00"];
+    assert_eq!(of(&three, 3_000), Ok(()));
+    assert_eq!(of(&three, 3_001), Err("V104".to_owned()));
+    // The last period has none after it, however early it is over.
+    assert_eq!(of(&["06:00:00", "09:29:00"], 3_600), Ok(()));
+    assert_eq!(of(&["06:00:00"], 86_400), Ok(()));
+    assert_eq!(of(&["06:00:00"], 86_401), Err("V104".to_owned()));
 }
 
 #[test]

@@ -182,7 +182,7 @@ impl Bound {
 
     /// With one more passenger of a demand period, no schedule earns more than the bound plus this amount in dollars.
     /// It is the passenger's price, or the whole margin of a passenger where fewer want to fly than an aircraft has
-    /// seats.
+    /// seats; if passengers wait, the larger of the margins of the two periods in which they may fly.
     pub fn passenger_shadow_price_usd(
         &self,
         period: usize,

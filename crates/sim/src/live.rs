@@ -34,7 +34,7 @@ pub struct LiveDay {
     aircraft: Vec<LiveAircraft>,
     /// Every decision, in order; those that were undone are marked.
     decisions: Vec<LiveDecision>,
-    /// Passengers who have been taken on board, in the layout of the demand.
+    /// Passengers who have been taken on board, in the layout of the demand, by the period in which they wanted to fly.
     boarded: Vec<u32>,
     /// Closures whose end is known, those of the scenario among them, each one way.
     closures: Vec<Closure>,
@@ -96,8 +96,18 @@ impl Phase {
 struct LiveDecision {
     row: TraceRow,
     period: usize,
+    /// How many of its passengers had waited since the period before.
+    waited: u16,
     before: Before,
     is_undone: bool,
+}
+
+impl LiveDecision {
+    /// The passengers of a flight by the period in which they wanted to fly; none for a hold.
+    fn parties(&self) -> impl Iterator<Item = (usize, u16)> + use<> {
+        let waited = self.period.checked_sub(1).map(|before| (before, self.waited));
+        [waited, Some((self.period, self.row.passengers - self.waited))].into_iter().flatten()
+    }
 }
 
 /// An aircraft before a decision: when it was charged, when it had landed, and whether it waited beside the chargers.
@@ -150,7 +160,7 @@ impl LiveDay {
             now: start,
             aircraft: vec![standing; scenario.aircraft.len()],
             decisions: Vec::new(),
-            boarded: vec![0; known.demand.all().len()],
+            boarded: vec![0; known.demand.cells()],
             closures: scenario.disturbances.closures.iter().flat_map(one_way).collect(),
             is_stale: false,
             known: known.without_surprises(),
@@ -330,7 +340,7 @@ impl LiveDay {
         self.known.ledger = ledger;
         self.known.demand.set_total(&self.boarded);
         let pairs = scenario.vertiports.len().pow(2);
-        let left = self.known.demand.all();
+        let left = self.known.demand.all_own();
         let of_period = |(period, (left, boarded)): (usize, (&[u32], &[u32]))| {
             let fares = scenario.fare_usd.in_period(period).cells();
             let wanted = left.iter().zip(boarded).map(|(left, boarded)| f64::from(left + boarded));
@@ -377,7 +387,8 @@ impl LiveDay {
         self.closures.iter().filter(in_force).map(|closure| closure.end).max()
     }
 
-    /// Passengers who have been taken on board in a period, `[from][to]` row by row.
+    /// Passengers of a period who have been taken on board, `[from][to]` row by row. Those who waited into the next
+    /// period count in their own.
     pub fn boarded_in(&self, period: usize) -> &[u32] {
         let pairs = self.scenario().vertiports.len().pow(2);
         &self.boarded[period * pairs..][..pairs]

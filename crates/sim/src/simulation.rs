@@ -26,6 +26,9 @@ pub struct Decision {
     pub index: u32,
 }
 
+/// Later than any time of a day.
+const NEVER: Time = Time::from_seconds(u32::MAX);
+
 /// A day that is being flown. The same scenario with the same decisions gives the same day, bit for bit.
 #[derive(Debug)]
 pub struct Simulation {
@@ -51,10 +54,10 @@ pub struct Simulation {
     /// Time of the latest decision asked for, or the start of operations before the first. Not updated without
     /// surprises.
     now: Time,
-    /// The latest demand period whose actual demand is known. Not updated without surprises.
-    known_period: usize,
     /// Demand period of the latest decision asked for. Time never runs back.
     pub(crate) period: usize,
+    /// When the next period begins, or those leave who have waited since the one before, if that is earlier.
+    pub(crate) next_change: Time,
     pub(crate) potential_usd: f64,
 }
 
@@ -73,8 +76,8 @@ clone_into_room!(Simulation {
     surprises,
     eventful,
     now,
-    known_period,
     period,
+    next_change,
     potential_usd,
 });
 
@@ -95,8 +98,8 @@ impl Simulation {
             surprises: !scenario.disturbances.is_none(),
             eventful: !scenario.disturbances.is_none(),
             now: scenario.operations.start,
-            known_period: 0,
             period: 0,
+            next_change: scenario.periods.get(1).copied().unwrap_or(NEVER),
             potential_usd: scenario.potential_usd(),
             scenario,
         }
@@ -121,26 +124,42 @@ impl Simulation {
     /// Goes on to a time, which is not before the latest one.
     #[inline]
     pub(crate) fn advance_to(&mut self, time: Time) {
-        while self.scenario.periods.get(self.period + 1).is_some_and(|&start| start <= time) {
-            self.period += 1;
+        if self.next_change <= time {
+            self.change_demand(time);
         }
         if self.eventful {
             self.discover(time);
         }
     }
 
-    /// Reveals what becomes known up to and at `time`: the demand of periods that have begun, and routes that close or
-    /// open.
+    /// Goes through the demand periods that begin up to and at `time`. The actual demand of each is known from then on.
+    /// Those who are left of the period before it wait, and leave before the next one begins.
+    #[cold]
+    fn change_demand(&mut self, time: Time) {
+        while self.next_change <= time {
+            if !self.demand.leave() {
+                self.period += 1;
+                if self.surprises {
+                    self.demand.reveal(self.period, &self.scenario.demand[self.period]);
+                }
+                self.demand.wait_in(self.period);
+            }
+            let next_period = self.scenario.periods.get(self.period + 1).copied();
+            self.next_change = match self.demand.waiting_in() {
+                Some(period) => {
+                    self.scenario.periods[period] + self.scenario.operations.passenger_wait_s
+                }
+                None => next_period.unwrap_or(NEVER),
+            };
+        }
+    }
+
+    /// Reveals which routes have closed or opened up to and at `time`.
     #[cold]
     fn discover(&mut self, time: Time) {
         self.closures.advance(time);
-        if !self.surprises {
-            return;
-        }
-        self.now = time;
-        while self.known_period < self.period {
-            self.known_period += 1;
-            self.demand.begin(self.known_period, &self.scenario.demand[self.known_period]);
+        if self.surprises {
+            self.now = time;
         }
     }
 

@@ -226,7 +226,7 @@ fn the_report_reads_well() {
             1 x missing-decision An aircraft that is ready no later than the end of operations decides.
             1 x hold-time        A hold arrives when it is decided and is ready after the scenario's hold time (Eq. 8).
             1 x seats            A flight carries no more passengers than its aircraft has seats (Eq. 11).
-            1 x demand           A flight carries no more passengers than still want to fly in the period of its decision.
+            1 x demand           A flight carries no more passengers than still want to fly when it is decided.
             1 x revenue          A flight's revenue is its passengers times the fare of the period of its decision (Eq. 4).
             1 x passenger-cost   A flight's passenger cost is its passengers times the pair's cost a passenger (Eq. 2).
             1 x stand-bound      At every instant the aircraft standing at a vertiport and in the air towards it are 0 to its stands (Eq. 16).

@@ -69,16 +69,30 @@ proptest! {
     #[test]
     fn batteries_and_cabins_hold_what_they_are_asked_to(day in extended_day(), draws in draws()) {
         let (_, rows) = play(&day, &draws, |_, _| ());
-        let mut carried = vec![vec![0_u32; day.vertiports.len().pow(2)]; day.periods.len()];
+        let pairs = day.vertiports.len().pow(2);
+        let mut carried = vec![vec![0_u32; pairs]; day.periods.len()];
+        let mut carried_late = carried.clone();
+        let wait_s = day.operations.passenger_wait_s;
         for row in &rows {
             let kind = &day.aircraft_types[day.aircraft[row.aircraft.at()].kind.at()];
             prop_assert!(row.energy_kwh >= 0.0 && kind.lasts_for(row.energy_kwh));
             prop_assert!(row.passengers <= kind.seats);
             let pair = row.from.at() * day.vertiports.len() + row.to.at();
-            carried[day.period_at(row.time)][pair] += u32::from(row.passengers);
+            let period = day.period_at(row.time);
+            carried[period][pair] += u32::from(row.passengers);
+            if row.time >= day.periods[period] + wait_s {
+                carried_late[period][pair] += u32::from(row.passengers);
+            }
         }
-        for (carried, demand) in carried.iter().zip(&day.demand) {
-            prop_assert!(carried.iter().zip(demand.cells()).all(|(carried, demand)| carried <= demand));
+        for pair in 0..pairs {
+            let (mut all_carried, mut all_demand, mut before) = (0, 0, 0);
+            for (period, table) in day.demand.iter().enumerate() {
+                let (carried, demand) = (carried[period][pair], table.cells()[pair]);
+                let waits = if wait_s > 0 { before } else { 0 };
+                (all_carried, all_demand, before) = (all_carried + carried, all_demand + demand, demand);
+                prop_assert!(carried <= demand + waits && carried_late[period][pair] <= demand);
+                prop_assert!(all_carried <= all_demand, "nobody is carried twice");
+            }
         }
     }
 

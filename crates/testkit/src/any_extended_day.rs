@@ -2,25 +2,32 @@
 
 use std::sync::Arc;
 
-use proptest::prelude::{Strategy, any, prop};
+use proptest::prelude::{Just, Strategy, any, prop, prop_oneof};
 use proptest::sample::Index;
 use vertifleet_core::{
-    AircraftIx, Closure, Disturbances, Fares, Matrix, Outage, Route, Scenario, TakeoffDelays, Time,
-    VertiportIx,
+    AircraftIx, Closure, Day, Disturbances, Fares, Matrix, Outage, Route, Scenario, TakeoffDelays,
+    Time, VertiportIx,
 };
 
 use crate::small_day;
 
-/// Days of [`small_day`] with changing fares, corridors, separate chargers, forecasts, delays, closures and outages,
-/// each of them on some days only. The numbers that proptest draws are used in turn, from the start again when they
-/// run out.
+/// Days of [`small_day`] with changing fares, corridors, separate chargers, forecasts, delays, closures, outages and
+/// passengers who wait, each of them on some days only. The numbers that proptest draws are used in turn, from the start
+/// again when they run out.
 pub fn extended_day() -> impl Strategy<Value = Arc<Scenario>> {
     let parts = prop::collection::vec(any::<bool>(), 7);
-    (small_day(), parts, prop::collection::vec(any::<Index>(), 30))
-        .prop_map(|(day, parts, numbers)| extended(&day, &parts, &numbers))
+    // Periods of small days last an hour.
+    let passenger_wait_s = prop_oneof![Just(0), 1..=3600_u32];
+    (small_day(), parts, prop::collection::vec(any::<Index>(), 30), passenger_wait_s).prop_map(
+        |(day, parts, numbers, passenger_wait_s)| {
+            let mut day = extended(&day, &parts, &numbers);
+            day.operations.passenger_wait_s = passenger_wait_s;
+            Arc::new(day.check("extended day").expect("a day within the rules"))
+        },
+    )
 }
 
-fn extended(day: &Arc<Scenario>, parts: &[bool], numbers: &[Index]) -> Arc<Scenario> {
+fn extended(day: &Arc<Scenario>, parts: &[bool], numbers: &[Index]) -> Day {
     let mut day = Scenario::clone(day).into_day();
     let mut numbers = numbers.iter().cycle();
     let mut below = move |limit: usize| {
@@ -86,5 +93,5 @@ fn extended(day: &Arc<Scenario>, parts: &[bool], numbers: &[Index]) -> Arc<Scena
         }
     }
     day.disturbances = disturbances;
-    Arc::new(day.check("extended day").expect("a day within the rules"))
+    day
 }

@@ -71,6 +71,7 @@ fn day(
             takeoff_s,
             landing_s,
             hold_s,
+            passenger_wait_s: 0,
         },
         aircraft_types: (0..types)
             .map(|kind| AircraftType {

@@ -80,6 +80,7 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
             takeoff_s: random.random_range(30..900),
             landing_s: random.random_range(30..900),
             hold_s: random.random_range(300..1800),
+            passenger_wait_s: 0,
         },
         aircraft_types: (0..types)
             .map(|kind| AircraftType {
@@ -111,8 +112,8 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
     Arc::new(day.check("small day").expect("a day within the rules"))
 }
 
-/// A day of [`any_day`] with changing fares, corridors, separate chargers, delays, closures and outages, each of them
-/// on some days only. The demand differs from the forecast.
+/// A day of [`any_day`] with changing fares, corridors, separate chargers, delays, closures, outages and passengers who
+/// wait, each of them on some days only. The demand differs from the forecast.
 pub fn any_extended_day(number: u64, most: Size) -> Arc<Scenario> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(!number);
     let mut day = Scenario::clone(&any_day(number, most)).into_day();
@@ -165,6 +166,10 @@ pub fn any_extended_day(number: u64, most: Size) -> Arc<Scenario> {
         }
         let aircraft = AircraftIx::new(random.random_range(0..day.aircraft.len()));
         day.disturbances.outages.push(Outage { aircraft, start: first, end });
+    }
+    let lengths_s = day.periods.windows(2).map(|pair| pair[1].since(pair[0]));
+    if let Some(shortest_s) = lengths_s.min().filter(|_| random.random()) {
+        day.operations.passenger_wait_s = random.random_range(1..=shortest_s);
     }
     Arc::new(day.check("extended day").expect("a day within the rules"))
 }

@@ -66,6 +66,7 @@ pub(crate) fn tiny() -> Played {
             takeoff_s: 600,
             landing_s: 300,
             hold_s: 900,
+            passenger_wait_s: 0,
         },
         vertiports: vec![
             vertiport("Pier, \"East\"", 0.0, 40.7033, -74.0170),

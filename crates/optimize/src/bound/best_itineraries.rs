@@ -47,10 +47,7 @@ impl BestItineraries<'_> {
                 let payment = self.payment(ready);
                 itinerary.earnings -= payment as f64;
                 ready = if let Some(flight) = self.best_flight(ready, payment, slice) {
-                    let margin = self.day.margin[flight.cell as usize] as f64;
-                    itinerary.earnings +=
-                        f64::from(flight.passengers) * margin - flight.cost as f64;
-                    itinerary.flights.push((flight.cell, flight.passengers));
+                    itinerary.fly(self.day, self.prices, flight);
                     self.goes_on(ready, flight.to.at(), flight.block_s)
                 } else {
                     self.goes_on(ready, ready.at, self.day.hold_s)

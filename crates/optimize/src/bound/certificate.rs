@@ -10,7 +10,7 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::prices::Prices;
-use super::time_expanded_day::{Flight, Start, TimeExpandedDay};
+use super::time_expanded_day::{Flight, Start, TimeExpandedDay, small};
 use vertifleet_core::Stop;
 
 /// Seconds that are computed side by side, so that their worths so far stay in the fastest memory.
@@ -26,9 +26,9 @@ pub(super) struct Certificate {
     /// to another is one subtraction. By layer, vertiport, second of the day, and as many seconds past its end as are
     /// ever read.
     ///
-    /// A day has at most 5,762 slices (36 hours in minutes, 1,440 more where periods begin, and 2,161 where slots of
-    /// delays begin). An aircraft flies at most 2,161 times, a flight earns at most 1,000 x 10^12, and a stand costs at
-    /// most 10^14 a slice, so every entry is below 2^62.
+    /// A day has at most 7,202 slices (36 hours in minutes, 1,440 more where periods begin, as many where passengers have
+    /// waited long enough, and 2,161 where slots of delays begin). An aircraft flies at most 2,161 times, a flight earns at
+    /// most 1,000 x 10^12, and a stand costs at most 10^14 a slice, so every entry is below 2^62.
     worth_less_paid: Vec<i64>,
     /// On a day with a penalty, `worth_less_paid` is the worth to an aircraft that comes from an earlier slot and still has
     /// to pay, and this is the worth to one that decided in the same slot before. Empty on other days.
@@ -268,9 +268,63 @@ fn wait_freely(worths: &mut [i64], mut later: i64) {
 /// The most that a flight earns after it has paid for its passengers.
 #[inline]
 pub(super) fn earnings(day: &TimeExpandedDay, prices: &Prices, flight: &Flight) -> i64 {
+    // No flight of a day on which passengers do not wait is any slower for the others.
+    if flight.waiting > 0 {
+        return earnings_with_waiting(day, prices, flight);
+    }
     let cell = flight.cell as usize;
     let a_passenger = day.margin[cell] - prices.demand[cell];
     i64::from(flight.passengers) * a_passenger - flight.cost
+}
+
+/// The same for a flight that those who have waited may board.
+#[cold]
+#[inline(never)]
+fn earnings_with_waiting(day: &TimeExpandedDay, prices: &Prices, flight: &Flight) -> i64 {
+    parties(day, prices, flight).map(Party::earns).sum::<i64>() - flight.cost
+}
+
+/// Passengers of one period on a flight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Party {
+    /// Position of their period and pair of vertiports in [`TimeExpandedDay::demand`].
+    pub(super) cell: u32,
+    pub(super) passengers: u16,
+    /// What each earns after the flight has paid for it.
+    each: i64,
+}
+
+impl Party {
+    fn earns(self) -> i64 {
+        i64::from(self.passengers) * self.each
+    }
+}
+
+/// The passengers with whom a flight earns the most after it has paid for them. All pay the fare of the period in which
+/// it is decided. Those who wait pay the price of the period before, and where that is more than they bring, they are
+/// left behind. The seats go to those with the lower price first.
+pub(super) fn parties(
+    day: &TimeExpandedDay,
+    prices: &Prices,
+    flight: &Flight,
+) -> impl Iterator<Item = Party> + use<> {
+    let margin = day.margin[flight.cell as usize];
+    let party = |cell: u32, passengers: u16| {
+        let each = margin - prices.demand[cell as usize];
+        Party { cell, passengers: if each < 0 { 0 } else { passengers }, each }
+    };
+    let own = party(flight.cell, flight.passengers);
+    let pairs = small(day.size() * day.size());
+    let waiting = (flight.waiting > 0).then(|| party(flight.cell - pairs, flight.waiting));
+    let (first, second) = match waiting {
+        Some(waiting) if waiting.each < own.each => (own, Some(waiting)),
+        Some(waiting) => (waiting, Some(own)),
+        None => (own, None),
+    };
+    let seats_left = flight.seats - first.passengers;
+    let second =
+        second.map(|party| Party { passengers: party.passengers.min(seats_left), ..party });
+    [Some(first), second].into_iter().flatten()
 }
 
 /// The price of all stands and all passengers together.

@@ -2,6 +2,10 @@
 
 use std::ops::Range;
 
+use super::certificate::parties;
+use super::prices::Prices;
+use super::time_expanded_day::{Flight, TimeExpandedDay};
+
 /// An itinerary through the day for one aircraft.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Itinerary {
@@ -10,11 +14,23 @@ pub(super) struct Itinerary {
     /// The stays of the aircraft, one after the other, each as the slice before which it ends and its vertiport: the
     /// one where the aircraft is, or flies to, when slices end.
     pub(super) stays: Vec<(u32, u32)>,
-    /// For each flight, the position of its passengers in [`TimeExpandedDay::demand`] and their number.
+    /// For the passengers of each flight, their position in [`TimeExpandedDay::demand`] and their number. A flight that
+    /// passengers of two periods may board has an entry for each.
     pub(super) flights: Vec<(u32, u32)>,
 }
 
 impl Itinerary {
+    /// Adds a flight, with the passengers with whom it earns the most at the prices.
+    pub(super) fn fly(&mut self, day: &TimeExpandedDay, prices: &Prices, flight: &Flight) {
+        let margin = day.margin[flight.cell as usize] as f64;
+        let mut on_board = 0;
+        for party in parties(day, prices, flight) {
+            self.flights.push((party.cell, party.passengers.into()));
+            on_board += u32::from(party.passengers);
+        }
+        self.earnings += f64::from(on_board) * margin - flight.cost as f64;
+    }
+
     /// Adds a stay: the aircraft is at a vertiport, or flies there, at the ends of these slices.
     pub(super) fn stay(&mut self, place: usize, slices: Range<usize>) {
         let position = |at: usize| u32::try_from(at).expect("a day has few slices and vertiports");

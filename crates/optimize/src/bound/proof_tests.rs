@@ -6,7 +6,7 @@ use std::sync::Arc;
 use proptest::prelude::{ProptestConfig, any, proptest};
 use vertifleet_core::{AircraftIx, DaySeed, Network, Scenario, Stop, TakeoffDelays, Time};
 use vertifleet_policy::{BidPricePolicy, Greedy, Lookahead, Policy, Random, draw, play};
-use vertifleet_sim::{Simulation, Trace};
+use vertifleet_sim::{Simulation, Trace, TraceRow};
 use vertifleet_testkit::{Size, any_extended_day};
 
 use super::certificate::Certificate;
@@ -105,6 +105,28 @@ fn layer_of(day: &Scenario, expanded: &TimeExpandedDay, aircraft: AircraftIx) ->
     expanded.layers.iter().position(own).expect("every aircraft has a layer")
 }
 
+/// For each decision, how many of its passengers had waited since the period before, where those who have waited board
+/// first.
+fn waited(day: &Scenario, trace: &Trace) -> Vec<u16> {
+    let mut left = day.demand.clone();
+    let board = |row: &TraceRow| {
+        let (period, pair) = (day.period_at(row.time), (row.from, row.to));
+        let ends = day.periods[period] + day.operations.passenger_wait_s;
+        let mut take = |period: usize, most: u16| {
+            let left = &mut left[period][pair];
+            let taken = u16::try_from(*left).map_or(most, |left| left.min(most));
+            *left -= u32::from(taken);
+            taken
+        };
+        let waited =
+            if period > 0 && row.time < ends { take(period - 1, row.passengers) } else { 0 };
+        let own = take(period, row.passengers - waited);
+        assert_eq!(waited + own, row.passengers, "nobody counts twice");
+        waited
+    };
+    trace.rows.iter().map(board).collect()
+}
+
 /// Plays a day by several rules, and checks each aircraft, and all of them together, against the proof.
 fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
     let mut expanded = TimeExpandedDay::of(day, &[], step_s).expect("a small day");
@@ -118,24 +140,29 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
         let mut taken = vec![0; prices.stand.len()];
         let mut carried = vec![0; prices.demand.len()];
         let mut profit = 0;
+        let waited = waited(day, &trace);
         for aircraft in AircraftIx::all(day.aircraft.len()) {
             let mut left = 0;
             for (slice, place) in places(day, &expanded, &trace, aircraft).into_iter().enumerate() {
                 taken[slice * expanded.size() + place] += 1;
                 left -= prices.stand[slice * expanded.size() + place];
             }
-            for row in
-                trace.rows.iter().filter(|row| row.aircraft == aircraft && row.to != row.from)
-            {
+            let flies = |(row, _): &(&TraceRow, _)| row.aircraft == aircraft && row.to != row.from;
+            for (row, &waited) in trace.rows.iter().zip(&waited).filter(flies) {
                 let period = day.period_at(row.time);
-                let cell =
-                    (period * expanded.size() + row.from.at()) * expanded.size() + row.to.at();
-                carried[cell] += u32::from(row.passengers);
+                let size = expanded.size();
+                let cell = (period * size + row.from.at()) * size + row.to.at();
+                let parties =
+                    [(cell, row.passengers - waited), (cell.saturating_sub(size * size), waited)];
                 // The amount is rounded down, because the proof must not depend on the rounding of a real day's
                 // amounts.
                 let earned = money::down(row.profit_usd());
                 profit += i128::from(earned);
-                left += earned - i64::from(row.passengers) * prices.demand[cell];
+                left += earned;
+                for (cell, passengers) in parties {
+                    carried[cell] += u32::from(passengers);
+                    left -= i64::from(passengers) * prices.demand[cell];
+                }
             }
             // An aircraft earns no more than the longest path.
             let start = day.aircraft[aircraft.at()].at.at();

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use vertifleet_core::{ClosedTimes, Matrix, Scenario, Time, TypeIx, Vertiport, VertiportIx};
-use vertifleet_sim::Legs;
+use vertifleet_sim::{Leg, Legs};
 
 use super::money;
 use super::penalty::Penalty;
@@ -30,8 +30,12 @@ pub(super) struct Flight {
     pub(super) block_s: u32,
     /// Position of its period and pair of vertiports in [`TimeExpandedDay::demand`].
     pub(super) cell: u32,
-    /// The most passengers that it may carry: its seats, or the whole demand if that is less.
-    pub(super) passengers: u32,
+    /// The most passengers of its own period that it may carry: its seats, or the whole demand if that is less.
+    pub(super) passengers: u16,
+    /// The same for passengers of the period before who wait; 0 where none do.
+    pub(super) waiting: u16,
+    /// The most passengers that it may carry in all.
+    pub(super) seats: u16,
     /// The least that it may cost with or without passengers, including its energy; micro-dollars.
     pub(super) cost: i64,
 }
@@ -43,7 +47,7 @@ pub(super) struct Layer {
     /// Whether its aircraft may wait for any time and not only for holds. An aircraft without outages that may wait for
     /// any time can do everything that an aircraft kept on the ground by an outage does.
     pub(super) waits_freely: bool,
-    pub(super) seats: u32,
+    pub(super) seats: u16,
     /// Where and when its aircraft start, those alike together, by vertiport and time.
     pub(super) starts: Vec<Start>,
 }
@@ -80,8 +84,10 @@ pub(super) struct TimeExpandedDay {
     pub(super) shortest_s: u32,
     /// What aircraft pay for knowing delays, if the bound is to be one without foresight.
     pub(super) penalty: Option<Penalty>,
-    /// Whether there is any flight for the passengers of a period and pair, by period, from, to.
+    /// Whether there is any flight for the passengers of a period and pair in that period, by period, from, to.
     is_flown: Vec<bool>,
+    /// The same in the next period, while they wait.
+    is_flown_later: Vec<bool>,
     flights: Vec<Flight>,
     /// Position in `flights` of the first flight from each vertiport, by slice, layer, vertiport.
     offsets: Vec<usize>,
@@ -106,6 +112,7 @@ impl TimeExpandedDay {
             hold_s: scenario.operations.hold_s,
             shortest_s: scenario.operations.hold_s,
             is_flown: vec![false; scenario.periods.len() * scenario.vertiports.len().pow(2)],
+            is_flown_later: vec![false; scenario.periods.len() * scenario.vertiports.len().pow(2)],
             penalty: None,
             flights: Vec::new(),
             offsets: vec![0],
@@ -162,28 +169,14 @@ impl TimeExpandedDay {
             let first_cell = self.slices.period(slice) * size * size;
             let times_s = (self.slices.start_s(slice), self.slices.last_s(slice));
             let [first, last] = [times_s.0, times_s.1].map(Time::from_seconds);
-            for layer in &self.layers {
+            for layer in 0..self.layers.len() {
+                let (kind, seats) = (self.layers[layer].kind, self.layers[layer].seats);
                 for from in VertiportIx::all(size) {
-                    for to in legs.within_range(layer.kind, from).iter() {
-                        if closed.is_closed_throughout(from, to, first, last) {
-                            continue;
+                    for to in legs.within_range(kind, from).iter() {
+                        if !closed.is_closed_throughout(from, to, first, last) {
+                            let leg = *legs.leg(kind, from, to);
+                            self.add_flight(scenario, (slice, first_cell), leg, (from, to), seats);
                         }
-                        let leg = legs.leg(layer.kind, from, to);
-                        let late_s = delay_s(scenario, from, times_s.0);
-                        let flight_s = leg.flight_s + late_s;
-                        let arrivals_s = (times_s.0 + flight_s, times_s.1 + flight_s);
-                        let cost_usd = scenario.flight_cost_usd[(from, to)];
-                        let price_usd = lowest_energy_price_usd(scenario, arrivals_s);
-                        let cell = first_cell + from.at() * size + to.at();
-                        self.is_flown[cell] = true;
-                        self.flights.push(Flight {
-                            to,
-                            block_s: leg.block_s() + late_s,
-                            cell: small(cell),
-                            passengers: layer.seats.min(self.demand[cell]),
-                            cost: money::down(leg.energy_kwh * price_usd + cost_usd),
-                        });
-                        self.shortest_s = self.shortest_s.min(leg.block_s());
                     }
                     self.offsets.push(self.flights.len());
                 }
@@ -191,14 +184,57 @@ impl TimeExpandedDay {
         }
     }
 
+    /// Adds a flight of a slice. The cells of the slice's demand period begin with `first_cell`.
+    fn add_flight(
+        &mut self,
+        scenario: &Scenario,
+        (slice, first_cell): (usize, usize),
+        leg: Leg,
+        (from, to): (VertiportIx, VertiportIx),
+        seats: u16,
+    ) {
+        let size = self.size();
+        let first_s = self.slices.start_s(slice);
+        let late_s = delay_s(scenario, from, first_s);
+        let flight_s = leg.flight_s + late_s;
+        let arrivals_s = (first_s + flight_s, self.slices.last_s(slice) + flight_s);
+        let price_usd = lowest_energy_price_usd(scenario, arrivals_s);
+        let cost_usd = leg.energy_kwh * price_usd + scenario.flight_cost_usd[(from, to)];
+        let cell = first_cell + from.at() * size + to.at();
+        let waiting = self.slices.wait(slice).then(|| cell - size * size);
+        self.is_flown[cell] = true;
+        if let Some(waiting) = waiting {
+            self.is_flown_later[waiting] = true;
+        }
+        let fit = |cell: usize| at_most(seats, self.demand[cell]);
+        self.flights.push(Flight {
+            to,
+            block_s: leg.block_s() + late_s,
+            cell: small(cell),
+            passengers: fit(cell),
+            waiting: waiting.map_or(0, fit),
+            seats,
+            cost: money::down(cost_usd),
+        });
+        self.shortest_s = self.shortest_s.min(leg.block_s());
+    }
+
     /// The most that one more passenger is worth, by period, from, to; micro-dollars. If the demand does not fill an
-    /// aircraft, one more may fly with the others, which the price does not reflect. 0 where no flight leads.
+    /// aircraft, one more may fly with the others, in the next period too if passengers wait, which the price does not
+    /// reflect. 0 where no flight leads.
     pub(super) fn passenger_shadow_prices(&self, prices: &Prices) -> Vec<i64> {
         let seats = self.layers.iter().map(|layer| layer.seats).max().unwrap_or(0);
-        let worth = |cell: usize| match self.demand[cell] {
-            _ if !self.is_flown[cell] => 0,
-            waiting if waiting < seats => self.margin[cell],
-            _ => prices.demand[cell],
+        let pairs = self.size().pow(2);
+        let margin = |is_flown: bool, cell: usize| if is_flown { self.margin[cell] } else { 0 };
+        let worth = |cell: usize| {
+            let (now, later) = (self.is_flown[cell], self.is_flown_later[cell]);
+            match self.demand[cell] {
+                _ if !now && !later => 0,
+                waiting if waiting < seats.into() => {
+                    margin(now, cell).max(margin(later, cell + pairs))
+                }
+                _ => prices.demand[cell],
+            }
         };
         (0..self.demand.len()).map(worth).collect()
     }
@@ -240,7 +276,7 @@ fn layers(scenario: &Scenario, ready: &[Time]) -> Vec<Layer> {
             }
             let start = |((at, ready_s), count)| Start { at, ready_s, count };
             let starts: Vec<Start> = alike.into_iter().map(start).collect();
-            let seats = scenario.aircraft_types[kind.at()].seats.into();
+            let seats = scenario.aircraft_types[kind.at()].seats;
             if !starts.is_empty() {
                 layers.push(Layer { kind, waits_freely, seats, starts });
             }
@@ -292,6 +328,11 @@ fn lowest_energy_price_usd(scenario: &Scenario, arrivals_s: (u32, u32)) -> f64 {
     prices.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-fn small(position: usize) -> u32 {
+/// The passengers that fit on seats.
+fn at_most(seats: u16, passengers: u32) -> u16 {
+    u16::try_from(passengers).map_or(seats, |passengers| passengers.min(seats))
+}
+
+pub(super) fn small(position: usize) -> u32 {
     u32::try_from(position).expect("the readers bound the cells of demand at 4,000,000")
 }

@@ -198,7 +198,14 @@ fn world_of_a_coin() -> World {
     let day = Day {
         name: "coin".to_owned(),
         seed: 0,
-        operations: Operations { start, end, takeoff_s: 300, landing_s: 300, hold_s: 1_800 },
+        operations: Operations {
+            start,
+            end,
+            takeoff_s: 300,
+            landing_s: 300,
+            hold_s: 1_800,
+            passenger_wait_s: 0,
+        },
         vertiports: ["V0", "V1", "V2"].map(vertiport).into(),
         aircraft_types: vec![AircraftType {
             id: "T".to_owned(),

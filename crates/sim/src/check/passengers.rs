@@ -1,4 +1,5 @@
-//! Passengers (Eq. 11): a flight takes as many as want to fly and have a seat, which reduces the demand at once.
+//! Passengers (Eq. 11): a flight takes as many as want to fly and have a seat, which reduces the demand at once. Where
+//! passengers wait, those who are left of the period before can board first, until they have waited long enough.
 
 use vertifleet_core::Scenario;
 
@@ -6,15 +7,33 @@ use super::Rule;
 use super::event::{Event, period_of};
 use super::report::Findings;
 
-/// Follows what is left of the day's demand from take-off to take-off.
+/// Follows who is left of each period's demand from take-off to take-off.
 pub(super) fn check(scenario: &Scenario, events: &[Event<'_>], findings: &mut Findings) {
     let mut demand_left = scenario.demand.clone();
     for event in events.iter().filter(|event| !event.is_hold()) {
-        let period = period_of(scenario, event.row.time.seconds().into());
-        let left = &mut demand_left[period][event.pair()];
-        boards(event, *left, findings);
-        *left = left.saturating_sub(event.row.passengers.into());
+        let decided_s = u64::from(event.row.time.seconds());
+        let period = period_of(scenario, decided_s);
+        let (before, from_now) = demand_left.split_at_mut(period);
+        let own = &mut from_now[0][event.pair()];
+        let mut nobody = 0;
+        let patient = match before.last_mut() {
+            Some(table) if decided_s < patience_ends_s(scenario, period) => {
+                &mut table[event.pair()]
+            }
+            _ => &mut nobody,
+        };
+        boards(event, *patient + *own, findings);
+        let boarded = u32::from(event.row.passengers);
+        let patient_boarded = boarded.min(*patient);
+        *patient -= patient_boarded;
+        *own = own.saturating_sub(boarded - patient_boarded);
     }
+}
+
+/// The first second of a period at which nobody is left who has come for the period before.
+fn patience_ends_s(scenario: &Scenario, period: usize) -> u64 {
+    let wait_s = u64::from(scenario.operations.passenger_wait_s);
+    u64::from(scenario.periods[period].seconds()) + wait_s
 }
 
 fn boards(event: &Event<'_>, left: u32, findings: &mut Findings) {

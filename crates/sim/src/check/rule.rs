@@ -65,7 +65,7 @@ rules! {
     Seats = "seats":
         "A flight carries no more passengers than its aircraft has seats (Eq. 11).",
     Demand = "demand":
-        "A flight carries no more passengers than still want to fly in the period of its decision.",
+        "A flight carries no more passengers than still want to fly when it is decided.",
     Boarding = "boarding":
         "A flight leaves no passenger behind for whom it has a seat.",
     Revenue = "revenue":

@@ -81,7 +81,8 @@ pub enum Report {
         /// The routes.
         routes: Routes,
     },
-    /// This many passengers still want to fly in a period, actual or forecast.
+    /// This many passengers of a period still want to fly, actual or forecast. Those who wait in it since the period
+    /// before are not among them, and go on waiting.
     Demand {
         /// Position of the period.
         period: usize,
@@ -93,7 +94,7 @@ pub enum Report {
         /// The seats.
         booking: Booking,
     },
-    /// Passengers do not want to fly any more.
+    /// Passengers do not want to fly any more. Their period may be over, if they wait in the next one.
     Cancelled {
         /// The seats.
         booking: Booking,

@@ -141,15 +141,21 @@ impl LiveDay {
         }
         let decision = self.decision(aircraft, time)?;
         let before = self.before(aircraft);
-        let clock = (self.known.period, self.known.closures.clone());
+        let clock = (self.known.period, self.known.next_change, self.known.closures.clone());
+        let demand = (self.known.next_change <= time).then(|| self.known.demand.clone());
         self.known.advance_to(time);
+        let waiting = self.known.demand.waiting(decision.at, to);
         match self.known.carry_out(&decision, to) {
             Ok(row) => {
-                self.enter(row, before);
+                self.enter(row, before, waiting);
                 Ok(())
             }
             Err(refusal) => {
-                (self.known.period, self.known.closures) = clock;
+                let known = &mut self.known;
+                (known.period, known.next_change, known.closures) = clock;
+                if let Some(demand) = demand {
+                    known.demand = demand;
+                }
                 Err(refusal.into())
             }
         }
@@ -164,17 +170,20 @@ impl LiveDay {
         }
     }
 
-    /// Enters a decision that the simulator has carried out.
-    fn enter(&mut self, row: TraceRow, before: Before) {
+    /// Enters a decision that the simulator has carried out. Of the pair, so many were `waiting` before it.
+    fn enter(&mut self, row: TraceRow, before: Before, waiting: u32) {
         let (period, flight) = (self.known.period, self.decisions.len());
-        self.decisions.push(LiveDecision { row, period, before, is_undone: false });
+        let waited = u16::try_from(waiting).map_or(row.passengers, |all| all.min(row.passengers));
+        self.decisions.push(LiveDecision { row, period, waited, before, is_undone: false });
         self.set_charged(row.aircraft, row.ready);
         let state = &mut self.aircraft[row.aircraft.at()];
         state.undoable = Some(flight);
         if row.from != row.to {
             state.phase = Phase::SentOff { flight, departs: row.time };
-            let at = self.known.demand.at(period, row.from, row.to);
-            self.boarded[at] += u32::from(row.passengers);
+            for (period, passengers) in self.decisions[flight].parties() {
+                let at = self.known.demand.at(period, row.from, row.to);
+                self.boarded[at] += u32::from(passengers);
+            }
         }
         self.is_stale = true;
     }
@@ -183,11 +192,9 @@ impl LiveDay {
         let state = self.state(aircraft)?;
         let nothing = || Unfit::NothingToUndo { aircraft: self.id(aircraft) };
         let latest = state.undoable.ok_or_else(nothing)?;
-        let LiveDecision { row, period, before, .. } = self.decisions[latest];
+        let LiveDecision { row, before, .. } = self.decisions[latest];
         self.decisions[latest].is_undone = true;
-        if row.from != row.to {
-            self.put_back(period, (row.from, row.to), row.passengers);
-        }
+        self.put_back(latest);
         self.known.stands.leave(aircraft, row.to);
         self.known.stands.take(aircraft, row.from, before.waited);
         self.known.place[aircraft.at()] = row.from;
@@ -199,12 +206,16 @@ impl LiveDay {
         Ok(())
     }
 
-    /// Lets passengers who were taken on board want to fly again.
-    fn put_back(&mut self, period: usize, (from, to): (VertiportIx, VertiportIx), passengers: u16) {
+    /// Lets the passengers of a flight want to fly again.
+    fn put_back(&mut self, flight: usize) {
+        let decision = &self.decisions[flight];
+        let TraceRow { from, to, .. } = decision.row;
         let demand = &mut self.known.demand;
-        let at = demand.at(period, from, to);
-        demand.set(period, from, to, demand.left(period, from, to) + u32::from(passengers));
-        self.boarded[at] -= u32::from(passengers);
+        for (period, passengers) in decision.parties() {
+            let own = demand.own(period, from, to) + u32::from(passengers);
+            demand.set_own(period, from, to, own);
+            self.boarded[demand.at(period, from, to)] -= u32::from(passengers);
+        }
     }
 
     fn set_out(&mut self, aircraft: AircraftIx, out: Option<OutOfService>) -> Result<(), Unfit> {

@@ -33,10 +33,12 @@ impl LiveDay {
         for vertiport in &mut day.vertiports {
             (vertiport.stand_cost_usd, vertiport.charger_cost_usd) = (0.0, 0.0);
         }
-        let period = self.scenario().period_at(now);
+        // Those who wait are passengers of the period before, as on the day itself.
+        let demand = &expected.demand;
+        let period = demand.waiting_in().map_or(expected.period, |period| period - 1);
+        let own = demand.all_own();
         for (at, table) in day.demand.iter_mut().enumerate() {
-            let left = &self.known.demand.all()[at * size * size..];
-            let left = |from: VertiportIx, to: VertiportIx| left[from.at() * size + to.at()];
+            let left = |from: VertiportIx, to: VertiportIx| own[demand.at(at, from, to)];
             *table = Matrix::from_fn(size, |from, to| if at < period { 0 } else { left(from, to) });
         }
         let mut there = vec![0_u16; size];

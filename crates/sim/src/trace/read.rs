@@ -214,7 +214,14 @@ mod tests {
         Day {
             name: "day".to_owned(),
             seed: 1,
-            operations: Operations { start, end: start, takeoff_s: 60, landing_s: 60, hold_s: 900 },
+            operations: Operations {
+                start,
+                end: start,
+                takeoff_s: 60,
+                landing_s: 60,
+                hold_s: 900,
+                passenger_wait_s: 0,
+            },
             vertiports: vec![Vertiport {
                 id: "V".to_owned(),
                 x_mi: 0.0,

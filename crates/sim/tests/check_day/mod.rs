@@ -33,6 +33,7 @@ pub(crate) fn day() -> Day {
             takeoff_s: 300,
             landing_s: 300,
             hold_s: 900,
+            passenger_wait_s: 0,
         },
         vertiports: vec![
             vertiport("V1", 0.0, 1),

@@ -85,7 +85,7 @@ impl LiveDay {
 
     fn check_period(&self, period: usize) -> Result<(), Unfit> {
         let start = self.period_start(period)?;
-        if period < self.known.period {
+        if period < self.known.period && !self.known.demand.waits(period) {
             return Err(Unfit::PeriodOver { start, now: self.now });
         }
         Ok(())
@@ -104,7 +104,7 @@ impl LiveDay {
             }
         }
         for &(from, to, passengers) in pairs {
-            self.known.demand.set(period, from, to, passengers);
+            self.known.demand.set_own(period, from, to, passengers);
         }
         self.is_stale = true;
         Ok(())
@@ -124,7 +124,7 @@ impl LiveDay {
     fn left(&self, Booking { period, from, to, .. }: Booking) -> Result<u32, Unfit> {
         self.check_period(period)?;
         self.check_routes(Routes::Way { from, to })?;
-        Ok(self.known.demand.left(period, from, to))
+        Ok(self.known.demand.own(period, from, to))
     }
 
     fn set_left(&mut self, booking: Booking, left: u32) -> Result<(), Unfit> {

@@ -92,28 +92,38 @@ impl LiveDay {
         let decision = Decision { time, aircraft, at, index };
         let before = self.before(aircraft);
         self.known.advance_to(time);
+        let waiting = self.known.demand.waiting(at, to);
         let breaks = !self.known.feasible(&decision).contains(to);
         let notice = breaks.then(|| Notice::AgainstTheRules(self.known.refusal(&decision, to)));
         let row = self.known.fly(&decision, to);
-        self.enter(row, before);
+        self.enter(row, before, waiting);
         notice
     }
 
-    /// Corrects how many passengers a flight has on board.
+    /// Corrects how many passengers a flight has on board. Those who had waited are on board before others.
     fn correct_passengers(&mut self, flight: usize, passengers: u16) {
-        let LiveDecision { row, period, .. } = &self.decisions[flight];
-        let (period, pair, expected) = (*period, (row.from, row.to), row.passengers);
-        if passengers == expected {
+        let LiveDecision { row, period, waited, .. } = self.decisions[flight];
+        let pair = (row.from, row.to);
+        if passengers == row.passengers {
             return;
         }
-        self.put_back(period, pair, expected);
+        self.put_back(flight);
         let demand = &mut self.known.demand;
-        let left = demand.left(period, pair.0, pair.1).saturating_sub(passengers.into());
-        demand.set(period, pair.0, pair.1, left);
-        self.boarded[demand.at(period, pair.0, pair.1)] += u32::from(passengers);
+        let waiting = match demand.waiting_in() {
+            Some(now) if now == period => demand.waiting(pair.0, pair.1),
+            // They have left by now, but for those who are on board.
+            _ => waited.into(),
+        };
+        let waited = u16::try_from(waiting).map_or(passengers, |all| all.min(passengers));
+        let decision = &mut self.decisions[flight];
+        (decision.row.passengers, decision.waited) = (passengers, waited);
+        for (period, passengers) in decision.parties() {
+            let own = demand.own(period, pair.0, pair.1).saturating_sub(passengers.into());
+            demand.set_own(period, pair.0, pair.1, own);
+            self.boarded[demand.at(period, pair.0, pair.1)] += u32::from(passengers);
+        }
         let scenario = Arc::clone(&self.known.scenario);
         let row = &mut self.decisions[flight].row;
-        row.passengers = passengers;
         row.revenue_usd = f64::from(passengers) * scenario.fare_usd.in_period(period)[pair];
         row.passenger_cost_usd = f64::from(passengers) * scenario.passenger_cost_usd[pair];
         self.is_stale = true;
