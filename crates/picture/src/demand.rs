@@ -1,7 +1,7 @@
 //! Demand by period: served and spilled.
 
 use vertifleet_core::{Matrix, Scenario, Time};
-use vertifleet_sim::TraceRow;
+use vertifleet_sim::{Boarded, TraceRow};
 
 use crate::canvas::{Anchor, Canvas, Lettering, Look};
 use crate::map::Area;
@@ -24,8 +24,11 @@ pub(crate) fn served_and_spilled(
     rows: &[TraceRow],
 ) {
     let mut served = vec![0_u32; day.periods.len()];
+    let mut boarded = Boarded::of(day);
     for row in rows {
-        served[day.period_at(row.time)] += u32::from(row.passengers);
+        for (period, passengers) in boarded.board(row) {
+            served[period] += u32::from(passengers);
+        }
     }
     bars(canvas, area, day, &served);
     let entries = [(served_look(), "carried"), (spilled_look(), "spilled")];

@@ -1,7 +1,7 @@
 //! The fleet at one moment of a day, from the rows of its trace so far.
 
 use vertifleet_core::{Scenario, Time, VertiportIx};
-use vertifleet_sim::TraceRow;
+use vertifleet_sim::{Boarded, TraceRow};
 
 /// Where an aircraft is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,15 +99,12 @@ fn whereabouts(day: &Scenario, row: &TraceRow, time: Time) -> Whereabouts {
     }
 }
 
-/// Passengers of the time's demand period who still want to leave each vertiport.
+/// Passengers who want to leave each vertiport at a time.
 fn waiting(day: &Scenario, rows: &[TraceRow], time: Time) -> Vec<u32> {
-    let period = day.period_at(time);
-    let vertiports = || (0..day.vertiports.len()).map(VertiportIx::new);
-    let mut waiting: Vec<u32> =
-        vertiports().map(|from| day.demand[period].row(from).iter().sum()).collect();
-    for row in rows.iter().filter(|row| day.period_at(row.time) == period) {
-        let left = &mut waiting[row.from.at()];
-        *left = left.saturating_sub(u32::from(row.passengers));
+    let mut boarded = Boarded::of(day);
+    for row in rows {
+        boarded.board(row);
     }
-    waiting
+    let at = |from| boarded.waiting(time).map(|table| table.row(from).iter().sum::<u32>()).sum();
+    VertiportIx::all(day.vertiports.len()).map(at).collect()
 }

@@ -23,6 +23,7 @@
 //! # }
 //! ```
 
+mod boarded;
 pub mod check;
 mod closures;
 mod day_totals;
@@ -44,6 +45,7 @@ mod trace;
 mod vertiport_set;
 mod view;
 
+pub use boarded::Boarded;
 pub use day_totals::{DayNumber, DayTotals};
 pub use departures::Departures;
 pub use error::Refusal;

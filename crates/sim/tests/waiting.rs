@@ -9,7 +9,7 @@ use vertifleet_core::{
 };
 use vertifleet_sim::check::check;
 use vertifleet_sim::live::{Booking, LiveDay, Report, Unfit};
-use vertifleet_sim::{Simulation, Trace};
+use vertifleet_sim::{Boarded, Simulation, Trace};
 
 const A: VertiportIx = VertiportIx(0);
 const B: VertiportIx = VertiportIx(1);
@@ -78,6 +78,24 @@ fn day(passenger_wait_s: u32) -> Arc<Scenario> {
     Arc::new(day.check("waiting").expect("a day within the rules"))
 }
 
+/// Everybody is counted in the period in which they wanted to fly, nobody twice, and who is left is who the checker knows.
+fn account_for(day: &Scenario, trace: &Trace) {
+    let (mut boarded, mut carried) = (Boarded::of(day), [0_u32; 3]);
+    for row in &trace.rows {
+        let there: u32 = boarded.waiting(row.time).map(|table| table[(row.from, row.to)]).sum();
+        let parties = boarded.board(row);
+        assert_eq!(parties.iter().map(|party| party.1).sum::<u16>(), row.passengers);
+        for (period, passengers) in parties {
+            carried[period] += u32::from(passengers);
+        }
+        let left: u32 = boarded.waiting(row.time).map(|table| table[(row.from, row.to)]).sum();
+        assert_eq!(left, there - u32::from(row.passengers));
+    }
+    for (period, carried) in carried.into_iter().enumerate() {
+        assert!(carried <= day.demand[period][(A, B)], "{period}");
+    }
+}
+
 /// Plays a day on which the aircraft that are asked first at these seconds fly from A to B, and all others hold. Returns
 /// the passengers whom each flight found and took, and its revenue.
 fn flights(day: &Arc<Scenario>, decided_s: &[u32]) -> Vec<(u32, u16, f64)> {
@@ -98,6 +116,7 @@ fn flights(day: &Arc<Scenario>, decided_s: &[u32]) -> Vec<(u32, u16, f64)> {
     let report = check(day, &trace);
     assert!(report.is_valid(), "{report}");
     let carried: u64 = flights.iter().map(|&(_, passengers, _)| u64::from(passengers)).sum();
+    account_for(day, &trace);
     let totals = simulation.totals();
     assert_eq!((totals.passengers, totals.spilled_passengers), (carried, 10 - carried));
     flights

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use vertifleet_core::{Scenario, Time, VertiportIx};
-use vertifleet_sim::TraceRow;
+use vertifleet_sim::{Boarded, TraceRow};
 
 /// Demand served and spilled.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -60,7 +60,7 @@ impl Loss {
     }
 }
 
-/// Passengers carried by period, from and to.
+/// Passengers carried by the period in which they wanted to fly, from and to.
 struct Carried {
     size: usize,
     passengers: Vec<u64>,
@@ -70,9 +70,12 @@ impl Carried {
     fn of(day: &Scenario, rows: &[TraceRow]) -> Self {
         let size = day.vertiports.len();
         let mut carried = Self { size, passengers: vec![0; day.periods.len() * size * size] };
+        let mut boarded = Boarded::of(day);
         for row in rows {
-            let at = carried.position(day.period_at(row.time), row.from, row.to);
-            carried.passengers[at] += u64::from(row.passengers);
+            for (period, passengers) in boarded.board(row) {
+                let at = carried.position(period, row.from, row.to);
+                carried.passengers[at] += u64::from(passengers);
+            }
         }
         carried
     }
