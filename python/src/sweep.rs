@@ -4,6 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use serde::Deserialize;
 use serde_json::Value;
 use vertifleet_study::ComparisonRecords;
 use vertifleet_study::sweep::Sweep;
@@ -12,22 +13,28 @@ use crate::comparison::Comparison;
 use crate::failure::Failure;
 use crate::network::Network;
 
-/// Writes tables, figures and a report page of a sweep into a folder, and returns the path of the page. `values` is a JSON
-/// list with a list for each of the `comparisons`: the value of each of the `paths`.
+/// What was varied, and the values of each comparison in this order.
+#[derive(Deserialize)]
+struct Design {
+    paths: Vec<String>,
+    values: Vec<Vec<Value>>,
+}
+
+/// Writes tables, figures and a report page of a sweep into a folder, and returns the path of the page. `design` is JSON:
+/// the `paths` that were varied, and `values` with a list for each of the `comparisons`.
 #[pyfunction]
-#[pyo3(signature = (network, paths, values, comparisons, folder, *, force, command))]
+#[pyo3(signature = (network, design, comparisons, folder, *, force, command))]
 pub(crate) fn sweep_report(
     py: Python<'_>,
     network: &Network,
-    paths: Vec<String>,
-    values: &str,
+    design: &str,
     comparisons: Vec<PyRef<'_, Comparison>>,
     folder: PathBuf,
     force: bool,
     command: String,
 ) -> PyResult<PathBuf> {
-    let values: Vec<Vec<Value>> = serde_json::from_str(values)
-        .map_err(|error| Failure::argument(format!("values of a sweep: {error}")))?;
+    let Design { paths, values } = serde_json::from_str(design)
+        .map_err(|error| Failure::argument(format!("the design of a sweep: {error}")))?;
     let comparisons = comparisons.iter().map(|one| one.records());
     let cells: Vec<(Vec<Value>, &ComparisonRecords)> =
         values.into_iter().zip(comparisons).collect();

@@ -843,8 +843,7 @@ def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]:
 
 def sweep_report(
     network: Network,
-    paths: Sequence[str],
-    values: str,
+    design: str,
     comparisons: Sequence[Comparison],
     folder: _Path,
     *,
@@ -852,7 +851,7 @@ def sweep_report(
     command: str,
 ) -> Path:
     """Writes tables, figures and a report page of a sweep into a folder, and returns the path of the page.
-    `values` is a JSON list with a list for each of the `comparisons`: the value of each of the `paths`.
+    `design` is JSON: the `paths` that were varied, and `values` with a list for each of the `comparisons`.
     """
 
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]:

@@ -81,22 +81,23 @@ class Sweep:
     def report(self, folder: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Writes the folder that ``vertifleet sweep --out`` writes, and returns the path of its page.
 
-        The folder has tables as CSV and Parquet, ``summary.json``, figures as SVG and PNG, and a page with response
-        curves, a heat map, what matters most, and the cheapest point within 1 % of the best. Points are judged by the
-        first policy. An earlier sweep in the folder is replaced.
+        The folder has tables as CSV and Parquet, ``summary.json``, figures as SVG and PNG, and a page with
+        response curves, a heat map, what matters most, and the cheapest point within 1 % of the best. Points
+        are judged by the first policy. An earlier sweep in the folder is replaced.
 
         Args:
             folder: a folder that is empty, is not there yet, or holds a sweep.
             force: whether to write into a folder that holds anything else.
 
         Raises:
-            Error: V143 if the folder holds something else, V407 if a point has changes that others have not.
+            Error: V143 if the folder holds something else.
         """
         paths = list(self.points[0][0])
-        values = json.dumps([[changes[path] for path in paths] for changes, _ in self.points])
+        values = [[changes[path] for path in paths] for changes, _ in self.points]
+        design = json.dumps({"paths": paths, "values": values})
         comparisons = [comparison for _, comparison in self.points]
         return _native.sweep_report(
-            self.varied, paths, values, comparisons, folder, force=force, command=self.command
+            self.varied, design, comparisons, folder, force=force, command=self.command
         )
 
     def __str__(self) -> str:
