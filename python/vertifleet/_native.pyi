@@ -851,7 +851,8 @@ def sweep_report(
     command: str,
 ) -> Path:
     """Writes tables, figures and a report page of a sweep into a folder, and returns the path of the page.
-    `design` is JSON: the `paths` that were varied, and `values` with a list for each of the `comparisons`.
+    `design` is JSON: the `paths` that were varied, and `values` with a list for each of the
+    `comparisons`.
     """
 
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]:

@@ -48,6 +48,12 @@ const fn summary_of(opening: &'static str) -> OutputKind {
     OutputKind { name: "report", skipped: 0, opening }
 }
 
+/// Whether a file of this name is a picture of a figure.
+pub(crate) fn is_figure(name: &str) -> bool {
+    let end = Path::new(name).extension();
+    name.starts_with("figure-") && end.is_some_and(|end| end == "svg" || end == "png")
+}
+
 /// A folder that holds a report of either study and nothing else.
 pub(crate) const FOLDER: FolderKind = FolderKind {
     name: "report",
@@ -59,9 +65,7 @@ pub(crate) const FOLDER: FolderKind = FolderKind {
         ],
     ),
     holds: |name| {
-        let end = Path::new(name).extension();
-        let picture = end.is_some_and(|end| end == "svg" || end == "png");
-        (picture && name.starts_with("figure-"))
+        is_figure(name)
             || ["report.html", "replay.html", "summary.json", "days.csv", "networks.csv"]
                 .contains(&name)
     },

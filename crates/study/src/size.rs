@@ -34,7 +34,7 @@ use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
 use crate::figure;
 use crate::journal::{Head, Journal};
-use crate::report::{File, Records, pictures};
+use crate::report::{File, Records, is_figure, pictures};
 use crate::sweep::Factor;
 
 use search::{Aim, search};
@@ -53,9 +53,7 @@ const FOLDER: FolderKind = FolderKind {
     name: "search for a design",
     mark: (JOURNAL, &[journal::KIND]),
     holds: |name| {
-        let end = Path::new(name).extension();
-        let picture = end.is_some_and(|end| end == "svg" || end == "png");
-        (picture && name.starts_with("figure-"))
+        is_figure(name)
             || [JOURNAL, "designs.csv", "summary.json", "report.html", "best.toml"].contains(&name)
     },
 };

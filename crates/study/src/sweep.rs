@@ -36,7 +36,7 @@ use crate::error::Error;
 use crate::figure;
 use crate::journal::{self, Head, Journal};
 use crate::kept_bounds::KeptBounds;
-use crate::report::{File, Records, pictures};
+use crate::report::{File, Records, is_figure, pictures};
 use crate::run::{BoundedDay, Kept, run};
 
 pub use design::{Design, Factor, Levels, MOST_CELLS};
@@ -57,9 +57,7 @@ const FOLDER: FolderKind = FolderKind {
     name: "sweep",
     mark: (JOURNAL, &[KIND]),
     holds: |name| {
-        let end = Path::new(name).extension();
-        let picture = end.is_some_and(|end| end == "svg" || end == "png");
-        (picture && name.starts_with("figure-"))
+        is_figure(name)
             || TABLES.contains(&name)
             || [JOURNAL, "summary.json", "report.html"].contains(&name)
     },

@@ -52,7 +52,9 @@ pub(super) fn figure(report: &SizeReport) -> Figure {
             canvas.marker((place, low), 0);
         }
     }
-    for (number, series, name) in [(report.now, 1, "as it is"), (report.best, 2, "found")] {
+    for (number, series, name) in
+        [(report.now, 1, report.name_of_start()), (report.best, 2, "found")]
+    {
         let design = &report.designs[number];
         let point = (x.pixel(aircraft(design)), y.pixel(value(design)));
         canvas.marker(point, series);

@@ -41,14 +41,18 @@ fn again(report: &SizeReport) -> String {
                 .map_or_else(String::new, |half| format!(" ± {}", grouped(half, 0)));
             let than = report.now_again.served_share;
             format!(
-                "On {days}, which the search has not seen: {does}; that is {}{half} $ a day against the network as it is, \
+                "On {days}, which the search has not seen: {does}; that is {}{half} $ a day against the network {}, \
                  which carries {:.1} %.",
                 signed(more.mean, 0),
+                report.name_of_start(),
                 100.0 * than
             )
         }
         None => {
-            format!("It is the network as it is. On {days}, which the search has not seen: {does}.")
+            format!(
+                "It is the network {}. On {days}, which the search has not seen: {does}.",
+                report.name_of_start()
+            )
         }
     }
 }
@@ -57,7 +61,7 @@ fn again(report: &SizeReport) -> String {
 pub(super) fn certificate(report: &SizeReport) -> String {
     match report.certificate {
         Certificate::MostProfit { no_design_earns_more_than_usd: most, gap } => format!(
-            "No design within these limits earns more than {} a day on the days of the search, whatever decides: this one, with {}, \
+            "No design within these limits earns more than {} a day on the days of the search, whoever decides: this one, with {}, \
              is {:.1} % below that, and its own bound {:.1} %.",
             dollars(most),
             report.policy,
@@ -65,7 +69,7 @@ pub(super) fn certificate(report: &SizeReport) -> String {
             100.0 * vertifleet_optimize::gap(most, report.found().ceiling)
         ),
         Certificate::MostPassengers { no_design_carries_more_than: most, gap } => format!(
-            "No design within these limits carries more than {} passengers a day on the days of the search, whatever decides, which \
+            "No design within these limits carries more than {} passengers a day on the days of the search, whoever decides, which \
              spills {} at least: this one, with {}, carries {:.1} % less.",
             grouped(most, 1),
             grouped((report.wanted_passengers - most).max(0.0), 1),
@@ -73,17 +77,17 @@ pub(super) fn certificate(report: &SizeReport) -> String {
             100.0 * gap
         ),
         Certificate::LeastCost { no_design_costs_less_than_usd: least } => format!(
-            "No design that carries enough on the days of the search costs less than {} a day, whatever decides; this one costs {}.",
+            "No design that carries enough on the days of the search costs less than {} a day, whoever decides; this one costs {}.",
             dollars(least),
             dollars(report.found().size.fixed_cost_usd)
         ),
         Certificate::FewestAircraft { no_design_has_fewer_than: least } => format!(
-            "No design that carries enough on the days of the search has fewer than {least} aircraft, whatever decides; this one has {}.",
+            "No design that carries enough on the days of the search has fewer than {least} aircraft, whoever decides; this one has {}.",
             report.found().size.aircraft
         ),
         Certificate::OutOfReach { no_design_carries_more_than: most } => format!(
             "No design within these limits carries more than {} of the {} passengers a day who would have to be carried on the days \
-             of the search, whatever decides.",
+             of the search, whoever decides.",
             grouped(most, 1),
             grouped(report.needed_passengers.unwrap_or(0.0), 1)
         ),

@@ -67,7 +67,7 @@ fn designs(report: &SizeReport) -> Markup {
         h2 { "Designs" }
         p.lead { (counted(report.designs.len(), "design was", "designs were")) " played, in this order. ± is the 95 % interval of the mean over the days. "
             "Fixed cost is what fleet, stands and chargers cost a day whatever is flown; profits are after it. The bound holds for "
-            "the design whatever decides." }
+            "the design whoever decides." }
         div.wide { table {
             thead { tr {
                 th scope="col" { "design" }
@@ -80,7 +80,7 @@ fn designs(report: &SizeReport) -> Markup {
                 @for (number, design) in report.designs.iter().enumerate() {
                     tr.best[number == report.best] { (row(report, &name(report, number), design)) }
                 }
-                tr { (row(report, "as it is, further days", &report.now_again)) }
+                tr { (row(report, &format!("{}, further days", report.name_of_start()), &report.now_again)) }
                 tr { (row(report, "found, further days", &report.best_again)) }
             }
         } }
@@ -90,7 +90,7 @@ fn designs(report: &SizeReport) -> Markup {
 fn name(report: &SizeReport, number: usize) -> String {
     match number {
         _ if number == report.best => format!("{number}, found"),
-        _ if number == report.now => format!("{number}, as it is"),
+        _ if number == report.now => format!("{number}, {}", report.name_of_start()),
         _ => number.to_string(),
     }
 }

@@ -102,7 +102,7 @@ pub struct DesignSummary {
     pub ceiling: f64,
 }
 
-/// How far the design that was found can be from the best of all, on the days of the search, whatever decides.
+/// How far the design that was found can be from the best of all, on the days of the search, whoever decides.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "of", rename_all = "snake_case")]
 pub enum Certificate {
@@ -195,6 +195,14 @@ impl SizeReport {
     /// The design that is nearest to the network file.
     pub fn as_it_is(&self) -> &DesignSummary {
         &self.designs[self.now]
+    }
+
+    /// What the design is called that is nearest to the network file: the network as it is, if the numbers that are searched
+    /// have it.
+    pub fn name_of_start(&self) -> &'static str {
+        let here = &self.as_it_is().numbers;
+        let is_it = self.dimensions.iter().zip(here).all(|(one, &number)| one.now == number);
+        if is_it { "as it is" } else { "nearest to now" }
     }
 
     /// The numbers as JSON.

@@ -45,11 +45,12 @@ fn designs(report: &SizeReport) -> Vec<Vec<String>> {
             format!("{:.1} %", 100.0 * design.served_share),
         ]
     };
+    let start = report.name_of_start();
     vec![
         head.map(str::to_owned).to_vec(),
-        row("now", report.as_it_is()),
+        row(start, report.as_it_is()),
         row("found", report.found()),
-        row("now, further days", &report.now_again),
+        row(&format!("{start}, further days"), &report.now_again),
         row("found, further days", &report.best_again),
     ]
 }
