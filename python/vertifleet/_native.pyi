@@ -48,6 +48,7 @@ __all__ = [
     "settings",
     "simulate",
     "suite_names",
+    "sweep_report",
     "train",
     "verify",
 ]
