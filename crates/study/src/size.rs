@@ -189,7 +189,13 @@ impl Sizing {
         let aim = self.aim(wanted);
         let found = search(&self.space, &aim, self.designs, &mut solver)?;
         let report = SizeReport::of(self, command, &aim, &found, &mut solver)?;
-        Ok(SizeRecords { report, best: self.space.network(&found.best)?.toml().to_owned() })
+        // A line of its own, whatever the command holds.
+        let made_by = report.command.replace(['\n', '\r'], " ");
+        let best = format!(
+            "# The design that was found by: {made_by}\n\n{}",
+            self.space.network(&found.best)?.toml()
+        );
+        Ok(SizeRecords { report, best })
     }
 
     /// The mean number of passengers a day who want to fly.

@@ -53,7 +53,7 @@ pub(super) fn figure(report: &SizeReport) -> Figure {
         }
     }
     for (number, series, name) in
-        [(report.now, 1, report.name_of_start()), (report.best, 2, "found")]
+        [(report.now, 1, report.name_of_start()), (report.best, 2, report.name_of_best())]
     {
         let design = &report.designs[number];
         let point = (x.pixel(aircraft(design)), y.pixel(value(design)));

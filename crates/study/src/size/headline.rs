@@ -6,7 +6,8 @@ use super::{Certificate, DesignSummary, SizeReport};
 
 /// Says what was found, what it brings on days that the search has not seen, and how far from the best it can be.
 pub(super) fn text(report: &SizeReport) -> String {
-    [found(report), again(report), certificate(report)].join(" ")
+    let parts = [found(report), again(report), certificate(report), doubts(report)];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 fn found(report: &SizeReport) -> String {
@@ -62,24 +63,26 @@ pub(super) fn certificate(report: &SizeReport) -> String {
     match report.certificate {
         Certificate::MostProfit { no_design_earns_more_than_usd: most, gap } => format!(
             "No design within these limits earns more than {} a day on the days of the search, whoever decides: this one, with {}, \
-             is {:.1} % below that, and its own bound {:.1} %.",
+             is {:.1} % below that, and the bound of its own design {:.1} %.",
             dollars(most),
             report.policy,
             100.0 * gap,
             100.0 * vertifleet_optimize::gap(most, report.found().ceiling)
         ),
         Certificate::MostPassengers { no_design_carries_more_than: most, gap } => format!(
-            "No design within these limits carries more than {} passengers a day on the days of the search, whoever decides, which \
-             spills {} at least: this one, with {}, carries {:.1} % less.",
+            "No design within these limits carries more than {} passengers a day on the days of the search, whoever decides, so that \
+             at least {} are left behind: this one, with {}, carries {:.1} % less.",
             grouped(most, 1),
             grouped((report.wanted_passengers - most).max(0.0), 1),
             report.policy,
             100.0 * gap
         ),
         Certificate::LeastCost { no_design_costs_less_than_usd: least } => format!(
-            "No design that carries enough on the days of the search costs less than {} a day, whoever decides; this one costs {}.",
+            "No design that carries enough on the days of the search costs less than {} a day, whoever decides; this one costs {}, \
+             {:.0} % more.",
             dollars(least),
-            dollars(report.found().size.fixed_cost_usd)
+            dollars(report.found().size.fixed_cost_usd),
+            100.0 * (report.found().size.fixed_cost_usd / least.max(1e-9) - 1.0)
         ),
         Certificate::FewestAircraft { no_design_has_fewer_than: least } => format!(
             "No design that carries enough on the days of the search has fewer than {least} aircraft, whoever decides; this one has {}.",
@@ -92,6 +95,28 @@ pub(super) fn certificate(report: &SizeReport) -> String {
             grouped(report.needed_passengers.unwrap_or(0.0), 1)
         ),
     }
+}
+
+/// What the reader should not take the answer for.
+fn doubts(report: &SizeReport) -> String {
+    let mut doubts = Vec::new();
+    if !report.goal_is_reached && !matches!(report.certificate, Certificate::OutOfReach { .. }) {
+        doubts.push(format!(
+            "No bound says that it cannot be reached: it may be {} that leaves passengers behind who cost more than they pay.",
+            report.policy
+        ));
+    }
+    let at_limit = report.dimensions.iter().filter(|one| one.is_at_limit()).count();
+    if at_limit > 0 {
+        doubts.push(format!(
+            "{} at the highest number that was searched, and more might be better.",
+            counted(at_limit, "member is", "members are")
+        ));
+    }
+    if report.designs.len() >= report.most_designs {
+        doubts.push("The search ended because it had played as many designs as it may; more may find a better one.".to_owned());
+    }
+    doubts.join(" ")
 }
 
 fn earns(design: &DesignSummary) -> String {

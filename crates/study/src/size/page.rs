@@ -54,9 +54,9 @@ fn dimensions(report: &SizeReport) -> Markup {
                 td { (one.member) }
                 td { (one.lowest) " to " (one.highest) @if one.step > 1 { " by " (one.step) } }
                 td { (one.now) }
-                td { (one.found) }
+                td { (one.found) @if one.is_at_limit() { " " small { "limit" } } }
                 td { @if is_money { (dollars(one.one_more_is_worth_at_most)) }
-                     @else { (signed(one.one_more_is_worth_at_most, 1)) } }
+                     @else { (signed(one.one_more_is_worth_at_most, 1)) " passengers" } }
             } } }
         } }
     }
@@ -72,16 +72,16 @@ fn designs(report: &SizeReport) -> Markup {
             thead { tr {
                 th scope="col" { "design" }
                 @for one in &report.dimensions { th scope="col" { (one.member) } }
-                th scope="col" { "aircraft" } th scope="col" { "stands" } th scope="col" { "fixed cost" }
-                th scope="col" { "profit" } th scope="col" { "carried" } th scope="col" { "served" }
-                th scope="col" { "bound" }
+                th scope="col" { "aircraft" } th scope="col" { "stands" } th scope="col" { "fixed cost a day" }
+                th scope="col" { "profit a day" } th scope="col" { "passengers a day" } th scope="col" { "served" }
+                th scope="col" { @if report.goal == "profit" { "bound of profit" } @else { "bound of passengers" } }
             } }
             tbody {
                 @for (number, design) in report.designs.iter().enumerate() {
                     tr.best[number == report.best] { (row(report, &name(report, number), design)) }
                 }
                 tr { (row(report, &format!("{}, further days", report.name_of_start()), &report.now_again)) }
-                tr { (row(report, "found, further days", &report.best_again)) }
+                tr { (row(report, &format!("{}, further days", report.name_of_best()), &report.best_again)) }
             }
         } }
     }
@@ -89,7 +89,7 @@ fn designs(report: &SizeReport) -> Markup {
 
 fn name(report: &SizeReport, number: usize) -> String {
     match number {
-        _ if number == report.best => format!("{number}, found"),
+        _ if number == report.best => format!("{number}, {}", report.name_of_best()),
         _ if number == report.now => format!("{number}, {}", report.name_of_start()),
         _ => number.to_string(),
     }

@@ -276,6 +276,13 @@ fn whole(number: f64) -> Option<u32> {
 
 /// The dimensions that a path names; each has the number of the file alone.
 fn dimensions_of(network: &Network, path: &str) -> Result<Vec<Dimension>, Error> {
+    let is_counted = path.starts_with("fleet.") || path.starts_with("vertiports.");
+    if !is_counted {
+        return Err(Error::Asked {
+            rule: format!("{path:?} cannot vary in a search for a design"),
+            hint: "only numbers of aircraft, stands and chargers can; give it one value, or vary it with `vertifleet sweep`",
+        });
+    }
     let members = network.members(path)?;
     members.into_iter().map(|(path, value)| dimension(network, path, &value)).collect()
 }

@@ -37,6 +37,8 @@ pub struct SizeReport {
     pub split: &'static str,
     /// Days of each design.
     pub days: u32,
+    /// The most designs that the search may play.
+    pub most_designs: usize,
     /// The length of the slices of the bounds in seconds.
     pub bound_step_s: u32,
     /// Passengers a day who want to fly.
@@ -172,6 +174,7 @@ impl SizeReport {
             first_day: sizing.drawn.first,
             split: sizing.drawn.purpose.name(),
             days: sizing.drawn.days,
+            most_designs: sizing.designs,
             bound_step_s: sizing.bound_step.seconds(),
             wanted_passengers: designs[0].passengers + designs[0].spilled_passengers,
             needed_passengers: matches!(sizing.goal, Goal::Served(_)).then_some(aim.need),
@@ -205,9 +208,21 @@ impl SizeReport {
         if is_it { "as it is" } else { "nearest to now" }
     }
 
+    /// What the design is called that was found.
+    pub fn name_of_best(&self) -> &'static str {
+        if self.goal_is_reached { "found" } else { "carries most" }
+    }
+
     /// The numbers as JSON.
     pub(super) fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("plain data")
+    }
+}
+
+impl DimensionSummary {
+    /// Whether what was found is the highest number that was searched, and one more might be better.
+    pub fn is_at_limit(&self) -> bool {
+        self.found == self.highest && self.one_more_is_worth_at_most > 0.0
     }
 }
 

@@ -25,7 +25,7 @@ fn dimensions(report: &SizeReport) -> Vec<Vec<String>> {
             one.member.clone(),
             format!("{} to {}{step}", one.lowest, one.highest),
             one.now.to_string(),
-            one.found.to_string(),
+            one.found.to_string() + if one.is_at_limit() { " (limit)" } else { "" },
             signed(one.one_more_is_worth_at_most, usize::from(unit != "$")),
         ]);
     }
@@ -33,7 +33,15 @@ fn dimensions(report: &SizeReport) -> Vec<Vec<String>> {
 }
 
 fn designs(report: &SizeReport) -> Vec<Vec<String>> {
-    let head = ["", "aircraft", "stands", "fixed cost, $", "profit, $ a day", "carried", "served"];
+    let head = [
+        "",
+        "aircraft",
+        "stands",
+        "fixed cost, $ a day",
+        "profit, $ a day",
+        "passengers a day",
+        "served",
+    ];
     let row = |name: &str, design: &DesignSummary| {
         vec![
             name.to_owned(),
@@ -45,12 +53,12 @@ fn designs(report: &SizeReport) -> Vec<Vec<String>> {
             format!("{:.1} %", 100.0 * design.served_share),
         ]
     };
-    let start = report.name_of_start();
+    let (start, found) = (report.name_of_start(), report.name_of_best());
     vec![
         head.map(str::to_owned).to_vec(),
         row(start, report.as_it_is()),
-        row("found", report.found()),
+        row(found, report.found()),
         row(&format!("{start}, further days"), &report.now_again),
-        row("found, further days", &report.best_again),
+        row(&format!("{found}, further days"), &report.best_again),
     ]
 }
