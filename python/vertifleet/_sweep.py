@@ -164,21 +164,7 @@ def sweep(
     )
     request.check(variation for _, variation in points)
     comparisons = [request.compare(variation, threads) for _, variation in points]
-    return Sweep(
-        network.name,
-        request.policies,
-        together(points, comparisons),
-        varied=network,
-        command=command("vertifleet.sweep", network, changes, request),
-    )
-
-
-def command(
-    function: str, network: Network, changes: Mapping[str, Iterable[Any]], request: ComparisonRequest
-) -> str:
-    """The call as it would be typed, for the report."""
-    varied = ", ".join(f"{path!r}: [...]" for path in changes)
-    return f"{function}({network.name!r}, {{{varied}}}, {list(request.policies)!r}, {request.days.text})"
+    return together("vertifleet.sweep", network, request, points, comparisons)
 
 
 def variations(
@@ -191,10 +177,20 @@ def variations(
 
 
 def together(
-    points: Sequence[tuple[dict[str, Any], Network]], comparisons: Sequence[Comparison]
-) -> tuple[tuple[dict[str, Any], Comparison], ...]:
-    """What was changed at each point, with the comparison on that network."""
-    return tuple((changes, found) for (changes, _), found in zip(points, comparisons, strict=True))
+    function: str,
+    network: Network,
+    request: ComparisonRequest,
+    points: Sequence[tuple[dict[str, Any], Network]],
+    comparisons: Sequence[Comparison],
+) -> Sweep:
+    """The sweep of these points, with the comparison on the network of each.
+
+    `function` is what was called.
+    """
+    found = tuple((changes, one) for (changes, _), one in zip(points, comparisons, strict=True))
+    varied = ", ".join(f"{path!r}: [...]" for path in points[0][0])
+    call = f"{function}({network.name!r}, {{{varied}}}, {list(request.policies)!r}, {request.days.text})"
+    return Sweep(network.name, request.policies, found, varied=network, command=call)
 
 
 def _values(path: str, values: Iterable[Any]) -> list[Any]:

@@ -5,12 +5,14 @@
 //! whole; it is cut off when the journal is opened again.
 
 use std::fs::{self, File, OpenOptions};
+use std::hash::Hasher;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use siphasher::sip128::{Hasher128, SipHasher13};
 use vertifleet_core::write_atomically;
 
 use crate::error::Error;
@@ -23,6 +25,13 @@ pub(crate) struct Head {
     pub(crate) format: String,
     /// The fingerprint of the study.
     pub(crate) study: String,
+}
+
+/// The fingerprint of a study: a number that changes when anything changes that `depends_on` names.
+pub(crate) fn fingerprint(depends_on: &serde_json::Value) -> String {
+    let mut hasher = SipHasher13::new();
+    hasher.write(depends_on.to_string().as_bytes());
+    format!("{:032x}", hasher.finish128().as_u128())
 }
 
 /// A journal that is being written.

@@ -19,11 +19,9 @@ mod summary;
 mod table;
 
 use std::fs;
-use std::hash::Hasher;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use siphasher::sip128::{Hasher128, SipHasher13};
 use vertifleet_core::{
     FolderKind, Matrix, Network, Scenario, Stop, check_folder, write_atomically,
 };
@@ -33,7 +31,7 @@ use crate::comparison::DrawnDays;
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
 use crate::figure;
-use crate::journal::{Head, Journal};
+use crate::journal::{Head, Journal, fingerprint};
 use crate::report::{File, Records, is_figure, pictures};
 use crate::sweep::Factor;
 
@@ -96,7 +94,7 @@ impl Sizing {
     /// has an aircraft and a stand for it, if there is no such policy, or if it cannot play the days.
     pub fn new(request: SizeRequest<'_>) -> Result<Self, Error> {
         let SizeRequest { network, factors, goal, selection, drawn, bound_step, designs } = request;
-        let again = DrawnDays { first: drawn.first + u64::from(drawn.days), ..drawn };
+        let again = DrawnDays { first: drawn.first.saturating_add(u64::from(drawn.days)), ..drawn };
         again.check()?;
         let competitors = selection.resolve(network.name())?;
         let policies = competitors.len();
@@ -151,9 +149,7 @@ impl Sizing {
             "bound_step_s": self.bound_step.seconds(),
             "designs": self.designs,
         });
-        let mut hasher = SipHasher13::new();
-        hasher.write(text.to_string().as_bytes());
-        format!("{:032x}", hasher.finish128().as_u128())
+        fingerprint(&text)
     }
 
     /// Checks, before anything is played, that the search may be kept in this folder: there is none, it is empty, or it holds
@@ -185,8 +181,7 @@ impl Sizing {
         let head = Head { format: journal::FORMAT.to_owned(), study: self.fingerprint.clone() };
         let (journal, parts) = Journal::open(&folder.join(JOURNAL), &head, force, |_| true)?;
         let mut solver = KnownDesigns::new(self, &journal, parts, stop, played);
-        let wanted = self.wanted()?;
-        let aim = self.aim(wanted);
+        let aim = self.aim(stop)?;
         let found = search(&self.space, &aim, self.designs, &mut solver)?;
         let report = SizeReport::of(self, command, &aim, &found, &mut solver)?;
         // A line of its own, whatever the command holds.
@@ -199,26 +194,26 @@ impl Sizing {
     }
 
     /// The mean number of passengers a day who want to fly.
-    fn wanted(&self) -> Result<f64, Error> {
-        let days = self.drawn.draw(&self.space.network, &Stop::default())?;
+    fn wanted(&self, stop: &Stop) -> Result<f64, Error> {
+        let days = self.drawn.draw(&self.space.network, stop)?;
         let cells = days.iter().flat_map(|day| &day.demand).flat_map(Matrix::cells);
         Ok(cells.map(|&passengers| f64::from(passengers)).sum::<f64>() / f64::from(self.drawn.days))
     }
 
     /// What is wanted. Where nothing costs anything, designs are compared by their aircraft, and by their stands where they
     /// have equally many.
-    fn aim(&self, wanted: f64) -> Aim {
-        let need = if let Goal::Served(share) = self.goal { share * wanted } else { 0.0 };
-        let of_size = |one: &space::Dimension| match one.what {
-            space::What::Aircraft(_) => 1.0,
-            space::What::Stands(_) | space::What::Chargers(_) => 1e-3,
+    fn aim(&self, stop: &Stop) -> Result<Aim, Error> {
+        let need = match self.goal {
+            Goal::Served(share) => share * self.wanted(stop)?,
+            Goal::MostProfit | Goal::LeastSpill => 0.0,
         };
+        let of_size = |one: &space::Dimension| if one.is_aircraft() { 1.0 } else { 1e-3 };
         let costs = if self.has_costs() {
             self.space.costs_of_one_usd()
         } else {
             self.space.dimensions.iter().map(of_size).collect()
         };
-        Aim { goal: self.goal, need, costs }
+        Ok(Aim { goal: self.goal, need, costs })
     }
 
     /// Whether anything that varies has a cost.

@@ -19,12 +19,10 @@ mod table;
 mod typed_tables;
 
 use std::fs;
-use std::hash::Hasher;
 use std::path::Path;
 
 use rayon::prelude::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
-use siphasher::sip128::{Hasher128, SipHasher13};
 use vertifleet_core::{
     Coded, FolderKind, Network, OutputKind, Scenario, Stop, check_folder, write_atomically,
 };
@@ -34,7 +32,7 @@ use crate::comparison::DrawnDays;
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
 use crate::figure;
-use crate::journal::{self, Head, Journal};
+use crate::journal::{self, Head, Journal, fingerprint};
 use crate::kept_bounds::KeptBounds;
 use crate::report::{File, Records, is_figure, pictures};
 use crate::run::{BoundedDay, Kept, run};
@@ -186,9 +184,7 @@ impl Sweep {
             "days": [self.drawn.purpose.name(), self.drawn.first, self.drawn.days],
             "bound_step_s": self.bound_step.map(Step::seconds),
         });
-        let mut hasher = SipHasher13::new();
-        hasher.write(text.to_string().as_bytes());
-        format!("{:032x}", hasher.finish128().as_u128())
+        fingerprint(&text)
     }
 
     /// The head of the sweep's journal.

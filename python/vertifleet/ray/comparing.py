@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vertifleet._compare import ComparisonRequest, DrawnDays, network_of
-from vertifleet._sweep import Sweep, command, together, variations
+from vertifleet._sweep import Sweep, together, variations
 from vertifleet.ray.tasks import comparisons
 
 if TYPE_CHECKING:
@@ -98,10 +98,4 @@ def sweep(
         "vertifleet.ray.compare", policies, drawn, models, bound, step, policy_seed
     )
     found = comparisons([variation for _, variation in points], request, drawn, days_per_task)
-    return Sweep(
-        network.name,
-        request.policies,
-        together(points, found),
-        varied=network,
-        command=command("vertifleet.ray.sweep", network, changes, request),
-    )
+    return together("vertifleet.ray.sweep", network, request, points, found)

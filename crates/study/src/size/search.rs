@@ -126,8 +126,7 @@ struct Search<'a, S> {
 impl<'a, S: Solver> Search<'a, S> {
     fn new(space: &'a Space, aim: &'a Aim, budget: usize, solver: &'a mut S) -> Self {
         let all_numbers = space.with_all_numbers();
-        let ceiling =
-            Ceiling::new(all_numbers.dimensions.iter().map(|one| one.steps), space.room());
+        let ceiling = Ceiling::new(all_numbers.largest(), space.room());
         let corrections = vec![0.0; space.dimensions.len()];
         let (played, order) = (BTreeMap::new(), Vec::new());
         Self { space, all_numbers, aim, budget, solver, ceiling, played, order, corrections }
@@ -199,8 +198,7 @@ impl<'a, S: Solver> Search<'a, S> {
             self.bound(&self.space.above(&next))?;
             design = next;
         }
-        let largest = self.space.dimensions.iter().map(|one| one.steps).collect();
-        self.play(&self.possible(self.space, largest))
+        self.play(&self.possible(self.space, self.space.largest()))
     }
 
     /// Plays designs around the best so far, from large steps to single ones.
@@ -270,11 +268,7 @@ impl<'a, S: Solver> Search<'a, S> {
 
     /// How good a design is that was played: its value, or, for [`Goal::Served`], less cost once it carries enough.
     fn rank(&self, design: &Design) -> f64 {
-        let value = self.played[design];
-        match self.aim.goal {
-            Goal::Served(_) if self.aim.reaches(value) => 1e15 - self.cost(design),
-            _ => value,
-        }
+        if self.is_enough(design) { 1e15 - self.cost(design) } else { self.played[design] }
     }
 
     /// The design that is foretold to be best of all, if it is new and foretold to be better than the best so far.
@@ -290,16 +284,14 @@ impl<'a, S: Solver> Search<'a, S> {
         let corrected = more.iter().zip(&here).map(|(more, &above)| more * f64::from(above));
         let constant = self.played[best] - self.ceiling.at(&here) - corrected.sum::<f64>();
         let expected = self.ceiling.corrected(&more, constant);
-        let found = if self.is_enough(best) {
-            self.cheapest(&expected, self.space, self.aim.need)
+        let (found, is_better) = if self.is_enough(best) {
+            let found = self.cheapest(&expected, self.space, self.aim.need);
+            let is_cheaper = self.cost(&found) < self.cost(best);
+            (found, is_cheaper)
         } else {
-            let above = expected.highest(&here)?;
-            self.nearest(&rounded(&above))
-        };
-        let is_better = if self.is_enough(best) {
-            self.cost(&found) < self.cost(best)
-        } else {
-            expected.at(&self.space.above(&found)) > self.played[best]
+            let found = self.nearest(&rounded(&expected.highest(&here)?));
+            let is_higher = expected.at(&self.space.above(&found)) > self.played[best];
+            (found, is_higher)
         };
         (is_better && !self.played.contains_key(&found)).then_some(found)
     }
@@ -340,14 +332,13 @@ impl<'a, S: Solver> Search<'a, S> {
 
     /// The design that may be played and is nearest to a bounded one.
     fn nearest(&self, above: &Design) -> Design {
-        let steps = above.iter().zip(&self.space.dimensions);
-        let nearest = steps.map(|(&above, one)| ((above + one.step / 2) / one.step).min(one.steps));
-        self.possible(self.space, nearest.collect())
+        let numbers = above.iter().zip(&self.space.dimensions);
+        let nearest = numbers.map(|(&above, one)| one.nearest(one.low + above)).collect();
+        self.possible(self.space, nearest)
     }
 
     /// The cheapest possible design of a space at which a ceiling reaches `need`, or the largest design if none does.
     fn cheapest(&self, ceiling: &Ceiling, space: &Space, need: f64) -> Design {
-        let largest = || space.dimensions.iter().map(|one| one.steps).collect();
         let steps = |above: Vec<f64>| -> Vec<f64> {
             above
                 .iter()
@@ -356,7 +347,7 @@ impl<'a, S: Solver> Search<'a, S> {
                 .collect()
         };
         let found = ceiling.cheapest(&self.aim.costs, need);
-        let found = found.map_or_else(largest, |above| rounded(&steps(above)));
+        let found = found.map_or_else(|| space.largest(), |above| rounded(&steps(above)));
         let mut design = self.possible(space, found);
         // Rounding may have lost some passengers.
         let value = |design: &Design| ceiling.at(&space.above(design));
@@ -377,7 +368,7 @@ impl<'a, S: Solver> Search<'a, S> {
 
     /// The design, with stands for its aircraft and with one aircraft at least.
     fn possible(&self, space: &Space, mut design: Design) -> Design {
-        let is_aircraft = |at: usize| matches!(space.dimensions[at].what, What::Aircraft(_));
+        let is_aircraft = |at: usize| space.dimensions[at].is_aircraft();
         while !space.is_possible(&design) {
             let none = space.counts(&design).aircraft.iter().sum::<u32>() == 0;
             let fewer = (0..design.len()).filter(|&at| !none && is_aircraft(at) && design[at] > 0);
@@ -413,7 +404,7 @@ fn around(space: &Space, design: &Design, reach: u32) -> Vec<Design> {
             if up { (design[at] + reach).min(most) } else { design[at].saturating_sub(reach) };
         (moved[at] != design[at]).then_some(moved)
     };
-    let is_aircraft = |at: usize| matches!(space.dimensions[at].what, What::Aircraft(_));
+    let is_aircraft = |at: usize| space.dimensions[at].is_aircraft();
     let mut found = Vec::new();
     for at in 0..design.len() {
         for up in [true, false] {

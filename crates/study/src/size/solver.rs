@@ -18,6 +18,7 @@ use crate::comparison::DrawnDays;
 use crate::error::Error;
 use crate::journal::Journal;
 use crate::run::{BoundedDay, Kept, run};
+use crate::statistics::mean;
 
 /// The solver of a search, with everything that was found out.
 pub(super) struct KnownDesigns<'a> {
@@ -123,10 +124,11 @@ impl Solver for KnownDesigns<'_> {
         }
         (self.when_played)();
         let days = &self.days[design];
-        let count = days.len() as f64;
+        let average =
+            |number: fn(&DayTotals) -> f64| mean(&days.iter().map(number).collect::<Vec<f64>>());
         Ok(Played {
-            profit_usd: days.iter().map(|day| day.profit_usd).sum::<f64>() / count,
-            carried: days.iter().map(|day| day.passengers as f64).sum::<f64>() / count,
+            profit_usd: average(|day| day.profit_usd),
+            carried: average(|day| day.passengers as f64),
         })
     }
 }

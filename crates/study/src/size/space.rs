@@ -36,13 +36,18 @@ pub(super) enum What {
 }
 
 impl Dimension {
+    /// Whether it counts aircraft, and not places for them.
+    pub(super) fn is_aircraft(&self) -> bool {
+        matches!(self.what, What::Aircraft(_))
+    }
+
     /// The number at some steps above the lowest.
     pub(super) fn number(&self, steps: u32) -> u32 {
         self.low + self.step * steps
     }
 
     /// The steps at which the number is nearest to this one.
-    fn nearest(&self, number: u32) -> u32 {
+    pub(super) fn nearest(&self, number: u32) -> u32 {
         (number.saturating_sub(self.low) + self.step / 2).div_euclid(self.step).min(self.steps)
     }
 }
@@ -138,6 +143,11 @@ impl Space {
         self.dimensions.iter().map(|one| one.nearest(one.now)).collect()
     }
 
+    /// The design with the highest number of everything.
+    pub(super) fn largest(&self) -> Design {
+        self.dimensions.iter().map(|one| one.steps).collect()
+    }
+
     /// How many there are of each thing in a design.
     pub(super) fn counts(&self, design: &[u32]) -> Counts {
         let mut counts = self.fixed.clone();
@@ -187,10 +197,9 @@ impl Space {
 
     /// Whether no design is possible, because the smallest fleet is larger than all stands or the largest one is none.
     fn is_empty(&self) -> bool {
-        let is_aircraft = |one: &Dimension| matches!(one.what, What::Aircraft(_));
         let extreme = |most_aircraft: bool| -> Design {
             let steps =
-                |one: &Dimension| if is_aircraft(one) == most_aircraft { one.steps } else { 0 };
+                |one: &Dimension| if one.is_aircraft() == most_aircraft { one.steps } else { 0 };
             self.dimensions.iter().map(steps).collect()
         };
         let (largest_fleet, most_stands) =
@@ -327,7 +336,7 @@ fn by_itself(network: &Network, goal: Goal) -> Result<Vec<Dimension>, Error> {
         dimensions.extend(dimensions_of(network, &format!("vertiports.{at}.{member}"))?);
     }
     for one in &mut dimensions {
-        one.low = u32::from(!matches!(one.what, What::Aircraft(_)));
+        one.low = u32::from(!one.is_aircraft());
         one.steps = (2 * one.now).saturating_sub(one.low);
     }
     Ok(dimensions)
