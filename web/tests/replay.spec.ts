@@ -169,9 +169,11 @@ test('a report of the program opens from a disk and asks for nothing', async ({ 
   const asked: string[] = []
   page.on('request', (request) => asked.push(request.url()))
   await page.goto(pathToFileURL(days.path('day.html')).href)
-  const profit = page.getByRole('definition').nth(1)
+  await page.getByTitle('Replay').scrollIntoViewIfNeeded()
+  const replay = page.frameLocator('iframe[title=Replay]')
+  const profit = replay.getByRole('definition').nth(1)
   await expect(profit).not.toHaveText('$3,142')
-  await page.getByRole('slider', { name: 'Time of the day' }).focus()
+  await replay.getByRole('slider', { name: 'Time of the day' }).focus()
   await page.keyboard.press('End')
   await expect(profit).toHaveText('$3,142')
   await page.goto(pathToFileURL(days.path('report/report.html')).href)

@@ -40,10 +40,11 @@ export const test = base.extend<Fixtures>({
 
 export { expect }
 
-/** Opens a view of the day that the fleet flies on. */
+/** Opens a view of the day that the fleet flies on, and waits until it is there: a view that is still loading knows no keys. */
 export async function open(page: Page, program: Program, fleet: Fleet, view = 'now'): Promise<void> {
   await page.goto(`${program.console}/#/day/${fleet.day}/${view}`)
   await expect(page.getByText('Live', { exact: true })).toBeVisible()
+  await expect(page.getByRole('heading', { level: 1 })).toBeAttached()
 }
 
 /** The panel in which decisions are taken. */
