@@ -15,7 +15,7 @@ use crate::failure::Failure;
 /// The exit code of a program that Ctrl-C ended, as shells define it: 128 plus the number of the signal.
 const INTERRUPTED: i32 = 130;
 
-/// The stop request of the first Ctrl-C. Only one of the functions of this file may be called, and only once.
+/// The stop request of the first Ctrl-C. Only one of the public functions of this file may be called, and only once.
 pub(crate) fn stop_on_interrupt() -> Result<Stop, Failure> {
     let stop = Stop::default();
     let raised = stop.clone();
@@ -30,8 +30,17 @@ pub(crate) fn stop_on_interrupt() -> Result<Stop, Failure> {
 
 /// Makes the first Ctrl-C end the program from now on.
 pub(crate) fn end_on_interrupt() -> Result<(), Failure> {
-    on_interrupt(|| {
-        eprintln!("\nstopped");
+    end_saying("stopped")
+}
+
+/// The same for a study whose finished parts are on the disk at any time.
+pub(crate) fn end_study_on_interrupt() -> Result<(), Failure> {
+    end_saying("stopped; what is finished is kept, and the same command goes on from there")
+}
+
+fn end_saying(text: &'static str) -> Result<(), Failure> {
+    on_interrupt(move || {
+        eprintln!("\n{text}");
         end();
     })
 }

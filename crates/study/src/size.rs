@@ -109,7 +109,7 @@ impl Sizing {
         if !(2..=MOST_DESIGNS).contains(&designs) {
             return Err(Error::Asked {
                 rule: format!("a search plays 2 to {MOST_DESIGNS} designs, found {designs}"),
-                hint: "ask for more designs or fewer",
+                hint: "the network as it is is one of them, so ask for two at least, and for thousands by `vertifleet sweep`",
             });
         }
         let space = Space::new(network, &factors, goal)?;

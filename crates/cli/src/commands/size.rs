@@ -14,11 +14,11 @@ use vertifleet_study::size::{SizeRequest, Sizing};
 use crate::args::SizeArguments;
 use crate::commands::{command, find_network, reads_models, warn_of_days};
 use crate::failure::Failure;
-use crate::interrupt::end_on_interrupt;
+use crate::interrupt::end_study_on_interrupt;
 use crate::output::print;
 
 pub(crate) fn run(arguments: &SizeArguments) -> Result<ExitCode, Failure> {
-    end_on_interrupt()?;
+    end_study_on_interrupt()?;
     let policies = [arguments.policy.clone()];
     let models = arguments.model.iter().map(|model| (arguments.policy.clone(), model.clone()));
     let models: Vec<_> = models.collect();

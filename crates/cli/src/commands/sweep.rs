@@ -14,11 +14,11 @@ use vertifleet_study::sweep::{Design, Sweep, SweepRequest};
 use crate::args::SweepArguments;
 use crate::commands::{command, find_network, reads_models, warn_of_days};
 use crate::failure::Failure;
-use crate::interrupt::end_on_interrupt;
+use crate::interrupt::end_study_on_interrupt;
 use crate::output::print;
 
 pub(crate) fn run(arguments: &SweepArguments) -> Result<ExitCode, Failure> {
-    end_on_interrupt()?;
+    end_study_on_interrupt()?;
     let (policies, models) = (&arguments.policies, &arguments.models);
     let mut outputs = Outputs::new(arguments.force);
     let network = find_network(&arguments.network, &mut outputs)?;

@@ -25,9 +25,12 @@ impl Goal {
             "least-spill" => Ok(Self::LeastSpill),
             _ => {
                 let share = text.strip_prefix("served=").and_then(|share| share.parse().ok());
-                let share = share.filter(|share| *share > 0.0 && *share <= 1.0);
-                share.map(Self::Served).ok_or_else(|| Error::Asked {
-                    rule: format!("{text:?} is no goal"),
+                let is_share = |share: &f64| *share > 0.0 && *share <= 1.0;
+                share.filter(is_share).map(Self::Served).ok_or_else(|| Error::Asked {
+                    rule: match share.map(|share| share / 100.0).filter(is_share) {
+                        Some(share) => format!("{text:?} is no goal, a share is at most 1: did you mean served={share}?"),
+                        None => format!("{text:?} is no goal"),
+                    },
                     hint: "a goal is profit, served=0.95 or another share up to 1, zero-spill, or least-spill",
                 })
             }
@@ -58,5 +61,7 @@ mod tests {
         for text in ["", "profits", "served", "served=", "served=0", "served=1.01", "served=NaN"] {
             assert!(Goal::parse(text).is_err(), "{text}");
         }
+        let percent = Goal::parse("served=80").expect_err("no share").to_string();
+        assert!(percent.contains("served=0.8?"), "{percent}");
     }
 }

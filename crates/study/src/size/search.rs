@@ -7,7 +7,11 @@
 //! *Then days.* A policy plays the days of single designs: first of the best by the ceiling, then of designs around the best
 //! so far, from large steps to small ones (a pattern search: R. Hooke, T. Jeeves, Journal of the ACM 8, 1961). What a design
 //! will be found to earn is foretold from the slopes of the ceiling. A policy does not make of a further stand what the best
-//! schedule makes of it, so every design that is played corrects the slopes of what it changed (S. Kaczmarz, 1937).
+//! schedule makes of it, so every design that is played corrects the slopes of what it changed (S. Kaczmarz, 1937). What is
+//! played next depends on the goal: `most.rs` looks for the highest value, `enough.rs` for the least cost of enough.
+
+mod enough;
+mod most;
 
 use std::collections::BTreeMap;
 
@@ -18,8 +22,6 @@ use crate::error::Error;
 
 /// The most bounds that the ceiling is made of before days are played.
 const MOST_BOUNDS: usize = 14;
-/// The ceiling is tight enough if it is higher than a bound by this share.
-const TIGHT: f64 = 0.005;
 /// A step in one dimension is worth playing if it is foretold to be worse than the best by no more than this share, because
 /// what is foretold of a policy may be wrong by as much. Steps in two dimensions have to be foretold to be better.
 const WORTH_PLAYING: f64 = 0.05;
@@ -101,7 +103,11 @@ pub(super) fn search(
         Goal::Served(_) => search.play_until_enough(first)?,
         Goal::MostProfit | Goal::LeastSpill => search.play(&first)?,
     }
-    search.play_around()?;
+    if search.is_enough(search.best()) {
+        search.play_along_the_edge()?;
+    } else {
+        search.play_around()?;
+    }
     let best = search.best().clone();
     search.bound(&space.above(&best))?;
     let reaches = aim.reaches(search.played[&best]);
@@ -132,94 +138,12 @@ impl<'a, S: Solver> Search<'a, S> {
         Self { space, all_numbers, aim, budget, solver, ceiling, played, order, corrections }
     }
 
-    /// Bounds designs until the ceiling is hardly higher than the highest bound, and returns the design nearest to that.
-    fn bound_the_highest(&mut self) -> Result<Design, Error> {
-        let mut bounded: BTreeMap<Design, f64> = BTreeMap::new();
-        let mut trial = self.possible(&self.all_numbers, self.space.above(&self.space.start()));
-        let mut center = trial.clone();
-        while bounded.len() < MOST_BOUNDS {
-            let value = self.bound(&trial)?;
-            bounded.insert(trial.clone(), value);
-            if value >= bounded[&center] {
-                center = trial;
-            }
-            let (least, most) = (bounded[&center], self.ceiling.most());
-            if most - least <= TIGHT * most.abs() {
-                break;
-            }
-            // Half of the way up is a design that is not too far away; if it is known, look farther up.
-            let levels = [0.5, 0.8, 0.95].map(|share| least + share * (most - least));
-            let trials = levels.iter().filter_map(|&level| self.ceiling.toward(&center, level));
-            let trials = trials.map(|trial| self.possible(&self.all_numbers, rounded(&trial)));
-            let Some(next) = trials.into_iter().find(|one| !bounded.contains_key(one)) else {
-                break;
-            };
-            trial = next;
-        }
-        Ok(self.nearest(&center))
-    }
-
-    /// Bounds designs until the cheapest one that might carry enough can do so by its own bound, and returns the cheapest
-    /// that may be played.
-    fn bound_the_cheapest(&mut self) -> Result<Design, Error> {
-        let mut trial = self.possible(&self.all_numbers, self.space.above(&self.space.start()));
-        let mut bounded = Vec::new();
-        while bounded.len() < MOST_BOUNDS && !bounded.contains(&trial) {
-            self.bound(&trial)?;
-            bounded.push(trial);
-            trial = self.cheapest(&self.ceiling, &self.all_numbers, self.aim.need);
-        }
-        Ok(self.cheapest(&self.ceiling, self.space, self.aim.need))
-    }
-
     /// Adds the bound of a design to the ceiling, and returns its value.
     fn bound(&mut self, above: &Design) -> Result<f64, Error> {
         let cut = self.solver.bound(above)?;
         let value = cut.at(above);
         self.ceiling.add(cut);
         Ok(value)
-    }
-
-    /// Plays the cheapest designs by the ceiling, each time aiming higher by what the last one lacked, until one carries
-    /// enough or the largest design was played.
-    fn play_until_enough(&mut self, first: Design) -> Result<(), Error> {
-        let (mut design, mut wanted) = (first, self.aim.need);
-        while self.order.len() < self.budget {
-            self.play(&design)?;
-            let lacks = self.aim.need - self.played[&design];
-            if lacks <= 0.0 {
-                return Ok(());
-            }
-            wanted += lacks.max(1e-3 * self.aim.need);
-            let next = self.cheapest(&self.ceiling, self.space, wanted);
-            if self.played.contains_key(&next) || self.ceiling_at(&next) < wanted {
-                break;
-            }
-            self.bound(&self.space.above(&next))?;
-            design = next;
-        }
-        self.play(&self.possible(self.space, self.space.largest()))
-    }
-
-    /// Plays designs around the best so far, from large steps to single ones.
-    fn play_around(&mut self) -> Result<(), Error> {
-        let widest = self.space.dimensions.iter().map(|one| one.steps).max().unwrap_or(0);
-        let mut reach = (widest / 4).max(1);
-        while reach > 0 {
-            let both_ways = 2 * self.space.dimensions.len();
-            let most_in_vain = if reach == 1 { both_ways.max(IN_VAIN) } else { IN_VAIN };
-            let mut in_vain = 0;
-            while in_vain < most_in_vain && self.order.len() < self.budget {
-                let best = self.best().clone();
-                let next = self.leap(&best).or_else(|| self.most_promising(&best, reach));
-                let Some(next) = next else { break };
-                self.play(&next)?;
-                self.correct(&best, &next);
-                in_vain = if *self.best() == best { in_vain + 1 } else { 0 };
-            }
-            reach /= 2;
-        }
-        Ok(())
     }
 
     /// Corrects the slopes of what two designs that were played differ in.
@@ -237,6 +161,17 @@ impl<'a, S: Solver> Search<'a, S> {
         let corrections = self.corrections.iter().zip(changes(from, to));
         let corrected: f64 = corrections.map(|(correction, change)| correction * change).sum();
         self.played[from] + self.ceiling_at(to) - self.ceiling_at(from) + corrected
+    }
+
+    /// The values that designs will be found to have, foretold from one that was played, as a ceiling with other slopes.
+    fn expected(&self, from: &Design) -> Ceiling {
+        let steps = self.space.dimensions.iter().map(|one| f64::from(one.step));
+        let corrections = self.corrections.iter().zip(steps);
+        let more: Vec<f64> = corrections.map(|(correction, step)| correction / step).collect();
+        let here = self.space.above(from);
+        let corrected = more.iter().zip(&here).map(|(more, &above)| more * f64::from(above));
+        let constant = self.played[from] - self.ceiling.at(&here) - corrected.sum::<f64>();
+        self.ceiling.corrected(&more, constant)
     }
 
     fn ceiling_at(&self, design: &Design) -> f64 {
@@ -271,63 +206,9 @@ impl<'a, S: Solver> Search<'a, S> {
         if self.is_enough(design) { 1e15 - self.cost(design) } else { self.played[design] }
     }
 
-    /// The design that is foretold to be best of all, if it is new and foretold to be better than the best so far.
-    fn leap(&self, best: &Design) -> Option<Design> {
-        let steps = self.space.dimensions.iter().map(|one| f64::from(one.step));
-        let more: Vec<f64> = self
-            .corrections
-            .iter()
-            .zip(steps)
-            .map(|(correction, step)| correction / step)
-            .collect();
-        let here = self.space.above(best);
-        let corrected = more.iter().zip(&here).map(|(more, &above)| more * f64::from(above));
-        let constant = self.played[best] - self.ceiling.at(&here) - corrected.sum::<f64>();
-        let expected = self.ceiling.corrected(&more, constant);
-        let (found, is_better) = if self.is_enough(best) {
-            let found = self.cheapest(&expected, self.space, self.aim.need);
-            let is_cheaper = self.cost(&found) < self.cost(best);
-            (found, is_cheaper)
-        } else {
-            let found = self.nearest(&rounded(&expected.highest(&here)?));
-            let is_higher = expected.at(&self.space.above(&found)) > self.played[best];
-            (found, is_higher)
-        };
-        (is_better && !self.played.contains_key(&found)).then_some(found)
-    }
-
     /// Whether the goal is a number of passengers and a design carries as many, so that only its cost matters.
     fn is_enough(&self, design: &Design) -> bool {
         matches!(self.aim.goal, Goal::Served(_)) && self.aim.reaches(self.played[design])
-    }
-
-    /// The design around another that is foretold to be best, if one is worth playing.
-    fn most_promising(&self, best: &Design, reach: u32) -> Option<Design> {
-        let value = self.played[best];
-        let around = around(self.space, best, reach);
-        let doubt = |one: &Design| {
-            let moved = best.iter().zip(one).filter(|(from, to)| from != to).count();
-            if moved == 1 { WORTH_PLAYING } else { 0.0 }
-        };
-        let new = around
-            .into_iter()
-            .filter(|one| self.space.is_possible(one) && !self.played.contains_key(one));
-        let foretold = new.map(|one| (self.foretold(best, &one), one));
-        if self.is_enough(best) {
-            let (need, cost) = (self.aim.need, self.cost(best));
-            let lacks = |value: f64| (need - value).max(0.0);
-            return foretold
-                .filter(|(value, one)| lacks(*value) <= doubt(one) * need && self.cost(one) < cost)
-                .min_by(|one, other| {
-                    let cost = self.cost(&one.1).total_cmp(&self.cost(&other.1));
-                    lacks(one.0).total_cmp(&lacks(other.0)).then(cost)
-                })
-                .map(|(_, one)| one);
-        }
-        foretold
-            .filter(|(foretold, one)| *foretold > value - doubt(one) * value.abs())
-            .max_by(|one, other| one.0.total_cmp(&other.0))
-            .map(|(_, one)| one)
     }
 
     /// The design that may be played and is nearest to a bounded one.
@@ -335,35 +216,6 @@ impl<'a, S: Solver> Search<'a, S> {
         let numbers = above.iter().zip(&self.space.dimensions);
         let nearest = numbers.map(|(&above, one)| one.nearest(one.low + above)).collect();
         self.possible(self.space, nearest)
-    }
-
-    /// The cheapest possible design of a space at which a ceiling reaches `need`, or the largest design if none does.
-    fn cheapest(&self, ceiling: &Ceiling, space: &Space, need: f64) -> Design {
-        let steps = |above: Vec<f64>| -> Vec<f64> {
-            above
-                .iter()
-                .zip(&space.dimensions)
-                .map(|(above, one)| above / f64::from(one.step))
-                .collect()
-        };
-        let found = ceiling.cheapest(&self.aim.costs, need);
-        let found = found.map_or_else(|| space.largest(), |above| rounded(&steps(above)));
-        let mut design = self.possible(space, found);
-        // Rounding may have lost some passengers.
-        let value = |design: &Design| ceiling.at(&space.above(design));
-        while value(&design) < need {
-            let gain = |at: usize| {
-                let mut more = design.clone();
-                more[at] += 1;
-                let cost = self.aim.costs[at] * f64::from(space.dimensions[at].step);
-                (value(&more) - value(&design)) / cost.max(1e-9)
-            };
-            let room = (0..design.len()).filter(|&at| design[at] < space.dimensions[at].steps);
-            let best = room.max_by(|&one, &other| gain(one).total_cmp(&gain(other)));
-            let Some(best) = best else { break };
-            design[best] += 1;
-        }
-        self.possible(space, design)
     }
 
     /// The design, with stands for its aircraft and with one aircraft at least.
@@ -394,9 +246,14 @@ fn changes(from: &Design, to: &Design) -> Vec<f64> {
     from.iter().zip(to).map(|(&from, &to)| f64::from(to) - f64::from(from)).collect()
 }
 
-/// Designs that differ by `reach` steps in one dimension, or in two of which one gives what the other takes or both are an
-/// aircraft and its place.
-fn around(space: &Space, design: &Design, reach: u32) -> Vec<Design> {
+/// Designs that differ by `reach` steps in one dimension, or in two for which `is_pair` says so, from whether both count
+/// aircraft or both places, and whether both go the same way.
+fn around(
+    space: &Space,
+    design: &Design,
+    reach: u32,
+    is_pair: impl Fn(bool, bool) -> bool,
+) -> Vec<Design> {
     let moved = |design: &Design, at: usize, up: bool| {
         let mut moved = design.clone();
         let most = space.dimensions[at].steps;
@@ -405,19 +262,18 @@ fn around(space: &Space, design: &Design, reach: u32) -> Vec<Design> {
         (moved[at] != design[at]).then_some(moved)
     };
     let is_aircraft = |at: usize| space.dimensions[at].is_aircraft();
+    let ways = |at: usize| [(at, true), (at, false)];
     let mut found = Vec::new();
-    for at in 0..design.len() {
-        for up in [true, false] {
-            let Some(one) = moved(design, at, up) else { continue };
-            for other in (0..design.len()).filter(|&other| other != at) {
-                let both_ways = if is_aircraft(at) == is_aircraft(other) { !up } else { up };
-                found.extend(moved(&one, other, both_ways));
-            }
-            found.push(one);
-        }
+    for (at, up) in (0..design.len()).flat_map(ways) {
+        let Some(one) = moved(design, at, up) else { continue };
+        let others = (0..at).flat_map(ways);
+        let pairs = others
+            .filter(|&(other, way)| is_pair(is_aircraft(at) == is_aircraft(other), up == way));
+        found.extend(pairs.filter_map(|(other, way)| moved(&one, other, way)));
+        found.push(one);
     }
+    // Among equals the order decides which is played.
     found.sort_unstable();
-    found.dedup();
     found
 }
 

@@ -292,6 +292,15 @@ fn dimensions_of(network: &Network, path: &str) -> Result<Vec<Dimension>, Error>
             hint: "only numbers of aircraft, stands and chargers can; give it one value, or vary it with `vertifleet sweep`",
         });
     }
+    let has_chargers = network.vertiports().iter().any(|one| one.chargers.is_some());
+    if path.ends_with(".chargers") && !has_chargers {
+        return Err(Error::Asked {
+            rule: format!(
+                "{path:?} cannot vary: aircraft are charged at every stand of this network"
+            ),
+            hint: "vary stands, or write into the network how many chargers its vertiports have",
+        });
+    }
     let members = network.members(path)?;
     members.into_iter().map(|(path, value)| dimension(network, path, &value)).collect()
 }
@@ -390,5 +399,7 @@ mod tests {
         ] {
             assert!(space(&[factor]).is_err(), "{factor}");
         }
+        let none = space(&["vertiports.*.chargers=1..3"]).expect_err("no chargers").to_string();
+        assert!(none.contains("charged at every stand"), "{none}");
     }
 }

@@ -64,10 +64,8 @@ impl Factor {
         let dots = values.split_once("..").filter(|(low, _)| !is_json(low) && !low.contains(','));
         let levels = match dots {
             None => Levels::List(list(values).map_err(asked)?),
-            Some((low, rest)) => {
-                let range = range(low, rest);
-                range.ok_or_else(|| asked(format!("{values:?} is no range with values in it")))?
-            }
+            Some((low, rest)) => range(low, rest)
+                .map_err(|wrong| asked(format!("{values:?} is no range: {wrong}")))?,
         };
         Ok(Self { path: path.to_owned(), levels })
     }
@@ -112,26 +110,35 @@ fn plain(text: &str) -> Result<(Value, &str), String> {
     Ok((serde_json::from_str(value).unwrap_or_else(|_| Value::from(value)), after))
 }
 
-/// The range from `low` on; `rest` is its end, and perhaps a slash and a step.
-fn range(low: &str, rest: &str) -> Option<Levels> {
+/// The range from `low` on; `rest` is its end, and perhaps a slash and a step. The error says what is wrong.
+fn range(low: &str, rest: &str) -> Result<Levels, String> {
     let (high, step) = rest.split_once('/').map_or((rest, None), |(high, step)| (high, Some(step)));
     let whole = [low, high, step.unwrap_or("1")].iter().all(|one| one.parse::<i64>().is_ok());
-    let read = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite());
-    let (low, high) = (read(low)?, read(high)?);
-    let Some(step) = step else {
-        return (low < high).then_some(Levels::Range(low, high, whole));
+    let read = |text: &str| {
+        let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
+        number.ok_or_else(|| format!("{text:?} is no number"))
     };
-    let step = read(step)?;
-    let steps = steps(low, high, step)?;
-    let value = |at: usize| number(step.mul_add(at as f64, low), whole);
-    Some(Levels::List((0..=steps).map(value).collect()))
-}
-
-/// The number of steps from `low` to `high`, if they are not too many. The end counts if it is hit but for rounding.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "just checked")]
-fn steps(low: f64, high: f64, step: f64) -> Option<usize> {
-    let steps = ((high - low) / step + 1e-9).floor();
-    (step > 0.0 && steps >= 0.0 && steps < MOST_CELLS as f64).then_some(steps as usize)
+    let (from, to) = (read(low)?, read(high)?);
+    if from > to {
+        return Err(format!("it goes backwards, from {low} to {high}"));
+    }
+    let Some(step) = step else {
+        let is_one = || format!("both ends are {low}, write that one value");
+        return (from < to).then_some(Levels::Range(from, to, whole)).ok_or_else(is_one);
+    };
+    let by = read(step)?;
+    if by <= 0.0 {
+        return Err(format!("its step must be above 0, found {step}"));
+    }
+    // The end counts if it is hit but for rounding.
+    let steps = ((to - from) / by + 1e-9).floor();
+    if steps >= MOST_CELLS as f64 {
+        return Err(format!("it has more than {MOST_CELLS} values"));
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "just checked")]
+    let steps = steps as usize;
+    let value = |at: usize| number(by.mul_add(at as f64, from), whole);
+    Ok(Levels::List((0..=steps).map(value).collect()))
 }
 
 /// A number as a value of a network file. Twelve digits are kept, so that 0.1 + 0.2 is 0.3.
@@ -226,6 +233,24 @@ mod tests {
 
     fn factor(text: &str) -> Factor {
         Factor::parse(text).unwrap_or_else(|error| panic!("{text}: {error}"))
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_range_is_said() {
+        for (range, wrong) in [
+            ("5..2", "backwards, from 5 to 2"),
+            ("5..2/1", "backwards"),
+            ("a..4", "\"a\" is no number"),
+            ("1..9/x", "\"x\" is no number"),
+            ("1..9/0", "above 0, found 0"),
+            ("1..9/-1", "above 0, found -1"),
+            ("3..3", "write that one value"),
+            ("0..1e300/1", "more than"),
+            ("0..inf", "\"inf\" is no number"),
+        ] {
+            let error = Factor::parse(&format!("fleet.0.count={range}")).expect_err(range);
+            assert!(error.to_string().contains(wrong), "{range}: {error}");
+        }
     }
 
     #[test]
