@@ -64,7 +64,7 @@ impl Comparison {
     /// Warnings about what is allowed but probably not intended, such as shipped weights on a changed copy of their
     /// network.
     #[getter]
-    fn warnings(&self) -> Vec<String> {
+    pub(crate) fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
     }
 
@@ -138,6 +138,11 @@ impl Comparison {
 }
 
 impl Comparison {
+    /// A comparison with these records.
+    pub(crate) fn new(study: ComparisonRecords, warnings: Vec<String>) -> Self {
+        Self { study, warnings }
+    }
+
     /// The records of the comparison.
     pub(crate) fn records(&self) -> &ComparisonRecords {
         &self.study

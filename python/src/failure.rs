@@ -53,7 +53,9 @@ impl<E: Coded> From<E> for Failure {
     fn from(error: E) -> Self {
         // The program's flags are arguments here.
         let hint = error.hint().map(|hint| {
-            hint.replace("--model", "models= (or model=)").replace("by --resume", "by resume=True")
+            hint.replace("--model", "models= (or model=)")
+                .replace("by --resume", "by resume=True")
+                .replace("replace that study with --force", "remove what is there")
         });
         Self { code: error.code(), message: error.to_string(), hint }
     }

@@ -20,6 +20,7 @@ mod failure;
 mod frames;
 mod generalisation;
 mod interruptible;
+mod kept;
 mod layout;
 mod model;
 mod network;
@@ -56,6 +57,8 @@ mod _native {
     use crate::evaluation::{Evaluation, evaluate, find_suite, suite_names, verify};
     #[pymodule_export]
     use crate::generalisation::{Generalisation, generalise};
+    #[pymodule_export]
+    use crate::kept::KeptParts;
     #[pymodule_export]
     use crate::layout::Layout;
     #[pymodule_export]

@@ -1,6 +1,9 @@
 """Sweeps: every combination is a comparison of its own, and columns and table have its results."""
 
 import json
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -143,3 +146,87 @@ def test_the_report_is_that_of_the_program(swept, tmp_path):
     (tmp_path / "other" / "letter.txt").write_text("mine")
     with pytest.raises(vertifleet.Error, match="V143"):
         swept.report(tmp_path / "other")
+
+
+def assert_same(found, expected):
+    assert [changes for changes, _ in found.points] == [changes for changes, _ in expected.points]
+    for (_, comparison), (_, same) in zip(found.points, expected.points, strict=True):
+        for name, column in same.columns.items():
+            np.testing.assert_array_equal(comparison.columns[name], column, name)
+    assert str(found) == str(expected)
+
+
+def test_a_sweep_goes_on_where_an_error_ended_it(paper, tmp_path):
+    network, changes = paper, {"fleet.0.count": [36, 38, 40, 42]}
+    decided, fails_at = [], 0
+
+    def first(view):
+        decided.append(None)
+        if len(decided) == fails_at:
+            raise RuntimeError("out of luck")
+        return int(np.flatnonzero(view["action_mask"])[0])
+
+    request = {"changes": changes, "policies": ["first"], "days": 1, "models": {"first": first}}
+    expected = vertifleet.sweep(network, **request)
+    each = len(decided) // 4
+    decided, fails_at = [], 2 * each + 9
+    journal = tmp_path / "sweep.jsonl"
+    with pytest.raises(RuntimeError, match="out of luck"):
+        vertifleet.sweep(network, **request, journal=journal, threads=1)
+    decided, fails_at = [], 0
+    found = vertifleet.sweep(network, **request, journal=journal)
+    assert each < len(decided) < 3 * each, "only what was missing is played"
+    assert_same(found, expected)
+    decided = []
+    assert_same(vertifleet.sweep(network, **request, journal=journal), expected)
+    assert not decided
+
+
+def test_a_sweep_that_is_killed_again_and_again_comes_to_its_end(paper, tmp_path):
+    journal = tmp_path / "sweep.jsonl"
+    changes = {"fleet.0.count": list(range(31, 41))}
+    program = (
+        "import vertifleet\n"
+        f"vertifleet.sweep('paper', {changes}, ['prices'], days=4, journal={str(journal)!r}, threads=1)\n"
+    )
+    lines = 0
+    for _ in range(5):
+        process = subprocess.Popen([sys.executable, "-c", program])
+        while process.poll() is None and len(_lines(journal)) < lines + 2:
+            time.sleep(0.002)
+        process.kill()
+        process.wait()
+        lines = len(_lines(journal))
+    # What a killed process was writing is cut off.
+    with journal.open("a") as file:
+        file.write('{"point":3,"warnings":[],"rec')
+    found = vertifleet.sweep(paper, changes, ["prices"], days=4, journal=journal)
+    assert_same(found, vertifleet.sweep(paper, changes, ["prices"], days=4))
+    assert len(_lines(journal)) == 11, "a head, and each point once"
+
+
+def _lines(path):
+    return path.read_text().splitlines() if path.exists() else []
+
+
+def test_a_journal_belongs_to_one_sweep(paper, tmp_path):
+    journal = tmp_path / "sweep.jsonl"
+    request = {"changes": {"fleet.0.count": [40]}, "policies": ["greedy"], "days": 2, "seed": 1}
+    vertifleet.sweep(paper, **request, journal=journal)
+    others = [
+        {"changes": {"fleet.0.count": [41]}},
+        {"policies": ["prices"]},
+        {"days": 3},
+        {"seed": 2},
+        {"split": "validation"},
+        {"bound": True},
+        {"policy_seed": 7},
+    ]
+    for other in others:
+        with pytest.raises(vertifleet.Error) as refused:
+            vertifleet.sweep(paper, **(request | other), journal=journal)
+        assert refused.value.code == "V414", other
+    assert "remove" in refused.value.hint
+    with pytest.raises(vertifleet.Error) as refused:
+        vertifleet.sweep(paper, **request, journal=tmp_path / "nowhere" / "sweep.jsonl")
+    assert refused.value.code == "V102"

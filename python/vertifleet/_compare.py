@@ -203,7 +203,7 @@ class ComparisonRequest:
         """The call as it would be typed, for the report."""
         said = [f"{list(self.policies)!r}", self.days.text]
         if self.models:
-            models = ", ".join(f"{name!r}: {_name(given)}" for name, given in self.models.items())
+            models = ", ".join(f"{name!r}: {name_of(given)}" for name, given in self.models.items())
             said.append(f"models={{{models}}}")
         if self.bound:
             said += ["bound=True", f"step={self.step}"]
@@ -213,7 +213,7 @@ class ComparisonRequest:
         return f"{self.function}({source}, {', '.join(said)})"
 
 
-def _name(given: PolicySource) -> str:
+def name_of(given: PolicySource) -> str:
     """The name of a function, or the text of another source. A function's `repr` changes with every run."""
     return getattr(given, "__qualname__", None) or repr(given)
 

@@ -23,6 +23,7 @@ __all__ = [
     "Environment",
     "Evaluation",
     "Generalisation",
+    "KeptParts",
     "Layout",
     "Model",
     "Network",
@@ -841,6 +842,18 @@ def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]:
     """Reads the scenario files for a comparison, and returns the days and a text that says where they came
     from. A folder stands for all files in it whose names end in `.json`.
     """
+
+@final
+class KeptParts:
+    """A file that finished comparisons are added to."""
+    @staticmethod
+    def open(path: _Path, depends_on: str) -> tuple[KeptParts, list[tuple[int, int, int, Comparison]]]:
+        """Opens the file at `path`, or begins it, and returns it with the parts that it holds: the number
+        of the network, the seed of the first day, the number of days, and the comparison. `depends_on`
+        is JSON that names everything that the results depend on.
+        """
+    def add(self, point: int, comparison: Comparison) -> None:
+        """Adds a comparison on the days of a network. It is on the disk when this returns."""
 
 def sweep_report(
     network: Network,

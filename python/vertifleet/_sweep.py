@@ -15,6 +15,7 @@ import numpy as np
 from vertifleet import _native
 from vertifleet._compare import ComparisonRequest, DrawnDays, Split, network_of
 from vertifleet._errors import Error
+from vertifleet._kept import Parts
 
 if TYPE_CHECKING:
     import os
@@ -131,6 +132,7 @@ def sweep(
     step: SupportsIndex = 5,
     policy_seed: SupportsIndex | None = None,
     threads: int | None = None,
+    journal: str | os.PathLike[str] | None = None,
 ) -> Sweep:
     """Compares policies on variations of a network, all on days of the same seeds.
 
@@ -152,19 +154,25 @@ def sweep(
         step: length of the bound's slices in minutes.
         policy_seed: seed of the random policy and of the planner's search.
         threads: most threads to use; all cores by default.
+        journal: a file in which every finished point is kept. The same call with the same file goes on where
+            an earlier one ended, even if that was killed. A function of `models` is known to it by its name
+            alone.
 
     Raises:
-        Error: V123 if a path leads nowhere, V451 if `changes` are not lists of values; the error of a network
-            file with the change, before any day is played; and those of :func:`compare`.
+        Error: V123 if a path leads nowhere, V451 if `changes` are not lists of values; V414 if the journal
+            is of another sweep; the error of a network file with the change, before any day is played; and
+            those of :func:`compare`.
     """
     network = network_of(network)
     points = variations(network, changes)
-    request = ComparisonRequest.of(
-        "vertifleet.compare", policies, DrawnDays.of(days, seed, split), models, bound, step, policy_seed
-    )
+    drawn = DrawnDays.of(days, seed, split)
+    request = ComparisonRequest.of("vertifleet.compare", policies, drawn, models, bound, step, policy_seed)
     request.check(variation for _, variation in points)
-    comparisons = [request.compare(variation, threads) for _, variation in points]
-    return together("vertifleet.sweep", network, request, points, comparisons)
+    parts = Parts.open(journal, network, [changes for changes, _ in points], request, drawn)
+    for point, (_, variation) in enumerate(points):
+        for missing in parts.missing(point, drawn.days):
+            parts.add(point, missing, request.compare(variation, threads, missing))
+    return together("vertifleet.sweep", network, request, points, parts)
 
 
 def variations(
@@ -181,13 +189,13 @@ def together(
     network: Network,
     request: ComparisonRequest,
     points: Sequence[tuple[dict[str, Any], Network]],
-    comparisons: Sequence[Comparison],
+    parts: Parts,
 ) -> Sweep:
-    """The sweep of these points, with the comparison on the network of each.
+    """The sweep of these points, whose comparisons consist of these parts.
 
     `function` is what was called.
     """
-    found = tuple((changes, one) for (changes, _), one in zip(points, comparisons, strict=True))
+    found = tuple((changes, parts.joined(point)) for point, (changes, _) in enumerate(points))
     varied = ", ".join(f"{path!r}: [...]" for path in points[0][0])
     call = f"{function}({network.name!r}, {{{varied}}}, {list(request.policies)!r}, {request.days.text})"
     return Sweep(network.name, request.policies, found, varied=network, command=call)

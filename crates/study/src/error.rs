@@ -155,8 +155,8 @@ pub enum Error {
         rule: String,
     },
 
-    /// V414. The folder holds another study: with other settings, days, policies, weights or another version of the
-    /// program. Fix: name another folder, or replace the study with `--force`.
+    /// V414. The folder, or the journal of a sweep in Python, holds another study: with other settings, days, policies, weights
+    /// or another version of the program. Fix: name another one, or replace the study with `--force`.
     #[error("{}: belongs to another study", path.display())]
     OtherStudy {
         /// The journal of the other study.
@@ -254,9 +254,7 @@ impl Coded for Error {
             Self::NotAResult { .. } => {
                 Some("results are written by `vertifleet evaluate --results`")
             }
-            Self::OtherStudy { .. } => {
-                Some("name another folder, or replace that study with --force")
-            }
+            Self::OtherStudy { .. } => Some("name another one, or replace that study with --force"),
             Self::NotFinite { .. } | Self::Stopped => None,
         }
     }

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vertifleet._compare import ComparisonRequest, DrawnDays, network_of
+from vertifleet._kept import Parts
 from vertifleet._sweep import Sweep, together, variations
-from vertifleet.ray.tasks import comparisons
+from vertifleet.ray.tasks import play_missing
 
 if TYPE_CHECKING:
     import os
@@ -57,7 +58,9 @@ def compare(
     request = ComparisonRequest.of(
         "vertifleet.ray.compare", policies, drawn, models, bound, step, policy_seed
     )
-    return comparisons([network], request, drawn, days_per_task)[0]
+    parts = Parts(drawn)
+    play_missing([network], request, parts, days_per_task)
+    return parts.joined(0)
 
 
 def sweep(
@@ -72,6 +75,7 @@ def sweep(
     step: SupportsIndex = 5,
     policy_seed: SupportsIndex | None = None,
     days_per_task: int | None = None,
+    journal: str | os.PathLike[str] | None = None,
 ) -> Sweep:
     """Does the same as :func:`vertifleet.sweep`, with the days of all points on all CPUs of a Ray cluster.
 
@@ -88,6 +92,8 @@ def sweep(
         step: length of the bound's slices in minutes.
         policy_seed: seed of the random policy and of the planner's search.
         days_per_task: number of consecutive days of a point that one task plays.
+        journal: a file on this machine in which the days of every finished task are kept, as in
+            :func:`vertifleet.sweep`. It may be a file that a sweep without Ray has begun.
 
     Raises:
         Error: as :func:`vertifleet.sweep`; V409 if a node has another version of the package.
@@ -97,5 +103,6 @@ def sweep(
     request = ComparisonRequest.of(
         "vertifleet.ray.compare", policies, drawn, models, bound, step, policy_seed
     )
-    found = comparisons([variation for _, variation in points], request, drawn, days_per_task)
-    return together("vertifleet.ray.sweep", network, request, points, found)
+    parts = Parts.open(journal, network, [changes for changes, _ in points], request, drawn)
+    play_missing([variation for _, variation in points], request, parts, days_per_task)
+    return together("vertifleet.ray.sweep", network, request, points, parts)

@@ -20,17 +20,19 @@ from vertifleet._compare import DrawnDays
 from vertifleet.ray.progress import Progress
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
     from typing import TypeAlias
 
     from ray import ObjectRef
 
     from vertifleet import Network
     from vertifleet._compare import ComparisonRequest, PolicySource
+    from vertifleet._kept import Parts
 
-    Task: TypeAlias = ObjectRef[Comparison]
-    Part: TypeAlias = tuple[ObjectRef[Network], int, int]
-    """A network, a number of days, and the seed of the first."""
+    Flying: TypeAlias = ObjectRef[Comparison]
+    """A task that has been sent off."""
+    Task: TypeAlias = tuple[int, DrawnDays]
+    """The number of a network, and days of it."""
 
 TASKS_PER_CPU = 16
 """Many tasks per CPU keep the wait for the last one short, and lose little when a node dies."""
@@ -60,57 +62,49 @@ def play(request: ComparisonRequest, here: str, network: Network, days: int, see
     return request.compare(network, 1, DrawnDays(days, seed))
 
 
-def comparisons(
-    networks: Sequence[Network], request: ComparisonRequest, drawn: DrawnDays, days_per_task: int | None
-) -> list[Comparison]:
-    """Runs a comparison on `drawn` days of each of the networks."""
+def play_missing(
+    networks: Sequence[Network], request: ComparisonRequest, parts: Parts, days_per_task: int | None
+) -> None:
+    """Plays the days of each of the networks that `parts` does not have yet, and adds them to it.
+
+    After an error or Ctrl-C, no task is begun. Tasks in flight then run to their end in the background:
+    `ray.cancel` of a task that ends at the same time can crash this whole process (seen with Ray 2.60, "Tried
+    to complete task that was not pending").
+    """
     if days_per_task is not None and days_per_task < 1:
         raise Error("V451", f"days_per_task must be at least 1, found {days_per_task}")
     request = without_files(request)
     request.check(networks, stacklevel=4)
     if not ray.is_initialized():
         ray.init()
-    most = days_per_task or _days_per_task(drawn.days * len(networks))
-    parts = [
-        (here, number, drawn.seed + first)
-        for here in map(ray.put, networks)
-        for first, number in _parts(drawn.days, most)
-    ]
-    found = _play(ray.put(request), parts)
-    each = len(found) // len(networks)
-    return [Comparison.join(found[at : at + each]) for at in range(0, len(found), each)]
-
-
-def _days_per_task(days: int) -> int:
-    return max(math.ceil(days / (TASKS_PER_CPU * _cpus())), 1)
-
-
-def _parts(days: int, most: int) -> Iterator[tuple[int, int]]:
-    """The first day and the number of days of each part."""
-    return ((first, min(most, days - first)) for first in range(0, days, most))
-
-
-def _play(request: ObjectRef[ComparisonRequest], parts: Sequence[Part]) -> list[Comparison]:
-    """Plays the parts and returns their comparisons in order. After an error or Ctrl-C, no part is begun.
-
-    Tasks in flight then run to their end in the background: `ray.cancel` of a task that ends at the same time
-    can crash this whole process (seen with Ray 2.60, "Tried to complete task that was not pending").
-    """
-    found: dict[int, Comparison] = {}
-    playing: dict[Task, int] = {}
-    days_played = 0
-    with Progress(sum(days for _, days, _ in parts)) as progress:
-        while len(found) < len(parts):
-            begun = len(found) + len(playing)
-            for part in range(begun, min(begun + _room(len(playing)), len(parts))):
-                playing[play.remote(request, version("vertifleet"), *parts[part])] = part
+    tasks = _tasks(networks, parts, days_per_task)
+    here, shared, sent = version("vertifleet"), list(map(ray.put, networks)), ray.put(request)
+    playing: dict[Flying, Task] = {}
+    begun = days_played = 0
+    with Progress(sum(days.days for _, days in tasks)) as progress:
+        while begun < len(tasks) or playing:
+            for point, days in tasks[begun : begun + _room(len(playing))]:
+                flying = play.remote(sent, here, shared[point], days.days, days.seed)
+                playing[flying] = point, days
+                begun += 1
             done, _ = ray.wait(list(playing), timeout=GLANCE_S)
-            for task in done:
-                part = playing.pop(task)
-                found[part] = _result(task)
-                days_played += parts[part][1]
+            for flying in done:
+                point, days = playing.pop(flying)
+                parts.add(point, days, _result(flying))
+                days_played += days.days
             progress.show(days_played)
-    return [found[part] for part in range(len(parts))]
+
+
+def _tasks(networks: Sequence[Network], parts: Parts, days_per_task: int | None) -> list[Task]:
+    """What is missing, in tasks; by default there are so many of them that every CPU gets TASKS_PER_CPU."""
+
+    def tasks(most: int) -> list[Task]:
+        return [(point, days) for point in range(len(networks)) for days in parts.missing(point, most)]
+
+    if days_per_task is None:
+        missing = sum(days.days for _, days in tasks(parts.days_each))
+        days_per_task = max(math.ceil(missing / (TASKS_PER_CPU * _cpus())), 1)
+    return tasks(days_per_task)
 
 
 def _room(playing: int) -> int:
@@ -123,9 +117,9 @@ def _cpus() -> int:
     return max(int(resources.get("CPU", 1)), 1)
 
 
-def _result(task: Task) -> Comparison:
+def _result(flying: Flying) -> Comparison:
     try:
-        return ray.get(task)
+        return ray.get(flying)
     except RayTaskError as failed:
         if isinstance(failed.cause, Error):
             raise failed.cause from None
