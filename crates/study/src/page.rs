@@ -37,9 +37,13 @@ fn style() -> String {
     )
 }
 
-/// The page of a replay in a frame of its own, which keeps its style and its scripts apart from the page.
+/// The page of a replay in a frame of its own, which keeps its style and its scripts apart from the page. An address that
+/// leads to a moment of the replay leads to the frame, which is loaded when it is looked at.
 pub(crate) fn replay_frame(page: &str) -> Markup {
-    html! { iframe.replay title="Replay" loading="lazy" srcdoc=(page) {} }
+    html! {
+        iframe.replay title="Replay" loading="lazy" srcdoc=(page) {}
+        script { (PreEscaped("if (/[#&]at=/.test(location.hash)) document.querySelector('iframe.replay').scrollIntoView()")) }
+    }
 }
 
 /// A mean with its interval.

@@ -1,6 +1,7 @@
 // What a day has earned by when, and how many wanted to fly and flew, period by period: the curves above a scrubber.
 
 import { at, countUpTo } from './arrays'
+import { Boarding } from './boarding'
 import type { DayRecord, Seconds } from './record'
 import { isHold } from './record'
 
@@ -78,16 +79,16 @@ export interface PeriodSums {
   carried: number
 }
 
-/** Demand by period, up to the end of operations. */
+/** Demand by period, up to the end of operations. Passengers count in the period in which they wanted to fly. */
 export function demandByPeriod(record: DayRecord): PeriodSums[] {
   const sums = record.periods.map((begins, index): PeriodSums => {
     const table = record.demand?.passengers[index] ?? []
     const wanted = table.flat().reduce((sum, passengers) => sum + passengers, 0)
     return { begins, ends: record.periods[index + 1] ?? record.end, wanted, carried: 0 }
   })
+  const boarding = new Boarding(record)
   for (const leg of record.legs) {
-    const period = sums[countUpTo(record.periods, leg.decided) - 1]
-    if (period !== undefined) period.carried += leg.passengers
+    for (const { period, passengers } of boarding.board(leg)) at(sums, period).carried += passengers
   }
   return sums.filter((one) => one.ends > one.begins)
 }

@@ -31,6 +31,7 @@ export function frameOf(scenario: Scenario): Omit<DayRecord, 'legs' | 'closures'
     end: timeOf(scenario.operations.end),
     takeoff_s: scenario.operations.takeoff_s,
     landing_s: scenario.operations.landing_s,
+    passenger_wait_s: scenario.operations.passenger_wait_s ?? 0,
     vertiports: scenario.vertiports.map(vertiportOf),
     aircraft: scenario.aircraft.map((one) => aircraftOf(scenario, one, known(vertiports, one.at))),
     periods: scenario.periods.map(timeOf),

@@ -13,6 +13,8 @@ export interface DayRecord {
   /** How long every flight spends on take-off and on landing, beside its way. */
   takeoff_s: number
   landing_s: number
+  /** How long passengers who were not carried in their period wait into the next one. */
+  passenger_wait_s: Seconds
   vertiports: VertiportRecord[]
   aircraft: AircraftRecord[]
   /** Every flight and hold, by the time of its decision. */

@@ -7,7 +7,14 @@ export type Table = number[][]
 export interface Scenario {
   format: string
   name: string
-  operations: { start: string; end: string; takeoff_s: number; landing_s: number; hold_s: number }
+  operations: {
+    start: string
+    end: string
+    takeoff_s: number
+    landing_s: number
+    hold_s: number
+    passenger_wait_s?: number
+  }
   vertiports: ScenarioVertiport[]
   aircraft_types: ScenarioAircraftType[]
   aircraft: { id: string; type: string; at: string }[]

@@ -1,4 +1,6 @@
-import { expect, it } from 'vitest'
+import { describe, expect, it } from 'vitest'
+import { at } from './arrays'
+import { demandByPeriod } from './earnings'
 import { prices } from './fixtures/tiny'
 import { timeOf } from './time'
 import { Waiting } from './waiting'
@@ -39,4 +41,40 @@ it('going back gives the same as going on', () => {
 it('gives the same list while nothing changes', () => {
   const waiting = new Waiting(record)
   expect(waiting.pairs(timeOf('07:05:00'))).toBe(waiting.pairs(timeOf('07:06:00')))
+})
+
+describe('passengers who wait into the next period', () => {
+  const leg = (decided: string, passengers: number) => ({
+    ...at(record.legs, 0),
+    ...{ decided: timeOf(decided), from: 0, to: 1, passengers },
+  })
+  const table = (passengers: number) =>
+    record.vertiports.map((_, from) =>
+      record.vertiports.map((_, to) => (from === 0 && to === 1 ? passengers : 0)),
+    )
+  const day = {
+    ...record,
+    periods: [timeOf('07:00:00'), timeOf('08:00:00')],
+    demand: { passengers: [table(5), table(3)] },
+    passenger_wait_s: 1800,
+    legs: [leg('07:10:00', 3), leg('08:05:00', 1), leg('08:10:00', 2)],
+  }
+
+  it('are carried first, until they are gone', () => {
+    const waiting = new Waiting(day)
+    expect(waitingFor(waiting, timeOf('07:59:59'), 0, 1)).toBe(2)
+    expect(waitingFor(waiting, timeOf('08:00:00'), 0, 1)).toBe(5)
+    expect(waitingFor(waiting, timeOf('08:29:59'), 0, 1)).toBe(2)
+    expect(waitingFor(waiting, timeOf('08:05:00'), 0, 1)).toBe(4)
+    const alone = new Waiting({ ...day, legs: day.legs.slice(0, 2) })
+    expect(waitingFor(alone, timeOf('08:29:59'), 0, 1)).toBe(4)
+    expect(waitingFor(alone, timeOf('08:30:00'), 0, 1)).toBe(3)
+  })
+
+  it('count as carried in the period in which they wanted to fly', () => {
+    const carried = demandByPeriod(day).map((one) => one.carried)
+    expect(carried).toEqual([5, 1])
+    const gone = demandByPeriod({ ...day, passenger_wait_s: 60 }).map((one) => one.carried)
+    expect(gone).toEqual([3, 3])
+  })
 })

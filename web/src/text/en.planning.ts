@@ -210,6 +210,8 @@ export const editor = {
     landing_s: 'Landing, s',
     hold_s: 'Hold, s',
     holdHint: 'An aircraft that stays is asked again after this time.',
+    passenger_wait_s: 'Passengers wait, s',
+    waitHint: 'Who is not carried waits so long into the next demand period; empty or 0: not at all.',
     wrong: 'What goes wrong',
     wrongNone: 'Nothing: every day goes as forecast.',
     wrongHint: 'These are changed in the text.',
