@@ -19,6 +19,8 @@ pub struct NetworkOverview {
     pub time_zone: Option<String>,
     /// Start and end of operations.
     pub operations: [String; 2],
+    /// Seconds for which passengers who are not carried wait into the next period.
+    pub passenger_wait_s: u32,
     /// The vertiports.
     pub vertiports: Vec<VertiportOverview>,
     /// The aircraft types with the number of aircraft of each.
@@ -37,6 +39,17 @@ pub struct NetworkOverview {
     pub passengers_a_day: f64,
     /// What is allowed in the network but hardly meant.
     pub warnings: Vec<String>,
+}
+
+/// How long passengers who are not carried wait, if they do.
+pub(crate) fn waits(passenger_wait_s: u32) -> Option<String> {
+    let minutes = grouped(f64::from(passenger_wait_s) / 60.0, 0);
+    let short = || format!("{passenger_wait_s} s into the next period");
+    match passenger_wait_s {
+        0 => None,
+        odd if odd % 60 > 0 => Some(short()),
+        _ => Some(format!("{minutes} min into the next period")),
+    }
 }
 
 /// A vertiport of a network.
@@ -109,6 +122,7 @@ impl NetworkOverview {
             name: network.name().to_owned(),
             time_zone: network.time_zone().map(str::to_owned),
             operations: [day.operations.start.to_string(), day.operations.end.to_string()],
+            passenger_wait_s: day.operations.passenger_wait_s,
             vertiports: ixs.zip(&day.vertiports).map(vertiport).collect(),
             aircraft_types: day.aircraft_types.iter().enumerate().map(kind).collect(),
             size: Size::of(network),
@@ -127,7 +141,7 @@ impl NetworkOverview {
         let [lowest, fare, highest] = self.fare_usd;
         let mut text = format!(
             "{}: {} with {}, {}, {} passengers a day\n\
-             operations {} to {}{}\n\
+             operations {} to {}{}\n{}\
              distances {least:.1} to {most:.1} miles, {mean:.1} on the mean; fares {lowest:.2} to {highest:.2} $, {fare:.2} on the mean\n\
              fleet, stands and chargers cost {} $ a day\n\n",
             self.name,
@@ -138,6 +152,9 @@ impl NetworkOverview {
             self.operations[0],
             self.operations[1],
             self.time_zone.as_ref().map_or_else(String::new, |zone| format!(", {zone}")),
+            waits(self.passenger_wait_s).map_or_else(String::new, |waits| format!(
+                "passengers who are not carried wait {waits}\n"
+            )),
             grouped(self.size.fixed_cost_usd, 0),
         );
         append_aligned(&mut text, &self.vertiport_rows());
@@ -240,6 +257,18 @@ mod tests {
             let aircraft: usize = overview.aircraft_types.iter().map(|one| one.aircraft).sum();
             assert_eq!(aircraft, overview.size.aircraft, "{name}");
         }
+    }
+
+    #[test]
+    fn passengers_who_wait_are_named() {
+        let paper = Network::shipped("paper").expect("shipped");
+        for (wait_s, said) in [(600, "wait 10 min into"), (90, "wait 90 s into")] {
+            let wait = serde_json::json!(wait_s);
+            let network = paper.changed([(&"operations.passenger_wait_s".to_owned(), &wait)]);
+            let text = NetworkOverview::of(&network.expect("a wait")).text();
+            assert!(text.contains(said), "{text}");
+        }
+        assert!(!NetworkOverview::of(&paper).text().contains("wait"));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use vertifleet_picture::PlayedPicture;
 use vertifleet_picture::numbers::{dollars, grouped, typeset};
 
 use super::{Account, PAGE, table};
+use crate::network_overview::waits;
 use crate::page::{document, replay_frame};
 use crate::replay::{self, Play, ReplayedDay};
 
@@ -69,6 +70,9 @@ fn head(account: &Account, beside: &Beside) -> Markup {
             div { dt { "Load factor" } dd { (grouped(100.0 * totals.load_factor, 1)) " %" } }
             div { dt { "Energy" } dd { (grouped(totals.energy_kwh, 0)) " kWh" } }
             div { dt { "Most often full" } dd { (fullest(account)) } }
+            @if let Some(waits) = waits(account.scenario.operations.passenger_wait_s) {
+                div { dt { "Passengers wait" } dd { (waits) } }
+            }
         }
         p.lead {
             a href="#replay" { "The replay" } " at the end of the page shows the day from moment to moment. Below each picture are \
