@@ -1,8 +1,12 @@
 //! Networks that differ from another one in some members of its file, for questions such as "and with 12 more
 //! aircraft?".
 
+use serde::Serialize;
 use serde_json::Value;
+use toml_edit::ser::ValueSerializer;
+use toml_edit::{Array, DocumentMut, Table, value};
 
+use crate::edit::{set, whole_numbers};
 use crate::parse::shortened;
 use crate::{Error, Network};
 
@@ -10,8 +14,9 @@ impl Network {
     /// Returns the network whose file differs from this one's in some members. A path names members from the outside
     /// in, separated by dots. An entry of a list is named by its `id` (in the fleet by its `type`) or by its position from
     /// 0, and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`, `vertiports.*.stands`.
-    /// Changes are made in order, so that later ones win. Where stands change, the changed file says with `start_stands` that aircraft start as they do on this
-    /// network. The changed file has to obey the format like any other.
+    /// Changes are made in order, so that later ones win. Where stands change, the changed file says with `start_stands` that
+    /// aircraft start as they do on this network. Everything else stays as it was written, comments too. The changed file has
+    /// to obey the format like any other.
     ///
     /// # Errors
     /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form in TOML, and the
@@ -21,23 +26,22 @@ impl Network {
         changes: impl IntoIterator<Item = (&'a String, &'a Value)>,
     ) -> Result<Self, Error> {
         let origin = format!("{}, changed", self.name());
-        let mut file: toml::Value =
-            toml::from_str(self.toml()).expect("the text has been read before");
+        let mut file: DocumentMut = self.toml().parse().expect("the text has been read before");
         for (path, value) in changes {
             let nowhere =
                 |part: &str| Error::NoSuchMember { path: path.clone(), part: shortened(part, 64) };
-            let value = toml::Value::try_from(value).map_err(|error| Error::NotParsed {
-                origin: origin.clone(),
-                line: 1,
-                column: 1,
-                problem: format!("{path}: {error}"),
-            })?;
+            let value =
+                value.serialize(ValueSerializer::new()).map_err(|error| Error::NotParsed {
+                    origin: origin.clone(),
+                    line: 1,
+                    column: 1,
+                    problem: format!("{path}: {error}"),
+                })?;
             let parts: Vec<&str> = path.split('.').collect();
-            set(&mut file, &parts, &value).map_err(|part| nowhere(&part))?;
+            set(file.as_table_mut(), &parts, &value).map_err(|part| nowhere(&part))?;
         }
-        self.keep_start_stands(&mut file);
-        let text = toml::to_string(&file).expect("what was read can be written");
-        Self::from_toml(&text, &origin)
+        self.keep_start_stands(file.as_table_mut());
+        Self::from_toml(&file.to_string(), &origin)
     }
 
     /// The members of the network's file that a path names, as [`changed`](Self::changed) reads it, each with a path that
@@ -58,55 +62,15 @@ impl Network {
     }
 
     /// Makes aircraft start where they start on this network, if the stands of the file are others than its own.
-    fn keep_start_stands(&self, file: &mut toml::Value) {
-        let toml::Value::Table(members) = file else { return };
-        let own = self.vertiports().iter().map(|vertiport| i64::from(vertiport.stands));
-        let changed = members.get("vertiports").and_then(toml::Value::as_array);
-        let stands = changed.into_iter().flatten().map(|entry| entry.get("stands"));
-        let stands: Option<Vec<i64>> = stands.map(|stands| stands?.as_integer()).collect();
-        let own: Vec<i64> = own.collect();
+    fn keep_start_stands(&self, file: &mut Table) {
+        let own: Vec<i64> =
+            self.vertiports().iter().map(|vertiport| i64::from(vertiport.stands)).collect();
         // Stands that are no whole numbers are refused when the text is read.
+        let stands = whole_numbers(file, "vertiports", "stands");
         let Some(stands) = stands.filter(|stands| stands.len() == own.len()) else { return };
-        if stands != own && !members.contains_key("start_stands") {
-            let own = own.into_iter().map(toml::Value::Integer).collect();
-            members.insert("start_stands".to_owned(), toml::Value::Array(own));
+        if stands != own && !file.contains_key("start_stands") {
+            file.insert("start_stands", value(own.into_iter().collect::<Array>()));
         }
-    }
-}
-
-/// Sets the member that a path leads to. The error is the part of the path that leads nowhere.
-fn set(at: &mut toml::Value, path: &[&str], value: &toml::Value) -> Result<(), String> {
-    let [part, rest @ ..] = path else {
-        *at = value.clone();
-        return Ok(());
-    };
-    let lost = || Err((*part).to_owned());
-    match at {
-        // The file may lack a member that the format allows, so a missing one is inserted. Reading the result refuses
-        // the others.
-        toml::Value::Table(members) if rest.is_empty() => {
-            members.insert((*part).to_owned(), value.clone());
-            Ok(())
-        }
-        toml::Value::Table(members) => {
-            // A network without a market has the market that changes nothing.
-            if *part == "market" {
-                let empty = || toml::Value::Table(toml::Table::new());
-                members.entry("market").or_insert_with(empty);
-            }
-            match members.get_mut(*part) {
-                Some(member) => set(member, rest, value),
-                None => lost(),
-            }
-        }
-        toml::Value::Array(entries) if *part == "*" => {
-            entries.iter_mut().try_for_each(|entry| set(entry, rest, value))
-        }
-        toml::Value::Array(entries) => match position(entries, part) {
-            Some(position) => set(&mut entries[position], rest, value),
-            None => lost(),
-        },
-        _ => lost(),
     }
 }
 
@@ -131,7 +95,7 @@ fn find(
             (0..entries.len()).map(|at| (own_name(entries, at), &entries[at])).collect()
         }
         toml::Value::Array(entries) => {
-            let at = position(entries, part).ok_or_else(lost)?;
+            let at = position(entries.iter().map(name_of), part).ok_or_else(lost)?;
             vec![(own_name(entries, at), &entries[at])]
         }
         _ => return Err(lost()),
@@ -146,7 +110,8 @@ fn find(
 
 /// The name of an entry: its id or type if this leads to it, else its position.
 fn own_name(entries: &[toml::Value], at: usize) -> String {
-    let name = name_of(&entries[at]).filter(|name| position(entries, name) == Some(at));
+    let names = || entries.iter().map(name_of);
+    let name = name_of(&entries[at]).filter(|name| position(names(), name) == Some(at));
     name.map_or_else(|| at.to_string(), str::to_owned)
 }
 
@@ -156,10 +121,13 @@ fn name_of(entry: &toml::Value) -> Option<&str> {
 }
 
 /// The position of the entry whose id (or, in the fleet, type) is `part`, or else the position that `part` is.
-fn position(entries: &[toml::Value], part: &str) -> Option<usize> {
-    let of_id = |entry: &toml::Value| name_of(entry) == Some(part);
-    let counted = || part.parse().ok().filter(|&position| position < entries.len());
-    entries.iter().position(of_id).or_else(counted)
+pub(crate) fn position<'a>(
+    mut names: impl ExactSizeIterator<Item = Option<&'a str>>,
+    part: &str,
+) -> Option<usize> {
+    let length = names.len();
+    let counted = || part.parse().ok().filter(|&position| position < length);
+    names.position(|name| name == Some(part)).or_else(counted)
 }
 
 #[cfg(test)]
@@ -226,6 +194,38 @@ mod tests {
         let same = changed(&json!({})).expect("a network");
         let day = |network: &Network| network.draw(DaySeed::comparison(3).expect("a seed"));
         assert_eq!(day(&same), day(&paper), "numbers survive being written");
+    }
+
+    #[test]
+    fn what_is_not_changed_stays_as_it_was_written() {
+        let york = Network::shipped("new-york").expect("a shipped network");
+        let change = json!({"fleet.midnight.count": 20, "vertiports.JFK.stands": 9, "operations.passenger_wait_s": 600});
+        let text = york.changed(change.as_object().expect("changes")).expect("a network");
+        let lines = |network: &Network| -> Vec<String> {
+            network.toml().lines().map(str::to_owned).collect()
+        };
+        let (before, after) = (lines(&york), lines(&text));
+        let new: Vec<&str> =
+            after.iter().filter(|line| !before.contains(line)).map(String::as_str).collect();
+        assert_eq!(after.len(), before.len() + 2, "members that were there are changed in place");
+        let [start, wait, stands, count] = new[..] else { panic!("{new:?}") };
+        assert!(start.starts_with("start_stands = ["), "{start}");
+        assert_eq!((wait, stands), ("passenger_wait_s = 600", "stands = 9"));
+        assert!(count.starts_with("count = 20"), "{count}");
+    }
+
+    #[test]
+    fn lists_may_be_written_within_a_line() {
+        let york = Network::shipped("new-york").expect("a shipped network");
+        let members = york.members("vertiports.*.stands").expect("stands").len();
+        let ports = york.members("vertiports").expect("a list").remove(0).1;
+        let inline = york.changed([(&"vertiports".to_owned(), &ports)]).expect("the same");
+        let change = json!({"vertiports.JFK.stands": 9, "vertiports.1.stands": 7, "vertiports.*.busy": false});
+        let changed = inline.changed(change.as_object().expect("changes")).expect("a network");
+        assert_eq!(changed.vertiports().len(), members);
+        let stands =
+            |id: &str| changed.vertiports().iter().find(|one| one.id == id).map(|one| one.stands);
+        assert_eq!((stands("JFK"), stands("JRA"), stands("LGA")), (Some(9), Some(7), Some(6)));
     }
 
     #[test]

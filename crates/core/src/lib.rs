@@ -27,6 +27,7 @@ mod differences;
 mod disturbance_model;
 mod disturbances;
 mod draw;
+mod edit;
 pub mod error;
 mod fares;
 mod feature_scales;
