@@ -77,6 +77,21 @@ pub(super) fn certificate(report: &SizeReport) -> String {
             report.policy,
             100.0 * gap
         ),
+        Certificate::LeastCost { no_design_costs_less_than_usd: least }
+            if !report.goal_is_reached =>
+        {
+            format!(
+                "No design that carries enough on the days of the search costs less than {} a day, whoever decides.",
+                dollars(least)
+            )
+        }
+        Certificate::FewestAircraft { no_design_has_fewer_than: least }
+            if !report.goal_is_reached =>
+        {
+            format!(
+                "No design that carries enough on the days of the search has fewer than {least} aircraft, whoever decides.",
+            )
+        }
         Certificate::LeastCost { no_design_costs_less_than_usd: least } => format!(
             "No design that carries enough on the days of the search costs less than {} a day, whoever decides; this one costs {}, \
              {:.0} % more.",

@@ -130,6 +130,7 @@ fn the_cheapest_design_that_carries_enough_is_found() {
         let aim = Aim { goal, need, costs: costs.to_vec() };
         let found = search(&space, &aim, budget, &mut World(&mut world, goal)).expect("a search");
         assert!(found.reaches && Concave::carried(&found.best) >= need);
+        assert!(world.played.len() <= budget);
         let enough = all.iter().filter(|one| Concave::carried(one) >= need);
         let cheapest = enough.map(|one| world.cost(one)).fold(f64::INFINITY, f64::min);
         let cost = world.cost(&found.best);
@@ -148,4 +149,17 @@ fn what_cannot_be_reached_is_said_to_be_out_of_reach() {
     let found = search(&space, &aim, 30, &mut World(&mut world, goal)).expect("a search");
     assert!(!found.reaches && found.ceiling.most() < 1e6);
     assert!(found.ceiling.least_cost(&costs, 1e6).is_infinite());
+}
+
+#[test]
+fn no_more_designs_are_played_than_may_be() {
+    let costs = [500.0, 200.0, 150.0];
+    for budget in 2..8 {
+        for goal in [Goal::Served(0.9), Goal::MostProfit, Goal::LeastSpill] {
+            let mut world = Concave::new(costs);
+            let aim = Aim { goal, need: 700.0, costs: costs.to_vec() };
+            search(&space(), &aim, budget, &mut World(&mut world, goal)).expect("a search");
+            assert!(world.played.len() <= budget, "{budget}, {goal:?}: {:?}", world.played);
+        }
+    }
 }

@@ -54,7 +54,10 @@ impl<S: Solver> Search<'_, S> {
         } else {
             return Ok(());
         };
-        self.play(&self.possible(self.space, end))
+        if self.order.len() < self.budget {
+            self.play(&self.possible(self.space, end))?;
+        }
+        Ok(())
     }
 
     /// Plays designs on the edge and around its ends, from large steps to single ones.
@@ -83,6 +86,7 @@ impl<S: Solver> Search<'_, S> {
         Ok(())
     }
 
+    /// The edge on which enough costs least, if designs on both sides of enough were played.
     fn edge(&self) -> Option<Edge> {
         let (enough, lacking): (Vec<&Design>, Vec<&Design>) =
             self.order.iter().partition(|one| self.is_enough(one));
