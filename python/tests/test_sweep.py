@@ -197,6 +197,7 @@ def test_a_sweep_that_is_killed_again_and_again_comes_to_its_end(paper, tmp_path
         process.kill()
         process.wait()
         lines = len(_lines(journal))
+    assert lines > 1, "killed processes have kept something"
     # What a killed process was writing is cut off.
     with journal.open("a") as file:
         file.write('{"point":3,"warnings":[],"rec')
