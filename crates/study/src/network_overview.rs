@@ -43,13 +43,12 @@ pub struct NetworkOverview {
 
 /// How long passengers who are not carried wait, if they do.
 pub(crate) fn waits(passenger_wait_s: u32) -> Option<String> {
-    let minutes = grouped(f64::from(passenger_wait_s) / 60.0, 0);
-    let short = || format!("{passenger_wait_s} s into the next period");
-    match passenger_wait_s {
-        0 => None,
-        odd if odd % 60 > 0 => Some(short()),
-        _ => Some(format!("{minutes} min into the next period")),
-    }
+    let (time, unit) = if passenger_wait_s.is_multiple_of(60) {
+        (passenger_wait_s / 60, "min")
+    } else {
+        (passenger_wait_s, "s")
+    };
+    (time > 0).then(|| format!("{time} {unit} into the next period"))
 }
 
 /// A vertiport of a network.

@@ -174,6 +174,17 @@ impl<'a, S: Solver> Search<'a, S> {
         self.ceiling.corrected(&more, constant)
     }
 
+    /// The designs around one that may be played and were not, as [`around`] gives them.
+    fn untried(
+        &self,
+        design: &Design,
+        reach: u32,
+        is_pair: impl Fn(bool, bool) -> bool,
+    ) -> impl Iterator<Item = Design> {
+        let all = around(self.space, design, reach, is_pair).into_iter();
+        all.filter(|one| self.space.is_possible(one) && !self.played.contains_key(one))
+    }
+
     fn ceiling_at(&self, design: &Design) -> f64 {
         self.ceiling.at(&self.space.above(design))
     }
@@ -239,6 +250,12 @@ impl<'a, S: Solver> Search<'a, S> {
         }
         design
     }
+}
+
+/// By what share the design after a step may be foretold to be worse, and be worth playing.
+fn doubt(from: &Design, to: &Design) -> f64 {
+    let moved = from.iter().zip(to).filter(|(from, to)| from != to).count();
+    if moved == 1 { WORTH_PLAYING } else { 0.0 }
 }
 
 /// By how many steps two designs differ, by dimension.

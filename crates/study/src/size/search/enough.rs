@@ -4,7 +4,7 @@
 //! enough costs between the two is least. The edge's slope is what one more passenger costs here, at which all designs can
 //! be compared, those that carry too few too. Designs on the edge and around its ends are played.
 
-use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, Space, WORTH_PLAYING, around, rounded};
+use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, Space, doubt, rounded};
 use crate::error::Error;
 use crate::size::ceiling::Ceiling;
 
@@ -127,22 +127,16 @@ impl<S: Solver> Search<'_, S> {
             let more = self.foretold(from, to) - self.aim.need;
             edge.cost + edge.cost_of_one * more - self.cost(to)
         };
-        let doubt = |from: &Design, to: &Design| {
-            let moved = from.iter().zip(to).filter(|(from, to)| from != to).count();
-            if moved == 1 { WORTH_PLAYING * edge.cost } else { 0.0 }
-        };
         let around = |end: &Design| {
-            let all = around(self.space, end, reach, |_, _| true).into_iter();
-            let new =
-                all.filter(|one| self.space.is_possible(one) && !self.played.contains_key(one));
-            new.map(|one| (saved(end, &one), end.clone(), one)).collect::<Vec<_>>()
+            let untried = self.untried(end, reach, |_, _| true);
+            untried.map(|one| (saved(end, &one), end.clone(), one)).collect::<Vec<_>>()
         };
         let is_near = self.aim.need - self.played[&edge.lacking] <= FAR_SHORT * self.aim.need;
         let ends = [Some(&edge.enough), Some(&edge.lacking).filter(|_| is_near)];
         ends.into_iter()
             .flatten()
             .flat_map(around)
-            .filter(|(saved, from, to)| *saved > -doubt(from, to))
+            .filter(|(saved, from, to)| *saved > -doubt(from, to) * edge.cost)
             .max_by(|one, other| one.0.total_cmp(&other.0))
             .map(|(_, from, to)| (from, to))
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, WORTH_PLAYING, around, rounded};
+use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, doubt, rounded};
 use crate::error::Error;
 
 /// The ceiling is tight enough if it is higher than a bound by this share.
@@ -70,17 +70,10 @@ impl<S: Solver> Search<'_, S> {
     fn most_promising(&self, best: &Design, reach: u32) -> Option<Design> {
         let value = self.played[best];
         // One gives what the other takes, or an aircraft comes or leaves with its place.
-        let around = around(self.space, best, reach, |alike, same_way| alike != same_way);
-        let doubt = |one: &Design| {
-            let moved = best.iter().zip(one).filter(|(from, to)| from != to).count();
-            if moved == 1 { WORTH_PLAYING } else { 0.0 }
-        };
-        let new = around
-            .into_iter()
-            .filter(|one| self.space.is_possible(one) && !self.played.contains_key(one));
-        let foretold = new.map(|one| (self.foretold(best, &one), one));
+        let untried = self.untried(best, reach, |alike, same_way| alike != same_way);
+        let foretold = untried.map(|one| (self.foretold(best, &one), one));
         foretold
-            .filter(|(foretold, one)| *foretold > value - doubt(one) * value.abs())
+            .filter(|(foretold, one)| *foretold > value - doubt(best, one) * value.abs())
             .max_by(|one, other| one.0.total_cmp(&other.0))
             .map(|(_, one)| one)
     }
