@@ -67,6 +67,7 @@ pub use kept_bounds::KeptBounds;
 pub use kept_comparisons::{KeptComparison, KeptComparisons};
 pub use origin::NetworkOrigin;
 pub use own_days::OwnDays;
+pub use page::REPLAY_FRAME_SCRIPT;
 pub use policy_spec::{PolicySource, PolicySpec, ResolveFor};
 pub use record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,

@@ -37,12 +37,16 @@ fn style() -> String {
     )
 }
 
-/// The page of a replay in a frame of its own, which keeps its style and its scripts apart from the page. An address that
-/// leads to a moment of the replay leads to the frame, which is loaded when it is looked at.
+/// The only script of a page of this crate: an address that leads to a moment of the replay leads to the frame of the
+/// replay, which is loaded when it is looked at. Whoever serves a page names it in the policy of what the page may run.
+pub const REPLAY_FRAME_SCRIPT: &str =
+    "if (/[#&]at=/.test(location.hash)) document.querySelector('iframe.replay').scrollIntoView()";
+
+/// The page of a replay in a frame of its own, which keeps its style and its scripts apart from the page.
 pub(crate) fn replay_frame(page: &str) -> Markup {
     html! {
         iframe.replay title="Replay" loading="lazy" srcdoc=(page) {}
-        script { (PreEscaped("if (/[#&]at=/.test(location.hash)) document.querySelector('iframe.replay').scrollIntoView()")) }
+        script { (PreEscaped(REPLAY_FRAME_SCRIPT)) }
     }
 }
 

@@ -10,6 +10,7 @@ use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 use utoipa::ToSchema;
+use vertifleet_study::REPLAY_FRAME_SCRIPT;
 
 use super::answer::{again, json};
 use super::days::new_id;
@@ -131,16 +132,17 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// What a page may use: its own style sheet, and the script and the style sheet of the replay within it, which inherits
-/// this. Nothing of it belongs to the service: it cannot read what the console keeps.
+/// What a page may use: its own style sheet and script, and the script and the style sheet of the replay within it, which
+/// inherits this. Nothing of it belongs to the service: it cannot read what the console keeps.
 fn policy_of(page: &str) -> HeaderValue {
     let style = page.split_once("<style>").and_then(|(_, rest)| rest.split_once("</style>"));
     let style = style.map_or("", |(style, _)| style);
     let [replay, look] = vertifleet_console::replay_script_and_style();
-    let [style, replay, look] =
-        [style, replay, look].map(|text| BASE64_STANDARD.encode(Sha256::digest(text)));
+    let [style, look, script, replay] = [style, look, REPLAY_FRAME_SCRIPT, replay]
+        .map(|text| BASE64_STANDARD.encode(Sha256::digest(text)));
     let policy = format!(
-        "default-src 'none'; style-src 'sha256-{style}' 'sha256-{look}'; script-src 'sha256-{replay}'; \
+        "default-src 'none'; style-src 'sha256-{style}' 'sha256-{look}'; \
+         script-src 'sha256-{script}' 'sha256-{replay}'; \
          base-uri 'none'; form-action 'none'; frame-ancestors 'none'; sandbox allow-scripts"
     );
     HeaderValue::try_from(policy).expect("letters and marks are a header")

@@ -2,7 +2,10 @@
 
 use std::time::{Duration, Instant};
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
+use sha2::{Digest as _, Sha256};
 use vertifleet_core::{Network, Purpose, Stop};
 use vertifleet_serve::{Location, Role, Tokens};
 use vertifleet_study::comparison::{Comparison, DrawnDays};
@@ -17,6 +20,23 @@ fn made(service: &Running, body: &Value) -> String {
     let made = service.post("/v1/studies", body);
     assert_eq!(made.status, 201, "{made:?}");
     format!("/v1/studies/{}", made.json["id"].as_str().expect("an id"))
+}
+
+/// Sees that the policy which comes with a page lets its own style sheet and script in, and nothing that is not named.
+fn assert_runs_under_its_policy(service: &Running, page: &str) {
+    let mut answer = ureq::get(format!("{}{page}", service.url)).call().expect("the page");
+    let policy = answer.headers()["content-security-policy"].to_str().expect("text").to_owned();
+    assert!(!policy.contains("unsafe"), "{policy}");
+    let page = answer.body_mut().read_to_string().expect("text");
+    for (begin, end) in [("<style>", "</style>"), ("<script>", "</script>")] {
+        let inside: Vec<&str> =
+            page.split(begin).skip(1).filter_map(|rest| rest.split(end).next()).collect();
+        assert!(!inside.is_empty(), "a page with a replay has {begin}");
+        for text in inside {
+            let hash = BASE64_STANDARD.encode(Sha256::digest(text));
+            assert!(policy.contains(&format!("'sha256-{hash}'")), "{policy} forbids {text}");
+        }
+    }
 }
 
 /// Waits until a study is in a state.
@@ -72,6 +92,7 @@ fn a_study_has_the_numbers_of_compare() {
     assert_eq!(minus["p_value"].as_f64(), test.p_value);
     assert_eq!((&minus["days_ahead"], &minus["days_behind"]), (&json!(4), &json!(0)));
 
+    assert_runs_under_its_policy(&service, &format!("{study}/report"));
     let page = service.get(&format!("{study}/report"));
     let page = page.json.as_str().expect("a page").to_owned();
     assert!(page.starts_with("<!DOCTYPE html>") && page.contains("greedy earns"), "{page}");
