@@ -78,7 +78,7 @@ mod _native {
     #[pymodule_export]
     use crate::scenario::Scenario;
     #[pymodule_export]
-    use crate::sweep::sweep_report;
+    use crate::sweep::{sweep_cells, sweep_report};
     #[pymodule_export]
     use crate::trace::{Trace, check};
     #[pymodule_export]

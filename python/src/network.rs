@@ -60,8 +60,7 @@ impl Network {
     fn changed(&self, changes: &Bound<'_, PyMapping>) -> PyResult<Self> {
         let asked = members("changes", changes)?;
         let network = self.network.changed(asked.iter().map(|(path, value)| (path, value)));
-        let source = format!("{}.changed({})", self.source, changes.repr()?);
-        Self::told(changes.py(), network.map_err(Failure::from)?, source)
+        self.told_changed(changes, network.map_err(Failure::from)?)
     }
 
     /// The Python expression that made the network, for people to read. A report contains it in its command.
@@ -169,6 +168,16 @@ impl Network {
             warn(py, &format!("[{}] {source}: {warning}", warning.code()))?;
         }
         Ok(Self::of(network, source))
+    }
+
+    /// This network with these changes, of whose warnings Python hears.
+    pub(crate) fn told_changed(
+        &self,
+        changes: &Bound<'_, PyAny>,
+        network: core::Network,
+    ) -> PyResult<Self> {
+        let source = format!("{}.changed({})", self.source, changes.repr()?);
+        Self::told(changes.py(), network, source)
     }
 
     pub(crate) fn of(network: core::Network, source: String) -> Self {

@@ -1,42 +1,97 @@
-//! The report of a sweep, in the same form as the program's.
+//! The cells of a sweep and its report, both as the program makes them.
 
 use std::fs;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyMapping};
 use serde::Deserialize;
 use serde_json::Value;
 use vertifleet_study::ComparisonRecords;
-use vertifleet_study::sweep::Sweep;
+use vertifleet_study::sweep::{Cell, Design, Factor, Levels, Sweep};
 
 use crate::comparison::Comparison;
 use crate::failure::Failure;
+use crate::frames::{members, plain};
 use crate::network::Network;
+use crate::whole_number::WholeNumber;
 
-/// What was varied, and the values of each comparison in this order.
+/// The network of a cell, or the reason why it has none.
+#[derive(IntoPyObject)]
+pub(crate) enum Varied {
+    Network(Network),
+    LeftOut(String),
+}
+
+/// The cells of a sweep: what is changed in each, and the network with that change, or the reason why there is none. The
+/// values of a path are a list, or a text as the program's `--vary` takes it. With `latin`, so many cells are drawn with
+/// `seed`; otherwise every combination is one.
+#[pyfunction]
+#[pyo3(signature = (network, changes, *, latin, seed))]
+pub(crate) fn sweep_cells<'py>(
+    py: Python<'py>,
+    network: &Network,
+    changes: &Bound<'py, PyMapping>,
+    latin: Option<WholeNumber>,
+    seed: WholeNumber,
+) -> PyResult<Vec<(Bound<'py, PyDict>, Varied)>> {
+    let factors = members("changes", changes)?.into_iter().map(factor);
+    let factors = factors.collect::<Result<Vec<Factor>, Failure>>()?;
+    let design = match latin {
+        Some(cells) => Design::LatinHypercube { cells: cells.of("latin")?, seed: seed.of("seed")? },
+        None => Design::Grid,
+    };
+    let base = &network.network;
+    let cells = py.detach(|| Cell::all(base, &factors, design)).map_err(Failure::from)?;
+    let cell = |Cell { settings, network: varied }: Cell| {
+        let changes = PyDict::new(py);
+        for (factor, value) in factors.iter().zip(&settings) {
+            changes.set_item(&factor.path, plain(py, value)?)?;
+        }
+        let varied = match varied {
+            Ok(varied) => Varied::Network(network.told_changed(&changes, *varied)?),
+            Err(reason) => Varied::LeftOut(reason),
+        };
+        Ok((changes, varied))
+    };
+    cells.into_iter().map(cell).collect()
+}
+
+fn factor((path, values): (String, Value)) -> Result<Factor, Failure> {
+    match values {
+        Value::Array(values) => Ok(Factor { path, levels: Levels::List(values) }),
+        Value::String(text) => Ok(Factor::parse(&format!("{path}={text}"))?),
+        other => Err(Failure::argument(format!(
+            "changes: {path} must have a list of values, found {other}"
+        ))),
+    }
+}
+
+/// What was varied, and the values of each cell in this order.
 #[derive(Deserialize)]
-struct Design {
+struct Varying {
     paths: Vec<String>,
     values: Vec<Vec<Value>>,
 }
 
 /// Writes tables, figures and a report page of a sweep into a folder, and returns the path of the page. `design` is JSON:
-/// the `paths` that were varied, and `values` with a list for each of the `comparisons`.
+/// the `paths` that were varied, and `values` with a list for each of the `comparisons`, which are None where the cell was
+/// left out.
 #[pyfunction]
 #[pyo3(signature = (network, design, comparisons, folder, *, force, command))]
 pub(crate) fn sweep_report(
     py: Python<'_>,
     network: &Network,
     design: &str,
-    comparisons: Vec<PyRef<'_, Comparison>>,
+    comparisons: Vec<Option<PyRef<'_, Comparison>>>,
     folder: PathBuf,
     force: bool,
     command: String,
 ) -> PyResult<PathBuf> {
-    let Design { paths, values } = serde_json::from_str(design)
+    let Varying { paths, values } = serde_json::from_str(design)
         .map_err(|error| Failure::argument(format!("the design of a sweep: {error}")))?;
-    let comparisons = comparisons.iter().map(|one| one.records());
-    let cells: Vec<(Vec<Value>, &ComparisonRecords)> =
+    let comparisons = comparisons.iter().map(|one| one.as_ref().map(|one| one.records()));
+    let cells: Vec<(Vec<Value>, Option<&ComparisonRecords>)> =
         values.into_iter().zip(comparisons).collect();
     let network = &network.network;
     let write = || {

@@ -104,6 +104,55 @@ def test_texts_and_mixed_values_have_columns_too(paper):
     assert mixed.tolist() == positions
 
 
+def test_a_text_is_a_range_with_a_step(paper):
+    swept = vertifleet.sweep(paper, {"tariffs.fare_level": "0.8..1.1/0.1"}, ["greedy"], days=1)
+    assert [changes["tariffs.fare_level"] for changes, _ in swept.points] == [0.8, 0.9, 1.0, 1.1]
+
+
+def test_a_latin_hypercube_uses_every_part_of_every_range_once(paper):
+    request = {
+        "changes": {
+            "fleet.0.count": "31..40",
+            "tariffs.fare_level": "0.5..1.5",
+            "operations.end": ["17:00:00"],
+        },
+        "policies": ["greedy"],
+        "days": 1,
+        "latin": 5,
+    }
+    swept = vertifleet.sweep(paper, **request)
+    counts = sorted(changes["fleet.0.count"] for changes, _ in swept.points)
+    levels = sorted(changes["tariffs.fare_level"] for changes, _ in swept.points)
+    assert counts == [32, 34, 36, 37, 39], "the middles of fifths, rounded"
+    assert levels == [0.6, 0.8, 1.0, 1.2, 1.4]
+    assert {changes["operations.end"] for changes, _ in swept.points} == {"17:00:00"}
+    assert_same(vertifleet.sweep(paper, **request), swept)
+    assert "'fleet.0.count': '31..40'" in swept.command
+    assert "'operations.end': [...]}, ['greedy'], latin=5, " in swept.command
+    others = vertifleet.sweep(paper, **request, seed=2)
+    assert [changes for changes, _ in others.points] != [changes for changes, _ in swept.points]
+    for cells in (1, -1, 10_001):
+        with pytest.raises(vertifleet.Error) as refused:
+            vertifleet.sweep(paper, **(request | {"latin": cells}))
+        assert refused.value.code in ("V407", "V451")
+
+
+def test_a_fleet_without_a_place_is_left_out(paper, tmp_path):
+    request = {"changes": {"fleet.0.count": [40, 1000, 36]}, "policies": ["greedy"], "days": 2, "seed": 1}
+    swept = vertifleet.sweep(paper, **request, journal=tmp_path / "sweep.jsonl")
+    assert [changes["fleet.0.count"] for changes, _ in swept.points] == [40, 36]
+    ((changes, reason),) = swept.left_out
+    assert changes == {"fleet.0.count": 1000}
+    assert "1000" in reason
+    assert "1 left out" in str(swept)
+    assert_same(vertifleet.sweep(paper, **request, journal=tmp_path / "sweep.jsonl"), swept)
+    folder = tmp_path / "sweep"
+    swept.report(folder)
+    cells = json.loads((folder / "summary.json").read_text())["cells"]
+    assert [cell["left_out"] is None for cell in cells] == [True, False, True]
+    assert cells[1]["left_out"] == reason
+
+
 def test_a_warning_is_said_once(paper):
     with pytest.warns(UserWarning, match="changed copy") as records:
         vertifleet.sweep(paper, {"fleet.0.count": [36, 38, 42]}, ["mlp"], days=1)
@@ -116,7 +165,12 @@ def test_a_warning_is_said_once(paper):
     [
         ({"fleet.0.count": 36}, "V451"),
         ({"fleet.0.count": []}, "V451"),
-        ({"operations.end": "17:00:00"}, "V451"),
+        ({"fleet.0.count": {"from": 30, "to": 40}}, "V451"),
+        ({"fleet.0.count": [float("nan")]}, "V451"),
+        ({"fleet.0.count": "50..30/5"}, "V407"),
+        ({"fleet.0.count": "30..50"}, "V407"),
+        ({"fleet.0.count": "1..200", "tariffs.fare_level": "0.5..2.0/0.01"}, "V407"),
+        ({"fleet.0.count": [1000, 2000]}, "V407"),
         ({"fleet.9.count": [36]}, "V123"),
         ({"fleet.0.count": [36, -1]}, "V104"),
     ],

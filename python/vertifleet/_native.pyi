@@ -49,6 +49,7 @@ __all__ = [
     "settings",
     "simulate",
     "suite_names",
+    "sweep_cells",
     "sweep_report",
     "train",
     "verify",
@@ -855,10 +856,22 @@ class KeptParts:
     def add(self, point: int, comparison: Comparison) -> None:
         """Adds a comparison on the days of a network. It is on the disk when this returns."""
 
+def sweep_cells(
+    network: Network,
+    changes: Mapping[str, Any],
+    *,
+    latin: SupportsIndex | None,
+    seed: SupportsIndex,
+) -> list[tuple[dict[str, Any], Network | str]]:
+    """The cells of a sweep: what is changed in each, and the network with that change, or the reason why
+    there is none. The values of a path are a list, or a text as the program's `--vary` takes it. With
+    `latin`, so many cells are drawn with `seed`; otherwise every combination is one.
+    """
+
 def sweep_report(
     network: Network,
     design: str,
-    comparisons: Sequence[Comparison],
+    comparisons: Sequence[Comparison | None],
     folder: _Path,
     *,
     force: bool,
@@ -866,7 +879,7 @@ def sweep_report(
 ) -> Path:
     """Writes tables, figures and a report page of a sweep into a folder, and returns the path of the page.
     `design` is JSON: the `paths` that were varied, and `values` with a list for each of the
-    `comparisons`.
+    `comparisons`, which are None where the cell was left out.
     """
 
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]:

@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
-from typing import TYPE_CHECKING, Any, SupportsIndex
+from typing import TYPE_CHECKING, Any, SupportsIndex, TypeAlias
 
 import numpy as np
 
@@ -33,6 +33,10 @@ MEANS = ("profit_usd", "profit_low_usd", "profit_high_usd", "reward", "flights",
 """The columns that are means over the days; the last exists only if bounds were asked for."""
 
 
+Cell: TypeAlias = "tuple[dict[str, Any], Network | str]"
+"""What is changed, and the network with that change, or the reason why there is none."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Sweep:
     """Variations of a network, with the results of every policy on each."""
@@ -41,12 +45,23 @@ class Sweep:
     """Name of the network."""
     policies: tuple[str, ...]
     """The policies, in the order they were asked for."""
-    points: tuple[tuple[dict[str, Any], Comparison], ...]
-    """The variations in their order: what was changed, and the comparison with that change."""
+    cells: tuple[tuple[dict[str, Any], Comparison | str], ...]
+    """The variations in their order: what was changed, and the comparison with that change, or the reason why
+    there is none."""
     varied: Network = field(kw_only=True)
     """The network that was varied."""
     command: str = field(kw_only=True)
     """The call, for the report."""
+
+    @property
+    def points(self) -> tuple[tuple[dict[str, Any], Comparison], ...]:
+        """The variations that were played, in their order: what was changed, and the comparison with it."""
+        return tuple((changes, found) for changes, found in self.cells if not isinstance(found, str))
+
+    @property
+    def left_out(self) -> tuple[tuple[dict[str, Any], str], ...]:
+        """The variations whose fleet has no place: what was changed, and the reason in words."""
+        return tuple((changes, found) for changes, found in self.cells if isinstance(found, str))
 
     @property
     def columns(self) -> dict[str, NDArray[Any]]:
@@ -93,10 +108,10 @@ class Sweep:
         Raises:
             Error: V143 if the folder holds something else.
         """
-        paths = list(self.points[0][0])
-        values = [[changes[path] for path in paths] for changes, _ in self.points]
+        paths = list(self.cells[0][0])
+        values = [[changes[path] for path in paths] for changes, _ in self.cells]
         design = json.dumps({"paths": paths, "values": values})
-        comparisons = [comparison for _, comparison in self.points]
+        comparisons = [None if isinstance(found, str) else found for _, found in self.cells]
         return _native.sweep_report(
             self.varied, design, comparisons, folder, force=force, command=self.command
         )
@@ -106,8 +121,10 @@ class Sweep:
         days = "1 day" if summary["days"] == 1 else f"{summary['days']:,} days"
         points = "1 point" if len(self.points) == 1 else f"{len(self.points)} points"
         head = f"network {self.network}, {points}, each on {days}, seed {summary['seed']}"
-        note = "means a day; ± is the 95 % interval of the mean"
-        return "\n".join([head, "", *_table([_shown(row) for row in self._rows()]), note])
+        notes = ["means a day; ± is the 95 % interval of the mean"]
+        if self.left_out:
+            notes.append(f"{len(self.left_out)} left out, whose fleet has no place")
+        return "\n".join([head, "", *_table([_shown(row) for row in self._rows()]), *notes])
 
     def _repr_html_(self) -> str:
         rows = [_shown(row) for row in self._rows()]
@@ -121,9 +138,10 @@ class Sweep:
 
 def sweep(
     network: str | os.PathLike[str] | Network,
-    changes: Mapping[str, Iterable[Any]],
+    changes: Mapping[str, Iterable[Any] | str],
     policies: Iterable[str],
     *,
+    latin: SupportsIndex | None = None,
     days: SupportsIndex = 100,
     seed: SupportsIndex = 1,
     split: Split | None = None,
@@ -136,15 +154,21 @@ def sweep(
 ) -> Sweep:
     """Compares policies on variations of a network, all on days of the same seeds.
 
-    For example, this compares on six variations::
+    For example, this compares on six variations, and then on twenty of a Latin hypercube::
 
         sweep(network, {"fleet.0.count": [36, 40, 44], "vertiports.*.stands": [6, 8]}, ["greedy", "prices"])
+        sweep(network, {"fleet.0.count": "30..50", "tariffs.fare_level": "0.8..1.6"}, ["prices"], latin=20)
+
+    A variation whose fleet has more aircraft than there are stands is left out.
 
     Args:
         network: the network to vary, its name, or the path of its file.
-        changes: lists of values by paths of the network file, as in :meth:`Network.changed`. Every
+        changes: values by paths of the network file, as in :meth:`Network.changed`: a list, or a text as
+            ``vertifleet sweep --vary`` takes it, such as ``"30..50/5"``, a range with a step. Every
             combination is a point; the values of the last path change fastest. If two paths lead to the same
             member, the later one wins.
+        latin: number of variations of a Latin hypercube, drawn with `seed`, in place of all combinations.
+            Ranges then need no step (``"0.8..1.6"``), and are of whole numbers if both ends are.
         policies: as in :func:`compare`, like all arguments that follow.
         days: number of days.
         seed: seed of the first day.
@@ -159,53 +183,77 @@ def sweep(
             alone.
 
     Raises:
-        Error: V123 if a path leads nowhere, V451 if `changes` are not lists of values; V414 if the journal
-            is of another sweep; the error of a network file with the change, before any day is played; and
-            those of :func:`compare`.
+        Error: V123 if a path leads nowhere; V407 if a text is no range, if there are more than 10,000
+            points, or if none of them can be played; V451 if values are neither a list nor a text; V414 if
+            the journal is of another sweep; the error of a network file with the change, before any day is
+            played; and those of :func:`compare`.
     """
     network = network_of(network)
-    points = variations(network, changes)
     drawn = DrawnDays.of(days, seed, split)
+    cells = variations(network, changes, latin, drawn)
+    points = played(cells)
     request = ComparisonRequest.of("vertifleet.compare", policies, drawn, models, bound, step, policy_seed)
     request.check(variation for _, variation in points)
     parts = Parts.open(journal, network, [changes for changes, _ in points], request, drawn)
     for point, (_, variation) in enumerate(points):
         for missing in parts.missing(point, drawn.days):
             parts.add(point, missing, request.compare(variation, threads, missing))
-    return together("vertifleet.sweep", network, request, points, parts)
+    call = call_of("vertifleet.sweep", network, changes, latin, request)
+    return Sweep(network.name, request.policies, together(cells, parts), varied=network, command=call)
 
 
 def variations(
-    network: Network, changes: Mapping[str, Iterable[Any]]
-) -> list[tuple[dict[str, Any], Network]]:
-    """Every combination of the values, with the network that has the change."""
-    values = [_values(path, values) for path, values in changes.items()]
-    grid = [dict(zip(changes, point, strict=True)) for point in itertools.product(*values)]
-    return [(point, network.changed(point)) for point in grid]
+    network: Network,
+    changes: Mapping[str, Iterable[Any] | str],
+    latin: SupportsIndex | None,
+    drawn: DrawnDays,
+) -> list[Cell]:
+    """What is changed in each cell, and the network with that change, or the reason why there is none."""
+    if not changes and latin is None:
+        return [({}, network)]
+    given = {path: _values(path, values) for path, values in changes.items()}
+    return _native.sweep_cells(network, given, latin=latin, seed=drawn.seed)
 
 
-def together(
+def played(cells: Iterable[Cell]) -> list[tuple[dict[str, Any], Network]]:
+    """The cells that have a network."""
+    return [(changes, varied) for changes, varied in cells if not isinstance(varied, str)]
+
+
+def together(cells: Iterable[Cell], parts: Parts) -> tuple[tuple[dict[str, Any], Comparison | str], ...]:
+    """The cells with their comparisons, which consist of these parts."""
+    points = itertools.count()
+    return tuple(
+        (changes, varied if isinstance(varied, str) else parts.joined(next(points)))
+        for changes, varied in cells
+    )
+
+
+def call_of(
     function: str,
     network: Network,
+    changes: Mapping[str, Iterable[Any] | str],
+    latin: SupportsIndex | None,
     request: ComparisonRequest,
-    points: Sequence[tuple[dict[str, Any], Network]],
-    parts: Parts,
-) -> Sweep:
-    """The sweep of these points, whose comparisons consist of these parts.
+) -> str:
+    """The call of a sweep, for people to read; `function` is what was called."""
+    varied = ", ".join(
+        f"{path!r}: {values!r}" if isinstance(values, str) else f"{path!r}: [...]"
+        for path, values in changes.items()
+    )
+    drawn = "" if latin is None else f"latin={latin}, "
+    return (
+        f"{function}({network.name!r}, {{{varied}}}, {list(request.policies)!r}, {drawn}{request.days.text})"
+    )
 
-    `function` is what was called.
-    """
-    found = tuple((changes, parts.joined(point)) for point, (changes, _) in enumerate(points))
-    varied = ", ".join(f"{path!r}: [...]" for path in points[0][0])
-    call = f"{function}({network.name!r}, {{{varied}}}, {list(request.policies)!r}, {request.days.text})"
-    return Sweep(network.name, request.policies, found, varied=network, command=call)
 
-
-def _values(path: str, values: Iterable[Any]) -> list[Any]:
-    """The values as network files take them; numpy's numbers are converted to Python's."""
-    if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__iter__"):
+def _values(path: str, values: Iterable[Any] | str) -> list[Any] | str:
+    """The values as a list, or the text that stands for them."""
+    if isinstance(values, str):
+        return values
+    if isinstance(values, (bytes, Mapping)) or not hasattr(values, "__iter__"):
         raise Error("V451", f"changes: {path} must have a list of values, found {values!r}")
-    listed = [value.item() if isinstance(value, np.generic) else value for value in values]
+    listed = list(values)
     if not listed:
         raise Error("V451", f"changes: {path} must have at least one value, found none")
     return listed

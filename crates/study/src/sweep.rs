@@ -6,6 +6,7 @@
 //! numbers), so differences between cells are far less noisy than the cells themselves. Finished cells are on the disk,
 //! and a sweep that is started again goes on where it ended.
 
+mod cell;
 mod cells_csv;
 mod days_csv;
 mod design;
@@ -21,10 +22,10 @@ mod typed_tables;
 use std::fs;
 use std::path::Path;
 
-use rayon::prelude::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
 use vertifleet_core::{
-    Coded, FolderKind, Network, OutputKind, Scenario, Stop, check_folder, write_atomically,
+    FolderKind, Network, OutputKind, Scenario, Stop, check_folder, write_atomically,
 };
 use vertifleet_optimize::Step;
 
@@ -37,6 +38,7 @@ use crate::kept_bounds::KeptBounds;
 use crate::report::{File, Records, is_figure, pictures};
 use crate::run::{BoundedDay, Kept, run};
 
+pub use cell::Cell;
 pub use design::{Design, Factor, Levels, MOST_CELLS};
 pub use effects::{Effect, LevelEffect};
 pub use record::{CellRecord, Size};
@@ -96,26 +98,6 @@ pub struct Sweep {
     fingerprint: String,
 }
 
-/// A cell of the design.
-struct Cell {
-    settings: Vec<Value>,
-    /// The changed network, or the reason why there is none.
-    network: Result<Box<Network>, String>,
-}
-
-impl Cell {
-    fn of(base: &Network, factors: &[Factor], settings: Vec<Value>) -> Result<Self, Error> {
-        let paths = factors.iter().map(|factor| &factor.path);
-        let network = match base.changed(paths.zip(&settings)) {
-            Ok(network) => Ok(Box::new(network)),
-            // A fleet without a place is what a grid over fleets and stands has in its corner.
-            Err(error) if error.code().0 == 117 => Err(error.to_string()),
-            Err(error) => return Err(Error::from(error)),
-        };
-        Ok(Self { settings, network })
-    }
-}
-
 impl Sweep {
     /// Makes the networks of all cells. A cell whose fleet has no place is left out; any other change that the format
     /// refuses is an error.
@@ -131,9 +113,7 @@ impl Sweep {
             let days = drawn.days as usize;
             return Err(Error::Empty { policies: competitors.len(), days });
         }
-        let cell = |settings| Cell::of(network, &factors, settings);
-        let settings = design.cells(&factors)?;
-        let cells: Vec<Cell> = settings.into_par_iter().map(cell).collect::<Result<_, Error>>()?;
+        let cells = Cell::all(network, &factors, design)?;
         let mut sweep = Self {
             base: network.clone(),
             factors,

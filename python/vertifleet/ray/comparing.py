@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vertifleet._compare import ComparisonRequest, DrawnDays, network_of
 from vertifleet._kept import Parts
-from vertifleet._sweep import Sweep, together, variations
+from vertifleet._sweep import Sweep, call_of, played, together, variations
 from vertifleet.ray.tasks import play_missing
 
 if TYPE_CHECKING:
@@ -65,9 +65,10 @@ def compare(
 
 def sweep(
     network: str | os.PathLike[str] | Network,
-    changes: Mapping[str, Iterable[Any]],
+    changes: Mapping[str, Iterable[Any] | str],
     policies: Iterable[str],
     *,
+    latin: SupportsIndex | None = None,
     days: SupportsIndex = 100,
     seed: SupportsIndex = 1,
     models: Mapping[str, PolicySource] | None = None,
@@ -83,7 +84,8 @@ def sweep(
 
     Args:
         network: as in :func:`vertifleet.sweep`, like all arguments that follow except the last.
-        changes: lists of values by paths of the network file.
+        changes: values by paths of the network file.
+        latin: number of variations of a Latin hypercube.
         policies: names of the policies.
         days: number of days.
         seed: seed of the first day.
@@ -99,10 +101,12 @@ def sweep(
         Error: as :func:`vertifleet.sweep`; V409 if a node has another version of the package.
     """
     network, drawn = network_of(network), DrawnDays.of(days, seed)
-    points = variations(network, changes)
+    cells = variations(network, changes, latin, drawn)
+    points = played(cells)
     request = ComparisonRequest.of(
         "vertifleet.ray.compare", policies, drawn, models, bound, step, policy_seed
     )
     parts = Parts.open(journal, network, [changes for changes, _ in points], request, drawn)
     play_missing([variation for _, variation in points], request, parts, days_per_task)
-    return together("vertifleet.ray.sweep", network, request, points, parts)
+    call = call_of("vertifleet.ray.sweep", network, changes, latin, request)
+    return Sweep(network.name, request.policies, together(cells, parts), varied=network, command=call)

@@ -160,7 +160,10 @@ impl Design {
     pub fn cells(self, factors: &[Factor]) -> Result<Vec<Vec<Value>>, Error> {
         let asked = |rule: String, hint| Err(Error::Asked { rule, hint });
         if factors.is_empty() {
-            return asked("no setting is varied".to_owned(), "name one with --vary");
+            return asked(
+                "no setting is varied".to_owned(),
+                "name one and its values, as in fleet.0.count=30..50/5",
+            );
         }
         for (at, factor) in factors.iter().enumerate() {
             if factors[..at].iter().any(|before| before.path == factor.path) {
@@ -186,13 +189,13 @@ fn grid(factors: &[Factor]) -> Result<Vec<Vec<Value>>, Error> {
         let Levels::List(values) = &factor.levels else {
             return Err(Error::Asked {
                 rule: format!("{:?} has a range without steps", factor.path),
-                hint: "add a step, as in 30..50/5, or draw a Latin hypercube with --latin",
+                hint: "add a step, as in 30..50/5, or draw a Latin hypercube (--latin CELLS; latin=CELLS in Python)",
             });
         };
         if cells.len() * values.len() > MOST_CELLS {
             return Err(Error::Asked {
                 rule: format!("the grid has more than {MOST_CELLS} cells"),
-                hint: "use fewer values, or draw a Latin hypercube with --latin",
+                hint: "use fewer values, or draw a Latin hypercube (--latin CELLS; latin=CELLS in Python)",
             });
         }
         let with = |cell: &Vec<Value>| {
