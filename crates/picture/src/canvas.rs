@@ -53,7 +53,7 @@ impl Lettering {
 
     /// The same in bold.
     #[must_use]
-    pub fn bold(self) -> Self {
+    pub const fn bold(self) -> Self {
         Self { bold: true, ..self }
     }
 }

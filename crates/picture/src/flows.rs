@@ -5,6 +5,7 @@ use vertifleet_sim::TraceRow;
 
 use crate::canvas::{Anchor, Canvas, Lettering, Stroke};
 use crate::map::{Area, Map, pair};
+use crate::names;
 use crate::numbers::grouped;
 use crate::palette::Paint;
 
@@ -49,8 +50,8 @@ pub(crate) fn draw_flows(canvas: &mut Canvas, area: Area, day: &Scenario, number
     let radius = if map.is_named() { 7.0 } else { 4.0 };
     for at in VertiportIx::all(size) {
         map.disc(canvas, at, radius, 0.0);
-        map.name(canvas, day, at, radius);
     }
+    names::draw(canvas, &map, day, radius);
     let mut text = format!("{} passengers, both ways together", grouped(f64::from(most), 0));
     if flows.len() < all {
         let (shown, all) = (flows.len(), grouped(all as f64, 0));

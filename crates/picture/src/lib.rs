@@ -16,6 +16,7 @@ mod ledger;
 mod map;
 mod matrices;
 mod moment;
+mod names;
 mod network;
 pub mod numbers;
 mod occupancy;

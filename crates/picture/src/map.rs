@@ -117,13 +117,20 @@ impl Map {
         }
     }
 
+    /// How names of vertiports are written.
+    pub(crate) const NAME: Lettering = Lettering { size: 12.0, ..Lettering::LABEL.bold() };
+
+    /// The name of a vertiport, as far as there is room for it.
+    pub(crate) fn short_name(day: &Scenario, at: VertiportIx) -> String {
+        crate::canvas::shortened(&day.vertiports[at.at()].id, 12)
+    }
+
     /// The name of a vertiport above its disc.
     pub(crate) fn name(&self, canvas: &mut Canvas, day: &Scenario, at: VertiportIx, radius: f64) {
         if self.is_named() {
             let (x, y) = self.at(at);
-            let lettering = Lettering { size: 12.0, ..Lettering::LABEL.bold() };
-            let name = crate::canvas::shortened(&day.vertiports[at.at()].id, 12);
-            canvas.text_on_lines((x, y - radius - 5.0), lettering.anchored(Anchor::Middle), &name);
+            let (above, name) = ((x, y - radius - 5.0), Self::short_name(day, at));
+            canvas.text_on_lines(above, Self::NAME.anchored(Anchor::Middle), &name);
         }
     }
 }
