@@ -3,20 +3,21 @@
 
 use serde::Serialize;
 use serde_json::Value;
+use toml_edit::DocumentMut;
 use toml_edit::ser::ValueSerializer;
-use toml_edit::{Array, DocumentMut, Table, value};
 
-use crate::edit::{set, whole_numbers};
+use crate::edit::set;
 use crate::parse::shortened;
-use crate::{Error, Network};
+use crate::{Error, Network, kept};
 
 impl Network {
     /// Returns the network whose file differs from this one's in some members. A path names members from the outside
     /// in, separated by dots. An entry of a list is named by its `id` (in the fleet by its `type`) or by its position from
     /// 0, and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`, `vertiports.*.stands`.
     /// Changes are made in order, so that later ones win. Where stands change, the changed file says with `start_stands` that
-    /// aircraft start as they do on this network. Everything else stays as it was written, comments too. The changed file has
-    /// to obey the format like any other.
+    /// aircraft start as they do on this network; where fares change and passengers respond, it says with `market.reference`
+    /// that the demand is the one at this network's fares. Everything else stays as it was written, comments too. The changed
+    /// file has to obey the format like any other.
     ///
     /// # Errors
     /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form in TOML, and the
@@ -40,7 +41,8 @@ impl Network {
             let parts: Vec<&str> = path.split('.').collect();
             set(file.as_table_mut(), &parts, &value).map_err(|part| nowhere(&part))?;
         }
-        self.keep_start_stands(file.as_table_mut());
+        kept::keep_start_stands(self, file.as_table_mut());
+        kept::keep_reference(self, file.as_table_mut());
         Self::from_toml(&file.to_string(), &origin)
     }
 
@@ -59,18 +61,6 @@ impl Network {
             part: shortened(&part, 64),
         })?;
         Ok(found)
-    }
-
-    /// Makes aircraft start where they start on this network, if the stands of the file are others than its own.
-    fn keep_start_stands(&self, file: &mut Table) {
-        let own: Vec<i64> =
-            self.vertiports().iter().map(|vertiport| i64::from(vertiport.stands)).collect();
-        // Stands that are no whole numbers are refused when the text is read.
-        let stands = whole_numbers(file, "vertiports", "stands");
-        let Some(stands) = stands.filter(|stands| stands.len() == own.len()) else { return };
-        if stands != own && !file.contains_key("start_stands") {
-            file.insert("start_stands", value(own.into_iter().collect::<Array>()));
-        }
     }
 }
 

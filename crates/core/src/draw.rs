@@ -45,7 +45,6 @@ impl Network {
         day.name = format!("{}-{seed}", self.name);
         day.seed = seed.get();
         self.draw_demand(&mut day.demand, &mut Stream::Demand.of(seed));
-        self.respond(&mut day.demand, &mut Stream::Market.of(seed));
         let stands: Vec<u16> = day.vertiports.iter().map(|vertiport| vertiport.stands).collect();
         let start_stands = self.start_stands.as_ref().unwrap_or(&stands);
         let positions = start_positions(start_stands, stands.clone(), day.aircraft.len(), seed);
@@ -53,6 +52,10 @@ impl Network {
             aircraft.at = at;
         }
         self.draw_disturbances(&mut day, seed);
+        // Demand and forecast meet the same numbers, so that they respond alike.
+        for demand in day.disturbances.forecast.iter_mut().chain([&mut day.demand]) {
+            self.respond(demand, &mut Stream::Market.of(seed));
+        }
         // Demand is within bounds for every network that was accepted, and start positions respect the stands.
         Scenario::checked(day)
     }
@@ -74,9 +77,9 @@ impl Network {
         }
     }
 
-    /// Applies the market's factors to the demand that was drawn at the reference fares. Where this does not give whole
-    /// passengers, one of the two neighbouring numbers is taken by chance. The draws are the same at all fares, so that
-    /// a higher fare never gives more passengers on the same day.
+    /// Applies the market's factors to what was drawn at the reference fares. Where this does not give whole passengers, one
+    /// of the two neighbouring numbers is taken by chance. The draws are the same at all fares, so that a higher fare never
+    /// gives more passengers on the same day.
     fn respond(&self, demand: &mut [Matrix<u32>], random: &mut ChaCha8Rng) {
         let Some(factors) = &self.demand.factors else { return };
         for (table, factors) in demand.iter_mut().zip(factors) {

@@ -35,6 +35,7 @@ mod file_kind;
 mod files;
 mod folders;
 mod ix;
+mod kept;
 mod limits;
 mod market;
 mod matrix;

@@ -18,6 +18,7 @@ use serde::Deserialize;
 
 use crate::raw::{Positions, each};
 use crate::raw_disturbances::RawRoute;
+use crate::tariffs::RawPairTariff;
 use crate::{Error, Fares, Matrix, VertiportIx, limits};
 
 /// `[market]` of the network file.
@@ -55,6 +56,7 @@ pub(crate) struct RawReference {
     pub(crate) fare_factors: Option<Vec<f64>>,
     pub(crate) boarding_fee_usd: Option<f64>,
     pub(crate) fare_level: Option<f64>,
+    pub(crate) pairs: Option<Vec<RawPairTariff>>,
 }
 
 /// A checked market.

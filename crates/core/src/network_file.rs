@@ -135,8 +135,8 @@ impl RawNetwork {
         let tariffs = raw.tariffs.check(periods, &places, origin)?;
         let fares = |tariffs: &Tariffs| tariffs.fares_usd(&distance_mi, &demand);
         let fare_usd = fares(&tariffs);
-        let reference =
-            tariffs.at_reference(std::mem::take(&mut raw.market.reference), periods, origin)?;
+        let reference = std::mem::take(&mut raw.market.reference);
+        let reference = tariffs.at_reference(reference, periods, &places, origin)?;
         let market = raw.market.check(&places, vertiports.len(), origin)?;
         demand.factors = market.factors(&fare_usd, &fares(&reference), periods);
 

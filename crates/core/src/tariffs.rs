@@ -42,7 +42,7 @@ pub(crate) struct RawTariffs {
 /// What a single pair has in place of what the formulas give.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of a pair's tariff")]
-struct RawPairTariff {
+pub(crate) struct RawPairTariff {
     from: String,
     to: String,
     fare_usd: Option<f64>,
@@ -98,7 +98,7 @@ impl RawTariffs {
         let pairs = std::mem::take(&mut self.pairs);
         let mut tariffs =
             Tariffs { rules: self, fares_usd: Vec::new(), passenger_costs_usd: Vec::new() };
-        tariffs.take_pairs(pairs, places, origin)?;
+        tariffs.take_pairs("tariffs", pairs, places, origin)?;
         Ok(tariffs)
     }
 
@@ -133,9 +133,10 @@ impl RawTariffs {
 }
 
 impl Tariffs {
-    /// Takes what single pairs have in place of what the formulas give.
+    /// Takes what single pairs have in place of what the formulas give; `section` is where it stands in the file.
     fn take_pairs(
         &mut self,
+        section: &str,
         pairs: Vec<RawPairTariff>,
         places: &Positions,
         origin: &str,
@@ -143,7 +144,7 @@ impl Tariffs {
         let mut seen = HashSet::new();
         each(pairs, |pair, at| {
             let RawPairTariff { from, to, fare_usd, passenger_cost_usd } = pair;
-            let member = format!("tariffs: pairs[{at}]");
+            let member = format!("{section}: pairs[{at}]");
             let what = format!("the tariff from {from:?} to {to:?}");
             if from == to {
                 let (origin, vertiport) = (origin.to_owned(), from);
@@ -181,9 +182,14 @@ impl Tariffs {
         &self,
         reference: RawReference,
         periods: usize,
+        places: &Positions,
         origin: &str,
     ) -> Result<Self, Error> {
         let mut then = self.clone();
+        if let Some(pairs) = reference.pairs {
+            (then.fares_usd, then.passenger_costs_usd) = (Vec::new(), Vec::new());
+            then.take_pairs("market: reference", pairs, places, origin)?;
+        }
         let rules = &mut then.rules;
         for (now, then) in [
             (&mut rules.passenger_cost_usd_per_mi, reference.passenger_cost_usd_per_mi),

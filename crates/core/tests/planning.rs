@@ -39,16 +39,80 @@ fn a_market_without_response_changes_no_day() {
 #[test]
 fn on_the_same_day_a_higher_fare_never_has_more_passengers() {
     let plain = changed(&network(NEW_YORK), &json!({"market": {"elasticity": 1.4}}));
-    let day = |level: f64| {
-        changed(&plain, &json!({"tariffs.fare_level": level})).draw(seed(3)).expected()
-    };
-    let days = [0.7, 0.9, 1.0, 1.01, 1.3, 2.0].map(day);
-    for pair in days.windows(2) {
-        for (low, high) in pair[0].demand.iter().zip(&pair[1].demand) {
-            assert!(low.cells().iter().zip(high.cells()).all(|(low, high)| low >= high));
+    for number in 0..10 {
+        let day =
+            |level: f64| changed(&plain, &json!({"tariffs.fare_level": level})).draw(seed(number));
+        let days = [0.7, 0.9, 1.0, 1.01, 1.05, 1.3, 2.0].map(day);
+        for pair in days.windows(2) {
+            assert_none_more(&pair[1].demand, &pair[0].demand);
+            let [low, high] = [0, 1].map(|at: usize| pair[at].expected().demand.clone());
+            assert_none_more(&high, &low);
+        }
+        assert!(passengers(&days[0]) > passengers(&days[2]) && passengers(&days[6]) > 0);
+        let unchanged = plain.draw(seed(number));
+        assert_eq!(days[2].demand, unchanged.demand, "at the reference nothing changes");
+    }
+}
+
+/// Sees that no pair has more passengers in `one` than in `other`.
+fn assert_none_more(one: &[Matrix<u32>], other: &[Matrix<u32>]) {
+    for (one, other) in one.iter().zip(other) {
+        assert!(one.cells().iter().zip(other.cells()).all(|(one, other)| one <= other));
+    }
+}
+
+/// The tables of the two networks' mean demand are so many times each other.
+fn assert_mean_is(now: &Network, before: &Network, factor: impl Fn(f64) -> f64) {
+    let fares = |network: &Network| network.draw(seed(1)).fare_usd.in_period(0).cells().to_vec();
+    let ratios: Vec<f64> =
+        fares(now).iter().zip(fares(before)).map(|(now, before)| now / before).collect();
+    for (now, before) in now.mean_demand().iter().zip(before.mean_demand()) {
+        for ((now, before), ratio) in now.cells().iter().zip(before.cells()).zip(&ratios) {
+            let expected = if *before > 0.0 { before * factor(*ratio) } else { 0.0 };
+            assert!((now - expected).abs() < 1e-9 * (1.0 + before), "{now} for {expected}");
         }
     }
-    assert!(passengers(&days[0]) > passengers(&days[2]) && passengers(&days[5]) > 0);
+}
+
+#[test]
+fn demand_responds_whichever_member_changes_the_fares() {
+    let elastic = changed(&network(PAPER), &json!({"market.elasticity": 0.8}));
+    let response = |ratio: f64| (0.8 * (1.0 - ratio)).exp();
+    for changes in [
+        json!({"tariffs.fare_usd_per_mi": 1.5}),
+        json!({"tariffs.boarding_fee_usd": 20.0}),
+        json!({"tariffs.fare_base": 1.9, "tariffs.fare_level": 1.2}),
+        json!({"tariffs.fare_factors": vec![1.25; elastic.periods()]}),
+        json!({"tariffs.pairs": [{"from": "V1", "to": "V2", "fare_usd": 400.0}]}),
+    ] {
+        let dear = changed(&elastic, &changes);
+        assert!(total(&dear) < total(&elastic), "{changes}");
+        assert_mean_is(&dear, &elastic, response);
+        // A change of what was changed keeps the same reference.
+        let again = changed(&dear, &json!({"tariffs.fare_level": 1.1, "fleet.0.count": 41}));
+        assert_mean_is(&again, &elastic, response);
+    }
+    let both = json!({"market.elasticity": 0.8, "tariffs.fare_usd_per_mi": 1.5});
+    assert!(total(&changed(&network(PAPER), &both)) < total(&elastic), "together, too");
+}
+
+#[test]
+fn a_reference_that_is_given_is_kept() {
+    let given = json!({"market": {"elasticity": 0.8, "reference": {"boarding_fee_usd": 50.0}}});
+    let given = changed(&network(PAPER), &given);
+    let same = changed(&given, &json!({"tariffs.boarding_fee_usd": 50.0}));
+    assert_mean_is(&same, &network(PAPER), |_| 1.0);
+    let moved = json!({"tariffs.fare_usd_per_mi": 2.0, "market.reference.fare_usd_per_mi": 2.0});
+    let elastic =
+        changed(&network(PAPER), &json!({"market": {"elasticity": 0.8, "reference": {}}}));
+    assert_mean_is(&changed(&elastic, &moved), &elastic, |_| 1.0);
+    // Where nobody responds, nothing is written.
+    let dull = changed(&network(PAPER), &json!({"tariffs.fare_usd_per_mi": 1.5}));
+    assert!(!dull.toml().contains("reference"));
+}
+
+fn total(network: &Network) -> f64 {
+    network.mean_demand().iter().flat_map(Matrix::cells).sum()
 }
 
 #[test]
