@@ -208,6 +208,11 @@ impl Network {
         self.disturbances.takeoff_delays.as_ref().map(DelayModel::probabilities)
     }
 
+    /// Whether aircraft may be out of service for some time on a day of this network.
+    pub fn may_have_outages(&self) -> bool {
+        self.disturbances.outages.is_some()
+    }
+
     /// The day on which everything is as its mean: demand is rounded to whole passengers, nothing is late, closed or out of
     /// service but what is so every day, and aircraft stand anywhere that is allowed. For pictures and tables.
     pub fn mean_day(&self) -> Scenario {

@@ -76,15 +76,16 @@ impl Sum for DesignBound {
 }
 
 impl Bound {
-    /// The bound of all designs that the prices of this bound prove. `scenario` is the day of the bound.
+    /// The bound of all designs that the prices of this bound prove. `scenario` is the day of the bound; `may_fail` says
+    /// whether aircraft of other designs may have outages, as they may on any day of a network that has them.
     ///
     /// # Errors
     /// [`Error::TooManyFlights`] if the day with aircraft of every type is too large for the bound's step.
     ///
     /// # Panics
     /// If `scenario` is not the day of the bound.
-    pub fn of_designs(&self, scenario: &Scenario) -> Result<DesignBound, Error> {
-        let probe = one_of_each_type(scenario);
+    pub fn of_designs(&self, scenario: &Scenario, may_fail: bool) -> Result<DesignBound, Error> {
+        let probe = one_of_each_type(scenario, may_fail);
         let day = TimeExpandedDay::of(&probe, &[], self.step_s())?;
         let size = day.size();
         assert_eq!(self.prices.stand.len(), day.slices.len() * size, "the prices are of this day");
@@ -108,9 +109,9 @@ impl Bound {
     }
 }
 
-/// The day with one aircraft of each type. On a day with outages each of them has one, because other fleets may have
-/// theirs anywhere, and an aircraft with an outage is worth no less (`time_expanded_day.rs`).
-fn one_of_each_type(scenario: &Scenario) -> Scenario {
+/// The day with one aircraft of each type. Where aircraft may fail, each of them has an outage, whatever happens on the day
+/// itself: other fleets may have theirs anywhere, and an aircraft with an outage is worth no less (`time_expanded_day.rs`).
+fn one_of_each_type(scenario: &Scenario, may_fail: bool) -> Scenario {
     let mut day = scenario.clone().into_day();
     let types = day.aircraft_types.len();
     let aircraft =
@@ -120,10 +121,11 @@ fn one_of_each_type(scenario: &Scenario) -> Scenario {
         vertiport.chargers = None;
         vertiport.stands = u16::try_from(types).expect("few types").max(vertiport.stands);
     }
-    if let Some(&first) = day.disturbances.outages.first() {
-        let outage = |at| Outage { aircraft: AircraftIx::new(at), ..first };
-        day.disturbances.outages = (0..types).map(outage).collect();
-    }
+    // The bound drops outages, so it does not matter when they are.
+    let (start, end) = (day.operations.start, day.operations.end);
+    let outage = |at| Outage { aircraft: AircraftIx::new(at), start, end };
+    let failing = if may_fail { types } else { 0 };
+    day.disturbances.outages = (0..failing).map(outage).collect();
     day.check("a day with one aircraft of each type").expect("a day within the rules")
 }
 

@@ -97,7 +97,7 @@ impl<'a> KnownDesigns<'a> {
                 Goal::Served(_) | Goal::LeastSpill => day_of_passengers(day),
             };
             let bound = upper_bound_unless(stop, &day, sizing.bound_step)?.ok_or(Error::Stopped)?;
-            Ok(bound.of_designs(&day)?)
+            Ok(bound.of_designs(&day, network.may_have_outages())?)
         };
         let bounds = days.par_iter().map(bound).collect::<Result<Vec<DesignBound>, Error>>()?;
         Ok(bounds.into_iter().sum())
