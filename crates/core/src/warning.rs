@@ -4,7 +4,7 @@
 use std::fmt;
 
 use crate::sites::great_circle_mi;
-use crate::{AircraftType, Code, Degrees, Network, Scenario, VertiportIx};
+use crate::{AircraftType, Code, Degrees, Matrix, Network, Scenario, VertiportIx, limits};
 
 /// A property of a scenario or a network that is allowed but hardly meant.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +35,30 @@ pub enum Warning {
         /// Number of aircraft, which is also that of the stands.
         aircraft: usize,
     },
+
+    /// V137. Passengers want to fly between vertiports that no aircraft of the fleet can fly between, and are spilled on every
+    /// day. Fix: add corridors, or take the pairs out of the demand.
+    PairsOutOfReach {
+        /// Mean number of these passengers a day.
+        passengers: f64,
+        /// Mean number of all passengers a day.
+        of_all: f64,
+        /// The pair that most of them want to fly.
+        most: (String, String),
+    },
+
+    /// V138. Passengers want to fly when no aircraft takes off, and are spilled on every day. Fix: change the hours of
+    /// operation, or the periods of the demand.
+    OutsideOperations {
+        /// Mean number of these passengers a day.
+        passengers: f64,
+        /// Mean number of all passengers a day.
+        of_all: f64,
+    },
 }
+
+/// Shares of the demand below this are not worth a warning.
+const LEAST_SHARE: f64 = 0.01;
 
 /// The reason why a vertiport is out of reach.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +86,8 @@ impl Warning {
             Self::NoDestination { .. } => Code(120),
             Self::OutOfReach { .. } => Code(135),
             Self::NoStandFree { .. } => Code(136),
+            Self::PairsOutOfReach { .. } => Code(137),
+            Self::OutsideOperations { .. } => Code(138),
         }
     }
 }
@@ -80,6 +105,14 @@ impl fmt::Display for Warning {
             Self::NoStandFree { aircraft } => write!(
                 f,
                 "{aircraft} aircraft fill all {aircraft} stands: a flight needs a free one, so none ever flies"
+            ),
+            Self::PairsOutOfReach { passengers, of_all, most: (from, to) } => write!(
+                f,
+                "{passengers:.0} of {of_all:.0} passengers a day want to fly where no aircraft can, most of them from {from:?} to {to:?}: they are always spilled"
+            ),
+            Self::OutsideOperations { passengers, of_all } => write!(
+                f,
+                "{passengers:.0} of {of_all:.0} passengers a day want to fly outside the hours of operation: they are always spilled"
             ),
         }
     }
@@ -103,7 +136,48 @@ impl fmt::Display for Cause {
 impl Network {
     /// The warnings of this network, in file order: those that hold on every day of it.
     pub fn warnings(&self) -> Vec<Warning> {
-        self.idle_day.out_of_reach().into_iter().chain(self.idle_day.full()).collect()
+        let day = &self.idle_day;
+        let means = self.mean_demand();
+        let of_all = means.iter().flat_map(Matrix::cells).sum();
+        let hopeless =
+            [self.pairs_out_of_reach(&means, of_all), self.outside_operations(&means, of_all)];
+        day.out_of_reach()
+            .into_iter()
+            .chain(day.full())
+            .chain(hopeless.into_iter().flatten())
+            .collect()
+    }
+
+    fn pairs_out_of_reach(&self, means: &[Matrix<f64>], of_all: f64) -> Option<Warning> {
+        let day = &self.idle_day;
+        let fleet = day.fleet_types();
+        let size = day.vertiports.len();
+        let pairs =
+            VertiportIx::all(size).flat_map(|from| day.others(from).map(move |to| (from, to)));
+        let lost = pairs
+            .filter(|&(from, to)| !fleet.iter().any(|kind| day.can_fly(kind, from, to)))
+            .map(|pair| (pair, means.iter().map(|table| table[pair]).sum::<f64>()));
+        let lost: Vec<((VertiportIx, VertiportIx), f64)> = lost.collect();
+        let passengers: f64 = lost.iter().map(|(_, passengers)| passengers).sum();
+        let &((from, to), _) = lost.iter().max_by(|one, other| one.1.total_cmp(&other.1))?;
+        let id = |at: VertiportIx| day.vertiports[at.at()].id.clone();
+        let most = (id(from), id(to));
+        (passengers >= LEAST_SHARE * of_all && passengers > 0.0)
+            .then_some(Warning::PairsOutOfReach { passengers, of_all, most })
+    }
+
+    fn outside_operations(&self, means: &[Matrix<f64>], of_all: f64) -> Option<Warning> {
+        let (day, last) = (&self.idle_day, limits::LATEST);
+        let operations = &day.operations;
+        let ends = day.periods.iter().skip(1).copied().chain([last]);
+        let periods = day.periods.iter().zip(ends).zip(means);
+        let lost = periods.filter(|((start, end), _)| {
+            // The paper's last period begins as operations end, and is not counted.
+            **start > operations.end || *end + operations.passenger_wait_s <= operations.start
+        });
+        let passengers: f64 = lost.flat_map(|(_, table)| table.cells()).sum();
+        (passengers >= LEAST_SHARE * of_all && passengers > 0.0)
+            .then_some(Warning::OutsideOperations { passengers, of_all })
     }
 }
 
@@ -134,13 +208,7 @@ impl Scenario {
 
     /// The vertiports that no aircraft can reach or leave. A network of a single vertiport has none.
     fn out_of_reach(&self) -> Vec<Warning> {
-        let fleet: Vec<&AircraftType> = self
-            .aircraft_types
-            .iter()
-            .enumerate()
-            .filter(|&(at, _)| self.aircraft.iter().any(|aircraft| aircraft.kind.at() == at))
-            .map(|(_, kind)| kind)
-            .collect();
+        let fleet = self.fleet_types();
         let reached = |vertiport| {
             self.others(vertiport).any(|other| {
                 fleet.iter().any(|kind| {
@@ -155,6 +223,14 @@ impl Scenario {
                 cause: self.cause(vertiport, &fleet),
             })
             .collect()
+    }
+
+    /// The types that the fleet has aircraft of.
+    fn fleet_types(&self) -> Vec<&AircraftType> {
+        let types = self.aircraft_types.iter().enumerate();
+        let flown =
+            types.filter(|&(at, _)| self.aircraft.iter().any(|aircraft| aircraft.kind.at() == at));
+        flown.map(|(_, kind)| kind).collect()
     }
 
     /// The reason why no aircraft can reach or leave a vertiport.
