@@ -166,7 +166,7 @@ def sweep(
         changes: values by paths of the network file, as in :meth:`Network.changed`: a list, or a text as
             ``vertifleet sweep --vary`` takes it, such as ``"30..50/5"``, a range with a step. Every
             combination is a point; the values of the last path change fastest. If two paths lead to the same
-            member, the later one wins.
+            member, the later one wins; one that changes nothing then is refused.
         latin: number of variations of a Latin hypercube, drawn with `seed`, in place of all combinations.
             Ranges then need no step (``"0.8..1.6"``), and are of whole numbers if both ends are.
         policies: as in :func:`compare`, like all arguments that follow.

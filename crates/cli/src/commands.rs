@@ -91,6 +91,13 @@ fn warn_of_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     }
 }
 
+/// Prints the warnings about passengers whom no fleet can carry, which a study of fleets should know of.
+fn warn_of_demand(network: &Network) {
+    for warning in network.warnings().iter().filter(|warning| warning.is_about_demand()) {
+        warn(warning.code(), &format!("{}: {warning}", network.name()));
+    }
+}
+
 /// Checks, before any day is played, that the report can be written to its folder without replacing anything that is
 /// read.
 fn claim_report(arguments: &PresentedArguments, outputs: &mut Outputs) -> Result<(), Failure> {

@@ -92,6 +92,13 @@ impl Warning {
     }
 }
 
+impl Warning {
+    /// Whether it is about passengers whom no fleet can carry.
+    pub fn is_about_demand(&self) -> bool {
+        matches!(self, Self::PairsOutOfReach { .. } | Self::OutsideOperations { .. })
+    }
+}
+
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -6,6 +6,7 @@
 //! numbers), so differences between cells are far less noisy than the cells themselves. Finished cells are on the disk,
 //! and a sweep that is started again goes on where it ended.
 
+mod additive;
 mod cell;
 mod cells_csv;
 mod days_csv;
@@ -19,6 +20,7 @@ mod summary;
 mod table;
 mod typed_tables;
 
+use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
 
@@ -144,6 +146,20 @@ impl Sweep {
     /// Number of cells that will be played.
     pub fn cells(&self) -> usize {
         self.cells.iter().filter(|cell| cell.network.is_ok()).count()
+    }
+
+    /// Whether the design has every combination of the values of its factors, each as often as any other.
+    fn is_grid(&self) -> bool {
+        let distinct =
+            |texts: &mut dyn Iterator<Item = String>| texts.collect::<HashSet<_>>().len();
+        let values = |factor: usize| {
+            distinct(&mut self.cells.iter().map(|cell| cell.settings[factor].to_string()))
+        };
+        let combinations =
+            (0..self.factors.len()).map(values).fold(1, |all: usize, one| all.saturating_mul(one));
+        let settings = |cell: &Cell| Value::from(cell.settings.clone()).to_string();
+        distinct(&mut self.cells.iter().map(settings)) == combinations
+            && self.cells.len().is_multiple_of(combinations)
     }
 
     /// A number that changes when anything changes that the results depend on.

@@ -18,8 +18,12 @@ const BOTTOM: f64 = 60.0;
 /// With more values in a direction, numbers no longer fit.
 const MOST_VALUES: usize = 14;
 
-/// The figure of the two factors that matter most; `None` if there are not two, or if they have too many values.
+/// The figure of the two factors that matter most; `None` if there are not two, if they have too many values, or if not
+/// every pair of their values is in the design.
 pub(super) fn figure(report: &SweepReport) -> Option<Figure> {
+    if !report.is_grid {
+        return None;
+    }
     let (across, down) = strongest(report)?;
     let columns = values(report, across);
     let rows = values(report, down);

@@ -62,9 +62,11 @@ pub(super) fn curves(report: &SweepReport) -> Option<Figure> {
     }
     Some(Figure {
         slug: "figure-response-curves",
-        caption: "All panels have the same vertical scale, so that settings can be compared by their slopes. Designs of a panel differ in \
-                  the other settings too, over which it takes the mean."
-            .to_owned(),
+        caption: format!(
+            "All panels have the same vertical scale, so that settings can be compared by their slopes. Designs of a panel differ in \
+             the other settings too, over which it takes the mean.{}",
+            report.how_effects_were_found()
+        ),
         svg: canvas.into_svg(),
     })
 }

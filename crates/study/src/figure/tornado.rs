@@ -51,8 +51,10 @@ pub(super) fn figure(report: &SweepReport) -> Option<Figure> {
     );
     Some(Figure {
         slug: "figure-tornado",
-        caption: "Each bar reaches from the value with the lowest mean profit to the one with the highest, which are written at its ends."
-            .to_owned(),
+        caption: format!(
+            "Each bar reaches from the value with the lowest mean profit to the one with the highest, which are written at its ends.{}",
+            report.how_effects_were_found()
+        ),
         svg: canvas.into_svg(),
     })
 }

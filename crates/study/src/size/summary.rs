@@ -219,10 +219,13 @@ impl SizeReport {
     }
 }
 
+/// Worths below this, in dollars or passengers a day, are shown as 0.
+const LEAST_WORTH: f64 = 0.05;
+
 impl DimensionSummary {
-    /// Whether what was found is the highest number that was searched, and one more might be better.
+    /// Whether what was found is the highest number that was searched, and one more might be better by anything that is shown.
     pub fn is_at_limit(&self) -> bool {
-        self.found == self.highest && self.one_more_is_worth_at_most > 0.0
+        self.found == self.highest && self.one_more_is_worth_at_most >= LEAST_WORTH
     }
 }
 

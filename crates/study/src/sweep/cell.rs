@@ -24,6 +24,7 @@ impl Cell {
     /// Returns the errors of [`Design::cells`], those of [`Network::changed`], and [`Error::Asked`] if no cell has a network.
     pub fn all(base: &Network, factors: &[Factor], design: Design) -> Result<Vec<Self>, Error> {
         let settings = design.cells(factors)?;
+        each_counts(base, factors)?;
         let cell = |settings| Self::of(base, factors, settings);
         let cells: Vec<Self> = settings.into_par_iter().map(cell).collect::<Result<_, Error>>()?;
         if cells.iter().any(|cell| cell.network.is_ok()) {
@@ -49,5 +50,64 @@ impl Cell {
             Err(error) => return Err(Error::from(error)),
         };
         Ok(Self { settings, network })
+    }
+}
+
+/// Sees that no factor is undone by a later one that sets the same members.
+fn each_counts(base: &Network, factors: &[Factor]) -> Result<(), Error> {
+    let members = |factor: &Factor| -> Vec<String> {
+        // A member that the file does not have yet is its own.
+        let found = base.members(&factor.path).unwrap_or_default();
+        if found.is_empty() {
+            return vec![factor.path.clone()];
+        }
+        found.into_iter().map(|(path, _)| path).collect()
+    };
+    let all: Vec<Vec<String>> = factors.iter().map(members).collect();
+    for (at, own) in all.iter().enumerate() {
+        let later =
+            all[at + 1..].iter().position(|other| own.iter().all(|one| other.contains(one)));
+        if let Some(later) = later {
+            return Err(Error::Asked {
+                rule: format!(
+                    "{:?} is undone by {:?}, which sets the same members",
+                    factors[at].path,
+                    factors[at + 1 + later].path
+                ),
+                hint: "vary a member by one path",
+            });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::{Coded, Network};
+
+    use super::Cell;
+    use crate::sweep::{Design, Factor};
+
+    fn refused(texts: [&str; 2]) -> Option<String> {
+        let paper = Network::shipped("paper").expect("a shipped network");
+        let factors = texts.map(|text| Factor::parse(text).expect("a factor"));
+        let error = Cell::all(&paper, &factors, Design::Grid).err()?;
+        Some(format!("{}: {error}", error.code()))
+    }
+
+    #[test]
+    fn no_factor_is_undone_by_another() {
+        let twice = ["vertiports.0.stands=6,7", "vertiports.V1.stands=6,7"];
+        let text = refused(twice).expect("the first would change nothing");
+        assert!(text.starts_with("V407") && text.contains("undone"), "{text}");
+        assert!(refused(["vertiports.V1.stands=6,7", "vertiports.*.stands=6,7"]).is_some());
+        assert_eq!(refused(["vertiports.*.stands=6,7", "vertiports.V1.stands=6,7"]), None);
+        assert_eq!(refused(["market.elasticity=0,1", "market.demand_factor=1,2"]), None);
+    }
+
+    #[test]
+    fn a_sweep_has_a_cell_that_can_be_played() {
+        let text = refused(["fleet.0.count=400,500", "operations.hold_s=600,900"]);
+        assert!(text.expect("no fleet has a place").contains("no cell of the sweep can be played"));
     }
 }

@@ -218,7 +218,11 @@ fn latin_hypercube(factors: &[Factor], cells: usize, seed: u64) -> Vec<Vec<Value
             let share = (part as f64 + 0.5) / cells as f64;
             cell.push(match &factor.levels {
                 Levels::List(values) => values[part * values.len() / cells].clone(),
-                &Levels::Range(low, high, whole) => number((high - low).mul_add(share, low), whole),
+                // Each whole number has a part of the range of its own, the first and the last too.
+                &Levels::Range(low, high, true) => {
+                    number((high - low + 1.0).mul_add(share, low).floor(), true)
+                }
+                &Levels::Range(low, high, false) => number((high - low).mul_add(share, low), false),
             });
         }
     }
@@ -373,6 +377,12 @@ mod tests {
         let parts: Vec<f64> = (0..10).map(|part| f64::from(part) + 0.5).collect();
         assert_eq!(column(0), parts);
         assert_eq!(column(1).first(), Some(&5.0));
+        let design = Design::LatinHypercube { cells: 10, seed: 4 };
+        let mut whole: Vec<Value> =
+            design.cells(&[factor("d=4..8")]).expect("a hypercube").concat();
+        whole.sort_by_key(Value::as_i64);
+        assert_eq!(json!(whole), json!([4, 4, 5, 5, 6, 6, 7, 7, 8, 8]), "all as often");
+        let design = Design::LatinHypercube { cells: 10, seed: 3 };
         assert_eq!(cells.iter().filter(|cell| cell[2] == json!("x")).count(), 5);
         assert_eq!(design.cells(&factors).expect("again"), cells, "a seed means one design");
     }

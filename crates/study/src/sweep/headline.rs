@@ -44,8 +44,13 @@ pub(super) fn text(report: &SweepReport) -> String {
     if let Some(effect) =
         largest.filter(|effect| report.varied().count() > 1 && effect.span_usd > 0.0)
     {
+        let (matters, between) = if report.is_grid {
+            ("matters most", "its values")
+        } else {
+            ("seems to matter most", "groups of its values")
+        };
         sentences.push(format!(
-            "{} matters most: between its values mean profits are up to ${} apart.",
+            "{} {matters}: between {between} mean profits are up to ${} apart.",
             effect.factor,
             grouped(effect.span_usd, 0)
         ));

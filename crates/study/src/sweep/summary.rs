@@ -6,7 +6,7 @@ use serde_json::Value;
 use vertifleet_optimize::Step;
 use vertifleet_sim::DayTotals;
 
-use super::effects::Effect;
+use super::effects::{Effect, Effects};
 use super::record::{CellRecord, Size};
 use super::{Sweep, SweepRecords};
 use crate::error::Error;
@@ -45,10 +45,14 @@ pub struct SweepReport {
     /// The number of the cell in which the first policy earns most.
     pub best: usize,
     /// The number of the cheapest cell in which it earns at most 1 % less: the one with the lowest fixed cost, and among
-    /// equals with the fewest aircraft and then stands.
+    /// equals with the fewest aircraft and then stands, and then the one in which it earns most.
     pub cheapest: usize,
     /// How the profit follows each factor.
     pub effects: Vec<Effect>,
+    /// Whether these are the effects of a sum that fits best, because some combinations of values were not played.
+    pub effects_fitted: bool,
+    /// Whether the design has every combination of values; if not, it is a Latin hypercube.
+    pub is_grid: bool,
     /// The cells in the order of the design.
     pub cells: Vec<CellSummary>,
 }
@@ -122,10 +126,11 @@ impl SweepReport {
         };
         let enough_usd = best_usd - NEARLY * best_usd.abs();
         let good = played.iter().filter(|(_, _, profit_usd)| *profit_usd >= enough_usd);
-        let cheapest = good.min_by(|(one, a, _), (other, b, _)| {
+        let cheapest = good.min_by(|(one, a, earns), (other, b, less)| {
             let cost = a.fixed_cost_usd.total_cmp(&b.fixed_cost_usd);
             let size = |size: &Size| (size.aircraft, size.stands, size.chargers);
-            cost.then(size(a).cmp(&size(b))).then(one.cell.cmp(&other.cell))
+            let profit = less.total_cmp(earns);
+            cost.then(size(a).cmp(&size(b))).then(profit).then(one.cell.cmp(&other.cell))
         });
         let cheapest = cheapest.expect("the best cell is good").0.cell;
         let cell = |(number, record): (usize, &Option<CellRecord>)| {
@@ -141,6 +146,7 @@ impl SweepReport {
                 results: results.collect(),
             }
         };
+        let effects = Effects::of(sweep, records);
         Ok(Self {
             format: FORMAT,
             program_version: env!("CARGO_PKG_VERSION"),
@@ -154,7 +160,9 @@ impl SweepReport {
             policies: sweep.policies.clone(),
             best: best.cell,
             cheapest,
-            effects: Effect::of_all(sweep, records),
+            effects: effects.all,
+            effects_fitted: effects.fitted,
+            is_grid: sweep.is_grid(),
             cells: records.iter().enumerate().map(cell).collect(),
         })
     }
@@ -177,6 +185,16 @@ impl SweepReport {
     /// How profit follows those factors that have more than one value.
     pub fn varied(&self) -> impl Iterator<Item = &Effect> + Clone {
         self.effects.iter().filter(|effect| effect.levels.len() > 1)
+    }
+
+    /// A sentence about how effects were found, for captions, with a blank before it; nothing where they are plain means.
+    pub fn how_effects_were_found(&self) -> &'static str {
+        if self.effects_fitted {
+            " Not every combination of settings was played, so that means are those of the sum of one effect for each setting that \
+             fits best: like is compared with like."
+        } else {
+            ""
+        }
     }
 
     /// The settings of a cell in words: `fleet.0.count = 40, tariffs.fare_level = 1.1`. A setting that is the same in all
