@@ -132,6 +132,35 @@ fn trips_become_demand_with_an_account_of_every_row() {
     assert_eq!(overview["passengers_a_day"], 2.0, "two rows of two passengers, half of whom fly");
 }
 
+/// What the program says on a command that has to be refused.
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = vertifleet(folder, arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    String::from_utf8(output.stderr).expect("text")
+}
+
+#[test]
+fn flags_of_trip_records_are_refused_without_trip_records() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (flag, value) in [
+        ("--zones", "zones.csv"),
+        ("--radius", "2"),
+        ("--mode-share", "0.1"),
+        ("--decay", "1"),
+        ("--weekdays", "Mon"),
+        ("--first-date", "2015-06-01"),
+        ("--last-date", "2015-06-01"),
+    ] {
+        let said = refused(folder.path(), &[&IMPORT[..], &[flag, value]].concat());
+        assert!(said.contains(flag) && said.contains("--trips is not given"), "{said}");
+    }
+    let neither = [&IMPORT[..4], &IMPORT[6..]].concat();
+    let said = refused(folder.path(), &neither);
+    assert!(said.contains("--demand <FILE>|--trips <FILE>"), "{said}");
+    let both = [&IMPORT[..], &["--trips", "trips.csv"]].concat();
+    assert!(refused(folder.path(), &both).contains("cannot be used with"));
+}
+
 #[test]
 fn check_says_everything_at_once() {
     let folder = imported();

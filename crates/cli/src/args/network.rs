@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
+use clap::{ArgGroup, Args, Subcommand};
 use vertifleet_import::{Date, NewVertiport, Weekdays};
 
 use crate::typed::{parse_known, parse_vertiport};
@@ -49,36 +49,37 @@ pub(crate) enum NetworkAction {
 }
 
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("source").required(true).args(["demand", "trips"]))]
 pub(crate) struct ImportArguments {
     /// Vertiports: CSV with id,latitude,longitude and perhaps stands,chargers,busy; or GeoJSON points
     #[arg(long, value_name = "FILE")]
     pub(crate) vertiports: PathBuf,
     /// Mean passengers: CSV or Parquet with period,from,to,passengers
-    #[arg(long, value_name = "FILE", required_unless_present = "trips", conflicts_with = "trips")]
+    #[arg(long, value_name = "FILE")]
     pub(crate) demand: Option<PathBuf>,
     /// Trip records, CSV or Parquet, with times and places; zones need --zones
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub(crate) trips: Vec<PathBuf>,
     /// Where the zones of the trip records are: CSV with zone,latitude,longitude, or GeoJSON
-    #[arg(long, value_name = "FILE", requires = "trips")]
+    #[arg(long, value_name = "FILE")]
     pub(crate) zones: Option<PathBuf>,
     /// Greatest distance between a place and its vertiport, miles [default: 1]
-    #[arg(long, value_name = "MILES", requires = "trips", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MILES", allow_hyphen_values = true)]
     pub(crate) radius: Option<f64>,
     /// Share of the trips near vertiports that would fly [default: 0.01]
-    #[arg(long, value_name = "SHARE", requires = "trips", allow_hyphen_values = true)]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     pub(crate) mode_share: Option<f64>,
     /// Distance to and from vertiports over which that share falls to 1/e, miles [default: it does not fall]
-    #[arg(long, value_name = "MILES", requires = "trips", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MILES", allow_hyphen_values = true)]
     pub(crate) decay: Option<f64>,
     /// Days of the week that count, as Mon,Tue,Wed [default: all]
-    #[arg(long, value_name = "DAYS", requires = "trips", value_parser = parse_known::<Weekdays>)]
+    #[arg(long, value_name = "DAYS", value_parser = parse_known::<Weekdays>)]
     pub(crate) weekdays: Option<Weekdays>,
     /// First date that counts, as 2015-06-01
-    #[arg(long, value_name = "DATE", requires = "trips", value_parser = parse_known::<Date>)]
+    #[arg(long, value_name = "DATE", value_parser = parse_known::<Date>)]
     pub(crate) first_date: Option<Date>,
     /// Last date that counts
-    #[arg(long, value_name = "DATE", requires = "trips", value_parser = parse_known::<Date>)]
+    #[arg(long, value_name = "DATE", value_parser = parse_known::<Date>)]
     pub(crate) last_date: Option<Date>,
     /// Corridors that may be flown: GeoJSON lines with from and to
     #[arg(long, value_name = "FILE")]
@@ -104,6 +105,23 @@ pub(crate) struct ImportArguments {
     /// Print what became of the trip records as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl ImportArguments {
+    /// The flags in use that say how trip records become demand, and say nothing of a table of demand. Rules of the
+    /// parser cannot refuse them: it drops the demand for `--trips` where `--demand` excludes it.
+    pub(crate) fn flags_of_trips(&self) -> Vec<&'static str> {
+        let flags = [
+            ("--zones", self.zones.is_some()),
+            ("--radius", self.radius.is_some()),
+            ("--mode-share", self.mode_share.is_some()),
+            ("--decay", self.decay.is_some()),
+            ("--weekdays", self.weekdays.is_some()),
+            ("--first-date", self.first_date.is_some()),
+            ("--last-date", self.last_date.is_some()),
+        ];
+        flags.into_iter().filter(|(_, used)| *used).map(|(flag, _)| flag).collect()
+    }
 }
 
 #[derive(Debug, Args)]

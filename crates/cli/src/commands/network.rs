@@ -40,6 +40,7 @@ pub(crate) fn run(action: &NetworkAction) -> Result<ExitCode, Failure> {
 }
 
 fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
+    refuse_flags_of_trips_without_trips(arguments)?;
     let mut outputs = Outputs::new(arguments.force);
     let base = find_network(&arguments.base, &mut outputs)?;
     let optional = [
@@ -90,6 +91,18 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     }
     eprintln!("written: {}", arguments.output.display());
     Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses flags that would change nothing, which nobody would notice.
+fn refuse_flags_of_trips_without_trips(arguments: &ImportArguments) -> Result<(), Failure> {
+    let flags = arguments.flags_of_trips();
+    if !arguments.trips.is_empty() || flags.is_empty() {
+        return Ok(());
+    }
+    let (flags, say) = (flags.join(", "), if flags.len() == 1 { "says" } else { "say" });
+    let message = format!("{flags} {say} how trip records become demand, and --trips is not given");
+    let hint = "--demand takes mean passengers as they are: leave these flags out, or give --trips in its place";
+    Err(Failure::usage(message, hint))
 }
 
 /// The trip records and how they become demand.
