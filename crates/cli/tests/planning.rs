@@ -132,6 +132,36 @@ fn trips_become_demand_with_an_account_of_every_row() {
     assert_eq!(overview["passengers_a_day"], 2.0, "two rows of two passengers, half of whom fly");
 }
 
+#[test]
+fn trips_of_bicycles_are_known_and_other_columns_can_be_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path();
+    fs::write(here.join("vertiports.csv"), VERTIPORTS).expect("room");
+    fs::write(here.join("base.toml"), small_base()).expect("room");
+    let of_bicycles = "ride_id,started_at,ended_at,start_lat,start_lng,end_lat,end_lng\n";
+    let ride =
+        "7,2015-06-01 07:30:00.123,2015-06-01 08:00:00.456,37.619,-122.376,37.721,-122.221\n";
+    fs::write(here.join("rides.csv"), [of_bicycles, ride].concat()).expect("room");
+    let of_their_own = "id,began,until,a,b,c,d\n";
+    fs::write(here.join("own.csv"), [of_their_own, ride].concat()).expect("room");
+    let import = |file, more: &[&'static str]| {
+        let trips = [&IMPORT[..4], &["--trips", file, "--json"], &IMPORT[6..]].concat();
+        [&trips[..], more, &["--force"]].concat()
+    };
+    let rides = json(here, &import("rides.csv", &[]));
+    assert_eq!(rides["trips"]["kept"], 1);
+    let said = refused(here, &import("own.csv", &[]));
+    assert!(said.contains("V702") && said.contains("--trip-columns"), "{said}");
+    let columns = "pickup_time=began,pickup_latitude=a,pickup_longitude=b,dropoff_latitude=c";
+    let named = ["--trip-columns", columns, "--trip-columns", "dropoff_longitude=d"];
+    let own = json(here, &import("own.csv", &named));
+    assert_eq!(own["trips"]["kept"], 1);
+    let said = refused(here, &import("own.csv", &["--trip-columns", "start=began"]));
+    assert!(said.contains("pickup_time") && said.contains("dropoff_zone"), "{said}");
+    let twice = ["--trip-columns", "passengers=a,passengers=b"];
+    assert!(refused(here, &import("own.csv", &twice)).contains("two columns for passengers"));
+}
+
 /// What the program says on a command that has to be refused.
 fn refused(folder: &Path, arguments: &[&str]) -> String {
     let output = vertifleet(folder, arguments);
@@ -143,6 +173,7 @@ fn refused(folder: &Path, arguments: &[&str]) -> String {
 fn flags_of_trip_records_are_refused_without_trip_records() {
     let folder = tempfile::tempdir().expect("a folder");
     for (flag, value) in [
+        ("--trip-columns", "passengers=riders"),
         ("--zones", "zones.csv"),
         ("--radius", "2"),
         ("--mode-share", "0.1"),

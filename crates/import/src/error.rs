@@ -33,8 +33,8 @@ pub enum Error {
         column: String,
         /// The columns that are there.
         found: String,
-        /// A column that was probably meant.
-        meant: Option<String>,
+        /// The column that was probably meant, or what else to do.
+        hint: Option<String>,
     },
 
     /// V703. A value is missing, no number or time where one is needed, or outside the bounds that the message states.
@@ -251,8 +251,8 @@ impl Coded for Error {
     fn hint(&self) -> Option<&str> {
         match self {
             Self::Core(error) => error.hint(),
-            Self::MissingColumn { meant, .. } | Self::UnknownVertiport { meant, .. } => {
-                meant.as_deref()
+            Self::MissingColumn { hint, .. } | Self::UnknownVertiport { meant: hint, .. } => {
+                hint.as_deref()
             }
             Self::CorridorEnd { .. } => Some("a line is drawn from its `from` to its `to`"),
             Self::WrongGeometry { .. } => {

@@ -36,7 +36,7 @@ use vertiports::Vertiports;
 pub use date_time::{Date, NotADate, Weekday, Weekdays};
 pub use error::Error;
 pub use new_network::{NewNetwork, NewVertiport};
-pub use trips::{TripAccount, TripColumns, Trips};
+pub use trips::{TripAccount, TripColumns, TripValue, Trips};
 
 /// What to import.
 #[derive(Debug)]

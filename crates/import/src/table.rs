@@ -42,30 +42,32 @@ pub(crate) fn find_columns(
     found: &[String],
     origin: &str,
 ) -> Result<Vec<Option<usize>>, Error> {
-    let position = |name: &str| found.iter().position(|has| has.eq_ignore_ascii_case(name));
-    let find = |column: &Column| {
-        let at = column.names.iter().find_map(|name| position(name));
-        if at.is_some() || !column.required {
-            return Ok(at);
-        }
-        Err(missing(column.names[0], found, origin))
-    };
-    wanted.iter().map(find).collect()
+    let position = |name: &&str| found.iter().position(|has| has.eq_ignore_ascii_case(name));
+    let places: Vec<Option<usize>> =
+        wanted.iter().map(|column| column.names.iter().find_map(position)).collect();
+    let absent = wanted.iter().zip(&places).find(|(column, at)| column.required && at.is_none());
+    if let Some((column, _)) = absent {
+        let used: Vec<&str> = places.iter().flatten().map(|&at| found[at].as_str()).collect();
+        return Err(missing(column.names[0], found, &used, origin));
+    }
+    Ok(places)
 }
 
-/// An error that says which column is missing, and which there are.
-pub(crate) fn missing(column: &str, found: &[String], origin: &str) -> Error {
+/// An error that says which column is missing, and which there are. Those in use were not meant to be this one.
+pub(crate) fn missing(column: &str, found: &[String], used: &[&str], origin: &str) -> Error {
     const SHOWN: usize = 30;
+    let named = found.iter().filter(|name| !name.is_empty());
     let mut names: Vec<String> =
-        found.iter().take(SHOWN).map(|name| crate::error::shortened(name, 40)).collect();
-    if found.len() > SHOWN {
+        named.clone().take(SHOWN).map(|name| crate::error::shortened(name, 40)).collect();
+    if named.count() > SHOWN {
         names.push("...".to_owned());
     }
+    let others = found.iter().map(String::as_str).filter(|name| !used.contains(name));
     Error::MissingColumn {
         origin: origin.to_owned(),
         column: column.to_owned(),
         found: names.join(", "),
-        meant: did_you_mean(column, found.iter().map(String::as_str)),
+        hint: did_you_mean(column, others),
     }
 }
 

@@ -30,8 +30,8 @@ use crate::vertiports::Vertiports;
 use crate::zones::Zones;
 
 pub use account::TripAccount;
-pub use columns::TripColumns;
 use columns::{Layout, Places};
+pub use columns::{TripColumns, TripValue};
 use nearby::Nearby;
 use tally::{Hours, Rules, Tallies};
 

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, Subcommand};
-use vertifleet_import::{Date, NewVertiport, Weekdays};
+use vertifleet_import::{Date, NewVertiport, TripValue, Weekdays};
 
-use crate::typed::{parse_known, parse_vertiport};
+use crate::typed::{parse_known, parse_pair, parse_vertiport};
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum NetworkAction {
@@ -60,6 +60,9 @@ pub(crate) struct ImportArguments {
     /// Trip records, CSV or Parquet, with times and places; zones need --zones
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub(crate) trips: Vec<PathBuf>,
+    /// Columns of the trip records that have names of their own, as pickup_time=began,passengers=riders
+    #[arg(long, value_name = "VALUE=COLUMN", value_delimiter = ',', value_parser = parse_trip_column)]
+    pub(crate) trip_columns: Vec<(TripValue, String)>,
     /// Where the zones of the trip records are: CSV with zone,latitude,longitude, or GeoJSON
     #[arg(long, value_name = "FILE")]
     pub(crate) zones: Option<PathBuf>,
@@ -112,6 +115,7 @@ impl ImportArguments {
     /// parser cannot refuse them: it drops the demand for `--trips` where `--demand` excludes it.
     pub(crate) fn flags_of_trips(&self) -> Vec<&'static str> {
         let flags = [
+            ("--trip-columns", !self.trip_columns.is_empty()),
             ("--zones", self.zones.is_some()),
             ("--radius", self.radius.is_some()),
             ("--mode-share", self.mode_share.is_some()),
@@ -122,6 +126,15 @@ impl ImportArguments {
         ];
         flags.into_iter().filter(|(_, used)| *used).map(|(flag, _)| flag).collect()
     }
+}
+
+/// The column of a value of trip records.
+fn parse_trip_column(text: &str) -> Result<(TripValue, String), String> {
+    let (name, column) = parse_pair(text)?;
+    let known = TripValue::ALL.map(TripValue::name).join(", ");
+    let value = TripValue::ALL.into_iter().find(|value| value.name() == name.trim());
+    let value = value.ok_or_else(|| format!("expected one of {known} before the equals sign"))?;
+    Ok((value, column))
 }
 
 #[derive(Debug, Args)]

@@ -7,7 +7,9 @@ use std::process::ExitCode;
 use anstream::{eprint, eprintln};
 use serde_json::json;
 use vertifleet_core::{Coded, Network, OutputKind, Outputs, Stop, write_atomically};
-use vertifleet_import::{Demand, NewNetwork, NewVertiport, Request, Trips, import};
+use vertifleet_import::{
+    Demand, NewNetwork, NewVertiport, Request, TripColumns, TripValue, Trips, import,
+};
 use vertifleet_progress::Bar;
 use vertifleet_study::network_overview::NetworkOverview;
 
@@ -56,7 +58,7 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     outputs.writes(&arguments.output, &NEW_FILE)?;
     let demand = match &arguments.demand {
         Some(table) => Demand::Table(table),
-        None => Demand::Trips(trips(arguments)),
+        None => Demand::Trips(trips(arguments)?),
     };
     let request = Request {
         base: &base,
@@ -106,9 +108,10 @@ fn refuse_flags_of_trips_without_trips(arguments: &ImportArguments) -> Result<()
 }
 
 /// The trip records and how they become demand.
-fn trips(arguments: &ImportArguments) -> Trips<'_> {
+fn trips(arguments: &ImportArguments) -> Result<Trips<'_>, Failure> {
     let start = Trips::new(arguments.trips.iter().map(PathBuf::as_path).collect());
-    Trips {
+    Ok(Trips {
+        columns: trip_columns(&arguments.trip_columns)?,
         zones: arguments.zones.as_deref(),
         radius_mi: arguments.radius.unwrap_or(start.radius_mi),
         mode_share: arguments.mode_share.unwrap_or(start.mode_share),
@@ -117,7 +120,20 @@ fn trips(arguments: &ImportArguments) -> Trips<'_> {
         first_date: arguments.first_date,
         last_date: arguments.last_date,
         ..start
+    })
+}
+
+/// The columns of the trip records as far as they are named, each once.
+fn trip_columns(named: &[(TripValue, String)]) -> Result<TripColumns<'_>, Failure> {
+    let mut columns = TripColumns::default();
+    for (at, (value, column)) in named.iter().enumerate() {
+        if named[..at].iter().any(|(before, _)| before == value) {
+            let message = format!("--trip-columns names two columns for {}", value.name());
+            return Err(Failure::usage(message, "all files of trips have the same columns"));
+        }
+        columns = columns.with(*value, column);
     }
+    Ok(columns)
 }
 
 /// Prints every finding about some network files. The exit code is that of bad input if any of them cannot be used.
