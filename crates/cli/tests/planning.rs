@@ -162,6 +162,23 @@ fn trips_of_bicycles_are_known_and_other_columns_can_be_named() {
     assert!(refused(here, &import("own.csv", &twice)).contains("two columns for passengers"));
 }
 
+#[test]
+fn a_fleet_without_room_is_refused_with_the_flag_that_makes_it_smaller() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path();
+    fs::write(here.join("vertiports.csv"), VERTIPORTS).expect("room");
+    fs::write(here.join("demand.csv"), DEMAND).expect("room");
+    let of_new_york = [&IMPORT[..6], &IMPORT[8..]].concat();
+    let said = refused(here, &of_new_york);
+    assert!(said.contains("V117") && said.contains("--aircraft"), "{said}");
+    let fewer = ["--aircraft", "9", "--time-zone", "America/Los_Angeles"];
+    stdout(here, &[&of_new_york[..], &fewer].concat());
+    let overview = json(here, &["network", "show", "bay.toml", "--json"]);
+    assert_eq!(overview["size"]["aircraft"], 9);
+    let wrong = ["--aircraft", "9", "--time-zone", "Pacific Time", "--force"];
+    assert!(refused(here, &[&of_new_york[..], &wrong].concat()).contains("time_zone must be"));
+}
+
 /// What the program says on a command that has to be refused.
 fn refused(folder: &Path, arguments: &[&str]) -> String {
     let output = vertifleet(folder, arguments);

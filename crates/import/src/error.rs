@@ -250,6 +250,9 @@ impl Coded for Error {
 
     fn hint(&self) -> Option<&str> {
         match self {
+            Self::Core(vertifleet_core::Error::FleetTooLarge { .. }) => Some(
+                "an aircraft needs a stand wherever it is, also on its way there: ask for fewer with --aircraft, or give the vertiports more stands",
+            ),
             Self::Core(error) => error.hint(),
             Self::MissingColumn { hint, .. } | Self::UnknownVertiport { meant: hint, .. } => {
                 hint.as_deref()

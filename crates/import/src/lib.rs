@@ -13,6 +13,7 @@ mod date_time;
 mod demand_comments;
 mod error;
 mod features;
+mod fleet;
 mod globe;
 mod hourly_demand;
 mod network_text;
@@ -56,6 +57,10 @@ pub struct Request<'a> {
     /// Fares and passenger costs of pairs: CSV with the columns `from,to,fare_usd,passenger_cost_usd`, of which one of
     /// the last two may be left out.
     pub tariffs: Option<&'a Path>,
+    /// Number of aircraft: the fleet of the base with every type's share of this number. The base's own fleet if absent.
+    pub aircraft: Option<u32>,
+    /// The time zone of the network's clocks, by its name in the IANA database; it has none if absent.
+    pub time_zone: Option<&'a str>,
     /// Prices of electricity: CSV with the columns `period,price_usd_per_kwh`, a row for each demand period.
     pub energy_prices: Option<&'a Path>,
 }
@@ -100,6 +105,8 @@ pub fn import(
         vertiports: FromFile { what: &vertiports, path: request.vertiports },
         corridors: read(request.corridors, |path| corridors::read(path, &vertiports))?,
         pair_tariffs: read(request.tariffs, |path| tariffs::pairs(path, &vertiports))?,
+        aircraft: request.aircraft,
+        time_zone: request.time_zone,
         energy_prices: request.energy_prices,
     };
     let operations = request.base.operations();

@@ -16,7 +16,7 @@ use crate::error::shortened;
 use crate::hourly_demand::HourlyDemand;
 use crate::tariffs::{self, PairTariff};
 use crate::vertiports::{ASSUMED_STANDS, Vertiport, Vertiports};
-use crate::{Error, file_name};
+use crate::{Error, file_name, fleet};
 
 /// What was read from a file, and the file.
 pub(crate) struct FromFile<'a, T> {
@@ -31,6 +31,8 @@ pub(crate) struct NetworkText<'a> {
     pub(crate) vertiports: FromFile<'a, &'a Vertiports>,
     pub(crate) corridors: Option<FromFile<'a, Vec<Corridor>>>,
     pub(crate) pair_tariffs: Option<FromFile<'a, Vec<PairTariff>>>,
+    pub(crate) aircraft: Option<u32>,
+    pub(crate) time_zone: Option<&'a str>,
     /// A table of prices, which can only be read when the demand periods are known.
     pub(crate) energy_prices: Option<&'a Path>,
 }
@@ -84,6 +86,10 @@ impl NetworkText<'_> {
             file.remove(model);
         }
         file["name"] = value(self.name);
+        self.put_time_zone(&mut file);
+        if let Some(aircraft) = self.aircraft {
+            fleet::resize(&mut file, aircraft, self.base.name());
+        }
         self.put_vertiports(&mut file);
         self.put_corridors(&mut file);
         self.put_tariffs(&mut file, &demand.periods)?;
@@ -112,6 +118,14 @@ impl NetworkText<'_> {
         }
         head.push('\n');
         head
+    }
+
+    fn put_time_zone(&self, file: &mut DocumentMut) {
+        let Some(zone) = self.time_zone else { return };
+        file.insert("time_zone", value(zone));
+        if let Some(mut key) = file.key_mut("time_zone") {
+            key.leaf_decor_mut().set_prefix("# The time zone that the import was given.\n");
+        }
     }
 
     fn put_vertiports(&self, file: &mut DocumentMut) {

@@ -96,6 +96,12 @@ pub(crate) struct ImportArguments {
     /// The network that everything else is taken from: aircraft, fleet, operations, tariffs, disturbances
     #[arg(long, value_name = "NETWORK", default_value = "new-york")]
     pub(crate) base: String,
+    /// Number of aircraft, shared out among the types of the base's fleet [default: as many as the base has]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub(crate) aircraft: Option<u32>,
+    /// Time zone of the network's clocks, as America/New_York [default: none]
+    #[arg(long, value_name = "ZONE")]
+    pub(crate) time_zone: Option<String>,
     /// Name of the new network
     #[arg(long)]
     pub(crate) name: String,

@@ -67,6 +67,8 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
         demand,
         corridors: arguments.corridors.as_deref(),
         tariffs: arguments.fares.as_deref(),
+        aircraft: arguments.aircraft,
+        time_zone: arguments.time_zone.as_deref(),
         energy_prices: arguments.energy_prices.as_deref(),
     };
     let bar = Bar::new(STEPS.into(), "thousandths read");

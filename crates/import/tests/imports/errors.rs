@@ -242,6 +242,9 @@ fn of_the_network(errors: &mut Errors) {
     let small =
         errors.folder.file("small.csv", "id,latitude,longitude\nJRB,40.7,-74\nJFK,40.6,-73.8\n");
     errors.add(run(&request(&base, &small, Demand::Table(&demand))));
+    let mut zone = request(&base, &places, Demand::Table(&demand));
+    zone.time_zone = Some("Eastern Time");
+    errors.add(run(&zone));
     let long = errors.folder.file("long.csv", vec![b' '; (16 << 20) + 1]);
     errors.add(run(&request(&base, &long, Demand::Table(&demand))));
     let away = errors.folder.path("away.csv");

@@ -2,7 +2,7 @@
 
 use crate::planner::{Folder, VERTIPORTS, line, map, new_york, point, request, run, run_table};
 use vertifleet_core::{Network, Time, VertiportIx};
-use vertifleet_import::Demand;
+use vertifleet_import::{Demand, Imported};
 
 const TABLE: &str = "\
 from,to,period,passengers
@@ -85,6 +85,30 @@ fn stands_that_no_file_gives_are_assumed_and_the_file_says_so() {
     let imported = run_table(&folder, "from,to,period,passengers\nV0,V1,6,1\n").expect("a network");
     assert!(imported.network.vertiports().iter().all(|vertiport| vertiport.stands == 4));
     assert!(imported.toml.contains("# assumption: 4 stands at each of the 10 vertiports"));
+}
+
+#[test]
+fn a_fleet_of_another_size_and_a_time_zone_are_taken_and_the_file_says_so() {
+    let folder = Folder::new();
+    let (base, vertiports) = (new_york(), folder.path("vertiports.csv"));
+    let demand = folder.file("demand.csv", TABLE);
+    let in_one_line = include_str!("data/in-one-line.toml");
+    let in_one_line = Network::from_toml(in_one_line, "in-one-line.toml").expect("a network");
+    for (base, fleet, entry) in [
+        (&base, "new-york has 32", "type = \"midnight\"\ncount = 4\n"),
+        (&in_one_line, "in-one-line has 3", "fleet = [{ type = \"small\", count = 7 }]"),
+    ] {
+        let mut request = request(base, &vertiports, Demand::Table(&demand));
+        (request.aircraft, request.time_zone) = (Some(7), Some("America/New_York"));
+        let Imported { network, toml, .. } = run(&request).expect("a network");
+        assert_eq!((network.fleet_size(), network.time_zone()), (7, Some("America/New_York")));
+        let said = format!("# The import was asked for 7 aircraft; {fleet}, and each type keeps");
+        assert!(toml.contains(&said) && toml.contains(entry), "{toml}");
+        assert!(
+            toml.contains("# The time zone that the import was given.\ntime_zone = "),
+            "{toml}"
+        );
+    }
 }
 
 /// Everything at once, to be read by people.
