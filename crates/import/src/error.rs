@@ -11,8 +11,9 @@ pub enum Error {
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
-    /// V701. A file is not of the kind that its name or its first bytes promise, or it is damaged. Fix: look at the
-    /// place in the message; write the file again as CSV, GeoJSON or Parquet.
+    /// V701. A file is not of the kind that its name or its first bytes promise, or it is damaged, or its text is encoded
+    /// in UTF-16. Fix: look at the place in the message; write the file again as CSV, GeoJSON or Parquet, its text in
+    /// UTF-8.
     #[error("{origin}: cannot be read as {kind}: {problem}")]
     NotParsed {
         /// The file.
@@ -23,8 +24,9 @@ pub enum Error {
         problem: String,
     },
 
-    /// V702. A table has no column of a name that is needed. Fix: rename the column, or name the one that is meant
-    /// where the names of columns can be chosen.
+    /// V702. A table has no column of a name that is needed, or none of several, or its columns are separated by something
+    /// else than commas. Fix: rename the column, or name the one that is meant where the names of columns can be chosen;
+    /// save the file with commas.
     #[error("{origin}: has no column {column}; its columns are {found}")]
     MissingColumn {
         /// The file.
@@ -115,9 +117,11 @@ pub enum Error {
         limit_mi: f64,
         /// The distance, miles.
         found_mi: f64,
+        /// Whether the line is where it must be if latitude and longitude are exchanged.
+        exchanged: bool,
     },
 
-    /// V708. A file has no row or feature. Fix: check that it is the right file, and that its export is complete.
+    /// V708. A file has no row or feature, or nothing at all. Fix: check that it is the right file, and that its export is complete.
     #[error("{origin}: has no {what}")]
     Nothing {
         /// The file.
@@ -256,6 +260,9 @@ impl Coded for Error {
             Self::Core(error) => error.hint(),
             Self::MissingColumn { hint, .. } | Self::UnknownVertiport { meant: hint, .. } => {
                 hint.as_deref()
+            }
+            Self::CorridorEnd { exchanged: true, .. } => {
+                Some("latitude and longitude are exchanged: in GeoJSON the longitude comes first")
             }
             Self::CorridorEnd { .. } => Some("a line is drawn from its `from` to its `to`"),
             Self::WrongGeometry { .. } => {

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use vertifleet_core::Time;
 
-use crate::Error;
 use crate::row::{Column, required};
 use crate::table;
 use crate::vertiports::Vertiports;
+use crate::{Demand, Error, Warning};
 
 /// The most cells of demand that a network takes: pairs of vertiports times periods.
 const MOST_CELLS: usize = 4_000_000;
@@ -69,6 +69,17 @@ impl HourlyDemand {
             means[position[&period]] = passengers;
         }
         Ok(Self { periods, pairs })
+    }
+
+    /// The warning that nobody wants to fly.
+    pub(crate) fn warning_of_none(&self, source: &Demand<'_>) -> Option<Warning> {
+        let origin = match source {
+            Demand::Table(path) => path.display().to_string(),
+            Demand::Trips(_) => "the trip records".to_owned(),
+        };
+        let problem =
+            "there are no passengers, so that no flight of any day earns a fare".to_owned();
+        (self.passengers() == 0.0).then_some(Warning::Demand { origin, problem })
     }
 
     /// Passengers of all pairs and periods together.

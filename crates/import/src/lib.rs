@@ -24,6 +24,7 @@ mod table;
 mod tariffs;
 mod trips;
 mod vertiports;
+mod warning;
 mod zones;
 
 use std::path::Path;
@@ -38,6 +39,7 @@ pub use date_time::{Date, NotADate, Weekday, Weekdays};
 pub use error::Error;
 pub use new_network::{NewNetwork, NewVertiport};
 pub use trips::{TripAccount, TripColumns, TripValue, Trips};
+pub use warning::Warning;
 
 /// What to import.
 #[derive(Debug)]
@@ -86,6 +88,8 @@ pub struct Imported {
     pub toml: String,
     /// What became of the trip records, if the demand comes from them.
     pub account: Option<TripAccount>,
+    /// What the planner's files hardly mean, beside the warnings of the network.
+    pub warnings: Vec<Warning>,
 }
 
 /// Makes a network of a planner's files. `progress` is told the share of the trip records that has been read.
@@ -126,8 +130,10 @@ pub fn import(
     };
     stop.check()?;
     let (network, toml) = text.network(&demand, &source)?;
+    let mut warnings = vertiports.warnings(request.vertiports);
+    warnings.extend(demand.warning_of_none(&request.demand));
     progress(1.0);
-    Ok(Imported { network, toml, account })
+    Ok(Imported { network, toml, account, warnings })
 }
 
 /// Reads a file that may be absent.

@@ -16,17 +16,31 @@ use crate::vertiports::Vertiports;
 pub(crate) struct Column {
     /// Its name, and other names by which it is known. The first that the file has counts.
     pub(crate) names: &'static [&'static str],
-    pub(crate) required: bool,
+    pub(crate) need: Need,
+}
+
+/// Whether a file must have a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Need {
+    Required,
+    /// At least one of the columns of this kind must be there.
+    OneOf,
+    Optional,
 }
 
 /// A column that a file must have.
 pub(crate) const fn required(names: &'static [&'static str]) -> Column {
-    Column { names, required: true }
+    Column { names, need: Need::Required }
+}
+
+/// A column of several, of which a file must have at least one.
+pub(crate) const fn one_of(names: &'static [&'static str]) -> Column {
+    Column { names, need: Need::OneOf }
 }
 
 /// A column that a file may have.
 pub(crate) const fn optional(names: &'static [&'static str]) -> Column {
-    Column { names, required: false }
+    Column { names, need: Need::Optional }
 }
 
 /// Where rows stand in their file.

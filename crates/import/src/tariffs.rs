@@ -6,7 +6,7 @@ use std::path::Path;
 use vertifleet_core::{Operations, Time};
 
 use crate::Error;
-use crate::row::{Column, optional, required};
+use crate::row::{Column, one_of, required};
 use crate::table;
 use crate::vertiports::Vertiports;
 
@@ -22,8 +22,8 @@ const PASSENGER_COST: usize = 3;
 const PAIR_COLUMNS: [Column; 4] = [
     required(&["from"]),
     required(&["to"]),
-    optional(&["fare_usd"]),
-    optional(&["passenger_cost_usd"]),
+    one_of(&["fare_usd"]),
+    one_of(&["passenger_cost_usd"]),
 ];
 const PRICE_COLUMNS: [Column; 2] = [required(&["period"]), required(&["price_usd_per_kwh"])];
 

@@ -84,6 +84,9 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     let imported = import(&request, &Stop::default(), &progress)?;
     drop(bar);
     write_atomically(&arguments.output, imported.toml.as_bytes())?;
+    for warning in &imported.warnings {
+        warn(warning.code(), warning);
+    }
     for warning in imported.network.warnings() {
         warn(warning.code(), &warning);
     }

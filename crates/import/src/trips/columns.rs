@@ -1,7 +1,7 @@
 //! The columns of trip records: how planners name them, and how they are guessed.
 
 use crate::Error;
-use crate::table::missing;
+use crate::table::Missing;
 
 /// The names of the columns of trip records. A name that is absent is guessed from names that are in use, such as those
 /// of New York's taxi records and of bicycles for hire; capitals and small letters are the same.
@@ -238,20 +238,13 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// An error that says what is missing; `like` is the name to which similar ones are looked for, and `otherwise` the
-    /// hint if there are none.
-    fn missing(&self, what: &str, like: &str, otherwise: Option<&str>) -> Error {
-        match missing(like, self.found, &self.used, self.origin) {
-            Error::MissingColumn { origin, found, hint, .. } => Error::MissingColumn {
-                origin,
-                column: what.to_owned(),
-                found,
-                hint: hint.or_else(|| otherwise.map(str::to_owned)),
-            },
-            other => other,
-        }
+    /// An error that says what is missing; `like` is the name to which similar ones are looked for.
+    fn missing(&self, what: &str, like: &str, remedy: Option<&str>) -> Error {
+        let Self { found, ref used, origin, .. } = *self;
+        Missing { column: what, like: &[like], found, used, remedy }.error(origin)
     }
 }
 
 /// What to do where columns have names that are not known.
-const NAME_THEM: &str = "--trip-columns names columns that are called otherwise, as pickup_time=began,passengers=riders";
+const NAME_THEM: &str =
+    "--trip-columns names what is called otherwise, as pickup_time=began,passengers=riders";
