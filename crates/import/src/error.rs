@@ -183,8 +183,8 @@ pub enum Error {
         origin: String,
     },
 
-    /// V714. A table of prices does not fit the demand periods: one of them has no price, or a price begins within a
-    /// period. Fix: give one price for each period that the message names.
+    /// V714. A demand period begins before the first price of a table, so it has none. Fix: give a price that begins no
+    /// later than the period that the message names.
     #[error("{origin}: {problem}")]
     PricePeriods {
         /// The file.

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use vertifleet_core::Time;
 
+use crate::Error;
 use crate::row::{Column, required};
 use crate::table;
 use crate::vertiports::Vertiports;
-use crate::{Demand, Error, Warning};
 
 /// The most cells of demand that a network takes: pairs of vertiports times periods.
 const MOST_CELLS: usize = 4_000_000;
@@ -27,6 +27,8 @@ const COLUMNS: [Column; 4] =
 pub(crate) struct HourlyDemand {
     /// Start of each period, rising.
     pub(crate) periods: Vec<Time>,
+    /// The position of the first period that the planner gave; an empty one may come before it.
+    pub(crate) first_given: usize,
     /// For each pair with passengers, by the positions of its vertiports, the passengers of each period.
     pub(crate) pairs: BTreeMap<(usize, usize), Vec<f64>>,
 }
@@ -53,9 +55,7 @@ impl HourlyDemand {
         let Some(&first) = starts.first() else {
             return Err(Error::Nothing { origin: origin(), what: "demand" });
         };
-        if first > start {
-            starts.insert(start);
-        }
+        let first_given = usize::from(first > start && starts.insert(start));
         let found = starts.len() * vertiports.list.len().pow(2);
         if found > MOST_CELLS {
             let what = "the number of pairs of vertiports times periods";
@@ -68,18 +68,7 @@ impl HourlyDemand {
             let means = pairs.entry(ends).or_insert_with(|| vec![0.0; periods.len()]);
             means[position[&period]] = passengers;
         }
-        Ok(Self { periods, pairs })
-    }
-
-    /// The warning that nobody wants to fly.
-    pub(crate) fn warning_of_none(&self, source: &Demand<'_>) -> Option<Warning> {
-        let origin = match source {
-            Demand::Table(path) => path.display().to_string(),
-            Demand::Trips(_) => "the trip records".to_owned(),
-        };
-        let problem =
-            "there are no passengers, so that no flight of any day earns a fare".to_owned();
-        (self.passengers() == 0.0).then_some(Warning::Demand { origin, problem })
+        Ok(Self { periods, first_given, pairs })
     }
 
     /// Passengers of all pairs and periods together.

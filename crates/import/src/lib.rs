@@ -11,6 +11,8 @@ mod cell;
 mod corridors;
 mod date_time;
 mod demand_comments;
+mod demand_warnings;
+mod energy_prices;
 mod error;
 mod features;
 mod fleet;
@@ -31,6 +33,7 @@ use std::path::Path;
 
 use vertifleet_core::{Network, Stop};
 
+use energy_prices::EnergyPrices;
 use hourly_demand::HourlyDemand;
 use network_text::{FromFile, NetworkText};
 use vertiports::Vertiports;
@@ -63,7 +66,7 @@ pub struct Request<'a> {
     pub aircraft: Option<u32>,
     /// The time zone of the network's clocks, by its name in the IANA database; it has none if absent.
     pub time_zone: Option<&'a str>,
-    /// Prices of electricity: CSV with the columns `period,price_usd_per_kwh`, a row for each demand period.
+    /// Prices of electricity: CSV with the columns `period,price_usd_per_kwh`. A price holds until the next one.
     pub energy_prices: Option<&'a Path>,
 }
 
@@ -111,7 +114,7 @@ pub fn import(
         pair_tariffs: read(request.tariffs, |path| tariffs::pairs(path, &vertiports))?,
         aircraft: request.aircraft,
         time_zone: request.time_zone,
-        energy_prices: request.energy_prices,
+        energy_prices: read(request.energy_prices, EnergyPrices::read)?,
     };
     let operations = request.base.operations();
     stop.check()?;
@@ -131,7 +134,10 @@ pub fn import(
     stop.check()?;
     let (network, toml) = text.network(&demand, &source)?;
     let mut warnings = vertiports.warnings(request.vertiports);
-    warnings.extend(demand.warning_of_none(&request.demand));
+    warnings.extend(demand.warnings(&request.demand, request.base));
+    if let Some(prices) = &text.energy_prices {
+        warnings.extend(prices.what.warning(&demand.periods, operations));
+    }
     progress(1.0);
     Ok(Imported { network, toml, account, warnings })
 }

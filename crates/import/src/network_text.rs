@@ -12,9 +12,10 @@ use toml_edit::{
 use vertifleet_core::{Network, Time};
 
 use crate::corridors::Corridor;
+use crate::energy_prices::EnergyPrices;
 use crate::error::shortened;
 use crate::hourly_demand::HourlyDemand;
-use crate::tariffs::{self, PairTariff};
+use crate::tariffs::PairTariff;
 use crate::vertiports::{ASSUMED_STANDS, Vertiport, Vertiports};
 use crate::{Error, file_name, fleet};
 
@@ -33,8 +34,7 @@ pub(crate) struct NetworkText<'a> {
     pub(crate) pair_tariffs: Option<FromFile<'a, Vec<PairTariff>>>,
     pub(crate) aircraft: Option<u32>,
     pub(crate) time_zone: Option<&'a str>,
-    /// A table of prices, which can only be read when the demand periods are known.
-    pub(crate) energy_prices: Option<&'a Path>,
+    pub(crate) energy_prices: Option<FromFile<'a, EnergyPrices>>,
 }
 
 /// The members of a base that say something else of its demand or its vertiports, with the reason to leave them out.
@@ -177,10 +177,15 @@ impl NetworkText<'_> {
         for member in ["fare_factors", "energy_price_usd_per_kwh"] {
             self.adapt_to_periods(tariffs, member, periods);
         }
-        if let Some(path) = self.energy_prices {
+        if let Some(FromFile { what: prices, path }) = &self.energy_prices {
             let operations = self.base.operations();
-            let prices = tariffs::energy_prices_usd(path, periods, operations)?;
-            let comment = format!("# Prices of the demand periods from {}.\n", file_name(path));
+            let mut comment = format!("# Prices of the demand periods from {}.\n", file_name(path));
+            if prices.warning(periods, operations).is_some() {
+                comment.push_str(
+                    "# A period in which the price changes has the mean over its time.\n",
+                );
+            }
+            let prices = prices.of_periods(periods, operations)?;
             let prices = prices.into_iter().map(number).collect::<Array>();
             put(tariffs, "energy_price_usd_per_kwh", prices, &comment);
         }

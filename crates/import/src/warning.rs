@@ -7,7 +7,9 @@ use vertifleet_core::Code;
 /// Something in a planner's files that is allowed but hardly meant.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
-    /// V718. The demand is hardly meant: there are no passengers at all. Fix: look at what the message names.
+    /// V718. The demand is hardly meant: there are no passengers at all, a period lasts longer than others because the
+    /// next one is missing, or passengers want to fly outside the hours of operation. Fix: give each hour a row, also
+    /// those with 0 passengers; change the hours of operation.
     Demand {
         /// The file.
         origin: String,
@@ -23,6 +25,15 @@ pub enum Warning {
         /// Which vertiports, and what is strange.
         problem: String,
     },
+
+    /// V720. Prices of electricity change within demand periods, each of which has one price. Fix: give the demand in
+    /// periods that begin when prices change.
+    EnergyPrices {
+        /// The file.
+        origin: String,
+        /// When they change.
+        problem: String,
+    },
 }
 
 impl Warning {
@@ -31,6 +42,7 @@ impl Warning {
         match self {
             Self::Demand { .. } => Code(718),
             Self::Places { .. } => Code(719),
+            Self::EnergyPrices { .. } => Code(720),
         }
     }
 }
@@ -38,7 +50,9 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Demand { origin, problem } | Self::Places { origin, problem } => {
+            Self::Demand { origin, problem }
+            | Self::Places { origin, problem }
+            | Self::EnergyPrices { origin, problem } => {
                 write!(f, "{origin}: {problem}")
             }
         }

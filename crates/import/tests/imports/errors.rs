@@ -249,7 +249,7 @@ fn of_tariffs(errors: &mut Errors) {
         errors.with("fares.csv", &format!("from,to,fare_usd\n{rows}"));
     }
     errors.with("fares.csv", "from,to,fare\nJRB,JFK,5\n");
-    for rows in ["6,0.1\n", "6,0.1\n7,0.1\n7:30:00,0.2\n", "6,0.1\n6,0.2\n", "6,0.1\n7,x\n"] {
+    for rows in ["7,0.1\n", "6,0.1\n6,0.2\n", "6,0.1\n7,x\n", ""] {
         errors.with("prices.csv", &format!("period,price_usd_per_kwh\n{rows}"));
     }
 }

@@ -156,6 +156,31 @@ fn without_prices_of_their_own_periods_have_those_of_the_base_at_their_start() {
 }
 
 #[test]
+fn a_price_holds_until_the_next_and_a_period_in_which_it_changes_has_the_mean() {
+    let folder = Folder::new();
+    let (base, vertiports) = (new_york(), folder.path("vertiports.csv"));
+    let prices = folder.file("prices.csv", "period,price_usd_per_kwh\n0,0.1\n14,0.3\n19,0.2\n");
+    let of_hours = (6..22).map(|hour| format!("JRB,JFK,{hour},1\n")).collect::<String>();
+    let cheap_and_dear = [vec!["0.1"; 8], vec!["0.3"; 5], vec!["0.2"; 3]].concat().join(", ");
+    // From 10:00 to 18:00 half of the time is dear, and from 18:00 to 22:00 a fourth.
+    for (rows, found, changes) in [
+        (of_hours.as_str(), cheap_and_dear.as_str(), ""),
+        ("JRB,JFK,6,1\nJRB,JFK,10,1\nJRB,JFK,18,1\n", "0.1, 0.2, 0.225", "14:00:00, 19:00:00"),
+    ] {
+        let demand = folder.file("demand.csv", format!("from,to,period,passengers\n{rows}"));
+        let mut request = request(&base, &vertiports, Demand::Table(&demand));
+        request.energy_prices = Some(&prices);
+        let imported = run(&request).expect("a network");
+        let member = format!("energy_price_usd_per_kwh = [{found}]");
+        assert!(imported.toml.contains(&member), "{}", imported.toml);
+        assert_eq!(imported.toml.contains("has the mean over its time"), !changes.is_empty());
+        let warned = imported.warnings.iter().find(|warning| warning.code().0 == 720);
+        assert_eq!(warned.is_some(), !changes.is_empty());
+        assert!(warned.is_none_or(|warning| warning.to_string().ends_with(changes)), "{warned:?}");
+    }
+}
+
+#[test]
 fn a_network_can_be_imported_with_every_shipped_network_as_its_base_and_with_an_import() {
     let folder = Folder::new();
     let roomy = VERTIPORTS.replace(",12,", ",200,").replace(",20,", ",200,");

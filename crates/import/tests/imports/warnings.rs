@@ -27,6 +27,33 @@ fn demand_without_passengers_brings_a_warning() {
 }
 
 #[test]
+fn a_missing_hour_and_passengers_outside_of_operations_bring_warnings() {
+    let hours = |hours: &mut dyn Iterator<Item = u32>| {
+        let rows: String = hours.map(|hour| format!("{hour},JRB,JFK,1.5\n")).collect();
+        warnings("", &format!("{TABLE}{rows}"))
+    };
+    assert!(hours(&mut (6..22)).is_empty());
+    // A table may begin after operations do: a period of nobody is put before it.
+    assert!(hours(&mut (9..22)).is_empty());
+    let lasts = "and others last 01:00:00: if hours are missing, give them rows with 0 passengers";
+    assert_eq!(
+        hours(&mut (6..22).filter(|&hour| hour != 9)),
+        [format!("V718 demand.csv: the period 08:00:00 lasts until 10:00:00, {lasts}")]
+    );
+    assert_eq!(
+        hours(&mut (6..20)),
+        [format!("V718 demand.csv: the period 19:00:00 lasts until 22:00:00, {lasts}")]
+    );
+    assert_eq!(
+        hours(&mut (4..24)),
+        [
+            "V718 demand.csv: 6.0 of 30.0 passengers a day want to fly outside the hours of operation of new-york, \
+             06:00:00 to 22:00:00, and hardly any flight takes them"
+        ]
+    );
+}
+
+#[test]
 fn vertiports_at_the_same_place_and_near_a_pole_bring_warnings() {
     let table = format!("{TABLE}6,A,B,1\n");
     let same = "id,lat,lng,stands\nA,40.7,-74,20\nC,40.8,-74,20\nB,40.7,-74,20\n";
