@@ -75,7 +75,7 @@ pub struct Request<'a> {
 #[expect(clippy::large_enum_variant, reason = "there is one of them in an import")]
 pub enum Demand<'a> {
     /// Mean passengers of a day by pair and period: CSV or Parquet with the columns `period,from,to,passengers`. A
-    /// period is a time as `HH:MM:SS` or an hour from 0 to 47; it lasts until the next one that the table has, and the
+    /// period is a time as `HH:MM` or `HH:MM:SS`, or an hour from 0 to 47; it lasts until the next one that the table has, and the
     /// last one for the rest of the day.
     Table(&'a Path),
     /// Trip records.

@@ -165,6 +165,10 @@ fn csv_rows(
     let found = find_columns(columns, &header, origin)?;
     let mut count = 0;
     while next(&mut record)? {
+        // Spreadsheets write rows of empty cells below a table.
+        if record.iter().all(|cell| cell.trim_ascii().is_empty()) {
+            continue;
+        }
         let value =
             |at: &Option<usize>| at.and_then(|at| record.get(at)).map_or(Cell::Missing, Cell::text);
         let cells: Vec<Cell<'_>> = found.iter().map(value).collect();

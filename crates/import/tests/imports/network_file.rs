@@ -46,6 +46,18 @@ fn marks_line_ends_order_of_columns_and_further_columns_change_nothing() {
 }
 
 #[test]
+fn times_without_seconds_and_empty_cells_of_spreadsheets_change_nothing() {
+    let folder = Folder::new();
+    let plain = run_table(&folder, TABLE).expect("a network");
+    let of_spreadsheet = "from,to,period,passengers,,\nJRB,JFK,07:00,14,,\nJRB,JFK,8:00,22.5,,\nJFK,JRB,07:00,9,,\n,,,,,\n , ,\n";
+    let of_spreadsheet = run_table(&folder, of_spreadsheet).expect("a network");
+    assert_eq!(plain.toml, of_spreadsheet.toml);
+    let rows = VERTIPORTS.replace('\n', ",,\n");
+    folder.file("vertiports.csv", format!("{rows},,,,,,,,\r\n"));
+    assert_eq!(run_table(&folder, TABLE).expect("a network").toml, plain.toml);
+}
+
+#[test]
 fn points_of_a_map_and_rows_of_a_table_give_the_same_vertiports() {
     let folder = Folder::new();
     let table = run_table(&folder, TABLE).expect("a network");
