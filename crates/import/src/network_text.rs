@@ -189,23 +189,29 @@ impl NetworkText<'_> {
             let prices = prices.into_iter().map(number).collect::<Array>();
             put(tariffs, "energy_price_usd_per_kwh", prices, &comment);
         }
-        if let Some(FromFile { what: pairs, path }) = &self.pair_tariffs {
-            let entries = pairs.iter().map(|pair| {
-                let mut entry = self.ends(pair.ends);
-                for (member, amount) in
-                    [("fare_usd", pair.fare_usd), ("passenger_cost_usd", pair.passenger_cost_usd)]
-                {
-                    if let Some(amount) = amount {
-                        entry.insert(member, number(amount));
-                    }
-                }
-                entry
-            });
-            let comment =
-                format!("# Fares and passenger costs of pairs from {}.\n", file_name(path));
-            put(tariffs, "pairs", list(entries), &comment);
-        }
+        self.put_pairs(tariffs);
         Ok(())
+    }
+
+    fn put_pairs(&self, tariffs: &mut Table) {
+        let Some(FromFile { what: pairs, path }) = &self.pair_tariffs else { return };
+        let entries = pairs.iter().map(|pair| {
+            let mut entry = self.ends(pair.ends);
+            for (member, amount) in
+                [("fare_usd", pair.fare_usd), ("passenger_cost_usd", pair.passenger_cost_usd)]
+            {
+                if let Some(amount) = amount {
+                    entry.insert(member, number(amount));
+                }
+            }
+            entry
+        });
+        let comment = format!(
+            "# Fares and passenger costs of pairs from {}. The factors, the boarding fee and the level of fares that this\n\
+             # section has apply to these fares too.\n",
+            file_name(path)
+        );
+        put(tariffs, "pairs", list(entries), &comment);
     }
 
     /// Gives each new demand period the entry that the base has for the time when it starts, if the member is a list by
