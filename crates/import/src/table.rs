@@ -99,10 +99,10 @@ impl Missing<'_> {
     /// The error that names the column that is missing, and those that are there.
     pub(crate) fn error(&self, origin: &str) -> Error {
         const SHOWN: usize = 30;
-        let named: Vec<&String> = self.found.iter().filter(|name| !name.is_empty()).collect();
+        let columns: Vec<&String> = self.found.iter().filter(|name| !name.is_empty()).collect();
         let shown = |name: &&String| shortened(&printable(name), 40);
-        let mut names: Vec<String> = named.iter().take(SHOWN).map(shown).collect();
-        if named.len() > SHOWN {
+        let mut names: Vec<String> = columns.iter().take(SHOWN).map(shown).collect();
+        if columns.len() > SHOWN {
             names.push("...".to_owned());
         }
         Error::MissingColumn {

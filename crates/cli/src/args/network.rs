@@ -10,7 +10,7 @@ use crate::typed::{parse_known, parse_pair, parse_vertiport};
 #[derive(Debug, Subcommand)]
 pub(crate) enum NetworkAction {
     /// Make a network file from data of your own: vertiports, demand or trip records, corridors, fares
-    Import(ImportArguments),
+    Import(Box<ImportArguments>),
     /// Say everything that is wrong with network files
     Check {
         /// Network files

@@ -172,7 +172,7 @@ fn a_price_holds_until_the_next_and_a_period_in_which_it_changes_has_the_mean() 
     let folder = Folder::new();
     let (base, vertiports) = (new_york(), folder.path("vertiports.csv"));
     let prices = folder.file("prices.csv", "period,price_usd_per_kwh\n0,0.1\n14,0.3\n19,0.2\n");
-    let of_hours = (6..22).map(|hour| format!("JRB,JFK,{hour},1\n")).collect::<String>();
+    let of_hours = (6..22).map(|hour| format!("JRB,JFK,{hour},1\n")).collect::<Vec<_>>().concat();
     let cheap_and_dear = [vec!["0.1"; 8], vec!["0.3"; 5], vec!["0.2"; 3]].concat().join(", ");
     // From 10:00 to 18:00 half of the time is dear, and from 18:00 to 22:00 a fourth.
     for (rows, found, changes) in [

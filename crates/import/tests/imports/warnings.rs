@@ -29,7 +29,7 @@ fn demand_without_passengers_brings_a_warning() {
 #[test]
 fn a_missing_hour_and_passengers_outside_of_operations_bring_warnings() {
     let hours = |hours: &mut dyn Iterator<Item = u32>| {
-        let rows: String = hours.map(|hour| format!("{hour},JRB,JFK,1.5\n")).collect();
+        let rows = hours.map(|hour| format!("{hour},JRB,JFK,1.5\n")).collect::<Vec<_>>().concat();
         warnings("", &format!("{TABLE}{rows}"))
     };
     assert!(hours(&mut (6..22)).is_empty());
