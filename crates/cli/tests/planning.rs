@@ -133,6 +133,83 @@ fn trips_become_demand_with_an_account_of_every_row() {
 }
 
 #[test]
+fn trips_of_bicycles_are_known_and_other_columns_can_be_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path();
+    fs::write(here.join("vertiports.csv"), VERTIPORTS).expect("room");
+    fs::write(here.join("base.toml"), small_base()).expect("room");
+    let of_bicycles = "ride_id,started_at,ended_at,start_lat,start_lng,end_lat,end_lng\n";
+    let ride =
+        "7,2015-06-01 07:30:00.123,2015-06-01 08:00:00.456,37.619,-122.376,37.721,-122.221\n";
+    fs::write(here.join("rides.csv"), [of_bicycles, ride].concat()).expect("room");
+    let of_their_own = "id,began,until,a,b,c,d\n";
+    fs::write(here.join("own.csv"), [of_their_own, ride].concat()).expect("room");
+    let import = |file, more: &[&'static str]| {
+        let trips = [&IMPORT[..4], &["--trips", file, "--json"], &IMPORT[6..]].concat();
+        [&trips[..], more, &["--force"]].concat()
+    };
+    let rides = json(here, &import("rides.csv", &[]));
+    assert_eq!(rides["trips"]["kept"], 1);
+    let said = refused(here, &import("own.csv", &[]));
+    assert!(said.contains("V702") && said.contains("--trip-columns"), "{said}");
+    let columns = "pickup_time=began,pickup_latitude=a,pickup_longitude=b,dropoff_latitude=c";
+    let named = ["--trip-columns", columns, "--trip-columns", "dropoff_longitude=d"];
+    let own = json(here, &import("own.csv", &named));
+    assert_eq!(own["trips"]["kept"], 1);
+    let said = refused(here, &import("own.csv", &["--trip-columns", "start=began"]));
+    assert!(said.contains("pickup_time") && said.contains("dropoff_zone"), "{said}");
+    let twice = ["--trip-columns", "passengers=a,passengers=b"];
+    assert!(refused(here, &import("own.csv", &twice)).contains("two columns for passengers"));
+}
+
+#[test]
+fn a_fleet_without_room_is_refused_with_the_flag_that_makes_it_smaller() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path();
+    fs::write(here.join("vertiports.csv"), VERTIPORTS).expect("room");
+    fs::write(here.join("demand.csv"), DEMAND).expect("room");
+    let of_new_york = [&IMPORT[..6], &IMPORT[8..]].concat();
+    let said = refused(here, &of_new_york);
+    assert!(said.contains("V117") && said.contains("--aircraft"), "{said}");
+    let fewer = ["--aircraft", "9", "--time-zone", "America/Los_Angeles"];
+    stdout(here, &[&of_new_york[..], &fewer].concat());
+    let overview = json(here, &["network", "show", "bay.toml", "--json"]);
+    assert_eq!(overview["size"]["aircraft"], 9);
+    let wrong = ["--aircraft", "9", "--time-zone", "Pacific Time", "--force"];
+    assert!(refused(here, &[&of_new_york[..], &wrong].concat()).contains("time_zone must be"));
+}
+
+/// What the program says on a command that has to be refused.
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = vertifleet(folder, arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    String::from_utf8(output.stderr).expect("text")
+}
+
+#[test]
+fn flags_of_trip_records_are_refused_without_trip_records() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (flag, value) in [
+        ("--trip-columns", "passengers=riders"),
+        ("--zones", "zones.csv"),
+        ("--radius", "2"),
+        ("--mode-share", "0.1"),
+        ("--decay", "1"),
+        ("--weekdays", "Mon"),
+        ("--first-date", "2015-06-01"),
+        ("--last-date", "2015-06-01"),
+    ] {
+        let said = refused(folder.path(), &[&IMPORT[..], &[flag, value]].concat());
+        assert!(said.contains(flag) && said.contains("--trips is not given"), "{said}");
+    }
+    let neither = [&IMPORT[..4], &IMPORT[6..]].concat();
+    let said = refused(folder.path(), &neither);
+    assert!(said.contains("--demand <FILE>|--trips <FILE>"), "{said}");
+    let both = [&IMPORT[..], &["--trips", "trips.csv"]].concat();
+    assert!(refused(folder.path(), &both).contains("cannot be used with"));
+}
+
+#[test]
 fn check_says_everything_at_once() {
     let folder = imported();
     let here = folder.path();

@@ -21,6 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         demand: Demand::Trips(trips),
         corridors: None,
         tariffs: None,
+        aircraft: None,
+        time_zone: None,
         energy_prices: None,
     };
     let begin = Instant::now();

@@ -78,6 +78,8 @@ fn gap_mi(
     if found_mi <= NEAR_MI {
         return Ok(found_mi);
     }
+    let exchanged = Place::new(place.longitude, place.latitude);
+    let exchanged = exchanged.is_some_and(|place| place.distance_mi(vertiport.place) <= NEAR_MI);
     Err(Error::CorridorEnd {
         origin: shape.row.origin.to_owned(),
         place: shape.row.place(),
@@ -85,5 +87,6 @@ fn gap_mi(
         vertiport: vertiport.id.clone(),
         limit_mi: NEAR_MI,
         found_mi,
+        exchanged,
     })
 }

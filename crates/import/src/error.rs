@@ -11,8 +11,9 @@ pub enum Error {
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
-    /// V701. A file is not of the kind that its name or its first bytes promise, or it is damaged. Fix: look at the
-    /// place in the message; write the file again as CSV, GeoJSON or Parquet.
+    /// V701. A file is not of the kind that its name or its first bytes promise, or it is damaged, or its text is encoded
+    /// in UTF-16. Fix: look at the place in the message; write the file again as CSV, GeoJSON or Parquet, its text in
+    /// UTF-8.
     #[error("{origin}: cannot be read as {kind}: {problem}")]
     NotParsed {
         /// The file.
@@ -23,8 +24,9 @@ pub enum Error {
         problem: String,
     },
 
-    /// V702. A table has no column of a name that is needed. Fix: rename the column, or name the one that is meant
-    /// where the names of columns can be chosen.
+    /// V702. A table has no column of a name that is needed, or none of several, or its columns are separated by something
+    /// else than commas. Fix: rename the column, or name the one that is meant where the names of columns can be chosen;
+    /// save the file with commas.
     #[error("{origin}: has no column {column}; its columns are {found}")]
     MissingColumn {
         /// The file.
@@ -33,8 +35,8 @@ pub enum Error {
         column: String,
         /// The columns that are there.
         found: String,
-        /// A column that was probably meant.
-        meant: Option<String>,
+        /// The column that was probably meant, or what else to do.
+        hint: Option<String>,
     },
 
     /// V703. A value is missing, no number or time where one is needed, or outside the bounds that the message states.
@@ -115,9 +117,11 @@ pub enum Error {
         limit_mi: f64,
         /// The distance, miles.
         found_mi: f64,
+        /// Whether the line is where it must be if latitude and longitude are exchanged.
+        exchanged: bool,
     },
 
-    /// V708. A file has no row or feature. Fix: check that it is the right file, and that its export is complete.
+    /// V708. A file has no row or feature, or nothing at all. Fix: check that it is the right file, and that its export is complete.
     #[error("{origin}: has no {what}")]
     Nothing {
         /// The file.
@@ -179,8 +183,8 @@ pub enum Error {
         origin: String,
     },
 
-    /// V714. A table of prices does not fit the demand periods: one of them has no price, or a price begins within a
-    /// period. Fix: give one price for each period that the message names.
+    /// V714. A demand period begins before the first price of a table, so it has none. Fix: give a price that begins no
+    /// later than the period that the message names.
     #[error("{origin}: {problem}")]
     PricePeriods {
         /// The file.
@@ -250,9 +254,15 @@ impl Coded for Error {
 
     fn hint(&self) -> Option<&str> {
         match self {
+            Self::Core(vertifleet_core::Error::FleetTooLarge { .. }) => Some(
+                "an aircraft needs a stand wherever it is, also on its way there: ask for fewer with --aircraft, or give the vertiports more stands",
+            ),
             Self::Core(error) => error.hint(),
-            Self::MissingColumn { meant, .. } | Self::UnknownVertiport { meant, .. } => {
-                meant.as_deref()
+            Self::MissingColumn { hint, .. } | Self::UnknownVertiport { meant: hint, .. } => {
+                hint.as_deref()
+            }
+            Self::CorridorEnd { exchanged: true, .. } => {
+                Some("latitude and longitude are exchanged: in GeoJSON the longitude comes first")
             }
             Self::CorridorEnd { .. } => Some("a line is drawn from its `from` to its `to`"),
             Self::WrongGeometry { .. } => {

@@ -13,7 +13,7 @@ use crate::cell::Cell;
 use crate::error::shortened;
 use crate::globe::Place;
 use crate::row::{Column, Positions, Row};
-use crate::table::{LONGEST, without_mark};
+use crate::table::{LONGEST, text, without_mark};
 
 /// Whether a file is GeoJSON, by its name or, where the name does not say, by its first character.
 pub(crate) fn is_geojson(path: &Path) -> Result<bool, Error> {
@@ -49,11 +49,11 @@ pub(crate) fn shapes(
 ) -> Result<usize, Error> {
     let origin = path.display().to_string();
     let bytes = read_at_most(path, LONGEST)?;
-    let collection: FeatureCollection =
-        serde_json::from_slice(without_mark(&bytes)).map_err(|error| Error::NotParsed {
-            origin: origin.clone(),
-            kind: "a GeoJSON FeatureCollection",
-            problem: shortened(&error.to_string(), 300),
+    let kind = "a GeoJSON FeatureCollection";
+    let collection: FeatureCollection = serde_json::from_slice(text(&bytes, kind, &origin)?)
+        .map_err(|error| {
+            let problem = shortened(&error.to_string(), 300);
+            Error::NotParsed { origin: origin.clone(), kind, problem }
         })?;
     for (feature, position) in collection.features.iter().zip(1..) {
         let values: Vec<Option<Cow<'_, str>>> =
@@ -102,9 +102,27 @@ impl Shape<'_> {
             Some(GeometryValue::MultiLineString { coordinates }) if coordinates.len() == 1 => {
                 &coordinates[0]
             }
+            Some(GeometryValue::MultiLineString { coordinates }) => {
+                return Err(self.wrong_count(EXPECTED, coordinates.len(), "line"));
+            }
             _ => return Err(self.wrong(EXPECTED)),
         };
-        if line.len() < 2 { Err(self.wrong(EXPECTED)) } else { self.places(line) }
+        match line.len() {
+            count @ 0..2 => Err(self.wrong_count(EXPECTED, count, "position")),
+            _ => self.places(line),
+        }
+    }
+
+    /// An error that says how many parts a geometry of the right kind has.
+    fn wrong_count(&self, expected: &'static str, count: usize, part: &str) -> Error {
+        let kind = self.geometry.map_or("none", GeometryValue::type_name);
+        let parts = if count == 1 { part.to_owned() } else { format!("{part}s") };
+        Error::WrongGeometry {
+            origin: self.row.origin.to_owned(),
+            place: self.row.place(),
+            expected,
+            found: format!("{kind} of {count} {parts}"),
+        }
     }
 
     /// The rings of all polygons; `None` if the geometry is no area.

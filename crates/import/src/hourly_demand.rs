@@ -27,6 +27,8 @@ const COLUMNS: [Column; 4] =
 pub(crate) struct HourlyDemand {
     /// Start of each period, rising.
     pub(crate) periods: Vec<Time>,
+    /// The position of the first period that the planner gave; an empty one may come before it.
+    pub(crate) first_given: usize,
     /// For each pair with passengers, by the positions of its vertiports, the passengers of each period.
     pub(crate) pairs: BTreeMap<(usize, usize), Vec<f64>>,
 }
@@ -53,9 +55,7 @@ impl HourlyDemand {
         let Some(&first) = starts.first() else {
             return Err(Error::Nothing { origin: origin(), what: "demand" });
         };
-        if first > start {
-            starts.insert(start);
-        }
+        let first_given = usize::from(first > start && starts.insert(start));
         let found = starts.len() * vertiports.list.len().pow(2);
         if found > MOST_CELLS {
             let what = "the number of pairs of vertiports times periods";
@@ -68,7 +68,7 @@ impl HourlyDemand {
             let means = pairs.entry(ends).or_insert_with(|| vec![0.0; periods.len()]);
             means[position[&period]] = passengers;
         }
-        Ok(Self { periods, pairs })
+        Ok(Self { periods, first_given, pairs })
     }
 
     /// Passengers of all pairs and periods together.

@@ -11,8 +11,11 @@ mod cell;
 mod corridors;
 mod date_time;
 mod demand_comments;
+mod demand_warnings;
+mod energy_prices;
 mod error;
 mod features;
+mod fleet;
 mod globe;
 mod hourly_demand;
 mod network_text;
@@ -23,12 +26,14 @@ mod table;
 mod tariffs;
 mod trips;
 mod vertiports;
+mod warning;
 mod zones;
 
 use std::path::Path;
 
 use vertifleet_core::{Network, Stop};
 
+use energy_prices::EnergyPrices;
 use hourly_demand::HourlyDemand;
 use network_text::{FromFile, NetworkText};
 use vertiports::Vertiports;
@@ -36,7 +41,8 @@ use vertiports::Vertiports;
 pub use date_time::{Date, NotADate, Weekday, Weekdays};
 pub use error::Error;
 pub use new_network::{NewNetwork, NewVertiport};
-pub use trips::{TripAccount, TripColumns, Trips};
+pub use trips::{TripAccount, TripColumns, TripValue, Trips};
+pub use warning::Warning;
 
 /// What to import.
 #[derive(Debug)]
@@ -56,7 +62,11 @@ pub struct Request<'a> {
     /// Fares and passenger costs of pairs: CSV with the columns `from,to,fare_usd,passenger_cost_usd`, of which one of
     /// the last two may be left out.
     pub tariffs: Option<&'a Path>,
-    /// Prices of electricity: CSV with the columns `period,price_usd_per_kwh`, a row for each demand period.
+    /// Number of aircraft: the fleet of the base with every type's share of this number. The base's own fleet if absent.
+    pub aircraft: Option<u32>,
+    /// The time zone of the network's clocks, by its name in the IANA database; it has none if absent.
+    pub time_zone: Option<&'a str>,
+    /// Prices of electricity: CSV with the columns `period,price_usd_per_kwh`. A price holds until the next one.
     pub energy_prices: Option<&'a Path>,
 }
 
@@ -65,7 +75,7 @@ pub struct Request<'a> {
 #[expect(clippy::large_enum_variant, reason = "there is one of them in an import")]
 pub enum Demand<'a> {
     /// Mean passengers of a day by pair and period: CSV or Parquet with the columns `period,from,to,passengers`. A
-    /// period is a time as `HH:MM:SS` or an hour from 0 to 47; it lasts until the next one that the table has, and the
+    /// period is a time as `HH:MM` or `HH:MM:SS`, or an hour from 0 to 47; it lasts until the next one that the table has, and the
     /// last one for the rest of the day.
     Table(&'a Path),
     /// Trip records.
@@ -81,6 +91,8 @@ pub struct Imported {
     pub toml: String,
     /// What became of the trip records, if the demand comes from them.
     pub account: Option<TripAccount>,
+    /// What the planner's files hardly mean, beside the warnings of the network.
+    pub warnings: Vec<Warning>,
 }
 
 /// Makes a network of a planner's files. `progress` is told the share of the trip records that has been read.
@@ -100,7 +112,9 @@ pub fn import(
         vertiports: FromFile { what: &vertiports, path: request.vertiports },
         corridors: read(request.corridors, |path| corridors::read(path, &vertiports))?,
         pair_tariffs: read(request.tariffs, |path| tariffs::pairs(path, &vertiports))?,
-        energy_prices: request.energy_prices,
+        aircraft: request.aircraft,
+        time_zone: request.time_zone,
+        energy_prices: read(request.energy_prices, EnergyPrices::read)?,
     };
     let operations = request.base.operations();
     stop.check()?;
@@ -119,8 +133,13 @@ pub fn import(
     };
     stop.check()?;
     let (network, toml) = text.network(&demand, &source)?;
+    let mut warnings = vertiports.warnings(request.vertiports);
+    warnings.extend(demand.warnings(&request.demand, request.base));
+    if let Some(prices) = &text.energy_prices {
+        warnings.extend(prices.what.warning(&demand.periods, operations));
+    }
     progress(1.0);
-    Ok(Imported { network, toml, account })
+    Ok(Imported { network, toml, account, warnings })
 }
 
 /// Reads a file that may be absent.

@@ -12,11 +12,12 @@ use toml_edit::{
 use vertifleet_core::{Network, Time};
 
 use crate::corridors::Corridor;
+use crate::energy_prices::EnergyPrices;
 use crate::error::shortened;
 use crate::hourly_demand::HourlyDemand;
-use crate::tariffs::{self, PairTariff};
+use crate::tariffs::PairTariff;
 use crate::vertiports::{ASSUMED_STANDS, Vertiport, Vertiports};
-use crate::{Error, file_name};
+use crate::{Error, file_name, fleet};
 
 /// What was read from a file, and the file.
 pub(crate) struct FromFile<'a, T> {
@@ -31,8 +32,9 @@ pub(crate) struct NetworkText<'a> {
     pub(crate) vertiports: FromFile<'a, &'a Vertiports>,
     pub(crate) corridors: Option<FromFile<'a, Vec<Corridor>>>,
     pub(crate) pair_tariffs: Option<FromFile<'a, Vec<PairTariff>>>,
-    /// A table of prices, which can only be read when the demand periods are known.
-    pub(crate) energy_prices: Option<&'a Path>,
+    pub(crate) aircraft: Option<u32>,
+    pub(crate) time_zone: Option<&'a str>,
+    pub(crate) energy_prices: Option<FromFile<'a, EnergyPrices>>,
 }
 
 /// The members of a base that say something else of its demand or its vertiports, with the reason to leave them out.
@@ -84,6 +86,10 @@ impl NetworkText<'_> {
             file.remove(model);
         }
         file["name"] = value(self.name);
+        self.put_time_zone(&mut file);
+        if let Some(aircraft) = self.aircraft {
+            fleet::resize(&mut file, aircraft, self.base.name());
+        }
         self.put_vertiports(&mut file);
         self.put_corridors(&mut file);
         self.put_tariffs(&mut file, &demand.periods)?;
@@ -112,6 +118,14 @@ impl NetworkText<'_> {
         }
         head.push('\n');
         head
+    }
+
+    fn put_time_zone(&self, file: &mut DocumentMut) {
+        let Some(zone) = self.time_zone else { return };
+        file.insert("time_zone", value(zone));
+        if let Some(mut key) = file.key_mut("time_zone") {
+            key.leaf_decor_mut().set_prefix("# The time zone that the import was given.\n");
+        }
     }
 
     fn put_vertiports(&self, file: &mut DocumentMut) {
@@ -163,30 +177,41 @@ impl NetworkText<'_> {
         for member in ["fare_factors", "energy_price_usd_per_kwh"] {
             self.adapt_to_periods(tariffs, member, periods);
         }
-        if let Some(path) = self.energy_prices {
+        if let Some(FromFile { what: prices, path }) = &self.energy_prices {
             let operations = self.base.operations();
-            let prices = tariffs::energy_prices_usd(path, periods, operations)?;
-            let comment = format!("# Prices of the demand periods from {}.\n", file_name(path));
+            let mut comment = format!("# Prices of the demand periods from {}.\n", file_name(path));
+            if prices.warning(periods, operations).is_some() {
+                comment.push_str(
+                    "# A period in which the price changes has the mean over its time.\n",
+                );
+            }
+            let prices = prices.of_periods(periods, operations)?;
             let prices = prices.into_iter().map(number).collect::<Array>();
             put(tariffs, "energy_price_usd_per_kwh", prices, &comment);
         }
-        if let Some(FromFile { what: pairs, path }) = &self.pair_tariffs {
-            let entries = pairs.iter().map(|pair| {
-                let mut entry = self.ends(pair.ends);
-                for (member, amount) in
-                    [("fare_usd", pair.fare_usd), ("passenger_cost_usd", pair.passenger_cost_usd)]
-                {
-                    if let Some(amount) = amount {
-                        entry.insert(member, number(amount));
-                    }
-                }
-                entry
-            });
-            let comment =
-                format!("# Fares and passenger costs of pairs from {}.\n", file_name(path));
-            put(tariffs, "pairs", list(entries), &comment);
-        }
+        self.put_pairs(tariffs);
         Ok(())
+    }
+
+    fn put_pairs(&self, tariffs: &mut Table) {
+        let Some(FromFile { what: pairs, path }) = &self.pair_tariffs else { return };
+        let entries = pairs.iter().map(|pair| {
+            let mut entry = self.ends(pair.ends);
+            for (member, amount) in
+                [("fare_usd", pair.fare_usd), ("passenger_cost_usd", pair.passenger_cost_usd)]
+            {
+                if let Some(amount) = amount {
+                    entry.insert(member, number(amount));
+                }
+            }
+            entry
+        });
+        let comment = format!(
+            "# Fares and passenger costs of pairs from {}. The factors, the boarding fee and the level of fares that this\n\
+             # section has apply to these fares too.\n",
+            file_name(path)
+        );
+        put(tariffs, "pairs", list(entries), &comment);
     }
 
     /// Gives each new demand period the entry that the base has for the time when it starts, if the member is a list by

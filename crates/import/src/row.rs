@@ -16,17 +16,31 @@ use crate::vertiports::Vertiports;
 pub(crate) struct Column {
     /// Its name, and other names by which it is known. The first that the file has counts.
     pub(crate) names: &'static [&'static str],
-    pub(crate) required: bool,
+    pub(crate) need: Need,
+}
+
+/// Whether a file must have a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Need {
+    Required,
+    /// At least one of the columns of this kind must be there.
+    OneOf,
+    Optional,
 }
 
 /// A column that a file must have.
 pub(crate) const fn required(names: &'static [&'static str]) -> Column {
-    Column { names, required: true }
+    Column { names, need: Need::Required }
+}
+
+/// A column of several, of which a file must have at least one.
+pub(crate) const fn one_of(names: &'static [&'static str]) -> Column {
+    Column { names, need: Need::OneOf }
 }
 
 /// A column that a file may have.
 pub(crate) const fn optional(names: &'static [&'static str]) -> Column {
-    Column { names, required: false }
+    Column { names, need: Need::Optional }
 }
 
 /// Where rows stand in their file.
@@ -141,17 +155,17 @@ impl Row<'_> {
         }
     }
 
-    /// The time of a column: `HH:MM:SS`, or an hour of the day.
+    /// The time of a column: `HH:MM`, with or without seconds, or an hour of the day.
     pub(crate) fn time(&self, column: usize) -> Result<Time, Error> {
         const LAST_HOUR: u32 = 47;
         let cell = self.cells[column];
         let hour = cell.whole().and_then(|hour| u32::try_from(hour).ok());
         let time = match hour {
             Some(hour) => Some(hour).filter(|&hour| hour <= LAST_HOUR).map(|hour| hour * 3600),
-            None => cell.shown().parse().ok().map(Time::seconds),
+            None => time_of_day(&cell.shown()).map(Time::seconds),
         };
         let time = time.filter(|&second| second < (LAST_HOUR + 1) * 3600).map(Time::from_seconds);
-        let rule = || format!("a time as HH:MM:SS, or an hour from 0 to {LAST_HOUR}");
+        let rule = || format!("a time as HH:MM or HH:MM:SS, or an hour from 0 to {LAST_HOUR}");
         time.ok_or_else(|| self.wrong(column, rule()))
     }
 
@@ -222,4 +236,9 @@ impl Row<'_> {
     fn member(&self, column: usize) -> &'static str {
         self.columns[column].names[0]
     }
+}
+
+/// Reads a time, which spreadsheets often write without seconds.
+fn time_of_day(text: &str) -> Option<Time> {
+    text.parse().or_else(|_| format!("{text}:00").parse()).ok()
 }

@@ -30,8 +30,8 @@ use crate::vertiports::Vertiports;
 use crate::zones::Zones;
 
 pub use account::TripAccount;
-pub use columns::TripColumns;
 use columns::{Layout, Places};
+pub use columns::{TripColumns, TripValue};
 use nearby::Nearby;
 use tally::{Hours, Rules, Tallies};
 
@@ -151,14 +151,14 @@ pub(crate) fn demand(
             }
         }
     }
-    let demand = HourlyDemand { periods: rules.hours.starts(), pairs };
+    let demand = HourlyDemand { periods: rules.hours.starts(), first_given: 0, pairs };
     let account = TripAccount { passengers_a_day: rounded(demand.passengers()), ..account };
     Ok((demand, account))
 }
 
 /// The demand periods of trip records, without any passengers.
 pub(crate) fn no_demand(operations: &Operations) -> HourlyDemand {
-    HourlyDemand { periods: Hours::of(operations).starts(), pairs: BTreeMap::new() }
+    HourlyDemand { periods: Hours::of(operations).starts(), first_given: 0, pairs: BTreeMap::new() }
 }
 
 /// A number of passengers to a millionth, which keeps network files short.

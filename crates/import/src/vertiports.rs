@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use crate::Error;
 use crate::features;
 use crate::globe::Place;
 use crate::row::{Column, Row, optional, required};
 use crate::table;
+use crate::{Error, Warning};
 
 /// The most vertiports that a network takes.
 const MOST: usize = 256;
@@ -23,6 +23,9 @@ const BUSY: usize = 3;
 const NAME: usize = 4;
 const LATITUDE: usize = 5;
 const LONGITUDE: usize = 6;
+/// The names of the columns of a place in a table.
+pub(crate) const LATITUDES: &[&str] = &["latitude", "lat"];
+pub(crate) const LONGITUDES: &[&str] = &["longitude", "lon", "lng", "long"];
 /// The columns of a table, and up to the name the properties of a point.
 const COLUMNS: [Column; 7] = [
     required(&["id"]),
@@ -30,8 +33,8 @@ const COLUMNS: [Column; 7] = [
     optional(&["chargers"]),
     optional(&["busy"]),
     optional(&["name"]),
-    required(&["latitude"]),
-    required(&["longitude"]),
+    required(LATITUDES),
+    required(LONGITUDES),
 ];
 
 /// A vertiport as the planner's file gives it.
@@ -119,6 +122,36 @@ impl Vertiports {
     /// The ids in file order.
     pub(crate) fn ids(&self) -> impl Iterator<Item = &str> {
         self.list.iter().map(|vertiport| vertiport.id.as_str())
+    }
+}
+
+/// Vertiports that are nearer to each other than this are at the same place, miles.
+const SAME_PLACE_MI: f64 = 0.01;
+/// Where all vertiports of a network lie nearer to a pole than this, latitude and longitude are exchanged: no town of some
+/// size does, and the longitudes of much of America do. Degrees.
+const POLAR_LATITUDE: f64 = 72.0;
+
+impl Vertiports {
+    /// What their places hardly mean.
+    pub(crate) fn warnings(&self, path: &Path) -> Vec<Warning> {
+        let warning = |problem| Warning::Places { origin: path.display().to_string(), problem };
+        let polar = self.list.iter().all(|one| one.place.latitude.abs() > POLAR_LATITUDE);
+        let polar = polar.then(|| {
+            let problem = "all vertiports are within 18 degrees of a pole: latitude and longitude may be exchanged";
+            warning(problem.to_owned())
+        });
+        let same = self.at_the_same_place().map(|(one, other)| {
+            let (one, other) = (&one.id, &other.id);
+            warning(format!("the vertiports {one:?} and {other:?} are at the same place"))
+        });
+        polar.into_iter().chain(same).collect()
+    }
+
+    /// The first two vertiports that are at the same place.
+    fn at_the_same_place(&self) -> Option<(&Vertiport, &Vertiport)> {
+        let pairs = (1..self.list.len()).flat_map(|to| (0..to).map(move |from| (from, to)));
+        let mut pairs = pairs.map(|(from, to)| (&self.list[from], &self.list[to]));
+        pairs.find(|(one, other)| one.place.distance_mi(other.place) < SAME_PLACE_MI)
     }
 }
 

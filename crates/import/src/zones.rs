@@ -9,11 +9,12 @@ use crate::features::{self, Shape};
 use crate::globe::{Area, Place};
 use crate::row::{Column, Row, optional, required};
 use crate::table;
+use crate::vertiports::{LATITUDES, LONGITUDES};
 
 /// Files of New York's taxi zones have a `zone` that is a name beside the `LocationID` that trips give, which
 /// therefore goes first.
 const ZONE: &[&str] = &["LocationID", "zone"];
-const COLUMNS: [Column; 3] = [required(ZONE), required(&["latitude"]), required(&["longitude"])];
+const COLUMNS: [Column; 3] = [required(ZONE), required(LATITUDES), required(LONGITUDES)];
 const PROPERTIES: [Column; 1] = [optional(ZONE)];
 
 /// Zones with the places of their middles. Ids that are whole numbers are compared as numbers, since tables write 132

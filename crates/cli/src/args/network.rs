@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
-use vertifleet_import::{Date, NewVertiport, Weekdays};
+use clap::{ArgGroup, Args, Subcommand};
+use vertifleet_import::{Date, NewVertiport, TripValue, Weekdays};
 
-use crate::typed::{parse_known, parse_vertiport};
+use crate::typed::{parse_known, parse_pair, parse_vertiport};
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum NetworkAction {
     /// Make a network file from data of your own: vertiports, demand or trip records, corridors, fares
-    Import(ImportArguments),
+    Import(Box<ImportArguments>),
     /// Say everything that is wrong with network files
     Check {
         /// Network files
@@ -49,36 +49,40 @@ pub(crate) enum NetworkAction {
 }
 
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("source").required(true).args(["demand", "trips"]))]
 pub(crate) struct ImportArguments {
     /// Vertiports: CSV with id,latitude,longitude and perhaps stands,chargers,busy; or GeoJSON points
     #[arg(long, value_name = "FILE")]
     pub(crate) vertiports: PathBuf,
     /// Mean passengers: CSV or Parquet with period,from,to,passengers
-    #[arg(long, value_name = "FILE", required_unless_present = "trips", conflicts_with = "trips")]
+    #[arg(long, value_name = "FILE")]
     pub(crate) demand: Option<PathBuf>,
     /// Trip records, CSV or Parquet, with times and places; zones need --zones
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub(crate) trips: Vec<PathBuf>,
+    /// Columns of the trip records that have names of their own, as pickup_time=began,passengers=riders
+    #[arg(long, value_name = "VALUE=COLUMN", value_delimiter = ',', value_parser = parse_trip_column)]
+    pub(crate) trip_columns: Vec<(TripValue, String)>,
     /// Where the zones of the trip records are: CSV with zone,latitude,longitude, or GeoJSON
-    #[arg(long, value_name = "FILE", requires = "trips")]
+    #[arg(long, value_name = "FILE")]
     pub(crate) zones: Option<PathBuf>,
     /// Greatest distance between a place and its vertiport, miles [default: 1]
-    #[arg(long, value_name = "MILES", requires = "trips", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MILES", allow_hyphen_values = true)]
     pub(crate) radius: Option<f64>,
     /// Share of the trips near vertiports that would fly [default: 0.01]
-    #[arg(long, value_name = "SHARE", requires = "trips", allow_hyphen_values = true)]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     pub(crate) mode_share: Option<f64>,
     /// Distance to and from vertiports over which that share falls to 1/e, miles [default: it does not fall]
-    #[arg(long, value_name = "MILES", requires = "trips", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MILES", allow_hyphen_values = true)]
     pub(crate) decay: Option<f64>,
     /// Days of the week that count, as Mon,Tue,Wed [default: all]
-    #[arg(long, value_name = "DAYS", requires = "trips", value_parser = parse_known::<Weekdays>)]
+    #[arg(long, value_name = "DAYS", value_parser = parse_known::<Weekdays>)]
     pub(crate) weekdays: Option<Weekdays>,
     /// First date that counts, as 2015-06-01
-    #[arg(long, value_name = "DATE", requires = "trips", value_parser = parse_known::<Date>)]
+    #[arg(long, value_name = "DATE", value_parser = parse_known::<Date>)]
     pub(crate) first_date: Option<Date>,
     /// Last date that counts
-    #[arg(long, value_name = "DATE", requires = "trips", value_parser = parse_known::<Date>)]
+    #[arg(long, value_name = "DATE", value_parser = parse_known::<Date>)]
     pub(crate) last_date: Option<Date>,
     /// Corridors that may be flown: GeoJSON lines with from and to
     #[arg(long, value_name = "FILE")]
@@ -92,6 +96,12 @@ pub(crate) struct ImportArguments {
     /// The network that everything else is taken from: aircraft, fleet, operations, tariffs, disturbances
     #[arg(long, value_name = "NETWORK", default_value = "new-york")]
     pub(crate) base: String,
+    /// Number of aircraft, shared out among the types of the base's fleet [default: as many as the base has]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub(crate) aircraft: Option<u32>,
+    /// Time zone of the network's clocks, as America/New_York [default: none]
+    #[arg(long, value_name = "ZONE")]
+    pub(crate) time_zone: Option<String>,
     /// Name of the new network
     #[arg(long)]
     pub(crate) name: String,
@@ -104,6 +114,33 @@ pub(crate) struct ImportArguments {
     /// Print what became of the trip records as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl ImportArguments {
+    /// The flags in use that say how trip records become demand, and say nothing of a table of demand. Rules of the
+    /// parser cannot refuse them: it drops the demand for `--trips` where `--demand` excludes it.
+    pub(crate) fn flags_of_trips(&self) -> Vec<&'static str> {
+        let flags = [
+            ("--trip-columns", !self.trip_columns.is_empty()),
+            ("--zones", self.zones.is_some()),
+            ("--radius", self.radius.is_some()),
+            ("--mode-share", self.mode_share.is_some()),
+            ("--decay", self.decay.is_some()),
+            ("--weekdays", self.weekdays.is_some()),
+            ("--first-date", self.first_date.is_some()),
+            ("--last-date", self.last_date.is_some()),
+        ];
+        flags.into_iter().filter(|(_, used)| *used).map(|(flag, _)| flag).collect()
+    }
+}
+
+/// The column of a value of trip records.
+fn parse_trip_column(text: &str) -> Result<(TripValue, String), String> {
+    let (name, column) = parse_pair(text)?;
+    let known = TripValue::ALL.map(TripValue::name).join(", ");
+    let value = TripValue::ALL.into_iter().find(|value| value.name() == name.trim());
+    let value = value.ok_or_else(|| format!("expected one of {known} before the equals sign"))?;
+    Ok((value, column))
 }
 
 #[derive(Debug, Args)]

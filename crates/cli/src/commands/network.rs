@@ -7,7 +7,9 @@ use std::process::ExitCode;
 use anstream::{eprint, eprintln};
 use serde_json::json;
 use vertifleet_core::{Coded, Network, OutputKind, Outputs, Stop, write_atomically};
-use vertifleet_import::{Demand, NewNetwork, NewVertiport, Request, Trips, import};
+use vertifleet_import::{
+    Demand, NewNetwork, NewVertiport, Request, TripColumns, TripValue, Trips, import,
+};
 use vertifleet_progress::Bar;
 use vertifleet_study::network_overview::NetworkOverview;
 
@@ -40,6 +42,7 @@ pub(crate) fn run(action: &NetworkAction) -> Result<ExitCode, Failure> {
 }
 
 fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
+    refuse_flags_of_trips_without_trips(arguments)?;
     let mut outputs = Outputs::new(arguments.force);
     let base = find_network(&arguments.base, &mut outputs)?;
     let optional = [
@@ -55,7 +58,7 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     outputs.writes(&arguments.output, &NEW_FILE)?;
     let demand = match &arguments.demand {
         Some(table) => Demand::Table(table),
-        None => Demand::Trips(trips(arguments)),
+        None => Demand::Trips(trips(arguments)?),
     };
     let request = Request {
         base: &base,
@@ -64,6 +67,8 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
         demand,
         corridors: arguments.corridors.as_deref(),
         tariffs: arguments.fares.as_deref(),
+        aircraft: arguments.aircraft,
+        time_zone: arguments.time_zone.as_deref(),
         energy_prices: arguments.energy_prices.as_deref(),
     };
     let bar = Bar::new(STEPS.into(), "thousandths read");
@@ -79,6 +84,9 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     let imported = import(&request, &Stop::default(), &progress)?;
     drop(bar);
     write_atomically(&arguments.output, imported.toml.as_bytes())?;
+    for warning in &imported.warnings {
+        warn(warning.code(), warning);
+    }
     for warning in imported.network.warnings() {
         warn(warning.code(), &warning);
     }
@@ -92,10 +100,23 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Refuses flags that would change nothing, which nobody would notice.
+fn refuse_flags_of_trips_without_trips(arguments: &ImportArguments) -> Result<(), Failure> {
+    let flags = arguments.flags_of_trips();
+    if !arguments.trips.is_empty() || flags.is_empty() {
+        return Ok(());
+    }
+    let (flags, say) = (flags.join(", "), if flags.len() == 1 { "says" } else { "say" });
+    let message = format!("{flags} {say} how trip records become demand, and --trips is not given");
+    let hint = "--demand takes mean passengers as they are: leave these flags out, or give --trips in its place";
+    Err(Failure::usage(message, hint))
+}
+
 /// The trip records and how they become demand.
-fn trips(arguments: &ImportArguments) -> Trips<'_> {
+fn trips(arguments: &ImportArguments) -> Result<Trips<'_>, Failure> {
     let start = Trips::new(arguments.trips.iter().map(PathBuf::as_path).collect());
-    Trips {
+    Ok(Trips {
+        columns: trip_columns(&arguments.trip_columns)?,
         zones: arguments.zones.as_deref(),
         radius_mi: arguments.radius.unwrap_or(start.radius_mi),
         mode_share: arguments.mode_share.unwrap_or(start.mode_share),
@@ -104,7 +125,20 @@ fn trips(arguments: &ImportArguments) -> Trips<'_> {
         first_date: arguments.first_date,
         last_date: arguments.last_date,
         ..start
+    })
+}
+
+/// The columns of the trip records as far as they are named, each once.
+fn trip_columns(named: &[(TripValue, String)]) -> Result<TripColumns<'_>, Failure> {
+    let mut columns = TripColumns::default();
+    for (at, (value, column)) in named.iter().enumerate() {
+        if named[..at].iter().any(|(before, _)| before == value) {
+            let message = format!("--trip-columns names two columns for {}", value.name());
+            return Err(Failure::usage(message, "all files of trips have the same columns"));
+        }
+        columns = columns.with(*value, column);
     }
+    Ok(columns)
 }
 
 /// Prints every finding about some network files. The exit code is that of bad input if any of them cannot be used.

@@ -19,7 +19,7 @@ use super::{Reading, cannot_read};
 use crate::Error;
 use crate::cell::Cell;
 use crate::globe::Place;
-use crate::table::without_mark;
+use crate::table::{self, without_mark};
 use crate::zones::Zones;
 
 /// Bytes of a block; some more at its end complete its last line.
@@ -40,7 +40,7 @@ struct Block {
 pub(super) fn read(path: &Path, reading: &Reading<'_>) -> Result<(), Error> {
     let mut source = Source::open(path)?;
     let Some(mut first) = source.next_block()? else {
-        return Err(Error::Nothing { origin: source.origin, what: "rows" });
+        return Err(Error::Nothing { origin: source.origin, what: "rows, as it is empty" });
     };
     let row = RowReader::of_header(&mut first, path, reading)?;
     let waiting = rayon::current_num_threads().min(MOST_WAITING);
@@ -141,6 +141,7 @@ impl<'a> RowReader<'a> {
     /// Takes the header from the first block.
     fn of_header(block: &mut Block, path: &Path, reading: &'a Reading<'_>) -> Result<Self, Error> {
         let origin = path.display().to_string();
+        table::text(&block.lines, "CSV", &origin)?;
         let end = block.lines.iter().position(|&byte| byte == b'\n');
         let end = end.map_or(block.lines.len(), |newline| newline + 1);
         if end > LONGEST_LINE {

@@ -1,10 +1,10 @@
 //! The columns of trip records: how planners name them, and how they are guessed.
 
 use crate::Error;
-use crate::table::missing;
+use crate::table::Missing;
 
 /// The names of the columns of trip records. A name that is absent is guessed from names that are in use, such as those
-/// of New York's taxi records; capitals and small letters are the same.
+/// of New York's taxi records and of bicycles for hire; capitals and small letters are the same.
 ///
 /// Places are read from the four columns of coordinates if these are there, and else from the two columns of zones. If
 /// only columns of zones are named, places are read from these. Where no column of passengers is there, each record is
@@ -29,12 +29,102 @@ pub struct TripColumns<'a> {
     pub passengers: Option<&'a str>,
 }
 
+/// A value of a record of a trip, whose column a planner may name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "they are the columns of `TripColumns`")]
+pub enum TripValue {
+    PickupTime,
+    PickupLatitude,
+    PickupLongitude,
+    DropoffLatitude,
+    DropoffLongitude,
+    PickupZone,
+    DropoffZone,
+    Passengers,
+}
+
+impl TripValue {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::PickupTime,
+        Self::PickupLatitude,
+        Self::PickupLongitude,
+        Self::DropoffLatitude,
+        Self::DropoffLongitude,
+        Self::PickupZone,
+        Self::DropoffZone,
+        Self::Passengers,
+    ];
+
+    /// Its name, by which a planner asks for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PickupTime => "pickup_time",
+            Self::PickupLatitude => "pickup_latitude",
+            Self::PickupLongitude => "pickup_longitude",
+            Self::DropoffLatitude => "dropoff_latitude",
+            Self::DropoffLongitude => "dropoff_longitude",
+            Self::PickupZone => "pickup_zone",
+            Self::DropoffZone => "dropoff_zone",
+            Self::Passengers => "passengers",
+        }
+    }
+
+    /// Names of its column that are in use.
+    fn usual_names(self) -> &'static [&'static str] {
+        match self {
+            Self::PickupTime => TIME,
+            Self::PickupLatitude => PICKUP_LATITUDE,
+            Self::PickupLongitude => PICKUP_LONGITUDE,
+            Self::DropoffLatitude => DROPOFF_LATITUDE,
+            Self::DropoffLongitude => DROPOFF_LONGITUDE,
+            Self::PickupZone => PICKUP_ZONE,
+            Self::DropoffZone => DROPOFF_ZONE,
+            Self::Passengers => PASSENGERS,
+        }
+    }
+}
+
+impl<'a> TripColumns<'a> {
+    /// These columns, with `column` for the one of this value.
+    #[must_use]
+    pub fn with(mut self, value: TripValue, column: &'a str) -> Self {
+        let named = match value {
+            TripValue::PickupTime => &mut self.pickup_time,
+            TripValue::PickupLatitude => &mut self.pickup_latitude,
+            TripValue::PickupLongitude => &mut self.pickup_longitude,
+            TripValue::DropoffLatitude => &mut self.dropoff_latitude,
+            TripValue::DropoffLongitude => &mut self.dropoff_longitude,
+            TripValue::PickupZone => &mut self.pickup_zone,
+            TripValue::DropoffZone => &mut self.dropoff_zone,
+            TripValue::Passengers => &mut self.passengers,
+        };
+        *named = Some(column);
+        self
+    }
+
+    /// The name that the column of a value was given.
+    fn named(&self, value: TripValue) -> Option<&'a str> {
+        match value {
+            TripValue::PickupTime => self.pickup_time,
+            TripValue::PickupLatitude => self.pickup_latitude,
+            TripValue::PickupLongitude => self.pickup_longitude,
+            TripValue::DropoffLatitude => self.dropoff_latitude,
+            TripValue::DropoffLongitude => self.dropoff_longitude,
+            TripValue::PickupZone => self.pickup_zone,
+            TripValue::DropoffZone => self.dropoff_zone,
+            TripValue::Passengers => self.passengers,
+        }
+    }
+}
+
 const TIME: &[&str] = &[
     "tpep_pickup_datetime",
     "lpep_pickup_datetime",
     "pickup_datetime",
     "trip_pickup_datetime",
     "pickup_time",
+    "started_at",
 ];
 const PASSENGERS: &[&str] = &["passenger_count", "passengers"];
 const PICKUP_LATITUDE: &[&str] = &["pickup_latitude", "start_lat", "start_latitude"];
@@ -69,19 +159,17 @@ impl Layout {
         found: &[String],
         origin: &str,
     ) -> Result<Self, Error> {
-        let finder = Finder { found, origin };
-        let time = finder.find(columns.pickup_time, TIME)?;
-        let passengers = finder.find(columns.passengers, PASSENGERS)?;
+        let finder = Finder::new(columns, found, origin);
+        let find = |value| finder.find(value);
+        let time = find(TripValue::PickupTime)?;
+        let passengers = find(TripValue::Passengers)?;
         let coordinates = [
-            finder.find(columns.pickup_latitude, PICKUP_LATITUDE)?,
-            finder.find(columns.pickup_longitude, PICKUP_LONGITUDE)?,
-            finder.find(columns.dropoff_latitude, DROPOFF_LATITUDE)?,
-            finder.find(columns.dropoff_longitude, DROPOFF_LONGITUDE)?,
+            find(TripValue::PickupLatitude)?,
+            find(TripValue::PickupLongitude)?,
+            find(TripValue::DropoffLatitude)?,
+            find(TripValue::DropoffLongitude)?,
         ];
-        let zones = [
-            finder.find(columns.pickup_zone, PICKUP_ZONE)?,
-            finder.find(columns.dropoff_zone, DROPOFF_ZONE)?,
-        ];
+        let zones = [find(TripValue::PickupZone)?, find(TripValue::DropoffZone)?];
         let named_zones = columns.pickup_zone.or(columns.dropoff_zone).is_some();
         let named_coordinates = [
             columns.pickup_latitude,
@@ -102,11 +190,13 @@ impl Layout {
                 return Err(finder.missing(
                     &format!("{column} (or {} and {})", PICKUP_ZONE[0], DROPOFF_ZONE[0]),
                     column,
+                    Some(NAME_THEM),
                 ));
             }
         };
         let time = time.ok_or_else(|| {
-            finder.missing("with the time of pick-up, such as pickup_datetime", "pickup_datetime")
+            let what = "with the time of pick-up, such as pickup_datetime";
+            finder.missing(what, "pickup_datetime", Some(NAME_THEM))
         })?;
         Ok(Self { time, passengers, places })
     }
@@ -114,32 +204,47 @@ impl Layout {
 
 /// The columns of one file, among which names are looked up.
 struct Finder<'a> {
+    columns: &'a TripColumns<'a>,
     found: &'a [String],
+    /// Those of the file's columns that hold one of the values, which no other value was meant to be in.
+    used: Vec<&'a str>,
     origin: &'a str,
 }
 
-impl Finder<'_> {
-    /// The position of the column of this name, which must be there; or of the first of the usual names that is there.
-    fn find(&self, name: Option<&str>, usual: &[&str]) -> Result<Option<usize>, Error> {
+impl<'a> Finder<'a> {
+    fn new(columns: &'a TripColumns<'_>, found: &'a [String], origin: &'a str) -> Self {
+        let mut finder = Self { columns, found, used: Vec::new(), origin };
+        let used = TripValue::ALL.into_iter().filter_map(|value| finder.position(value));
+        finder.used = used.map(|at| found[at].as_str()).collect();
+        finder
+    }
+
+    /// Where the column of a value stands: the named one, or the first of the usual names that is there.
+    fn position(&self, value: TripValue) -> Option<usize> {
         let position = |name: &str| {
             self.found.iter().position(|found| found.eq_ignore_ascii_case(name.trim()))
         };
-        match name {
-            Some(name) => match position(name) {
-                Some(at) => Ok(Some(at)),
-                None => Err(self.missing(&format!("{name:?}"), name)),
-            },
-            None => Ok(usual.iter().find_map(|name| position(name))),
+        match self.columns.named(value) {
+            Some(name) => position(name),
+            None => value.usual_names().iter().find_map(|name| position(name)),
+        }
+    }
+
+    /// Where the column of a value stands, which must be there if it is named.
+    fn find(&self, value: TripValue) -> Result<Option<usize>, Error> {
+        match (self.position(value), self.columns.named(value)) {
+            (None, Some(name)) => Err(self.missing(&format!("{name:?}"), name, None)),
+            (at, _) => Ok(at),
         }
     }
 
     /// An error that says what is missing; `like` is the name to which similar ones are looked for.
-    fn missing(&self, what: &str, like: &str) -> Error {
-        match missing(like, self.found, self.origin) {
-            Error::MissingColumn { origin, found, meant, .. } => {
-                Error::MissingColumn { origin, column: what.to_owned(), found, meant }
-            }
-            other => other,
-        }
+    fn missing(&self, what: &str, like: &str, remedy: Option<&str>) -> Error {
+        let Self { found, ref used, origin, .. } = *self;
+        Missing { column: what, like: &[like], found, used, remedy }.error(origin)
     }
 }
+
+/// What to do where columns have names that are not known.
+const NAME_THEM: &str =
+    "--trip-columns names what is called otherwise, as pickup_time=began,passengers=riders";

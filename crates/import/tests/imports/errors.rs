@@ -36,7 +36,7 @@ impl Errors {
         }
     }
 
-    fn vertiports(&mut self, name: &str, text: &str) {
+    fn vertiports(&mut self, name: &str, text: impl AsRef<[u8]>) {
         let (base, places) = (new_york(), self.folder.file(name, text));
         let demand = self.folder.file("demand.csv", TABLE);
         self.add(run(&request(&base, &places, Demand::Table(&demand))));
@@ -47,7 +47,7 @@ impl Errors {
         self.add(result);
     }
 
-    fn records(&mut self, text: &str) {
+    fn records(&mut self, text: impl AsRef<[u8]>) {
         let file = self.folder.file("records.csv", text);
         let result = run_trips(&self.folder, Trips::new(vec![&file]));
         self.add(result);
@@ -100,6 +100,11 @@ fn parquet_of_numbers() -> Vec<u8> {
     bytes
 }
 
+/// A text as some spreadsheets save it.
+fn utf_16(text: &str) -> Vec<u8> {
+    [0xfeff].into_iter().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect()
+}
+
 #[test]
 fn every_error_names_file_place_member_and_rule() {
     let mut errors = Errors { folder: Folder::new(), text: String::new(), codes: BTreeSet::new() };
@@ -129,16 +134,23 @@ fn of_vertiports(errors: &mut Errors) {
         "\"A\tB\",40.7,-74,4,true\n",
         "",
     ] {
-        errors.vertiports("places.csv", &format!("{header}{rows}"));
+        errors.vertiports("places.csv", format!("{header}{rows}"));
     }
     errors.vertiports("places.csv", "id,latitudes,longitude\nA,40.7,-74\n");
+    errors.vertiports("places.csv", "id,latitude,x\nA,40.7,-74\n");
+    errors.vertiports("places.csv", "id;latitude;longitude\nA;40,7;-74\n");
+    errors.vertiports("places.csv", "id\tlatitude\tlongitude\nA\t40.7\t-74\n");
+    errors.vertiports("places.csv", utf_16(VERTIPORTS));
+    errors.vertiports("places.csv", "\u{feff}\r\n");
+    errors.vertiports("places.geojson", utf_16("{}"));
+    errors.vertiports("places.geojson", "");
     let many = (0..257).map(|n| format!("V{n},40,-74,4,true\n")).collect::<Vec<_>>().concat();
-    errors.vertiports("places.csv", &format!("{header}{many}"));
+    errors.vertiports("places.csv", format!("{header}{many}"));
     errors.vertiports("places.geojson", "{\"type\":");
-    errors.vertiports("places.geojson", &map(&[line(r#""id":"A""#, "[-74,40],[-74,41]")]));
-    errors.vertiports("places.geojson", &map(&[point(r#""id":"A""#, 935_996.0, 191_376.0)]));
-    errors.vertiports("places.geojson", &map(&[point(r#""id":"A""#, -74.0, 89.5)]));
-    errors.vertiports("places.geojson", &map(&[point(r#""name":"A""#, -74.0, 40.0)]));
+    errors.vertiports("places.geojson", map(&[line(r#""id":"A""#, "[-74,40],[-74,41]")]));
+    errors.vertiports("places.geojson", map(&[point(r#""id":"A""#, 935_996.0, 191_376.0)]));
+    errors.vertiports("places.geojson", map(&[point(r#""id":"A""#, -74.0, 89.5)]));
+    errors.vertiports("places.geojson", map(&[point(r#""name":"A""#, -74.0, 40.0)]));
     errors.vertiports("places.parquet", "PAR1");
 }
 
@@ -170,9 +182,12 @@ fn of_trips(errors: &mut Errors) {
     errors.records("pickup,PULocationID,DOLocationID\n");
     errors.records("pickup_datetime,PULocationID,DOLocationID\n");
     errors.records("");
-    errors.records(&format!("{RECORDS}2015-06-01 07:30,0,0,0,0\n,,,,\n"));
-    errors.records(&format!("{RECORDS}{}\n", "1,".repeat(40_000)));
-    errors.records(&"x".repeat(5 << 20));
+    errors.records(utf_16(RECORDS));
+    errors.records(RECORDS.replace(',', ";"));
+    errors.records(RECORDS.replace("pickup_latitude", "x"));
+    errors.records(format!("{RECORDS}2015-06-01 07:30,0,0,0,0\n,,,,\n"));
+    errors.records(format!("{RECORDS}{}\n", "1,".repeat(40_000)));
+    errors.records("x".repeat(5 << 20));
     let parquet = errors.folder.file("records.parquet", parquet_of_numbers());
     let result = run_trips(&errors.folder, Trips::new(vec![&parquet]));
     errors.add(result);
@@ -213,10 +228,15 @@ fn of_corridors(errors: &mut Errors) {
         ],
         vec![line(ends, "[-74.0088,40.70112],[-73.8,40.63993]")],
         vec![line(ends, "[-73.77869,40.63993],[-74.0088,40.70112]")],
+        vec![line(ends, "[40.70112,-74.0088],[40.63993,-73.77869]")],
         vec![line(r#""from":"JRB","to":"JRB""#, WAY)],
         vec![line(r#""from":"JRB""#, WAY)],
         vec![line(r#""from":"JRB","to":"JFK","both_ways":"maybe""#, WAY)],
         vec![line(ends, "[-74.0088,40.70112]")],
+        vec![
+            line(ends, &format!("[{WAY}],[{WAY}]"))
+                .replace(r#":"LineString"#, r#":"MultiLineString"#),
+        ],
         vec![point(ends, -74.0, 40.0)],
         vec![],
     ] {
@@ -228,7 +248,8 @@ fn of_tariffs(errors: &mut Errors) {
     for rows in ["JRB,JFK,\n", "JRB,JFK,-5\n", "JRB,JFK,5\nJRB,JFK,6\n", ""] {
         errors.with("fares.csv", &format!("from,to,fare_usd\n{rows}"));
     }
-    for rows in ["6,0.1\n", "6,0.1\n7,0.1\n7:30:00,0.2\n", "6,0.1\n6,0.2\n", "6,0.1\n7,x\n"] {
+    errors.with("fares.csv", "from,to,fare\nJRB,JFK,5\n");
+    for rows in ["7,0.1\n", "6,0.1\n6,0.2\n", "6,0.1\n7,x\n", ""] {
         errors.with("prices.csv", &format!("period,price_usd_per_kwh\n{rows}"));
     }
 }
@@ -242,6 +263,9 @@ fn of_the_network(errors: &mut Errors) {
     let small =
         errors.folder.file("small.csv", "id,latitude,longitude\nJRB,40.7,-74\nJFK,40.6,-73.8\n");
     errors.add(run(&request(&base, &small, Demand::Table(&demand))));
+    let mut zone = request(&base, &places, Demand::Table(&demand));
+    zone.time_zone = Some("Eastern Time");
+    errors.add(run(&zone));
     let long = errors.folder.file("long.csv", vec![b' '; (16 << 20) + 1]);
     errors.add(run(&request(&base, &long, Demand::Table(&demand))));
     let away = errors.folder.path("away.csv");

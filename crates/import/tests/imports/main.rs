@@ -7,3 +7,4 @@ mod network_file;
 mod parquet_types;
 mod planner;
 mod trips;
+mod warnings;

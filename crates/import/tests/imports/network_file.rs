@@ -2,7 +2,7 @@
 
 use crate::planner::{Folder, VERTIPORTS, line, map, new_york, point, request, run, run_table};
 use vertifleet_core::{Network, Time, VertiportIx};
-use vertifleet_import::Demand;
+use vertifleet_import::{Demand, Imported};
 
 const TABLE: &str = "\
 from,to,period,passengers
@@ -43,6 +43,18 @@ fn marks_line_ends_order_of_columns_and_further_columns_change_nothing() {
     let odd = run_table(&folder, odd).expect("a network");
     assert_eq!(numbers(&plain.network), numbers(&odd.network));
     assert_eq!(plain.toml, odd.toml);
+}
+
+#[test]
+fn times_without_seconds_and_empty_cells_of_spreadsheets_change_nothing() {
+    let folder = Folder::new();
+    let plain = run_table(&folder, TABLE).expect("a network");
+    let of_spreadsheet = "from,to,period,passengers,,\nJRB,JFK,07:00,14,,\nJRB,JFK,8:00,22.5,,\nJFK,JRB,07:00,9,,\n,,,,,\n , ,\n";
+    let of_spreadsheet = run_table(&folder, of_spreadsheet).expect("a network");
+    assert_eq!(plain.toml, of_spreadsheet.toml);
+    let rows = VERTIPORTS.replace('\n', ",,\n");
+    folder.file("vertiports.csv", format!("{rows},,,,,,,,\r\n"));
+    assert_eq!(run_table(&folder, TABLE).expect("a network").toml, plain.toml);
 }
 
 #[test]
@@ -87,6 +99,30 @@ fn stands_that_no_file_gives_are_assumed_and_the_file_says_so() {
     assert!(imported.toml.contains("# assumption: 4 stands at each of the 10 vertiports"));
 }
 
+#[test]
+fn a_fleet_of_another_size_and_a_time_zone_are_taken_and_the_file_says_so() {
+    let folder = Folder::new();
+    let (base, vertiports) = (new_york(), folder.path("vertiports.csv"));
+    let demand = folder.file("demand.csv", TABLE);
+    let in_one_line = include_str!("data/in-one-line.toml");
+    let in_one_line = Network::from_toml(in_one_line, "in-one-line.toml").expect("a network");
+    for (base, fleet, entry) in [
+        (&base, "new-york has 32", "type = \"midnight\"\ncount = 4\n"),
+        (&in_one_line, "in-one-line has 3", "fleet = [{ type = \"small\", count = 7 }]"),
+    ] {
+        let mut request = request(base, &vertiports, Demand::Table(&demand));
+        (request.aircraft, request.time_zone) = (Some(7), Some("America/New_York"));
+        let Imported { network, toml, .. } = run(&request).expect("a network");
+        assert_eq!((network.fleet_size(), network.time_zone()), (7, Some("America/New_York")));
+        let said = format!("# The import was asked for 7 aircraft; {fleet}, and each type keeps");
+        assert!(toml.contains(&said) && toml.contains(entry), "{toml}");
+        assert!(
+            toml.contains("# The time zone that the import was given.\ntime_zone = "),
+            "{toml}"
+        );
+    }
+}
+
 /// Everything at once, to be read by people.
 #[test]
 fn the_network_file_says_where_everything_is_from() {
@@ -129,6 +165,31 @@ fn without_prices_of_their_own_periods_have_those_of_the_base_at_their_start() {
     );
     assert!(imported.toml.contains("fare_factors = [1.0, 1.0, 1.0, 1.0]"));
     assert!(imported.toml.contains("is the one that new-york has when the period starts"));
+}
+
+#[test]
+fn a_price_holds_until_the_next_and_a_period_in_which_it_changes_has_the_mean() {
+    let folder = Folder::new();
+    let (base, vertiports) = (new_york(), folder.path("vertiports.csv"));
+    let prices = folder.file("prices.csv", "period,price_usd_per_kwh\n0,0.1\n14,0.3\n19,0.2\n");
+    let of_hours = (6..22).map(|hour| format!("JRB,JFK,{hour},1\n")).collect::<Vec<_>>().concat();
+    let cheap_and_dear = [vec!["0.1"; 8], vec!["0.3"; 5], vec!["0.2"; 3]].concat().join(", ");
+    // From 10:00 to 18:00 half of the time is dear, and from 18:00 to 22:00 a fourth.
+    for (rows, found, changes) in [
+        (of_hours.as_str(), cheap_and_dear.as_str(), ""),
+        ("JRB,JFK,6,1\nJRB,JFK,10,1\nJRB,JFK,18,1\n", "0.1, 0.2, 0.225", "14:00:00, 19:00:00"),
+    ] {
+        let demand = folder.file("demand.csv", format!("from,to,period,passengers\n{rows}"));
+        let mut request = request(&base, &vertiports, Demand::Table(&demand));
+        request.energy_prices = Some(&prices);
+        let imported = run(&request).expect("a network");
+        let member = format!("energy_price_usd_per_kwh = [{found}]");
+        assert!(imported.toml.contains(&member), "{}", imported.toml);
+        assert_eq!(imported.toml.contains("has the mean over its time"), !changes.is_empty());
+        let warned = imported.warnings.iter().find(|warning| warning.code().0 == 720);
+        assert_eq!(warned.is_some(), !changes.is_empty());
+        assert!(warned.is_none_or(|warning| warning.to_string().ends_with(changes)), "{warned:?}");
+    }
 }
 
 #[test]

@@ -67,8 +67,17 @@ pub(crate) fn request<'a>(
     vertiports: &'a Path,
     demand: Demand<'a>,
 ) -> Request<'a> {
-    let name = "imported";
-    Request { base, name, vertiports, demand, corridors: None, tariffs: None, energy_prices: None }
+    Request {
+        base,
+        name: "imported",
+        vertiports,
+        demand,
+        corridors: None,
+        tariffs: None,
+        aircraft: None,
+        time_zone: None,
+        energy_prices: None,
+    }
 }
 
 pub(crate) fn new_york() -> Network {
