@@ -174,9 +174,9 @@ impl Network {
     }
 
     fn outside_operations(&self, means: &[Matrix<f64>], of_all: f64) -> Option<Warning> {
-        let (day, last) = (&self.idle_day, limits::LATEST);
+        let day = &self.idle_day;
         let operations = &day.operations;
-        let ends = day.periods.iter().skip(1).copied().chain([last]);
+        let ends = day.periods.iter().skip(1).copied().chain([limits::LATEST]);
         let periods = day.periods.iter().zip(ends).zip(means);
         let lost = periods.filter(|((start, end), _)| {
             // The paper's last period begins as operations end, and is not counted.

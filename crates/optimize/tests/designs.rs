@@ -60,7 +60,8 @@ fn redesigned(day: &Scenario, mix: u32) -> Scenario {
     };
     day.aircraft = left.into_iter().take(fleet).enumerate().map(one).collect();
     let outage = |at: usize| {
-        let start = day.operations.start + (mix.rotate_left(at as u32) % 7_200);
+        let start = day.operations.start
+            + (u32::try_from((mix as usize).rotate_left(5) / (at + 1) % 7_200).expect("seconds"));
         Outage { aircraft: AircraftIx::new(at), start, end: start + 600 + mix % 4_000 }
     };
     day.disturbances.outages = (0..fleet).step_by(1 + mix as usize % 3).map(outage).collect();

@@ -199,6 +199,19 @@ def test_a_sweep_with_a_journal_plays_only_what_is_missing(paper, stage, tmp_pat
     assert days[:kept] == [2] * kept
 
 
+def test_days_may_be_of_another_split_and_designs_a_latin_hypercube(paper):
+    changes = {"fleet.0.count": "36..44", "tariffs.fare_level": "0.8..1.2"}
+    request = {"changes": changes, "policies": ["greedy"], "latin": 3, "days": 2, "split": "validation"}
+    found, expected = vertifleet.ray.sweep(paper, **request), vertifleet.sweep(paper, **request)
+    assert [changes for changes, _ in found.points] == [changes for changes, _ in expected.points]
+    for (_, comparison), (_, same) in zip(found.points, expected.points, strict=True):
+        assert_same(comparison, same)
+    one, other = (
+        vertifleet.ray.compare(paper, ["greedy"], days=2, split=split) for split in (None, "training")
+    )
+    assert one.columns["profit_usd"].tolist() != other.columns["profit_usd"].tolist()
+
+
 @pytest.mark.usefixtures("stage")
 def test_a_warning_of_many_tasks_is_said_once(paper):
     with pytest.warns(UserWarning, match="changed copy") as records:
@@ -226,7 +239,7 @@ def test_what_cannot_be_split_is_refused(paper):
 def test_a_node_with_another_version_is_refused(paper):
     request = ComparisonRequest.of("compare", ["greedy"], DrawnDays(1, 1), None, False, 5, None)
     with pytest.raises(vertifleet.Error) as refused:
-        tasks.play._function(request, "0.0.0", paper, 1, 1)
+        tasks.play._function(request, "0.0.0", paper, DrawnDays(1, 1))
     assert refused.value.code == "V409"
     assert "0.0.0" in refused.value.message
 

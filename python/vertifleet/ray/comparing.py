@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Iterable, Mapping
 
-    from vertifleet._compare import PolicySource
+    from vertifleet._compare import PolicySource, Split
     from vertifleet._native import Comparison, Network
 
 
@@ -23,6 +23,7 @@ def compare(
     *,
     days: SupportsIndex = 100,
     seed: SupportsIndex = 1,
+    split: Split | None = None,
     models: Mapping[str, PolicySource] | None = None,
     bound: bool = False,
     step: SupportsIndex = 5,
@@ -44,6 +45,7 @@ def compare(
         policies: names of the policies.
         days: number of days.
         seed: seed of the first day.
+        split: whose days.
         models: weights or functions, by policy name.
         bound: whether to prove an upper bound of every day.
         step: length of the bound's slices in minutes.
@@ -54,7 +56,7 @@ def compare(
     Raises:
         Error: as :func:`vertifleet.compare`; V409 if a node has another version of the package.
     """
-    network, drawn = network_of(network), DrawnDays.of(days, seed)
+    network, drawn = network_of(network), DrawnDays.of(days, seed, split)
     request = ComparisonRequest.of(
         "vertifleet.ray.compare", policies, drawn, models, bound, step, policy_seed
     )
@@ -71,6 +73,7 @@ def sweep(
     latin: SupportsIndex | None = None,
     days: SupportsIndex = 100,
     seed: SupportsIndex = 1,
+    split: Split | None = None,
     models: Mapping[str, PolicySource] | None = None,
     bound: bool = False,
     step: SupportsIndex = 5,
@@ -89,6 +92,7 @@ def sweep(
         policies: names of the policies.
         days: number of days.
         seed: seed of the first day.
+        split: whose days.
         models: weights or functions, by policy name.
         bound: whether to prove an upper bound of every day.
         step: length of the bound's slices in minutes.
@@ -100,7 +104,7 @@ def sweep(
     Raises:
         Error: as :func:`vertifleet.sweep`; V409 if a node has another version of the package.
     """
-    network, drawn = network_of(network), DrawnDays.of(days, seed)
+    network, drawn = network_of(network), DrawnDays.of(days, seed, split)
     cells = variations(network, changes, latin, drawn)
     points = played(cells)
     request = ComparisonRequest.of(

@@ -16,7 +16,6 @@ import ray
 from ray.exceptions import RayTaskError
 
 from vertifleet import Comparison, Error, Model
-from vertifleet._compare import DrawnDays
 from vertifleet.ray.progress import Progress
 
 if TYPE_CHECKING:
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
     from ray import ObjectRef
 
     from vertifleet import Network
-    from vertifleet._compare import ComparisonRequest, PolicySource
+    from vertifleet._compare import ComparisonRequest, DrawnDays, PolicySource
     from vertifleet._kept import Parts
 
     Flying: TypeAlias = ObjectRef[Comparison]
@@ -53,13 +52,13 @@ def _read(given: PolicySource) -> PolicySource:
 
 
 @ray.remote(num_cpus=1, max_retries=-1)
-def play(request: ComparisonRequest, here: str, network: Network, days: int, seed: int) -> Comparison:
-    """Plays some days, the first with seed `seed`; `here` is the package version of the calling process."""
+def play(request: ComparisonRequest, here: str, network: Network, days: DrawnDays) -> Comparison:
+    """Plays some days; `here` is the package version of the calling process."""
     found = version("vertifleet")
     if found != here:
         rule = f"the parts do not go together: vertifleet {found} on a node, {here} here"
         raise Error("V409", rule, "install the same version on all nodes")
-    return request.compare(network, 1, DrawnDays(days, seed))
+    return request.compare(network, 1, days)
 
 
 def play_missing(
@@ -84,7 +83,7 @@ def play_missing(
     with Progress(sum(days.days for _, days in tasks)) as progress:
         while begun < len(tasks) or playing:
             for point, days in tasks[begun : begun + _room(len(playing))]:
-                flying = play.remote(sent, here, shared[point], days.days, days.seed)
+                flying = play.remote(sent, here, shared[point], days)
                 playing[flying] = point, days
                 begun += 1
             done, _ = ray.wait(list(playing), timeout=GLANCE_S)

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use anstream::{eprint, eprintln};
 use serde_json::json;
-use vertifleet_core::{Coded, Network, OutputKind, Outputs, Stop, write_atomically};
+use vertifleet_core::{Coded, Network, OutputKind, Outputs, Stop, Warning, write_atomically};
 use vertifleet_import::{
     Demand, NewNetwork, NewVertiport, Request, TripColumns, TripValue, Trips, import,
 };
@@ -87,7 +87,9 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     for warning in &imported.warnings {
         warn(warning.code(), warning);
     }
-    for warning in imported.network.warnings() {
+    // What the import itself says of passengers outside the hours of operation is not said twice.
+    let said = |warning: &Warning| matches!(warning, Warning::OutsideOperations { .. });
+    for warning in imported.network.warnings().into_iter().filter(|warning| !said(warning)) {
         warn(warning.code(), &warning);
     }
     if arguments.json {

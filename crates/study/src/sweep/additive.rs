@@ -29,7 +29,9 @@ pub(super) fn level_means(factors: &[Vec<Vec<usize>>], numbers: &[f64]) -> Vec<V
             {
                 *effect += shift;
                 moved = moved.max(shift.abs());
-                level.iter().for_each(|&at| left[at] -= shift);
+                for &at in level {
+                    left[at] -= shift;
+                }
             }
         }
         if moved <= settled {
