@@ -9,7 +9,7 @@ use vertifleet_study::explain::{Explanation, PAGE, explain};
 use vertifleet_study::{PolicySpec, ResolveFor, ResolvedPolicy};
 
 fn day(network: &str) -> Arc<vertifleet_core::Scenario> {
-    let network = Network::shipped(network).expect("shipped");
+    let network = Network::find(network).expect("a network");
     Arc::new(network.draw(DaySeed::comparison(3).expect("a seed")))
 }
 
@@ -90,6 +90,33 @@ fn a_worth_is_the_difference_of_two_days_that_were_solved() {
 }
 
 #[test]
+fn no_change_is_worth_more_by_the_bound_than_it_can_be_nor_less() {
+    // San Francisco's stands, chargers and aircraft cost something; the aircraft of `disrupted` have outages.
+    for network in ["paper", "disrupted", "san-francisco", "random:3", "random-places:2:1"] {
+        let day = day(network);
+        let found = explained(network, &greedy());
+        let alone = upper_bound(&day, Step::from_minutes(60).expect("a step")).expect("a bound");
+        assert!(found.upper_bound_usd <= alone.upper_bound_usd(), "{network}");
+        assert!(found.upper_bound_usd >= found.account.totals.profit_usd, "{network}");
+        let price_usd = |id: &str| {
+            let at = found.account.vertiports.iter().find(|one| one.id == id).expect("an id");
+            at.stand_worth.as_ref().expect("the day has a bound").stand_shadow_price_usd
+        };
+        for one in &found.worth {
+            let (worth_usd, about) = (one.bound_usd + one.cost_usd, 1e-4);
+            if let Some((_, id)) = one.change.split_once(" at ") {
+                let range = -about..=price_usd(id) + about;
+                assert!(range.contains(&worth_usd), "{network}: {one:?}, {range:?}");
+            } else if one.change.contains("seat") {
+                assert!(one.cost_usd == 0.0 && worth_usd >= -about, "{network}: {one:?}");
+            } else if one.change.starts_with("one more") {
+                assert_eq!(one.cost_usd, day.aircraft_cost_usd, "{network}: {one:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_trace_is_explained_without_playing_other_days() {
     let (trace, _) = greedy().play("greedy", &day("paper"), &Stop::default()).expect("a day");
     let found = explained("paper", &ResolvedPolicy::Replay(Arc::new(Trace::clone(&trace))));
@@ -102,8 +129,14 @@ fn page_and_text_say_what_json_says() {
     let found = explained("paper", &greedy());
     let page = found.page();
     assert!(page.starts_with(PAGE.opening), "the program recognises its own pages");
-    for part in ["<svg", "Ledger", "V1 → V2", "one more cityairbus", "one more stand, $", "iframe"]
-    {
+    for part in [
+        "<svg",
+        "Ledger",
+        "V1 → V2",
+        "one more cityairbus",
+        "one more stand before its cost, $",
+        "iframe",
+    ] {
         assert!(page.contains(part), "{part}");
     }
     assert!(found.text().contains("where most money is spilled"));

@@ -153,8 +153,7 @@ fn caption(picture: PlayedPicture) -> &'static str {
 fn tables(account: &Account) -> Markup {
     let is_worth_known = account.vertiports.iter().any(|one| one.stand_worth.is_some());
     let taken = "Taken is the mean share of stands and chargers with an aircraft there or on its way there.";
-    let worth =
-        " One more stand is the shadow price of the bound: by how much the bound rises at most.";
+    let worth = " One more stand is the shadow price of the bound: by how much the bound rises at most, before what the stand costs.";
     let vertiports = taken.to_owned() + if is_worth_known { worth } else { "" };
     html! {
         (section("Where most money is spilled", "By pair, the most first.", &table::pairs(account, MOST_PAIRS)))

@@ -79,7 +79,7 @@ pub(crate) fn pairs(account: &Account, most: usize) -> Vec<Vec<String>> {
 pub(crate) fn vertiports(account: &Account) -> Vec<Vec<String>> {
     let is_worth_known = account.vertiports.iter().any(|one| one.stand_worth.is_some());
     let mut head = cells(&["vertiport", "room", "departures", "arrivals", "taken", "full"]);
-    head.extend(is_worth_known.then(|| "one more stand, $".to_owned()));
+    head.extend(is_worth_known.then(|| "one more stand before its cost, $".to_owned()));
     let mut rows = vec![head];
     rows.extend(account.vertiports.iter().map(|one| {
         let mut row = vec![

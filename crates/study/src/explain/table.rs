@@ -30,22 +30,24 @@ pub(super) fn text(explanation: &Explanation) -> String {
     append_aligned(&mut text, &vertiports(account));
     text += "\naircraft, means by type\n";
     append_aligned(&mut text, &types(account));
-    text += "\nwhat a change would be worth on this day, solved again\n";
+    text += "\nwhat a change would be worth on this day after what it costs, solved again\n";
     append_aligned(&mut text, &worth(explanation));
     text + "\nThe policy's difference is that of one day, which chance moves by more than most changes are worth: a sweep \
-            measures changes over many days. The bound's is that of what is possible.\n"
+            measures changes over many days. The bound's is that of what is possible. One more stand is worth its price in \
+            the table of vertiports at most, less what it costs.\n"
 }
 
-/// What changes are worth.
+/// What changes are worth after what they cost.
 pub(super) fn worth(explanation: &Explanation) -> Vec<Vec<String>> {
     let mut rows = vec![vec![
         "change".to_owned(),
-        format!("{}, $", explanation.account.policy),
-        "bound, $".to_owned(),
+        "cost, $".to_owned(),
+        format!("{} after cost, $", explanation.account.policy),
+        "bound after cost, $".to_owned(),
     ]];
     rows.extend(explanation.worth.iter().map(|one| {
         let policy = one.policy_usd.map_or_else(|| "n/a".to_owned(), |usd| signed(usd, 0));
-        vec![one.change.clone(), policy, signed(one.bound_usd, 0)]
+        vec![one.change.clone(), grouped(one.cost_usd, 0), policy, signed(one.bound_usd, 0)]
     }));
     rows
 }
