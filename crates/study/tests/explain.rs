@@ -144,3 +144,21 @@ fn page_and_text_say_what_json_says() {
     assert_eq!(json["format"], "vertifleet-explanation/1");
     assert_eq!(json["worth"].as_array().expect("a list").len(), found.worth.len());
 }
+
+#[test]
+fn nothing_is_written_as_minus_zero() {
+    // On a day on which nobody wants to fly, every sum is one of no numbers.
+    let mut empty = vertifleet_core::Scenario::clone(&day("paper")).into_day();
+    for table in &mut empty.demand {
+        *table = vertifleet_core::Matrix::from_fn(table.size(), |_, _| 0);
+    }
+    let empty = Arc::new(empty.check("an empty day").expect("a day"));
+    let step = Step::from_minutes(60).expect("a step");
+    let found = explain(&empty, "greedy", &greedy(), step, &Stop::default(), &|_| ());
+    let found = found.expect("a day");
+    for written in [found.to_json(), found.text(), found.page()] {
+        for zero in [": -0.0,", ": -0.0\n", "-0 %", " -0 "] {
+            assert!(!written.contains(zero), "{zero}");
+        }
+    }
+}

@@ -140,7 +140,8 @@ pub(super) fn by_pair(day: &Scenario, rows: &[TraceRow]) -> Vec<PairLoss> {
             demand,
             flights: count(&flights),
             repositioning_flights: empty(&flights),
-            profit_usd: flights.iter().map(|row| row.profit_usd()).sum(),
+            // From 0, because the sum of no numbers is -0.
+            profit_usd: flights.iter().fold(0.0, |sum, row| sum + row.profit_usd()),
         }
     };
     let mut losses: Vec<PairLoss> = pairs(day.vertiports.len()).map(of_pair).collect();
