@@ -86,8 +86,12 @@ impl Blocks {
         write!(self.0, "M{x} {y}h{width}v{height}h-{width}z").expect("memory takes everything");
     }
 
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     pub(crate) fn draw(&self, canvas: &mut Canvas, look: Look) {
-        if !self.0.is_empty() {
+        if !self.is_empty() {
             canvas.path(&self.0, look);
         }
     }

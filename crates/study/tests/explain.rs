@@ -5,6 +5,7 @@ use std::sync::Arc;
 use vertifleet_core::{DaySeed, Network, Stop};
 use vertifleet_optimize::{Step, upper_bound};
 use vertifleet_sim::Trace;
+use vertifleet_study::account::Account;
 use vertifleet_study::explain::{Explanation, PAGE, explain};
 use vertifleet_study::{PolicySpec, ResolveFor, ResolvedPolicy};
 
@@ -57,10 +58,8 @@ fn periods_pairs_and_aircraft_add_up_to_the_day() {
         assert!(earned(found.account.aircraft.iter().map(|one| one.profit_usd).sum()));
         let hours = 12.0;
         for one in &found.account.aircraft {
-            assert!(
-                (one.flying_h + one.charging_h + one.waiting_h - hours).abs() < 1e-9,
-                "{one:?}"
-            );
+            let on_the_ground_h = one.charging_h + one.out_of_service_h + one.waiting_h;
+            assert!((one.flying_h + on_the_ground_h - hours).abs() < 1e-9, "{one:?}");
         }
         for one in &found.account.vertiports {
             assert!(
@@ -143,6 +142,30 @@ fn page_and_text_say_what_json_says() {
     let json: serde_json::Value = serde_json::from_str(&found.to_json()).expect("JSON");
     assert_eq!(json["format"], "vertifleet-explanation/1");
     assert_eq!(json["worth"].as_array().expect("a list").len(), found.worth.len());
+}
+
+#[test]
+fn an_outage_is_no_charging() {
+    let found = explained("disrupted", &greedy());
+    assert!(found.account.aircraft.iter().any(|one| one.out_of_service_h > 0.0));
+    let mut without = vertifleet_core::Scenario::clone(&day("disrupted")).into_day();
+    without.disturbances.outages.clear();
+    let without = Arc::new(without.check("a day without outages").expect("a day"));
+    let (trace, totals) = greedy().play("greedy", &without, &Stop::default()).expect("a whole day");
+    let without = Account::of(&without, "greedy", trace, totals);
+    assert!(without.aircraft.iter().all(|one| one.out_of_service_h == 0.0));
+    // The longest charging of this network's only type is the same with outages and without.
+    let most = |account: &Account| {
+        let a_flight =
+            account.aircraft.iter().map(|one| one.charging_h / f64::from(one.flights.max(1)));
+        a_flight.fold(0.0, f64::max)
+    };
+    assert!(most(&found.account) < 1.5 * most(&without));
+    for (account, has) in [(&found.account, true), (&without, false)] {
+        let page = account.page();
+        let before_replay = page.split("<iframe").next().expect("a beginning");
+        assert_eq!(before_replay.contains("out of service"), has, "in the picture and the table");
+    }
 }
 
 #[test]

@@ -138,7 +138,7 @@ fn caption(picture: PlayedPicture) -> &'static str {
         }
         PlayedPicture::Map => "Both directions of a pair together, to scale.",
         PlayedPicture::Aircraft => {
-            "Bars are flights, with take-off and landing; what is neither flight nor charging is time on a stand."
+            "Bars are flights, with take-off and landing; what is neither flight nor charging nor an outage is time on a stand."
         }
         PlayedPicture::Occupancy => {
             "A stand is taken from the decision to fly there until the decision to fly away. All capacities are drawn at the same height; \

@@ -96,19 +96,14 @@ pub(crate) fn vertiports(account: &Account) -> Vec<Vec<String>> {
     rows
 }
 
-/// What aircraft did, as means by type.
+/// What aircraft did, as means by type. Time out of service has a column only where an outage kept an aircraft on the ground.
 pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
-    let head = [
-        "type",
-        "aircraft",
-        "flights",
-        "empty",
-        "flying, h",
-        "charging, h",
-        "waiting, h",
-        "profit, $",
-    ];
-    let mut rows = vec![cells(&head)];
+    let has_outages = account.aircraft.iter().any(|one| one.out_of_service_h > 0.0);
+    let mut head =
+        cells(&["type", "aircraft", "flights", "empty", "flying, h", "charging, h", "waiting, h"]);
+    head.extend(has_outages.then(|| "out of service, h".to_owned()));
+    head.push("profit, $".to_owned());
+    let mut rows = vec![head];
     let mut kinds: Vec<&str> = account.aircraft.iter().map(|one| one.kind.as_str()).collect();
     kinds.sort_unstable();
     kinds.dedup();
@@ -118,7 +113,7 @@ pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
         let mean = |number: fn(&AircraftUse) -> f64| {
             of_kind.iter().map(|one| number(one)).sum::<f64>() / of_kind.len() as f64
         };
-        rows.push(vec![
+        let mut row = vec![
             kind.to_owned(),
             of_kind.len().to_string(),
             grouped(mean(|one| one.flights.into()), 1),
@@ -126,8 +121,10 @@ pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
             grouped(mean(|one| one.flying_h), 1),
             grouped(mean(|one| one.charging_h), 1),
             grouped(mean(|one| one.waiting_h), 1),
-            grouped(mean(|one| one.profit_usd), 0),
-        ]);
+        ];
+        row.extend(has_outages.then(|| grouped(mean(|one| one.out_of_service_h), 1)));
+        row.push(grouped(mean(|one| one.profit_usd), 0));
+        rows.push(row);
     }
     rows
 }
