@@ -44,15 +44,20 @@ fn periods_pairs_and_aircraft_add_up_to_the_day() {
             sum(periods.iter().map(|one| one.holds.into()).collect()),
             u64::from(totals.holds)
         );
+        let cells = &found.account.spilled;
+        assert_eq!(
+            sum(cells.iter().map(|one| one.demand.spilled).collect()),
+            totals.spilled_passengers
+        );
+        assert!(cells.iter().all(|one| one.demand.spilled > 0));
         let pairs = &found.account.pairs;
         assert_eq!(sum(pairs.iter().map(|one| one.demand.carried).collect()), totals.passengers);
         assert_eq!(
             sum(pairs.iter().map(|one| one.flights.into()).collect()),
             u64::from(totals.flights)
         );
-        assert!(pairs.is_sorted_by(
-            |one, next| one.demand.spilled_margin_usd >= next.demand.spilled_margin_usd
-        ));
+        assert!(pairs.is_sorted_by(|one, next| !next.can_be_flown
+            || one.demand.spilled_margin_usd >= next.demand.spilled_margin_usd));
         let earned = |usd: f64| (usd - totals.profit_usd).abs() < 1e-6 * totals.revenue_usd;
         assert!(earned(pairs.iter().map(|one| one.profit_usd).sum()));
         assert!(earned(found.account.aircraft.iter().map(|one| one.profit_usd).sum()));
@@ -142,6 +147,35 @@ fn page_and_text_say_what_json_says() {
     let json: serde_json::Value = serde_json::from_str(&found.to_json()).expect("JSON");
     assert_eq!(json["format"], "vertifleet-explanation/1");
     assert_eq!(json["worth"].as_array().expect("a list").len(), found.worth.len());
+}
+
+#[test]
+fn demand_that_no_aircraft_can_fly_is_counted_apart_and_not_ranked() {
+    // With a battery for the mean distance only, about half of all pairs are out of range.
+    let mut near = vertifleet_core::Scenario::clone(&day("paper")).into_day();
+    let distances_mi: Vec<f64> = near.distance_mi.cells().to_vec();
+    let mean_mi = distances_mi.iter().sum::<f64>() / distances_mi.len() as f64;
+    near.aircraft_types[0].battery_kwh = mean_mi * near.aircraft_types[0].energy_kwh_per_mi;
+    let near = Arc::new(near.check("a day of short ranges").expect("a day"));
+    let (trace, totals) = greedy().play("greedy", &near, &Stop::default()).expect("a whole day");
+    let account = Account::of(&near, "greedy", trace, totals);
+    let apart = account.cannot_be_flown;
+    assert!(apart.spilled > 0 && apart.carried == 0 && apart.spilled == apart.wanted);
+    let (first, last) =
+        account.pairs.split_at(account.pairs.iter().filter(|one| one.can_be_flown).count());
+    assert!(!first.is_empty() && first.iter().all(|one| one.can_be_flown));
+    let spilled_usd: f64 = last.iter().map(|one| one.demand.spilled_margin_usd).sum();
+    assert!((spilled_usd - apart.spilled_margin_usd).abs() < 1e-6);
+    let page = account.page();
+    let before_replay = page.split("<iframe").next().expect("a beginning");
+    assert!(before_replay.contains("on pairs that no aircraft can fly, for want of"));
+    for (pair, is_there) in [(&first[0], true), (&last[0], false)] {
+        let row = format!("<td>{} → {}</td>", pair.from, pair.to);
+        assert_eq!(before_replay.contains(&row), is_there, "{row}");
+    }
+    let everywhere = explained("paper", &greedy());
+    assert!(!everywhere.text().contains("no aircraft can fly"));
+    assert!(everywhere.text().contains("where and when most money is spilled"));
 }
 
 #[test]

@@ -14,6 +14,9 @@ use crate::replay::{self, Play, ReplayedDay};
 /// Most pairs on the page; JSON has all of them.
 const MOST_PAIRS: usize = 40;
 
+/// Most pairs and periods on the page; JSON has all of them.
+const MOST_CELLS: usize = 20;
+
 /// What a page says beside the account of the day.
 pub(crate) struct Beside {
     /// The beginning of the page up to its version.
@@ -62,7 +65,7 @@ fn head(account: &Account, beside: &Beside) -> Markup {
         p.headline {
             (account.policy) " earns " (dollars(totals.profit_usd)) (beside.share) ". " (grouped(carried, 0))
             " passengers are carried and " (grouped(spilled, 0)) " are not; these would have brought "
-            (dollars(account.spilled_margin_usd())) " more than they cost."
+            (dollars(account.spilled_margin_usd())) " more than they cost" (account.spilled_out_of_reach(dollars)) "."
         }
         dl {
             (beside.numbers)
@@ -156,7 +159,8 @@ fn tables(account: &Account) -> Markup {
     let worth = " One more stand is the shadow price of the bound: by how much the bound rises at most, before what the stand costs.";
     let vertiports = taken.to_owned() + if is_worth_known { worth } else { "" };
     html! {
-        (section("Where most money is spilled", "By pair, the most first.", &table::pairs(account, MOST_PAIRS)))
+        (section("Where most money is spilled", "By pair, the most first; pairs that no aircraft can fly are left out.", &table::pairs(account, MOST_PAIRS)))
+        (section("Where and when most money is spilled", "By pair and the period in which passengers want to fly.", &table::worst_cells(account, MOST_CELLS)))
         (section("Vertiports", &vertiports, &table::vertiports(account)))
         (section("Types of aircraft", "Means by type, within operations.", &table::types(account)))
     }

@@ -47,7 +47,7 @@ pub(crate) fn periods(account: &Account) -> Vec<Vec<String>> {
     rows
 }
 
-/// The pairs with the most money spilled.
+/// The pairs with the most money spilled, of those that can be flown.
 pub(crate) fn pairs(account: &Account, most: usize) -> Vec<Vec<String>> {
     let head = [
         "pair",
@@ -60,7 +60,8 @@ pub(crate) fn pairs(account: &Account, most: usize) -> Vec<Vec<String>> {
         "profit, $",
     ];
     let mut rows = vec![cells(&head)];
-    rows.extend(account.pairs.iter().take(most).map(|one| {
+    let can_be_flown = account.pairs.iter().filter(|one| one.can_be_flown);
+    rows.extend(can_be_flown.take(most).map(|one| {
         vec![
             format!("{} -> {}", one.from, one.to),
             grouped(one.demand.wanted as f64, 0),
@@ -70,6 +71,24 @@ pub(crate) fn pairs(account: &Account, most: usize) -> Vec<Vec<String>> {
             one.flights.to_string(),
             one.repositioning_flights.to_string(),
             grouped(one.profit_usd, 0),
+        ]
+    }));
+    rows
+}
+
+/// The pairs and periods with the most money spilled, of those that can be flown.
+pub(crate) fn worst_cells(account: &Account, most: usize) -> Vec<Vec<String>> {
+    let mut rows =
+        vec![cells(&["pair", "from", "wanted", "carried", "spilled", "margin spilled, $"])];
+    let can_be_flown = account.spilled.iter().filter(|one| one.can_be_flown);
+    rows.extend(can_be_flown.take(most).map(|one| {
+        vec![
+            format!("{} -> {}", one.from, one.to),
+            one.period.clone(),
+            grouped(one.demand.wanted as f64, 0),
+            grouped(one.demand.carried as f64, 0),
+            grouped(one.demand.spilled as f64, 0),
+            grouped(one.demand.spilled_margin_usd, 0),
         ]
     }));
     rows

@@ -3,29 +3,35 @@
 use vertifleet_picture::numbers::{grouped, signed};
 
 use super::Explanation;
-use crate::account::table::{ledger, pairs, periods, types, vertiports};
+use crate::account::table::{ledger, pairs, periods, types, vertiports, worst_cells};
 use crate::table::append_aligned;
 
-/// Most pairs that are listed; JSON has all of them.
+/// Most pairs, and most pairs with a period, that are listed; JSON has all of them.
 const MOST_PAIRS: usize = 10;
 
 pub(super) fn text(explanation: &Explanation) -> String {
     let account = &explanation.account;
     let totals = &account.totals;
     let mut text = format!(
-        "{} with {}: profit {} $, {:.1} % of the upper bound of {} $ (slices of {} min)\n\n",
+        "{} with {}: profit {} $, {:.1} % of the upper bound of {} $ (slices of {} min)\n\
+         {} passengers are spilled, with a margin of {} ${}\n\n",
         account.day,
         account.policy,
         grouped(totals.profit_usd, 2),
         100.0 * totals.profit_usd / explanation.upper_bound_usd.max(f64::MIN_POSITIVE),
         grouped(explanation.upper_bound_usd, 2),
         explanation.bound_step_s / 60,
+        grouped(totals.spilled_passengers as f64, 0),
+        grouped(account.spilled_margin_usd(), 0),
+        account.spilled_out_of_reach(|usd| format!("{} $", grouped(usd, 0))),
     );
     append_aligned(&mut text, &ledger(account));
     text += "\ndemand by period\n";
     append_aligned(&mut text, &periods(account));
     text += "\nwhere most money is spilled\n";
     append_aligned(&mut text, &pairs(account, MOST_PAIRS));
+    text += "\nwhere and when most money is spilled\n";
+    append_aligned(&mut text, &worst_cells(account, MOST_PAIRS));
     text += "\nvertiports\n";
     append_aligned(&mut text, &vertiports(account));
     text += "\naircraft, means by type\n";
