@@ -139,6 +139,7 @@ fn page_and_text_say_what_json_says() {
         "V1 → V2",
         "one more cityairbus",
         "one more stand before its cost, $",
+        "profit before aircraft cost, $",
         "iframe",
     ] {
         assert!(page.contains(part), "{part}");

@@ -162,7 +162,7 @@ fn tables(account: &Account) -> Markup {
         (section("Where most money is spilled", "By pair, the most first; pairs that no aircraft can fly are left out.", &table::pairs(account, MOST_PAIRS)))
         (section("Where and when most money is spilled", "By pair and the period in which passengers want to fly.", &table::worst_cells(account, MOST_CELLS)))
         (section("Vertiports", &vertiports, &table::vertiports(account)))
-        (section("Types of aircraft", "Means by type, within operations.", &table::types(account)))
+        (section("Types of aircraft", "Means by type, within operations. Profit is that of the flights, before what the aircraft costs.", &table::types(account)))
     }
 }
 

@@ -121,7 +121,7 @@ pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
     let mut head =
         cells(&["type", "aircraft", "flights", "empty", "flying, h", "charging, h", "waiting, h"]);
     head.extend(has_outages.then(|| "out of service, h".to_owned()));
-    head.push("profit, $".to_owned());
+    head.push("profit before aircraft cost, $".to_owned());
     let mut rows = vec![head];
     let mut kinds: Vec<&str> = account.aircraft.iter().map(|one| one.kind.as_str()).collect();
     kinds.sort_unstable();
@@ -141,7 +141,7 @@ pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
             grouped(mean(|one| one.charging_h), 1),
             grouped(mean(|one| one.waiting_h), 1),
         ];
-        row.extend(has_outages.then(|| grouped(mean(|one| one.out_of_service_h), 1)));
+        row.extend(has_outages.then(|| grouped(mean(|one| one.out_of_service_h), 2)));
         row.push(grouped(mean(|one| one.profit_usd), 0));
         rows.push(row);
     }

@@ -67,7 +67,7 @@ pub struct AircraftUse {
     pub out_of_service_h: f64,
     /// All other hours of operations: on a stand, charged and ready.
     pub waiting_h: f64,
-    /// Profit of its flights, dollars.
+    /// Profit of its flights, before what the aircraft costs, dollars.
     pub profit_usd: f64,
 }
 
