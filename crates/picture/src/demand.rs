@@ -23,47 +23,41 @@ pub(crate) fn served_and_spilled(
     day: &Scenario,
     rows: &[TraceRow],
 ) {
-    let mut served = vec![0_u32; day.periods.len()];
+    let mut served = vec![0.0; day.periods.len()];
     let mut boarded = Boarded::of(day);
     for row in rows {
         for (period, passengers) in boarded.board(row) {
-            served[period] += u32::from(passengers);
+            served[period] += f64::from(passengers);
         }
     }
-    bars(canvas, area, day, &served);
+    let wanted = |table: &Matrix<u32>| f64::from(table.cells().iter().sum::<u32>());
+    bars(canvas, area, day, &day.demand.iter().map(wanted).zip(served).collect::<Vec<_>>());
     let entries = [(served_look(), "carried"), (spilled_look(), "spilled")];
     key(canvas, (area.left, area.bottom() + 34.0), &entries);
 }
 
-/// Bars of all passengers who want to fly.
-pub(crate) fn wanted(canvas: &mut Canvas, area: Area, day: &Scenario) {
+/// Bars of all passengers who want to fly, or of their means.
+pub(crate) fn wanted(canvas: &mut Canvas, area: Area, day: &Scenario, demand: &[Matrix<f64>]) {
     heading(canvas, area, "passengers who want to fly, by demand period");
-    bars(canvas, area, day, &by_period(day));
+    let all = |table: &Matrix<f64>| table.cells().iter().sum::<f64>();
+    bars(canvas, area, day, &demand.iter().map(all).map(|all| (all, all)).collect::<Vec<_>>());
 }
 
-/// The passengers who want to fly in each demand period.
-fn by_period(day: &Scenario) -> Vec<u32> {
-    day.demand.iter().map(|table| table.cells().iter().sum()).collect()
-}
-
-fn bars(canvas: &mut Canvas, area: Area, day: &Scenario, served: &[u32]) {
-    let wanted = by_period(day);
-    let scale = counts(canvas, area, wanted.iter().map(|&number| f64::from(number)));
-    let width = area.width / wanted.len() as f64;
+/// A bar for each demand period, of the passengers who want to fly and of those of them who are served.
+fn bars(canvas: &mut Canvas, area: Area, day: &Scenario, passengers: &[(f64, f64)]) {
+    let scale = counts(canvas, area, passengers.iter().map(|&(wanted, _)| wanted));
+    let width = area.width / passengers.len() as f64;
     let (mut below, mut above) = (Blocks::default(), Blocks::default());
-    for (period, (&wanted, &served)) in wanted.iter().zip(served).enumerate() {
+    for (period, &(wanted, served)) in passengers.iter().enumerate() {
         let x = area.left + width * period as f64 + 0.1 * width;
-        let (bottom, middle, top) = (
-            area.bottom(),
-            scale.pixel(f64::from(served)),
-            scale.pixel(f64::from(wanted.max(served))),
-        );
+        let (bottom, middle, top) =
+            (area.bottom(), scale.pixel(served), scale.pixel(wanted.max(served)));
         below.add((x, middle), (0.8 * width, bottom - middle));
         above.add((x, top), (0.8 * width, middle - top));
     }
     below.draw(canvas, served_look());
     above.draw(canvas, spilled_look());
-    let every = wanted.len().div_ceil(MOST_LABELS);
+    let every = passengers.len().div_ceil(MOST_LABELS);
     for (period, &start) in day.periods.iter().enumerate().step_by(every) {
         let x = area.left + width * (period as f64 + 0.5);
         let label = Lettering { size: 11.0, ..Lettering::SMALL }.anchored(Anchor::Middle);

@@ -1,9 +1,10 @@
-//! What each aircraft did on a played day: flights by load, charging, and the rest of the time on a stand.
+//! What each aircraft did on a played day: flights by load, charging, outages, and the rest of the time on a stand.
 
-use vertifleet_core::{AircraftIx, Scenario};
+use vertifleet_core::{Scenario, Time};
 use vertifleet_sim::TraceRow;
 
 use crate::canvas::{Anchor, Canvas, Lettering, Look, Stroke, shortened};
+use crate::charged::Charged;
 use crate::map::Area;
 use crate::palette::Paint;
 use crate::panel::{Blocks, Clock, key};
@@ -29,40 +30,73 @@ pub(crate) fn left_out(day: &Scenario) -> String {
     }
 }
 
+/// What aircraft did, as blocks that look alike.
+#[derive(Default)]
+struct Spans {
+    empty: Blocks,
+    loaded: [Blocks; LOADS],
+    charging: Blocks,
+    out_of_service: Blocks,
+}
+
+impl Spans {
+    /// Enters a flight and the time on the ground after it, in a row that begins at `y`.
+    fn add(
+        &mut self,
+        clock: Clock,
+        (y, height): (f64, f64),
+        step: usize,
+        row: &TraceRow,
+        charged: Time,
+    ) {
+        let flight = match step {
+            0 => &mut self.empty,
+            step => &mut self.loaded[step.min(LOADS) - 1],
+        };
+        let (start, arrival) = (clock.pixel(row.time), clock.pixel(row.arrival));
+        flight.add((start, y), ((arrival - start).max(0.5), height));
+        let (charged, ready) = (clock.pixel(charged), clock.pixel(row.ready));
+        let (y, height) = (y + 0.3 * height, 0.4 * height);
+        self.charging.add((arrival, y), ((charged - arrival).max(0.0), height));
+        if ready > charged {
+            self.out_of_service.add((charged, y), (ready - charged, height));
+        }
+    }
+
+    fn draw(&self, canvas: &mut Canvas) {
+        self.charging.draw(canvas, charging_look());
+        self.out_of_service.draw(canvas, out_of_service_look());
+        self.empty.draw(canvas, empty_look());
+        for (step, blocks) in self.loaded.iter().enumerate() {
+            blocks.draw(canvas, loaded_look(step));
+        }
+    }
+}
+
 /// A row for each aircraft.
 pub(crate) fn timeline(canvas: &mut Canvas, clock: Clock, day: &Scenario, rows: &[TraceRow]) {
     clock.draw(canvas);
     let area = clock.area();
     let shown = day.aircraft.len().min(MOST_ROWS);
     let row_height = area.height / shown as f64;
-    let top = |aircraft: AircraftIx| area.top + row_height * aircraft.at() as f64;
-    let (mut charging, mut empty) = (Blocks::default(), Blocks::default());
-    let mut loaded: [Blocks; LOADS] = Default::default();
+    let (mut spans, charged) = (Spans::default(), Charged::of(day));
     for row in rows.iter().filter(|row| row.to != row.from && row.aircraft.at() < shown) {
-        let (start, arrival) = (clock.pixel(row.time), clock.pixel(row.arrival));
-        let (y, height) = (top(row.aircraft) + 1.0, row_height - 2.0);
+        let y = area.top + row_height * row.aircraft.at() as f64 + 1.0;
         let seats = day.aircraft_types[day.aircraft[row.aircraft.at()].kind.at()].seats;
         let step = (usize::from(row.passengers) * LOADS).div_ceil(usize::from(seats.max(1)));
-        let blocks = match step {
-            0 => &mut empty,
-            step => &mut loaded[step.min(LOADS) - 1],
-        };
-        blocks.add((start, y), ((arrival - start).max(0.5), height));
-        let ready = clock.pixel(row.ready);
-        charging.add((arrival, y + 0.3 * height), ((ready - arrival).max(0.0), 0.4 * height));
+        spans.add(clock, (y, row_height - 2.0), step, row, charged.at(row));
     }
-    charging.draw(canvas, charging_look());
-    empty.draw(canvas, empty_look());
-    for (step, blocks) in loaded.iter().enumerate() {
-        blocks.draw(canvas, loaded_look(step));
-    }
+    spans.draw(canvas);
     names(canvas, area, day, row_height);
-    let entries = [
+    let mut entries = vec![
         (loaded_look(LOADS - 1), "flight, full"),
         (loaded_look(0), "a quarter full"),
         (empty_look(), "empty"),
         (charging_look(), "charging"),
     ];
+    if !spans.out_of_service.is_empty() {
+        entries.push((out_of_service_look(), "out of service"));
+    }
     key(canvas, (area.left, area.bottom() + 32.0), &entries);
 }
 
@@ -87,4 +121,9 @@ fn empty_look() -> Look {
 
 fn charging_look() -> Look {
     Look { fill: Some((Paint::Series(2), 0.5)), stroke: None }
+}
+
+/// Dark, so that it differs from charging in grey too.
+fn out_of_service_look() -> Look {
+    Look { fill: Some((Paint::Ink, 0.75)), stroke: None }
 }

@@ -17,7 +17,9 @@ pub(crate) type Line = (&'static str, f64);
 
 /// The lines of the ledger: revenue, the costs that there are, and profit.
 pub fn ledger_lines(day: &Scenario, rows: &[TraceRow]) -> Vec<Line> {
-    let sum = |amount: fn(&TraceRow) -> f64| rows.iter().map(amount).sum::<f64>();
+    // From 0, because the sum of no numbers is -0.
+    let sum =
+        |amount: fn(&TraceRow) -> f64| rows.iter().map(amount).fold(0.0, |sum, usd| sum + usd);
     let revenue_usd = sum(|row| row.revenue_usd);
     let costs = [
         ("passenger cost", sum(|row| row.passenger_cost_usd)),

@@ -7,6 +7,7 @@
 
 pub mod axis;
 pub mod canvas;
+mod charged;
 mod day;
 mod demand;
 mod fleet;
@@ -27,6 +28,7 @@ mod schedule;
 mod stands;
 mod text;
 
+pub use charged::Charged;
 pub use day::day;
 pub use frame::{FRAME, frame};
 pub use ledger::ledger_lines;

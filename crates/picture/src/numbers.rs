@@ -18,6 +18,18 @@ pub fn grouped(value: f64, decimals: usize) -> String {
     text + fraction
 }
 
+/// A mean of whole numbers: whole where it is large or has no fraction, and else with its first digits.
+pub fn mean(value: f64) -> String {
+    let decimals = match value.abs() {
+        whole if whole.fract() == 0.0 => 0,
+        large if large >= 10.0 => 0,
+        small if small >= 1.0 => 1,
+        small if small >= 0.1 => 2,
+        _ => 3,
+    };
+    grouped(value, decimals)
+}
+
 /// Like [`grouped`], with a plus sign before positive values.
 pub fn signed(value: f64, decimals: usize) -> String {
     let text = grouped(value, decimals);
@@ -88,7 +100,7 @@ pub fn counted(count: usize, singular: &str, plural: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{dollars, duration, grouped, p_value, signed, signed_dollars};
+    use super::{dollars, duration, grouped, mean, p_value, signed, signed_dollars};
 
     #[test]
     fn thousands_are_grouped_and_zero_has_no_sign() {
@@ -99,6 +111,12 @@ mod tests {
         assert_eq!(signed(12.0, 0), "+12");
         assert_eq!(dollars(-28_747.0), "−$28,747");
         assert_eq!(signed_dollars(502.4), "+$502");
+    }
+
+    #[test]
+    fn means_that_are_small_keep_their_first_digits() {
+        let written = [0.0, 0.041, 0.66, 2.61, 12.0, 12.6, 2_999.7].map(mean);
+        assert_eq!(written, ["0", "0.041", "0.66", "2.6", "12", "13", "3,000"]);
     }
 
     #[test]

@@ -52,7 +52,8 @@ impl Occupancy {
     /// Share of the time from the start to the end of operations in which all of the room is taken.
     pub fn full_share(&self) -> f64 {
         let full = self.spans().filter(|&(_, taken)| taken >= self.room);
-        full.map(|(hours, _)| hours).sum::<f64>() / self.hours()
+        // A sum of no numbers is -0, which would be printed.
+        full.map(|(hours, _)| hours).fold(0.0, |sum, hours| sum + hours) / self.hours()
     }
 
     /// The numbers, each with the hours of operations that it lasts.
@@ -68,5 +69,22 @@ impl Occupancy {
     fn hours(&self) -> f64 {
         let start = self.steps[0].0;
         f64::from(self.end.since(start).max(1)) / HOUR_S
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::{Network, VertiportIx};
+
+    use super::Occupancy;
+
+    #[test]
+    fn a_vertiport_that_is_never_full_is_full_for_a_share_of_zero_without_a_sign() {
+        let mut day = Network::shipped("paper").expect("shipped").mean_day().into_day();
+        day.vertiports[0].stands += 1;
+        day.aircraft.retain(|aircraft| aircraft.at != VertiportIx::new(0));
+        let day = day.check("a day").expect("a day within the rules");
+        let share = Occupancy::of(&day, &[], VertiportIx::new(0)).full_share();
+        assert!(share == 0.0 && share.is_sign_positive(), "{share:?}");
     }
 }

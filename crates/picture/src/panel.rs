@@ -63,12 +63,15 @@ impl Clock {
 
 /// Counts upward in an area, with lines at round values.
 pub(crate) fn counts(canvas: &mut Canvas, area: Area, values: impl Iterator<Item = f64>) -> Scale {
-    let scale = Scale::from_zero(values, area.bottom(), area.top, 4);
+    let most = values.fold(0.0, f64::max);
+    // Where nobody is, an empty scale to 1 says so.
+    let most = if most > 0.0 { most } else { 1.0 };
+    let scale = Scale::from_zero([most].into_iter(), area.bottom(), area.top, 4);
     for tick in scale.ticks() {
         let y = scale.pixel(tick);
         canvas.line((area.left, y), (area.right(), y), Stroke::solid(Paint::Grid, 1.0));
         let label = Lettering { size: 11.0, ..Lettering::SMALL }.anchored(Anchor::End);
-        canvas.text((area.left - 6.0, y + 4.0), label, &grouped(tick, 0));
+        canvas.text((area.left - 6.0, y + 4.0), label, &grouped(tick, scale.decimals(1.0)));
     }
     scale
 }
@@ -83,8 +86,12 @@ impl Blocks {
         write!(self.0, "M{x} {y}h{width}v{height}h-{width}z").expect("memory takes everything");
     }
 
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     pub(crate) fn draw(&self, canvas: &mut Canvas, look: Look) {
-        if !self.0.is_empty() {
+        if !self.is_empty() {
             canvas.path(&self.0, look);
         }
     }

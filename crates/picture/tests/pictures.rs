@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{DaySeed, Network, Scenario, Time, VertiportIx};
+use vertifleet_core::{DaySeed, Matrix, Network, Scenario, Time, VertiportIx};
 use vertifleet_picture::{
     FRAME, Moment, Occupancy, PlayedPicture, Whereabouts, day, frame, ledger_lines, network, png,
     rgb, schedule, text,
@@ -77,6 +77,24 @@ fn all_pictures_can_be_painted_and_none_has_a_number_that_is_none() {
         assert_eq!(pixels.len(), (FRAME.0 * FRAME.1 * 3) as usize);
         assert!(pixels.iter().any(|&value| value < 64) && pixels[0] == 255, "dark marks on white");
     }
+}
+
+#[test]
+fn a_network_is_drawn_from_its_means_and_not_from_rounded_passengers() {
+    let day = Network::shipped("paper").expect("shipped").mean_day();
+    let size = day.vertiports.len();
+    let drawn = |mean: f64| {
+        let table = Matrix::from_fn(size, |from, to| if from == to { 0.0 } else { mean });
+        network(&day, &vec![table; day.periods.len()])
+    };
+    let lines = |svg: &str| svg.matches("<line").count();
+    let (thin, thick) = (drawn(0.1), drawn(10.0));
+    assert_eq!(lines(&thin), lines(&thick), "a line for each pair, however few passengers it has");
+    let all = 0.1 * (size * (size - 1) * day.periods.len()) as f64;
+    assert!(thin.contains(&format!(", {all:.0} passengers, ")), "{all}");
+    let found = Network::shipped("san-francisco").expect("shipped");
+    let picture = network(&found.mean_day(), &found.mean_demand());
+    assert!(picture.contains(", 3,000 passengers, "), "the mean, as the table has it");
 }
 
 #[test]

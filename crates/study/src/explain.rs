@@ -3,9 +3,10 @@
 //!
 //! What a change is worth is measured by solving the changed day again, once by the policy and once by the bound. The
 //! policy's difference is that of a single day, which chance moves by more than most changes are worth; the bound's is that
-//! of what is possible. A [sweep](crate::sweep) measures changes over many days.
+//! of what is possible (`explain/proven.rs`). A [sweep](crate::sweep) measures changes over many days.
 
 mod page;
+mod proven;
 mod table;
 mod worth;
 
@@ -19,6 +20,9 @@ use vertifleet_optimize::{Bound, Step, upper_bound_unless};
 use crate::account::Account;
 use crate::error::Error;
 use crate::resolved_policy::ResolvedPolicy;
+
+use proven::Proven;
+use worth::Change;
 
 pub use worth::Worth;
 
@@ -40,7 +44,8 @@ pub struct Explanation {
     /// The numbers of the day as the policy played it, and what its stands are worth.
     #[serde(flatten)]
     pub account: Account,
-    /// What no schedule of the day can pass, dollars.
+    /// What no schedule of the day can pass, dollars. It may be a little lower than the bound of the day alone, because the
+    /// bounds of the changed days prove something about the day too.
     pub upper_bound_usd: f64,
     /// The length of the bound's slices, seconds.
     pub bound_step_s: u32,
@@ -68,23 +73,28 @@ pub fn explain(
     solved(changes.len());
     // A replay knows nothing of other days.
     let plays_again = !matches!(policy, ResolvedPolicy::Replay(_));
-    let solve = |(change, day): (String, Arc<Scenario>)| {
-        let again = plays_again.then(|| policy.play(name, &day, stop)).transpose()?;
-        let bounded = bound_of(&day, slices, stop)?;
+    let solve = |change: Change| {
+        let again = plays_again.then(|| policy.play(name, &change.day, stop)).transpose()?;
+        let policy_usd = again.map(|(_, again)| again.profit_usd - totals.profit_usd);
+        let bounded = bound_of(&change.day, slices, stop)?;
         solved(0);
-        Ok(Worth {
-            change,
-            policy_usd: again.map(|(_, again)| again.profit_usd - totals.profit_usd),
-            bound_usd: bounded.upper_bound_usd() - bound.upper_bound_usd(),
-        })
+        Ok((change, policy_usd, bounded))
     };
-    let worth = changes.into_par_iter().map(solve).collect::<Result<Vec<Worth>, Error>>()?;
+    let solved = changes.into_par_iter().map(solve).collect::<Result<Vec<_>, Error>>()?;
+    let bounds = solved.iter().map(|(change, _, bounded)| (change, bounded));
+    let proven = Proven::of(scenario, &bound, bounds)?;
+    let worth = solved.iter().map(|(change, policy_usd, bounded)| Worth {
+        change: change.words.clone(),
+        cost_usd: change.cost_usd,
+        policy_usd: *policy_usd,
+        bound_usd: proven.rise_usd(change, bounded),
+    });
     Ok(Explanation {
         format: FORMAT,
-        account: Account::of(scenario, name, trace, totals).with_worth_of_stands(&bound),
-        upper_bound_usd: bound.upper_bound_usd(),
-        bound_step_s: bound.step_s(),
-        worth,
+        account: Account::of(scenario, name, trace, totals).with_worth_of_stands(proven.best()),
+        upper_bound_usd: proven.upper_bound_usd(),
+        bound_step_s: proven.best().step_s(),
+        worth: worth.collect(),
     })
 }
 

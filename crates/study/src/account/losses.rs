@@ -1,8 +1,13 @@
-//! Who was carried and who was not, by period and by pair.
+//! Who was carried and who was not: by period, by pair, and by both.
+//!
+//! Pairs that no aircraft of the day can fly, because they have no corridor or are beyond the range of every aircraft, lose all of
+//! their demand whatever is decided. They are counted apart and come last.
+
+use std::cmp::Ordering;
 
 use serde::Serialize;
-use vertifleet_core::{Scenario, Time, VertiportIx};
-use vertifleet_sim::{Boarded, TraceRow};
+use vertifleet_core::{Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_sim::{Boarded, Legs, TraceRow};
 
 /// Demand served and spilled.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -43,6 +48,8 @@ pub struct PairLoss {
     /// Its demand.
     #[serde(flatten)]
     pub demand: Loss,
+    /// Whether some aircraft of the day can fly it: there is a corridor, and it is within the range.
+    pub can_be_flown: bool,
     /// Flights.
     pub flights: u32,
     /// Flights without passengers.
@@ -51,8 +58,24 @@ pub struct PairLoss {
     pub profit_usd: f64,
 }
 
+/// Passengers of a pair who wanted to fly in a period and were not carried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CellLoss {
+    /// Where passengers leave.
+    pub from: String,
+    /// Where they want to go.
+    pub to: String,
+    /// The start of the period.
+    pub period: String,
+    /// Whether some aircraft of the day can fly the pair.
+    pub can_be_flown: bool,
+    /// Its demand.
+    #[serde(flatten)]
+    pub demand: Loss,
+}
+
 impl Loss {
-    fn add(&mut self, other: Self) {
+    pub(super) fn add(&mut self, other: Self) {
         self.wanted += other.wanted;
         self.carried += other.carried;
         self.spilled += other.spilled;
@@ -123,9 +146,56 @@ pub(super) fn by_period(day: &Scenario, rows: &[TraceRow]) -> Vec<PeriodLoss> {
     day.periods.iter().enumerate().map(of_period).collect()
 }
 
+/// The pairs that some aircraft of a day can fly.
+struct Flyable<'a> {
+    day: &'a Scenario,
+    legs: Legs,
+}
+
+impl<'a> Flyable<'a> {
+    fn of(day: &'a Scenario) -> Self {
+        Self { day, legs: Legs::of(day) }
+    }
+
+    fn has(&self, (from, to): (VertiportIx, VertiportIx)) -> bool {
+        let types = (0..self.day.aircraft_types.len()).map(TypeIx::new);
+        types
+            .filter(|&kind| self.legs.within_range(kind, from).contains(to))
+            .any(|kind| self.day.aircraft.iter().any(|aircraft| aircraft.kind == kind))
+    }
+}
+
+/// The order of losses: pairs that can be flown first, and then the most money first.
+fn order((can_be_flown, loss): (bool, &Loss), (other_can, other): (bool, &Loss)) -> Ordering {
+    let money = other.spilled_margin_usd.total_cmp(&loss.spilled_margin_usd);
+    other_can.cmp(&can_be_flown).then(money)
+}
+
+/// The losses by pair and period, of those who were not carried; the most money first.
+pub(super) fn by_cell(day: &Scenario, rows: &[TraceRow]) -> Vec<CellLoss> {
+    let (carried, flyable) = (Carried::of(day, rows), Flyable::of(day));
+    let id = |at: VertiportIx| day.vertiports[at.at()].id.clone();
+    let mut losses = Vec::new();
+    for pair in pairs(day.vertiports.len()) {
+        let can_be_flown = flyable.has(pair);
+        let of_periods = day.periods.iter().enumerate().map(|(period, start)| CellLoss {
+            from: id(pair.0),
+            to: id(pair.1),
+            period: start.to_string(),
+            can_be_flown,
+            demand: carried.loss(day, period, pair),
+        });
+        losses.extend(of_periods.filter(|one| one.demand.spilled > 0));
+    }
+    losses.sort_by(|one, other| {
+        order((one.can_be_flown, &one.demand), (other.can_be_flown, &other.demand))
+    });
+    losses
+}
+
 /// The losses by pair, the most money first.
 pub(super) fn by_pair(day: &Scenario, rows: &[TraceRow]) -> Vec<PairLoss> {
-    let carried = Carried::of(day, rows);
+    let (carried, flyable) = (Carried::of(day, rows), Flyable::of(day));
     let id = |at: VertiportIx| day.vertiports[at.at()].id.clone();
     let of_pair = |pair: (VertiportIx, VertiportIx)| {
         let mut demand = Loss::default();
@@ -138,14 +208,16 @@ pub(super) fn by_pair(day: &Scenario, rows: &[TraceRow]) -> Vec<PairLoss> {
             from: id(pair.0),
             to: id(pair.1),
             demand,
+            can_be_flown: flyable.has(pair),
             flights: count(&flights),
             repositioning_flights: empty(&flights),
-            profit_usd: flights.iter().map(|row| row.profit_usd()).sum(),
+            // From 0, because the sum of no numbers is -0.
+            profit_usd: flights.iter().fold(0.0, |sum, row| sum + row.profit_usd()),
         }
     };
     let mut losses: Vec<PairLoss> = pairs(day.vertiports.len()).map(of_pair).collect();
     losses.sort_by(|one, other| {
-        other.demand.spilled_margin_usd.total_cmp(&one.demand.spilled_margin_usd)
+        order((one.can_be_flown, &one.demand), (other.can_be_flown, &other.demand))
     });
     losses
 }

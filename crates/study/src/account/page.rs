@@ -14,6 +14,9 @@ use crate::replay::{self, Play, ReplayedDay};
 /// Most pairs on the page; JSON has all of them.
 const MOST_PAIRS: usize = 40;
 
+/// Most pairs and periods on the page; JSON has all of them.
+const MOST_CELLS: usize = 20;
+
 /// What a page says beside the account of the day.
 pub(crate) struct Beside {
     /// The beginning of the page up to its version.
@@ -62,7 +65,7 @@ fn head(account: &Account, beside: &Beside) -> Markup {
         p.headline {
             (account.policy) " earns " (dollars(totals.profit_usd)) (beside.share) ". " (grouped(carried, 0))
             " passengers are carried and " (grouped(spilled, 0)) " are not; these would have brought "
-            (dollars(account.spilled_margin_usd())) " more than they cost."
+            (dollars(account.spilled_margin_usd())) " more than they cost" (account.spilled_out_of_reach(dollars)) "."
         }
         dl {
             (beside.numbers)
@@ -138,7 +141,7 @@ fn caption(picture: PlayedPicture) -> &'static str {
         }
         PlayedPicture::Map => "Both directions of a pair together, to scale.",
         PlayedPicture::Aircraft => {
-            "Bars are flights, with take-off and landing; what is neither flight nor charging is time on a stand."
+            "Bars are flights, with take-off and landing; what is neither flight nor charging nor an outage is time on a stand."
         }
         PlayedPicture::Occupancy => {
             "A stand is taken from the decision to fly there until the decision to fly away. All capacities are drawn at the same height; \
@@ -153,13 +156,13 @@ fn caption(picture: PlayedPicture) -> &'static str {
 fn tables(account: &Account) -> Markup {
     let is_worth_known = account.vertiports.iter().any(|one| one.stand_worth.is_some());
     let taken = "Taken is the mean share of stands and chargers with an aircraft there or on its way there.";
-    let worth =
-        " One more stand is the shadow price of the bound: by how much the bound rises at most.";
+    let worth = " One more stand is the shadow price of the bound: by how much the bound rises at most, before what the stand costs.";
     let vertiports = taken.to_owned() + if is_worth_known { worth } else { "" };
     html! {
-        (section("Where most money is spilled", "By pair, the most first.", &table::pairs(account, MOST_PAIRS)))
+        (section("Where most money is spilled", "By pair, the most first; pairs that no aircraft can fly are left out.", &table::pairs(account, MOST_PAIRS)))
+        (section("Where and when most money is spilled", "By pair and the period in which passengers want to fly.", &table::worst_cells(account, MOST_CELLS)))
         (section("Vertiports", &vertiports, &table::vertiports(account)))
-        (section("Types of aircraft", "Means by type, within operations.", &table::types(account)))
+        (section("Types of aircraft", "Means by type, within operations. Profit is that of the flights, before what the aircraft costs.", &table::types(account)))
     }
 }
 

@@ -47,7 +47,7 @@ pub(crate) fn periods(account: &Account) -> Vec<Vec<String>> {
     rows
 }
 
-/// The pairs with the most money spilled.
+/// The pairs with the most money spilled, of those that can be flown.
 pub(crate) fn pairs(account: &Account, most: usize) -> Vec<Vec<String>> {
     let head = [
         "pair",
@@ -60,7 +60,8 @@ pub(crate) fn pairs(account: &Account, most: usize) -> Vec<Vec<String>> {
         "profit, $",
     ];
     let mut rows = vec![cells(&head)];
-    rows.extend(account.pairs.iter().take(most).map(|one| {
+    let can_be_flown = account.pairs.iter().filter(|one| one.can_be_flown);
+    rows.extend(can_be_flown.take(most).map(|one| {
         vec![
             format!("{} -> {}", one.from, one.to),
             grouped(one.demand.wanted as f64, 0),
@@ -75,11 +76,29 @@ pub(crate) fn pairs(account: &Account, most: usize) -> Vec<Vec<String>> {
     rows
 }
 
+/// The pairs and periods with the most money spilled, of those that can be flown.
+pub(crate) fn worst_cells(account: &Account, most: usize) -> Vec<Vec<String>> {
+    let mut rows =
+        vec![cells(&["pair", "from", "wanted", "carried", "spilled", "margin spilled, $"])];
+    let can_be_flown = account.spilled.iter().filter(|one| one.can_be_flown);
+    rows.extend(can_be_flown.take(most).map(|one| {
+        vec![
+            format!("{} -> {}", one.from, one.to),
+            one.period.clone(),
+            grouped(one.demand.wanted as f64, 0),
+            grouped(one.demand.carried as f64, 0),
+            grouped(one.demand.spilled as f64, 0),
+            grouped(one.demand.spilled_margin_usd, 0),
+        ]
+    }));
+    rows
+}
+
 /// How full the vertiports were, and what their stands are worth if that is known.
 pub(crate) fn vertiports(account: &Account) -> Vec<Vec<String>> {
     let is_worth_known = account.vertiports.iter().any(|one| one.stand_worth.is_some());
     let mut head = cells(&["vertiport", "room", "departures", "arrivals", "taken", "full"]);
-    head.extend(is_worth_known.then(|| "one more stand, $".to_owned()));
+    head.extend(is_worth_known.then(|| "one more stand before its cost, $".to_owned()));
     let mut rows = vec![head];
     rows.extend(account.vertiports.iter().map(|one| {
         let mut row = vec![
@@ -96,19 +115,14 @@ pub(crate) fn vertiports(account: &Account) -> Vec<Vec<String>> {
     rows
 }
 
-/// What aircraft did, as means by type.
+/// What aircraft did, as means by type. Time out of service has a column only where an outage kept an aircraft on the ground.
 pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
-    let head = [
-        "type",
-        "aircraft",
-        "flights",
-        "empty",
-        "flying, h",
-        "charging, h",
-        "waiting, h",
-        "profit, $",
-    ];
-    let mut rows = vec![cells(&head)];
+    let has_outages = account.aircraft.iter().any(|one| one.out_of_service_h > 0.0);
+    let mut head =
+        cells(&["type", "aircraft", "flights", "empty", "flying, h", "charging, h", "waiting, h"]);
+    head.extend(has_outages.then(|| "out of service, h".to_owned()));
+    head.push("profit before aircraft cost, $".to_owned());
+    let mut rows = vec![head];
     let mut kinds: Vec<&str> = account.aircraft.iter().map(|one| one.kind.as_str()).collect();
     kinds.sort_unstable();
     kinds.dedup();
@@ -118,7 +132,7 @@ pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
         let mean = |number: fn(&AircraftUse) -> f64| {
             of_kind.iter().map(|one| number(one)).sum::<f64>() / of_kind.len() as f64
         };
-        rows.push(vec![
+        let mut row = vec![
             kind.to_owned(),
             of_kind.len().to_string(),
             grouped(mean(|one| one.flights.into()), 1),
@@ -126,8 +140,10 @@ pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
             grouped(mean(|one| one.flying_h), 1),
             grouped(mean(|one| one.charging_h), 1),
             grouped(mean(|one| one.waiting_h), 1),
-            grouped(mean(|one| one.profit_usd), 0),
-        ]);
+        ];
+        row.extend(has_outages.then(|| grouped(mean(|one| one.out_of_service_h), 2)));
+        row.push(grouped(mean(|one| one.profit_usd), 0));
+        rows.push(row);
     }
     rows
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 use vertifleet_optimize::Bound;
-use vertifleet_picture::Occupancy;
+use vertifleet_picture::{Charged, Occupancy};
 use vertifleet_sim::TraceRow;
 
 const HOUR_S: f64 = 3_600.0;
@@ -63,9 +63,11 @@ pub struct AircraftUse {
     pub flying_h: f64,
     /// Hours of charging.
     pub charging_h: f64,
-    /// All other hours of operations: on a stand, charged.
+    /// Hours for which an outage kept it on the ground after it was charged.
+    pub out_of_service_h: f64,
+    /// All other hours of operations: on a stand, charged and ready.
     pub waiting_h: f64,
-    /// Profit of its flights, dollars.
+    /// Profit of its flights, before what the aircraft costs, dollars.
     pub profit_usd: f64,
 }
 
@@ -105,6 +107,7 @@ pub(super) fn of_aircraft(day: &Scenario, rows: &[TraceRow]) -> Vec<AircraftUse>
             repositioning_flights: 0,
             flying_h: 0.0,
             charging_h: 0.0,
+            out_of_service_h: 0.0,
             waiting_h: all_h,
             profit_usd: 0.0,
         })
@@ -113,13 +116,15 @@ pub(super) fn of_aircraft(day: &Scenario, rows: &[TraceRow]) -> Vec<AircraftUse>
     let within_h = |from: Time, to: Time| {
         f64::from(to.min(end).seconds().saturating_sub(from.min(end).seconds())) / HOUR_S
     };
+    let charged = Charged::of(day);
     for row in rows.iter().filter(|row| row.from != row.to) {
         let AircraftIx(at) = row.aircraft;
         let one = &mut uses[at as usize];
         one.flights += 1;
         one.repositioning_flights += u32::from(row.passengers == 0);
         one.flying_h += within_h(row.time, row.arrival);
-        one.charging_h += within_h(row.arrival, row.ready);
+        one.charging_h += within_h(row.arrival, charged.at(row));
+        one.out_of_service_h += within_h(charged.at(row), row.ready);
         one.waiting_h -= within_h(row.time, row.ready);
         one.profit_usd += row.profit_usd();
     }

@@ -20,8 +20,9 @@ pub(super) fn text(explanation: &Explanation) -> String {
         },
         sections: section(
             "What a change would be worth",
-            "Each day was solved again with the change, by the policy and by the bound. The policy’s difference is that of one \
-             day, which chance moves by more than most changes are worth: a sweep measures changes over many days.",
+            "Each day was solved again with the change, by the policy and by the bound; both differences are after what the \
+             change costs. The policy’s difference is that of one day, which chance moves by more than most changes are worth: a \
+             sweep measures changes over many days. The bound’s is that of what is possible.",
             &table::worth(explanation),
         ),
     };

@@ -3,64 +3,104 @@
 use std::sync::Arc;
 
 use serde::Serialize;
-use vertifleet_core::{Aircraft, Day, Scenario, VertiportIx};
+use vertifleet_core::{Aircraft, Day, Scenario, TypeIx, VertiportIx};
 use vertifleet_optimize::Bound;
 
 /// With more vertiports, only those with the highest shadow prices get a further stand.
 const MOST_STANDS: usize = 8;
 
-/// What a change of the day is worth.
+/// What a change of the day is worth, after what it costs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Worth {
     /// The change in words.
     pub change: String,
-    /// By how much the policy earns more on the changed day, dollars; `None` for a replay.
+    /// What the change costs, dollars: the fixed costs that the day states for it.
+    pub cost_usd: f64,
+    /// By how much the policy earns more on the changed day, after this cost, dollars; `None` for a replay.
     pub policy_usd: Option<f64>,
-    /// By how much the upper bound is higher on the changed day, dollars.
+    /// By how much the upper bound is higher on the changed day, after this cost, dollars.
     pub bound_usd: f64,
 }
 
-/// The changed days, each with its change in words. What the change costs is not counted, except for the fixed costs that
-/// the day states for it.
-pub(super) fn changes(day: &Scenario, bound: &Bound) -> Vec<(String, Arc<Scenario>)> {
-    let mut days: Vec<(String, Day)> = Vec::new();
+/// What a change adds to the day.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Effect {
+    /// A stand, or a charger where these are counted apart.
+    Stand(VertiportIx),
+    /// An aircraft that starts there.
+    Aircraft(TypeIx, VertiportIx),
+    /// A seat in every aircraft of a type.
+    Seat,
+    /// A shorter take-off.
+    TakeOff,
+}
+
+/// A day that differs in one thing.
+pub(super) struct Change {
+    /// The change in words.
+    pub(super) words: String,
+    pub(super) effect: Effect,
+    /// By how much the changed day has higher fixed costs, dollars.
+    pub(super) cost_usd: f64,
+    pub(super) day: Arc<Scenario>,
+}
+
+/// The changed days.
+pub(super) fn changes(day: &Scenario, bound: &Bound) -> Vec<Change> {
+    let mut days: Vec<(String, Effect, Day)> = Vec::new();
     let mut vertiports: Vec<VertiportIx> = VertiportIx::all(day.vertiports.len()).collect();
     vertiports.sort_by(|&one, &other| {
         bound.stand_shadow_price_usd(other).total_cmp(&bound.stand_shadow_price_usd(one))
     });
-    for at in vertiports.into_iter().take(MOST_STANDS) {
+    days.extend(vertiports.into_iter().take(MOST_STANDS).map(|at| with_stand(day, at)));
+    for kind in (0..day.aircraft_types.len()).map(TypeIx::new) {
+        days.extend(with_aircraft(day, kind));
         let mut changed = day.clone().into_day();
-        let vertiport = &mut changed.vertiports[at.at()];
-        match &mut vertiport.chargers {
-            Some(chargers) => *chargers += 1,
-            None => vertiport.stands += 1,
-        }
-        let what = if vertiport.chargers.is_some() { "charger" } else { "stand" };
-        days.push((format!("one more {what} at {}", vertiport.id), changed));
-    }
-    for kind in 0..day.aircraft_types.len() {
-        if let Some(changed) = with_aircraft(day, kind) {
-            days.push((format!("one more {}", day.aircraft_types[kind].id), changed));
-        }
-        let mut changed = day.clone().into_day();
-        changed.aircraft_types[kind].seats += 1;
-        days.push((format!("one more seat in every {}", day.aircraft_types[kind].id), changed));
+        changed.aircraft_types[kind.at()].seats += 1;
+        let words = format!("one more seat in every {}", day.aircraft_types[kind.at()].id);
+        days.push((words, Effect::Seat, changed));
     }
     let windows_s = day.operations.takeoff_s + day.operations.landing_s;
     if day.operations.takeoff_s >= 60 && windows_s >= 120 {
         let mut changed = day.clone().into_day();
         changed.operations.takeoff_s -= 60;
-        days.push(("a minute less for every take-off".to_owned(), changed));
+        days.push(("a minute less for every take-off".to_owned(), Effect::TakeOff, changed));
     }
-    let checked = |(change, day): (String, Day)| {
+    let checked = |(words, effect, changed): (String, Effect, Day)| {
         // A change that the format does not allow, such as a stand beyond the most, is left out.
-        day.check("a changed day").ok().map(|day| (change, Arc::new(day)))
+        let changed = changed.check("a changed day").ok()?;
+        let cost_usd = cost_usd(day, effect);
+        Some(Change { words, effect, cost_usd, day: Arc::new(changed) })
     };
     days.into_iter().filter_map(checked).collect()
 }
 
+/// What a change costs.
+fn cost_usd(day: &Scenario, effect: Effect) -> f64 {
+    match effect {
+        Effect::Stand(at) => {
+            let vertiport = &day.vertiports[at.at()];
+            vertiport.chargers.map_or(vertiport.stand_cost_usd, |_| vertiport.charger_cost_usd)
+        }
+        Effect::Aircraft(..) => day.aircraft_cost_usd,
+        Effect::Seat | Effect::TakeOff => 0.0,
+    }
+}
+
+/// The day with one more stand, or with one more charger where these are counted apart.
+fn with_stand(day: &Scenario, at: VertiportIx) -> (String, Effect, Day) {
+    let mut changed = day.clone().into_day();
+    let vertiport = &mut changed.vertiports[at.at()];
+    match &mut vertiport.chargers {
+        Some(chargers) => *chargers += 1,
+        None => vertiport.stands += 1,
+    }
+    let what = if vertiport.chargers.is_some() { "charger" } else { "stand" };
+    (format!("one more {what} at {}", vertiport.id), Effect::Stand(at), changed)
+}
+
 /// The day with one more aircraft, which starts where most stands are free; `None` if none is.
-fn with_aircraft(day: &Scenario, kind: usize) -> Option<Day> {
+fn with_aircraft(day: &Scenario, kind: TypeIx) -> Option<(String, Effect, Day)> {
     let free = |at: VertiportIx| {
         let there = day.aircraft.iter().filter(|aircraft| aircraft.at == at).count();
         usize::from(day.vertiports[at.at()].stands) - there
@@ -73,7 +113,8 @@ fn with_aircraft(day: &Scenario, kind: usize) -> Option<Day> {
     let id = id.into_iter().find(is_new).expect("one of endlessly many ids is free");
     (free(at) > 0).then(|| {
         let mut changed = day.clone().into_day();
-        changed.aircraft.push(Aircraft { id, kind: vertifleet_core::TypeIx::new(kind), at });
-        changed
+        changed.aircraft.push(Aircraft { id, kind, at });
+        let words = format!("one more {}", day.aircraft_types[kind.at()].id);
+        (words, Effect::Aircraft(kind, at), changed)
     })
 }
