@@ -73,7 +73,7 @@ impl<'a> Proven<'a> {
             all[*one].upper_bound_usd.total_cmp(&all[*other].upper_bound_usd)
         };
         let best = (0..all.len()).min_by(lower).expect("the day has a bound");
-        let designs = all[best].bound.of_designs(day)?;
+        let designs = all[best].bound.of_designs(day, !day.disturbances.outages.is_empty())?;
         Ok(Self { all, best, designs })
     }
 
