@@ -1,5 +1,6 @@
 //! The cells of a sweep and its report, both as the program makes them.
 
+use std::collections::HashSet;
 use std::fs;
 use std::path::PathBuf;
 
@@ -43,13 +44,14 @@ pub(crate) fn sweep_cells<'py>(
     };
     let base = &network.network;
     let cells = py.detach(|| Cell::all(base, &factors, design)).map_err(Failure::from)?;
+    let mut said = HashSet::new();
     let cell = |Cell { settings, network: varied }: Cell| {
         let changes = PyDict::new(py);
         for (factor, value) in factors.iter().zip(&settings) {
             changes.set_item(&factor.path, plain(py, value)?)?;
         }
         let varied = match varied {
-            Ok(varied) => Varied::Network(network.told_changed(&changes, *varied)?),
+            Ok(varied) => Varied::Network(network.told_changed(&changes, *varied, &mut said)?),
             Err(reason) => Varied::LeftOut(reason),
         };
         Ok((changes, varied))

@@ -160,6 +160,14 @@ def test_a_warning_is_said_once(paper):
     assert records[0].filename == __file__
 
 
+def test_a_warning_of_many_networks_is_said_once(paper):
+    with pytest.warns(UserWarning, match="V138") as records:
+        vertifleet.sweep(
+            paper, {"operations.end": ["17:00:00"], "fleet.0.count": [36, 40]}, ["greedy"], days=1
+        )
+    assert len(records) == 1
+
+
 @pytest.mark.parametrize(
     ("changes", "code"),
     [

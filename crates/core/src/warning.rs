@@ -146,13 +146,12 @@ impl Network {
         let day = &self.idle_day;
         let means = self.mean_demand();
         let of_all = means.iter().flat_map(Matrix::cells).sum();
-        let hopeless =
-            [self.pairs_out_of_reach(&means, of_all), self.outside_operations(&means, of_all)];
-        day.out_of_reach()
-            .into_iter()
-            .chain(day.full())
-            .chain(hopeless.into_iter().flatten())
-            .collect()
+        let mut warnings = day.out_of_reach();
+        // The pairs of a vertiport that is named already need not be named again.
+        let pairs = warnings.is_empty().then(|| self.pairs_out_of_reach(&means, of_all)).flatten();
+        warnings.extend(day.full().into_iter().chain(pairs));
+        warnings.extend(self.outside_operations(&means, of_all));
+        warnings
     }
 
     fn pairs_out_of_reach(&self, means: &[Matrix<f64>], of_all: f64) -> Option<Warning> {
