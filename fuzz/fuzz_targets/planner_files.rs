@@ -64,6 +64,8 @@ pub fn import_with(any: &str, bytes: &[u8]) -> bool {
         demand,
         corridors: (any == "corridors").then_some(corridors.as_path()),
         tariffs: (any == "fares").then_some(fares.as_path()),
+        aircraft: None,
+        time_zone: None,
         energy_prices: None,
     };
     match import(&request, &Stop::default(), &|_| ()) {
