@@ -68,7 +68,9 @@ def on_stage(folder):
     """A `tasks.play` that follows the files on the stage before it plays."""
     play = tasks.play._function
 
-    def acted(request, here, network, days, seed):
+    def acted(request, here, network, days):
+        seed = days.seed
+
         def told(what):
             return (folder / what).exists()
 
@@ -88,7 +90,7 @@ def on_stage(folder):
         while (doomed and not told("hanging")) or told(f"hold-{seed}"):
             (folder / f"held-{seed}").touch()
             time.sleep(0.05)
-        return play(request, here, network, days, seed)
+        return play(request, here, network, days)
 
     return ray.remote(**tasks.play._default_options)(acted)
 
