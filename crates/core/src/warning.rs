@@ -90,9 +90,7 @@ impl Warning {
             Self::OutsideOperations { .. } => Code(138),
         }
     }
-}
 
-impl Warning {
     /// Whether it is about passengers whom no fleet can carry.
     pub fn is_about_demand(&self) -> bool {
         matches!(self, Self::PairsOutOfReach { .. } | Self::OutsideOperations { .. })
@@ -168,8 +166,7 @@ impl Network {
         let &((from, to), _) = lost.iter().max_by(|one, other| one.1.total_cmp(&other.1))?;
         let id = |at: VertiportIx| day.vertiports[at.at()].id.clone();
         let most = (id(from), id(to));
-        (passengers >= LEAST_SHARE * of_all && passengers > 0.0)
-            .then_some(Warning::PairsOutOfReach { passengers, of_all, most })
+        is_much(passengers, of_all).then_some(Warning::PairsOutOfReach { passengers, of_all, most })
     }
 
     fn outside_operations(&self, means: &[Matrix<f64>], of_all: f64) -> Option<Warning> {
@@ -182,8 +179,7 @@ impl Network {
             **start > operations.end || *end + operations.passenger_wait_s <= operations.start
         });
         let passengers: f64 = lost.flat_map(|(_, table)| table.cells()).sum();
-        (passengers >= LEAST_SHARE * of_all && passengers > 0.0)
-            .then_some(Warning::OutsideOperations { passengers, of_all })
+        is_much(passengers, of_all).then_some(Warning::OutsideOperations { passengers, of_all })
     }
 }
 
@@ -281,6 +277,11 @@ impl Scenario {
         let lost_kwh = kind.battery_kwh * kind.self_discharge_per_h * flight_h;
         kind.lasts_for(kind.energy_kwh_per_mi * distance_mi + lost_kwh)
     }
+}
+
+/// Whether so many passengers of all are worth a warning.
+fn is_much(passengers: f64, of_all: f64) -> bool {
+    passengers > 0.0 && passengers >= LEAST_SHARE * of_all
 }
 
 /// The positions that these degrees may have been meant for, with a sign missing or added, or the two degrees

@@ -48,16 +48,19 @@ pub(super) struct Effects {
     pub(super) all: Vec<Effect>,
     /// Whether means are those of a sum of effects, because combinations of values are missing.
     pub(super) fitted: bool,
+    /// Whether the design has every combination of values.
+    pub(super) is_grid: bool,
 }
 
 impl Effects {
     pub(super) fn of(sweep: &Sweep, records: &[Option<CellRecord>]) -> Self {
         let played: Vec<&CellRecord> = records.iter().flatten().collect();
-        let grid = sweep.is_grid();
-        let factors: Vec<Vec<Vec<usize>>> =
-            (0..sweep.factors.len()).map(|factor| groups(sweep, factor, &played, grid)).collect();
+        let is_grid = sweep.is_grid();
+        let factors: Vec<Vec<Vec<usize>>> = (0..sweep.factors.len())
+            .map(|factor| groups(sweep, factor, &played, is_grid))
+            .collect();
         let unknown = 1 + factors.iter().map(|levels| levels.len() - 1).sum::<usize>();
-        let fitted = !(grid && played.len() == records.len()) && 2 * unknown <= played.len();
+        let fitted = !(is_grid && played.len() == records.len()) && 2 * unknown <= played.len();
         let days = played[0].totals[0].len();
         let by_policy: Vec<Vec<Vec<Vec<f64>>>> = (0..sweep.policies.len())
             .map(|policy| {
@@ -86,7 +89,7 @@ impl Effects {
             };
             Effect::of(&sweep.factors[factor].path, levels.iter().enumerate().map(level).collect())
         };
-        Self { all: factors.iter().enumerate().map(effect).collect(), fitted }
+        Self { all: factors.iter().enumerate().map(effect).collect(), fitted, is_grid }
     }
 }
 

@@ -162,7 +162,7 @@ impl SweepReport {
             cheapest,
             effects: effects.all,
             effects_fitted: effects.fitted,
-            is_grid: sweep.is_grid(),
+            is_grid: effects.is_grid,
             cells: records.iter().enumerate().map(cell).collect(),
         })
     }
