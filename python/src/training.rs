@@ -84,6 +84,7 @@ fn rows(curve: &Curve) -> Vec<Map<String, Value>> {
     let rows = match curve {
         Curve::Ppo(rows) => serde_json::to_value(rows),
         Curve::Imitation(rows) => serde_json::to_value(rows),
+        Curve::Evolution(rows) => serde_json::to_value(rows),
     };
     serde_json::from_value(rows.expect("rows are plain data")).expect("rows have columns")
 }
@@ -107,8 +108,8 @@ impl WorldArgument {
 /// Trains a policy on a network, or on networks that are drawn anew for each day. Ctrl-C ends the run with a checkpoint, from which `resume` continues it.
 #[pyfunction]
 #[pyo3(signature = (
-    network, policy, *, out, preset = "default", settings = None, seed = None, resume = false, force = false,
-    threads = None, watch = None
+    network, policy, *, out, preset = "default", settings = None, seed = None, begin_with = None, resume = false,
+    force = false, threads = None, watch = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "each has a name in Python")]
 pub(crate) fn train(
@@ -119,16 +120,26 @@ pub(crate) fn train(
     preset: &str,
     settings: Option<&Bound<'_, PyMapping>>,
     seed: Option<WholeNumber>,
+    begin_with: Option<PathBuf>,
     resume: bool,
     force: bool,
     threads: Option<WholeNumber>,
     watch: Option<Py<PyAny>>,
 ) -> PyResult<Training> {
-    let mut policy = Architecture::named(policy).ok_or_else(|| {
+    let named = Architecture::named(policy).ok_or_else(|| {
         let rule =
             format!("policy must be gcaps, mlp, gcaps-x, gcaps-full or mlp-full, found {policy:?}");
         Failure::argument(rule)
     })?;
+    let begun = begin_with
+        .as_deref()
+        .map(vertifleet_learn::Model::read)
+        .transpose()
+        .map_err(Failure::from)?;
+    let mut policy = match &begun {
+        Some(model) if model.kind() == policy => model.header().policy.clone(),
+        _ => named,
+    };
     let mut of_run = TrainingSettings::preset(&policy, preset).map_err(Failure::from)?;
     if let Some(settings) = settings {
         let named = changes(settings)?;
@@ -139,6 +150,7 @@ pub(crate) fn train(
         policy,
         settings: of_run,
         seed: seed.map_or(Ok(1), |seed| seed.of("seed"))?,
+        begin_with: begun,
         commit: format!("python {}", env!("CARGO_PKG_VERSION")),
     };
     let threads = interruptible::threads(threads)?;
@@ -146,6 +158,9 @@ pub(crate) fn train(
     let of_watch = calls.clone();
     let outcome = interruptible(py, threads, move |stop| {
         let mut outputs = Outputs::new(force);
+        if let Some(path) = &begin_with {
+            outputs.reads(path);
+        }
         let folder = RunFolder::of(&plan.policy, &out);
         let mut run = folder.begin(plan, resume, &mut outputs)?;
         let work = run.work();

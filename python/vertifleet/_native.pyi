@@ -896,6 +896,7 @@ def train(
     preset: str = "default",
     settings: Mapping[str, Any] | None = None,
     seed: SupportsIndex | None = None,
+    begin_with: _Path | None = None,
     resume: bool = False,
     force: bool = False,
     threads: SupportsIndex | None = None,

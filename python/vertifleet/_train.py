@@ -22,6 +22,7 @@ def train(
     preset: str = "default",
     settings: Mapping[str, Any] | None = None,
     seed: int = 1,
+    begin_with: str | os.PathLike[str] | None = None,
     resume: bool = False,
     force: bool = False,
     threads: int | None = None,
@@ -38,11 +39,13 @@ def train(
         policy: "gcaps", "mlp", "gcaps-x", "gcaps-full" or "mlp-full".
         out: folder for weights, learning curve, checkpoint and TensorBoard's events; it may hold runs of
             several policies.
-        preset: settings to start from: "default", or "paper" for "gcaps" and "mlp".
+        preset: settings to start from: "default" or "evolution"; for "gcaps" and "mlp" also "paper" or
+            "imitation".
         settings: settings and sizes of the policy to change, by name, as ``--set`` does.
         seed: seed of the run; first weights, training days and choices follow from it.
-        resume: whether to resume the run in the folder, which must have the same network, policy, settings
-            and seed.
+        begin_with: file with weights of the same kind of policy to begin with, in place of fresh ones.
+        resume: whether to resume the run in the folder, which must have the same network, policy, settings,
+            seed and weights to begin with.
         force: whether to replace files that the program did not write or that are read-only.
         threads: most threads to use; all cores by default. Results are the same with any number.
         watch: called with every new row of the learning curve, a dict; if it raises, a checkpoint is written
@@ -58,6 +61,7 @@ def train(
         preset=preset,
         settings=settings,
         seed=seed,
+        begin_with=begin_with,
         resume=resume,
         force=force,
         threads=threads,

@@ -312,7 +312,7 @@ pub(crate) struct TrainArguments {
     /// Kind of policy
     #[arg(long)]
     pub(crate) policy: Trainable,
-    /// Settings to start from: default; for gcaps and mlp also paper (Table 2) or imitation
+    /// Settings to start from: default, or evolution; for gcaps and mlp also paper (Table 2) or imitation
     #[arg(long, default_value = "default")]
     pub(crate) preset: String,
     /// Decisions to learn from, in place of the preset's
@@ -321,6 +321,9 @@ pub(crate) struct TrainArguments {
     /// Seed of the run: first weights, training days and choices follow from it
     #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed_of_a_run)]
     pub(crate) seed: u32,
+    /// Weights to begin with, of the same kind of policy, in place of fresh ones; sizes are those of the weights
+    #[arg(long, value_name = "FILE")]
+    pub(crate) begin_with: Option<PathBuf>,
     /// Folder for weights, learning curve and checkpoint
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use assert_cmd::Command;
 use serde_json::Value;
 use vertifleet_learn::nn::Architecture;
-use vertifleet_learn::{ImitationSettings, TrainingSettings};
+use vertifleet_learn::{EvolutionSettings, ImitationSettings, TrainingSettings};
 
 type Names = BTreeSet<String>;
 
@@ -348,9 +348,18 @@ fn the_training_page_lists_every_setting_of_both_presets() {
 
 #[test]
 fn the_training_page_lists_every_setting_of_gcaps_x() {
-    let settings = serde_json::to_value(ImitationSettings::default()).expect("plain data");
+    a_section_lists_every_setting("gcaps-x", &ImitationSettings::default());
+}
+
+#[test]
+fn the_training_page_lists_every_setting_of_evolution() {
+    a_section_lists_every_setting("Evolution", &EvolutionSettings::default());
+}
+
+fn a_section_lists_every_setting(title: &str, settings: &impl serde::Serialize) {
+    let settings = serde_json::to_value(settings).expect("plain data");
     let page = text("docs/src/concepts/training.md");
-    let (_, section) = page.split_once("\n## gcaps-x\n").expect("a section on gcaps-x");
+    let (_, section) = page.split_once(&format!("\n## {title}\n")).expect("a section on it");
     for (name, value) in settings.as_object().expect("settings have names") {
         let row = section.lines().find(|line| line.starts_with(&format!("| `{name}` | ")));
         let cells: Vec<&str> =

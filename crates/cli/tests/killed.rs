@@ -126,7 +126,14 @@ fn small_training(at: &Path) -> TrainingRequest {
     let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
     settings.set(SETTINGS.into_iter().chain([("total_steps", "800")])).expect("good settings");
     let network = Arc::new(Network::read(at.join("small.toml")).expect("our network"));
-    TrainingRequest { world: network.into(), policy, settings, seed: 1, commit: String::new() }
+    TrainingRequest {
+        world: network.into(),
+        policy,
+        settings,
+        seed: 1,
+        begin_with: None,
+        commit: String::new(),
+    }
 }
 
 #[test]

@@ -21,17 +21,20 @@ const fn tensors(name: &'static str, opening: &'static str) -> OutputKind {
 pub const WEIGHTS: OutputKind = tensors("weight file", opening!("vertifleet-weights"));
 /// The file from which a run is resumed.
 pub(crate) const CHECKPOINT: OutputKind = tensors("checkpoint", opening!("vertifleet-checkpoint"));
-/// The learning curves, of a run by PPO and of a run by imitation.
+/// The learning curves, of a run by PPO, by imitation and by evolution.
 const PPO_CURVE: OutputKind =
     OutputKind { name: "learning curve", skipped: 0, opening: "update,steps,days,mean_reward," };
 const IMITATION_CURVE: OutputKind =
     OutputKind { name: "learning curve", skipped: 0, opening: "round,decisions,agreement,lift," };
+const EVOLUTION_CURVE: OutputKind =
+    OutputKind { name: "learning curve", skipped: 0, opening: "generation,decisions,difference," };
 
 /// The kind of learning curve that a run with these settings writes.
 pub(crate) fn curve(settings: &TrainingSettings) -> &'static OutputKind {
     match settings {
         TrainingSettings::Ppo(_) => &PPO_CURVE,
         TrainingSettings::Imitation(_) => &IMITATION_CURVE,
+        TrainingSettings::Evolution(_) => &EVOLUTION_CURVE,
     }
 }
 
@@ -41,13 +44,14 @@ mod tests {
 
     use vertifleet_core::OutputKind;
 
-    use super::{CHECKPOINT, IMITATION_CURVE, PPO_CURVE, WEIGHTS};
+    use super::{CHECKPOINT, EVOLUTION_CURVE, IMITATION_CURVE, PPO_CURVE, WEIGHTS};
 
     /// The kinds of output that a file of the repository is recognised as.
     fn kinds(file: &str) -> Vec<OutputKind> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
         let is_of = |kind: &OutputKind| kind.is_of(&path).expect("a file of the project");
-        [WEIGHTS, CHECKPOINT, PPO_CURVE, IMITATION_CURVE].into_iter().filter(is_of).collect()
+        let kinds = [WEIGHTS, CHECKPOINT, PPO_CURVE, IMITATION_CURVE, EVOLUTION_CURVE];
+        kinds.into_iter().filter(is_of).collect()
     }
 
     #[test]
@@ -57,6 +61,7 @@ mod tests {
             ("../../models/paper/mlp-curve.csv", PPO_CURVE),
             ("../../models/any/gcaps-x.safetensors", WEIGHTS),
             ("../../models/any/gcaps-x-seed-2-curve.csv", IMITATION_CURVE),
+            ("../../models/any/gcaps-full-curve.csv", EVOLUTION_CURVE),
             ("tests/former/checkpoint-1.safetensors", CHECKPOINT),
             ("tests/former/checkpoint-any-1.safetensors", CHECKPOINT),
         ] {

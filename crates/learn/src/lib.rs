@@ -1,9 +1,9 @@
-//! Learned policies (§IV): features, networks of layers, the two ways to learn, weights, checkpoints, and the shipped
+//! Learned policies (§IV): features, networks of layers, the three ways to learn, weights, checkpoints, and the shipped
 //! models.
 //!
 //! This crate builds on `vertifleet-policy`. A [`Model`] holds a policy's weights and says where they came from; a
-//! [`TrainingRequest`] starts a [`TrainingRun`], which learns by PPO or by imitation of roll-outs; a [`RunFolder`] writes
-//! the files of a run.
+//! [`TrainingRequest`] starts a [`TrainingRun`], which learns by PPO, by imitation of roll-outs or by evolution; a
+//! [`RunFolder`] writes the files of a run.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -35,7 +35,7 @@
 //! let mut settings = TrainingSettings::preset(&policy, "default")?;
 //! settings.set([("total_steps", "200"), ("n_envs", "4"), ("n_steps", "25"), ("batch_size", "100"), ("eval_days", "1")])?;
 //! let world = World::find("paper")?;
-//! let request = TrainingRequest { world, policy, settings, seed: 1, commit: String::new() };
+//! let request = TrainingRequest { world, policy, settings, seed: 1, begin_with: None, commit: String::new() };
 //! let mut run = request.start()?;
 //! while !run.is_done() {
 //!     run.advance(&Stop::default(), &|_| ())?;
@@ -52,6 +52,7 @@
 
 mod adam;
 mod error;
+mod evolution;
 mod features;
 mod full;
 mod gcaps_x;
@@ -59,6 +60,7 @@ mod header;
 mod imitation;
 pub mod kinds;
 mod learned;
+mod lockstep;
 mod model;
 pub mod nn;
 mod ppo;
@@ -68,8 +70,10 @@ mod run;
 mod settings;
 mod shipped;
 mod tensor_file;
+mod validation;
 
 pub use error::Error;
+pub use evolution::{EvolutionRow, EvolutionSettings};
 pub use features::{Observations, Scales, shape};
 pub use full::{FullObservation, FullObserver, FullPolicy};
 pub use gcaps_x::{GcapsX, PricedObservation, PricedObserver};

@@ -1,12 +1,13 @@
 //! A training run: what it is asked to do, how it advances, and what it leaves.
 //!
-//! There are two ways to learn, [PPO](crate::ppo), for `gcaps` and `mlp`, and [imitation](crate::imitation). Callers see
-//! one interface: a [`TrainingRun`] is advanced until it is done, and can be set aside and resumed. A [`RunFolder`] does
+//! There are three ways to learn, [PPO](crate::ppo), for `gcaps` and `mlp`, [imitation](crate::imitation) and
+//! [evolution](crate::evolution). Callers see one interface: a [`TrainingRun`] is advanced until it is done, and can be set aside and resumed. A [`RunFolder`] does
 //! that and writes the files.
 //!
 //! Training days, validation days and comparison days come from disjoint ranges of seeds (`DaySeed`), so no run can
 //! ever learn or choose on a day that it is later compared on.
 
+pub(crate) mod begin;
 pub(crate) mod checkpoint;
 mod curve;
 mod event_file;
@@ -21,9 +22,10 @@ pub use curve::Curve;
 pub use folder::{RunFolder, TrainingWatch};
 
 use crate::error::Error;
+use crate::evolution::EvolutionRun;
 use crate::imitation::ImitationRun;
 use crate::model::Model;
-use crate::nn::Architecture;
+use crate::nn::{Architecture, NeuralNetwork};
 use crate::ppo::PpoRun;
 use crate::settings::TrainingSettings;
 
@@ -38,11 +40,14 @@ pub struct TrainingRequest {
     pub settings: TrainingSettings,
     /// The seed of the run; first weights, days and choices follow from it.
     pub seed: u32,
+    /// Weights to begin with; without them, the first weights follow from the seed.
+    pub begin_with: Option<Model>,
     /// The commit of the program, for the header of the weights.
     pub commit: String,
 }
 
-/// A run in progress. It advances by one update of PPO or one round of imitation at a time.
+/// A run in progress. It advances by one update of PPO, one round of imitation or one generation of evolution
+/// at a time.
 pub trait TrainingRun: Send {
     /// Whether everything that was asked for has been learned.
     fn is_done(&self) -> bool;
@@ -50,7 +55,7 @@ pub trait TrainingRun: Send {
     /// How much of the work is done.
     fn work(&self) -> Work;
 
-    /// Learns one update or round, and adds a row to the curve. `worked` is called with the number of units of work
+    /// Learns one update, round or generation, and adds a row to the curve. `worked` is called with the number of units of work
     /// done since its last call.
     ///
     /// # Errors
@@ -61,7 +66,8 @@ pub trait TrainingRun: Send {
     /// The learning curve so far.
     fn curve(&self) -> Curve;
 
-    /// The policy that would be kept now. With PPO, it has the weights that did best on the validation days so far.
+    /// The policy that would be kept now. With PPO and with evolution, it has the weights that did best on the
+    /// validation days so far.
     fn model(&self) -> Model;
 
     /// Writes a checkpoint, whole or not at all.
@@ -111,7 +117,9 @@ impl TrainingRequest {
             policy: self.policy.clone(),
             settings: self.settings.clone(),
             seed: self.seed,
+            begun_with: self.begin_with.as_ref().map(Model::sha256),
         };
+        self.check_begin()?;
         Ok(match &self.settings {
             TrainingSettings::Imitation(settings) => {
                 Box::new(ImitationRun::new(&self, asked, settings.clone(), checkpoint)?)
@@ -119,11 +127,45 @@ impl TrainingRequest {
             TrainingSettings::Ppo(settings) if self.policy.learns_by_ppo() => {
                 Box::new(PpoRun::new(&self, asked, settings.clone(), checkpoint)?)
             }
+            TrainingSettings::Evolution(settings) => {
+                Box::new(EvolutionRun::new(&self, asked, settings.clone(), checkpoint)?)
+            }
             TrainingSettings::Ppo(_) => {
                 let rule = format!("{} does not learn by PPO", self.policy.name());
                 return Err(Error::BadSetting { name: "policy".to_owned(), rule });
             }
         })
+    }
+
+    /// Refuses weights to begin with that are of another policy, or that see other numbers than those of this run.
+    fn check_begin(&self) -> Result<(), Error> {
+        let Some(model) = &self.begin_with else { return Ok(()) };
+        let bad = |rule: &str| {
+            let (name, rule) = ("begin_with".to_owned(), rule.to_owned());
+            Err(Error::BadSetting { name, rule })
+        };
+        let header = model.header();
+        if header.policy != self.policy {
+            return bad("the weights must be of the same policy with the same sizes as the run");
+        }
+        if let Some(trained) = header.shape.vertiports
+            && self.world.vertiports() != Some(trained)
+        {
+            return bad("the weights must be for as many vertiports as the network has");
+        }
+        let scales = || self.world.network(Purpose::Training, 0).feature_scales();
+        if header.feature_scales.is_some_and(|of_weights| of_weights != scales()) {
+            return bad("the weights must be of a network with the same feature_scales");
+        }
+        Ok(())
+    }
+
+    /// The weights before the first step.
+    pub(crate) fn first_params(&self, net: &NeuralNetwork) -> Vec<f32> {
+        match &self.begin_with {
+            Some(model) => model.params().to_vec(),
+            None => net.init(u64::from(self.seed)),
+        }
     }
 }
 
@@ -137,6 +179,9 @@ pub(crate) struct RunIdentity {
     pub(crate) policy: Architecture,
     pub(crate) settings: TrainingSettings,
     pub(crate) seed: u32,
+    /// The hash of the weights that the run began with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) begun_with: Option<String>,
 }
 
 /// A number that changes when the network's days do: a checksum of one of them and of the feature scales.
@@ -147,7 +192,7 @@ fn network_fingerprint(world: &World) -> Result<u32, Error> {
     Ok(crc32c::crc32c_append(crc32c::crc32c(day.to_json().as_bytes()), scales.as_bytes()))
 }
 
-/// Refuses weights that are infinite or NaN after an update or a round, which is counted from 1.
+/// Refuses weights that are infinite or NaN after an update, a round or a generation, which is counted from 1.
 pub(crate) fn check_finite(params: &[f32], update: u64) -> Result<(), Error> {
     if params.iter().all(|weight| weight.is_finite()) {
         return Ok(());

@@ -1,16 +1,17 @@
-//! The settings of a training run, which are those of one of the two ways to learn.
+//! The settings of a training run, which are those of one of the three ways to learn.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::error::Error;
+use crate::evolution::EvolutionSettings;
 use crate::imitation::ImitationSettings;
 use crate::nn::Architecture;
 use crate::ppo::PpoSettings;
 
-/// The settings of a training run: those of PPO, which `gcaps` and `mlp` can learn by, or those of imitation, which every
-/// policy can learn by.
+/// The settings of a training run: those of PPO, which `gcaps` and `mlp` can learn by, or those of imitation or of
+/// evolution, which every policy can learn by.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum TrainingSettings {
@@ -18,28 +19,38 @@ pub enum TrainingSettings {
     Ppo(PpoSettings),
     /// Imitation of roll-outs.
     Imitation(ImitationSettings),
+    /// Evolution strategies.
+    Evolution(EvolutionSettings),
 }
 
 impl TrainingSettings {
-    /// The policy's preset with this name: `default`; or, for `gcaps` and `mlp`, `paper` (Table 2) or `imitation`.
+    /// The policy's preset with this name: `default` or `evolution`; or, for `gcaps` and `mlp`, `paper` (Table 2) or
+    /// `imitation`.
     ///
     /// # Errors
     /// Returns an error if there is no such preset.
     pub fn preset(policy: &Architecture, name: &str) -> Result<Self, Error> {
+        // Random networks are of all sizes.
+        let share = |usual: f64| if policy.fits_any_size() { usual } else { 0.0 };
         let known = match (policy.learns_by_ppo(), name) {
             (false, "default") | (true, "imitation") => {
                 let settings = ImitationSettings::default();
-                // Random networks are of all sizes.
-                let share = if policy.fits_any_size() { settings.random_share } else { 0.0 };
-                Self::Imitation(ImitationSettings { random_share: share, ..settings })
+                let random_share = share(settings.random_share);
+                Self::Imitation(ImitationSettings { random_share, ..settings })
+            }
+            (_, "evolution") => {
+                let settings = EvolutionSettings::default();
+                let random_share = share(settings.random_share);
+                Self::Evolution(EvolutionSettings { random_share, ..settings })
             }
             (false, _) => {
-                return Err(Error::UnknownPreset { name: name.to_owned(), known: "\"default\"" });
+                let known = "\"default\" and \"evolution\"";
+                return Err(Error::UnknownPreset { name: name.to_owned(), known });
             }
             (true, "default") => Self::Ppo(PpoSettings::tuned()),
             (true, "paper") => Self::Ppo(PpoSettings::paper()),
             (true, _) => {
-                let known = "\"default\", \"paper\" and \"imitation\"";
+                let known = "\"default\", \"paper\", \"imitation\" and \"evolution\"";
                 return Err(Error::UnknownPreset { name: name.to_owned(), known });
             }
         };
@@ -59,6 +70,7 @@ impl TrainingSettings {
             changed = match changed {
                 Self::Ppo(settings) => Self::Ppo(with_member(&settings, name, value)?),
                 Self::Imitation(settings) => Self::Imitation(with_member(&settings, name, value)?),
+                Self::Evolution(settings) => Self::Evolution(with_member(&settings, name, value)?),
             };
         }
         changed.check()?;
@@ -68,8 +80,10 @@ impl TrainingSettings {
 
     /// Parses the settings of a policy's training from a file.
     pub(crate) fn read(policy: &Architecture, value: Value) -> Result<Self, String> {
-        // Runs by PPO have no rounds.
-        let read = if policy.learns_by_ppo() && value.get("rounds").is_none() {
+        // Runs by PPO have no rounds, and only those by evolution have generations.
+        let read = if value.get("generations").is_some() {
+            serde_json::from_value(value).map(Self::Evolution)
+        } else if policy.learns_by_ppo() && value.get("rounds").is_none() {
             serde_json::from_value(value).map(Self::Ppo)
         } else {
             serde_json::from_value(value).map(Self::Imitation)
@@ -83,6 +97,7 @@ impl TrainingSettings {
         match self {
             Self::Ppo(settings) => settings.check(),
             Self::Imitation(settings) => settings.check(),
+            Self::Evolution(settings) => settings.check(),
         }
     }
 }

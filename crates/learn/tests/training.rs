@@ -66,7 +66,14 @@ fn short(policy: Architecture, preset: &str, changes: &[(&str, &str)]) -> Traini
         ]
     };
     settings.set(short.iter().chain(changes).copied()).expect("settings within their bounds");
-    TrainingRequest { world: paper().into(), policy, settings, seed: 3, commit: "test".to_owned() }
+    TrainingRequest {
+        world: paper().into(),
+        policy,
+        settings,
+        seed: 3,
+        begin_with: None,
+        commit: "test".to_owned(),
+    }
 }
 
 fn plan(policy: Architecture) -> TrainingRequest {
@@ -179,6 +186,7 @@ fn former(policy: Architecture) -> TrainingRequest {
         policy,
         settings: all,
         seed: 3,
+        begin_with: None,
         commit: "v0".to_owned(),
     }
 }

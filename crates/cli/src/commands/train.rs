@@ -6,7 +6,7 @@ use anstream::eprintln;
 use vertifleet_core::{DaySeed, Outputs, Purpose, World};
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{
-    Curve, Error, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
+    Curve, Error, Model, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
 };
 use vertifleet_progress::Bar;
 
@@ -22,7 +22,7 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     // The first training day stands for all of them in the warnings.
     let seed = DaySeed::training(arguments.seed, 0)?;
     warn_of_days([&world.network(Purpose::Training, seed.get()).draw(seed)]);
-    let plan = plan(arguments, world)?;
+    let plan = plan(arguments, world, &mut outputs)?;
     let folder = RunFolder::of(&plan.policy, &arguments.out);
     let mut run = folder.begin(plan, arguments.resume, &mut outputs)?;
     let stop = stop_on_interrupt()?;
@@ -33,14 +33,27 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn plan(arguments: &TrainArguments, world: World) -> Result<TrainingRequest, Failure> {
-    let mut policy = Architecture::named(arguments.policy.name())
-        .expect("every kind that can be trained has its sizes");
+fn plan(
+    arguments: &TrainArguments,
+    world: World,
+    outputs: &mut Outputs,
+) -> Result<TrainingRequest, Failure> {
+    let begin_with = arguments.begin_with.as_deref().map(|path| {
+        outputs.reads(path);
+        Model::read(path)
+    });
+    let begin_with = begin_with.transpose()?;
+    let named = arguments.policy.name();
+    let mut policy = match &begin_with {
+        Some(model) if model.kind() == named => model.header().policy.clone(),
+        _ => Architecture::named(named).expect("every kind that can be trained has its sizes"),
+    };
     let mut settings = TrainingSettings::preset(&policy, &arguments.preset)?;
-    if arguments.steps.is_some() && matches!(settings, TrainingSettings::Imitation(_)) {
+    if arguments.steps.is_some() && !matches!(settings, TrainingSettings::Ppo(_)) {
         return Err(Failure::usage(
-            "--steps is for PPO, and imitation learns in rounds".to_owned(),
-            "change its settings with --set, as --set rounds=4",
+            "--steps is for PPO; imitation learns in rounds, and evolution in generations"
+                .to_owned(),
+            "change their settings with --set, as --set rounds=4",
         ));
     }
     let steps = arguments.steps.map(|steps| steps.to_string());
@@ -52,6 +65,7 @@ fn plan(arguments: &TrainArguments, world: World) -> Result<TrainingRequest, Fai
         policy,
         settings,
         seed: arguments.seed,
+        begin_with,
         commit: env!("VERTIFLEET_COMMIT").to_owned(),
     })
 }
@@ -83,6 +97,13 @@ impl TrainingWatch for Shown {
                 let gain = rows.last().map_or(0.0, |row| row.gain);
                 format!("gain over prices {:.2} %", 100.0 * gain)
             }
+            Curve::Evolution(rows) => {
+                let measured = rows.iter().rev().find_map(|row| row.gain);
+                measured.map_or_else(
+                    || format!("{steps_per_second:.0} decisions/s"),
+                    |gain| format!("gain over prices {:.2} %", 100.0 * gain),
+                )
+            }
         });
     }
 
@@ -97,7 +118,7 @@ fn tell(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failure> {
     let mut rewards = curve.validation_rewards().into_iter().map(|(_, reward)| reward);
     // The validation reward of the weights that were kept.
     let kept = match &curve {
-        Curve::Ppo(_) => rewards.reduce(f64::max),
+        Curve::Ppo(_) | Curve::Evolution(_) => rewards.reduce(f64::max),
         Curve::Imitation(_) => rewards.next_back(),
     };
     let mut lines = vec![format!("steps              {}", curve.steps())];
@@ -111,6 +132,22 @@ fn tell(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failure> {
                 lines.push(format!("gain over prices   {:.2} %", 100.0 * row.gain));
                 let random = row.random_gain.map(|gain| 100.0 * gain);
                 lines.extend(random.map(|gain| format!("  random networks  {gain:.2} %")));
+            }
+        }
+        Curve::Evolution(rows) => {
+            let gain = |gain: Option<f64>| {
+                gain.map_or_else(
+                    || "not known yet".to_owned(),
+                    |gain| format!("{:.2} %", 100.0 * gain),
+                )
+            };
+            let last = rows.iter().rev().find(|row| row.gain.is_some());
+            lines.push(format!(
+                "gain over prices   {} (last measured)",
+                gain(last.and_then(|row| row.gain))
+            ));
+            if let Some(random) = last.and_then(|row| row.random_gain) {
+                lines.push(format!("  random networks  {}", gain(Some(random))));
             }
         }
     }

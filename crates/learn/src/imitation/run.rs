@@ -10,24 +10,26 @@ use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
-use vertifleet_core::{DaySeed, Purpose, Scenario, Stop, World};
-use vertifleet_policy::{BidPricePolicy, DayPrices, Policy, Shortlist, draw, play};
-use vertifleet_sim::{DayTotals, Simulation};
+use vertifleet_core::{Scenario, Stop, World};
+use vertifleet_policy::{DayPrices, Shortlist, draw};
+use vertifleet_sim::Simulation;
 
 use crate::adam::Adam;
 use crate::error::Error;
 use crate::features::Scales;
 use crate::gcaps_x::features::Scene;
-use crate::header::{FeatureShape, Header, shape_of};
+use crate::header::Header;
 use crate::imitation::dataset::{Dataset, Samples};
 use crate::imitation::teacher::{Sees, Student, Teacher};
 use crate::imitation::update::{Fit, Learner, Pace};
 use crate::imitation::{ImitationRow, ImitationSettings};
 use crate::model::Model;
-use crate::nn::{self, Weights};
+use crate::nn::Weights;
+use crate::run::begin::{Begin, training_days};
 use crate::run::{
     Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite, checkpoint,
 };
+use crate::validation::ValidationDays;
 
 /// About how many decisions an aircraft takes on a day.
 const DECISIONS_AN_AIRCRAFT: f64 = 11.0;
@@ -42,8 +44,7 @@ pub(crate) struct ImitationRun {
     learner: Learner,
     dataset: Dataset,
     curve: Vec<ImitationRow>,
-    /// The validation days of the network, then those of random networks, each with the profit of `prices`.
-    validation: [Vec<(Arc<Scenario>, f64)>; 2],
+    validation: ValidationDays,
 }
 
 /// The progress of a run as its checkpoint stores it.
@@ -63,52 +64,24 @@ impl ImitationRun {
         settings: ImitationSettings,
         from: Option<&Path>,
     ) -> Result<Self, Error> {
-        let bad = |name: &str, rule: String| Error::BadSetting { name: name.to_owned(), rule };
-        let fits_any = plan.policy.fits_any_size();
-        if !fits_any && settings.random_share > 0.0 {
-            let rule = format!("must be 0 for {}, which fits one size", plan.policy.name());
-            return Err(bad("random_share", rule));
-        }
         if plan.policy.learns_by_ppo() && settings.own_rounds > 0 {
             let rule = format!("must be 0 for {}, whose logits are in no unit", plan.policy.name());
-            return Err(bad("own_rounds", rule));
+            return Err(Error::BadSetting { name: "own_rounds".to_owned(), rule });
         }
-        // Weights that fit any size have the same shapes for every number of vertiports.
-        let own = match plan.world.vertiports() {
-            Some(vertiports) => vertiports,
-            None if fits_any => 2,
-            None => {
-                let rule = format!("{} learns on networks of one size", plan.policy.name());
-                return Err(bad("network", rule));
-            }
-        };
-        let shape = shape_of(&plan.policy, own);
-        let net = nn::NeuralNetwork::new(plan.policy.clone(), shape)
-            .map_err(|rule| bad("policy", rule))?;
+        let Begin { net, vertiports, header } = Begin::of(plan, settings.random_share)?;
         let (params, adam, dataset, curve) = if let Some(path) = from {
             read_checkpoint(path, &identity, &settings, net.layout().len())?
         } else {
-            let params = net.init(u64::from(plan.seed));
+            let params = plan.first_params(&net);
             let adam = Adam::new(params.len());
             (params, adam, Dataset::default(), Vec::new())
         };
-        let days = 0..u64::from(settings.validation_days);
-        let drawn = |world: &World, day: u64| -> Result<Scenario, Error> {
-            Ok(world.network(Purpose::Validation, day).draw(DaySeed::validation(day)?))
-        };
-        let own_days = days.clone().map(|day| drawn(&plan.world, day));
-        let random = days.filter(|_| fits_any).map(|day| drawn(&World::Random, day));
-        let validation = [
-            with_priced_profit(own_days.collect::<Result<_, Error>>()?),
-            with_priced_profit(random.collect::<Result<_, Error>>()?),
-        ];
-        let shape = FeatureShape { vertiports: (!fits_any).then_some(own), ..shape.into() };
-        let scales = || plan.world.network(Purpose::Training, 0).feature_scales();
-        let scales = plan.policy.learns_by_ppo().then(scales);
+        let validation =
+            ValidationDays::of(&plan.world, settings.validation_days, plan.policy.fits_any_size())?;
         Ok(Self {
-            header: Header::of_run(plan, scales, shape),
+            header,
             world: plan.world.clone(),
-            learner: Learner::new(plan.policy.clone(), own, params, adam),
+            learner: Learner::new(plan.policy.clone(), vertiports, params, adam),
             identity,
             settings,
             dataset,
@@ -135,16 +108,16 @@ impl ImitationRun {
         }
         let fit = self.fit(stop, worked)?;
         check_finite(self.learner.weights.params(), u64::from(self.rounds_done()) + 1)?;
-        let [own, random] = [0, 1].map(|which| self.validate(&self.validation[which]));
+        let found = self.validation.measure(&self.model());
         Ok(ImitationRow {
             round: self.rounds_done() + 1,
             decisions: self.dataset.len() as u64,
             agreement: fit.agreement,
             lift: fit.lift,
             most_lift: fit.most,
-            validation_reward: own.reward,
-            gain: own.gain,
-            random_gain: (!self.validation[1].is_empty()).then_some(random.gain),
+            validation_reward: found.reward,
+            gain: found.gain,
+            random_gain: found.random_gain,
         })
     }
 
@@ -181,18 +154,8 @@ impl ImitationRun {
     /// The days of the next round.
     fn days(&self) -> Result<Vec<Arc<Scenario>>, Error> {
         let first = u64::from(self.rounds_done()) * u64::from(self.settings.days);
-        let random = |day: u64| {
-            let share = self.settings.random_share;
-            (day as f64 * share).floor() < ((day + 1) as f64 * share).floor()
-        };
-        (first..first + u64::from(self.settings.days))
-            .map(|day| {
-                let seed = DaySeed::training(self.identity.seed, day)?;
-                let world = if random(day) { &World::Random } else { &self.world };
-                // Every day has a seed of its own, so no two runs share a network that is drawn.
-                Ok(Arc::new(world.network(Purpose::Training, seed.get()).draw(seed)))
-            })
-            .collect()
+        let numbers = first..first + u64::from(self.settings.days);
+        training_days(&self.world, self.identity.seed, self.settings.random_share, numbers)
     }
 
     /// Plays a day and rolls out a share of its decisions.
@@ -231,22 +194,6 @@ impl ImitationRun {
             simulation.apply(choice).expect("lists are of feasible choices");
         }
         samples
-    }
-
-    /// Measures the policy on validation days.
-    fn validate(&self, days: &[(Arc<Scenario>, f64)]) -> Validation {
-        let model = self.model();
-        let outcomes: Vec<Validation> = days
-            .par_iter()
-            .map(|(day, priced_usd)| {
-                let played = played(model.policy(1).as_mut(), day);
-                Validation { reward: played.reward, gain: played.profit_usd / priced_usd - 1.0 }
-            })
-            .collect();
-        let mean = |of: fn(&Validation) -> f64| {
-            outcomes.iter().map(of).sum::<f64>() / outcomes.len().max(1) as f64
-        };
-        Validation { reward: mean(|outcome| outcome.reward), gain: mean(|outcome| outcome.gain) }
     }
 }
 
@@ -316,24 +263,4 @@ fn read_checkpoint(
     }
     let dataset = checkpoint.others(|file| Dataset::read(file, &identity.policy, vertiports))?;
     Ok((checkpoint.params, checkpoint.adam, dataset, checkpoint.progress.curve))
-}
-
-/// Means over validation days.
-struct Validation {
-    reward: f64,
-    /// Profit above that of `prices`, as a share of the profit of `prices`.
-    gain: f64,
-}
-
-fn with_priced_profit(days: Vec<Scenario>) -> Vec<(Arc<Scenario>, f64)> {
-    let days: Vec<Arc<Scenario>> = days.into_iter().map(Arc::new).collect();
-    days.par_iter()
-        .map(|day| (Arc::clone(day), played(&mut BidPricePolicy::default(), day).profit_usd))
-        .collect()
-}
-
-fn played(policy: &mut dyn Policy, day: &Arc<Scenario>) -> DayTotals {
-    let mut simulation = Simulation::new(Arc::clone(day));
-    play(&mut simulation, policy, |_| ()).expect("the policy has an answer for every decision");
-    simulation.totals()
 }

@@ -7,14 +7,13 @@ use std::sync::Arc;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{DaySeed, Purpose, Scenario, Stop};
-use vertifleet_policy::Policy;
-use vertifleet_sim::Simulation;
 
 use crate::adam::Adam;
 use crate::error::Error;
 use crate::features::shape;
 use crate::header::Header;
 use crate::learned::Learned;
+use crate::lockstep::play_together;
 use crate::model::Model;
 use crate::nn::{self, Weights};
 use crate::ppo::buffer::{Buffer, DayInProgress, Source};
@@ -79,7 +78,7 @@ impl PpoRun {
         let (params, adam, mut progress) = if let Some(path) = from {
             read_checkpoint(path, &identity, &settings, net.layout().len())?
         } else {
-            let params = net.init(u64::from(plan.seed));
+            let params = plan.first_params(&net);
             (params.clone(), Adam::new(params.len()), Progress::new(params))
         };
         let source = Source { world: plan.world.clone(), run_seed: plan.seed };
@@ -166,9 +165,9 @@ impl PpoRun {
         let blocks: Vec<&[Arc<Scenario>]> = self.validation.chunks(VALIDATION_BLOCK).collect();
         let rewards = blocks
             .par_iter()
-            .map(|block| play_block(&mut Learned::new(&model), block))
+            .map(|block| play_together(&mut Learned::new(&model), block))
             .collect::<Vec<_>>();
-        rewards.iter().flatten().sum::<f64>() / self.validation.len() as f64
+        rewards.iter().flatten().map(|day| day.reward).sum::<f64>() / self.validation.len() as f64
     }
 
     fn model_of(&self, params: &[f32], steps: u64) -> Model {
@@ -272,34 +271,6 @@ impl Progress {
             self.best_reward = Some(reward);
             self.best_steps = steps;
             self.best_params.copy_from_slice(params);
-        }
-    }
-}
-
-/// Plays days in lockstep, with one inference for all of them. Returns the rewards in the order of the days.
-fn play_block(policy: &mut Learned, days: &[Arc<Scenario>]) -> Vec<f64> {
-    let mut simulations: Vec<Simulation> =
-        days.iter().map(|day| Simulation::new(Arc::clone(day))).collect();
-    let mut open = Vec::with_capacity(days.len());
-    let mut choices = Vec::with_capacity(days.len());
-    loop {
-        open.clear();
-        open.extend(
-            simulations
-                .iter_mut()
-                .enumerate()
-                .filter_map(|(at, day)| day.next_decision().map(|decision| (at, decision))),
-        );
-        if open.is_empty() {
-            return simulations.iter().map(|day| day.totals().reward).collect();
-        }
-        choices.clear();
-        let mut asked = open.iter().map(|&(at, decision)| (decision, simulations[at].view()));
-        policy
-            .choose_batch(&mut asked, &mut choices)
-            .expect("a trained network always has an answer");
-        for (&(at, _), &choice) in open.iter().zip(&choices) {
-            simulations[at].apply(choice).expect("a trained network chooses from the mask");
         }
     }
 }

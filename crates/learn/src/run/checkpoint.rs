@@ -1,6 +1,6 @@
 //! Checkpoints: everything that a run needs to continue bit for bit, in one safetensors file.
 //!
-//! Randomness is a function of seed, day and decision, so there is no generator to store. This module writes what both
+//! Randomness is a function of seed, day and decision, so there is no generator to store. This module writes what all
 //! ways to learn have: the identity of the run, the parameters and Adam's moments. Each way adds its own
 //! [progress](Checkpoint::progress) and tensors. Checkpoints of earlier formats are read too.
 
@@ -152,6 +152,11 @@ fn check_same(header: &mut Map<String, Value>, asked: &RunIdentity) -> Result<()
     let seed: u32 = member(&mut run, "seed")?;
     if seed != asked.seed {
         return different("seed", &seed, &asked.seed);
+    }
+    let begun: Option<String> = member(&mut run, "begun_with")?;
+    if begun != asked.begun_with {
+        let hash = |begun: &Option<String>| begun.clone().unwrap_or_else(|| "none".to_owned());
+        return different("begin_with", &hash(&begun), &hash(&asked.begun_with));
     }
     let settings = TrainingSettings::read(&policy, settings)?;
     match first_difference(&settings, &asked.settings) {

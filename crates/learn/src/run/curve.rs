@@ -1,4 +1,4 @@
-//! Learning curves, with one row for an update of PPO or a round of imitation. They are CSV files beside the weights
+//! Learning curves, with one row for an update of PPO, a round of imitation or a generation of evolution. They are CSV files beside the weights
 //! of their run; curves of runs with other seeds may stand there too.
 
 use std::fs;
@@ -8,6 +8,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::Error;
+use crate::evolution::EvolutionRow;
 use crate::imitation::ImitationRow;
 use crate::ppo::PpoRow;
 
@@ -21,6 +22,8 @@ pub enum Curve {
     Ppo(Vec<PpoRow>),
     /// One row per round.
     Imitation(Vec<ImitationRow>),
+    /// One row per generation.
+    Evolution(Vec<EvolutionRow>),
 }
 
 impl Curve {
@@ -61,6 +64,9 @@ impl Curve {
         if text.starts_with("round,") {
             return Ok(Self::Imitation(rows(text, origin)?));
         }
+        if text.starts_with("generation,") {
+            return Ok(Self::Evolution(rows(text, origin)?));
+        }
         Ok(Self::Ppo(rows(text, origin)?))
     }
 
@@ -69,6 +75,7 @@ impl Curve {
         match self {
             Self::Ppo(rows) => csv_of(rows),
             Self::Imitation(rows) => csv_of(rows),
+            Self::Evolution(rows) => csv_of(rows),
         }
     }
 
@@ -77,6 +84,7 @@ impl Curve {
         match self {
             Self::Ppo(rows) => rows.last().map_or(0, |row| row.steps),
             Self::Imitation(rows) => rows.last().map_or(0, |row| row.decisions),
+            Self::Evolution(rows) => rows.last().map_or(0, |row| row.decisions),
         }
     }
 
@@ -85,17 +93,18 @@ impl Curve {
         match self {
             Self::Ppo(rows) => rows.is_empty(),
             Self::Imitation(rows) => rows.is_empty(),
+            Self::Evolution(rows) => rows.is_empty(),
         }
     }
 
     /// Number of decisions learned from, and mean reward of the last training days; empty for imitation, which does
-    /// not learn from rewards.
+    /// not learn from rewards, and for evolution, whose training days are played with moved weights.
     pub fn training_rewards(&self) -> Vec<(u64, f64)> {
         match self {
             Self::Ppo(rows) => {
                 rows.iter().filter_map(|row| Some((row.steps, row.mean_reward?))).collect()
             }
-            Self::Imitation(_) => Vec::new(),
+            Self::Imitation(_) | Self::Evolution(_) => Vec::new(),
         }
     }
 
@@ -108,6 +117,10 @@ impl Curve {
             Self::Imitation(rows) => {
                 rows.iter().map(|row| (row.decisions, row.validation_reward)).collect()
             }
+            Self::Evolution(rows) => rows
+                .iter()
+                .filter_map(|row| Some((row.decisions, row.validation_reward?)))
+                .collect(),
         }
     }
 
@@ -116,6 +129,7 @@ impl Curve {
         match self {
             Self::Ppo(rows) => rows.iter().map(ppo_scalars).collect(),
             Self::Imitation(rows) => rows.iter().map(imitation_scalars).collect(),
+            Self::Evolution(rows) => rows.iter().map(evolution_scalars).collect(),
         }
     }
 
@@ -124,6 +138,7 @@ impl Curve {
         match self {
             Self::Ppo(rows) => rows.last().map(ppo_scalars),
             Self::Imitation(rows) => rows.last().map(imitation_scalars),
+            Self::Evolution(rows) => rows.last().map(evolution_scalars),
         }
     }
 }
@@ -136,6 +151,10 @@ fn ppo_scalars(row: &PpoRow) -> Scalars {
 }
 
 fn imitation_scalars(row: &ImitationRow) -> Scalars {
+    (row.decisions, row.scalars())
+}
+
+fn evolution_scalars(row: &EvolutionRow) -> Scalars {
     (row.decisions, row.scalars())
 }
 
@@ -185,6 +204,7 @@ mod tests {
     use vertifleet_core::Coded;
 
     use super::Curve;
+    use crate::evolution::EvolutionRow;
     use crate::imitation::ImitationRow;
     use crate::ppo::PpoRow;
 
@@ -199,7 +219,7 @@ mod tests {
         let updates = || -> Vec<u64> {
             let rows = |curve| match curve {
                 Curve::Ppo(rows) => rows,
-                Curve::Imitation(_) => panic!("no rounds were written"),
+                other => panic!("no such rows were written: {other:?}"),
             };
             let curves = Curve::read_beside(&weights).expect("curves").into_iter();
             curves.flat_map(rows).map(|row| row.update).collect()
@@ -221,9 +241,11 @@ mod tests {
     fn a_curve_reads_as_it_was_written() {
         let row = PpoRow { update: 3, mean_reward: Some(0.03125), ..PpoRow::default() };
         let round = ImitationRow { round: 1, gain: 0.5, ..ImitationRow::default() };
+        let generation = EvolutionRow { generation: 1, gain: Some(0.5), ..EvolutionRow::default() };
         for curve in [
             Curve::Ppo(vec![PpoRow::default(), row]),
             Curve::Imitation(vec![ImitationRow::default(), round]),
+            Curve::Evolution(vec![EvolutionRow::default(), generation]),
         ] {
             assert_eq!(Curve::from_csv(&curve.to_csv(), "curve").expect("a curve"), curve);
         }

@@ -1,0 +1,71 @@
+//! What runs by imitation and by evolution have in common: the sizes of what a policy sees, its first weights, and the
+//! days that it learns from.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use vertifleet_core::{DaySeed, Purpose, Scenario, World};
+
+use crate::error::Error;
+use crate::header::{FeatureShape, Header, shape_of};
+use crate::nn;
+use crate::run::TrainingRequest;
+
+/// The policy of a run before it has learned anything.
+pub(crate) struct Begin {
+    pub(crate) net: nn::NeuralNetwork,
+    /// The number of vertiports that `net` is for. Weights that fit any size have the same shapes for every number.
+    pub(crate) vertiports: usize,
+    /// The header of the run's models, except for the number of steps.
+    pub(crate) header: Header,
+}
+
+impl Begin {
+    /// The beginning of a run that learns from days of random networks too, as large a share of all as `random_share`.
+    ///
+    /// # Errors
+    /// [`Error::BadSetting`] if policy, world and share do not go together.
+    pub(crate) fn of(plan: &TrainingRequest, random_share: f64) -> Result<Self, Error> {
+        let bad = |name: &str, rule: String| Error::BadSetting { name: name.to_owned(), rule };
+        let fits_any = plan.policy.fits_any_size();
+        if !fits_any && random_share > 0.0 {
+            let rule = format!("must be 0 for {}, which fits one size", plan.policy.name());
+            return Err(bad("random_share", rule));
+        }
+        let vertiports = match plan.world.vertiports() {
+            Some(vertiports) => vertiports,
+            None if fits_any => 2,
+            None => {
+                let rule = format!("{} learns on networks of one size", plan.policy.name());
+                return Err(bad("network", rule));
+            }
+        };
+        let shape = shape_of(&plan.policy, vertiports);
+        let net = nn::NeuralNetwork::new(plan.policy.clone(), shape)
+            .map_err(|rule| bad("policy", rule))?;
+        let shape = FeatureShape { vertiports: (!fits_any).then_some(vertiports), ..shape.into() };
+        let scales = || plan.world.network(Purpose::Training, 0).feature_scales();
+        let scales = plan.policy.learns_by_ppo().then(scales);
+        Ok(Self { net, vertiports, header: Header::of_run(plan, scales, shape) })
+    }
+}
+
+/// Training days by their numbers, of which a share come from random networks, a different one each, and the others
+/// from a world.
+pub(crate) fn training_days(
+    world: &World,
+    run_seed: u32,
+    random_share: f64,
+    numbers: Range<u64>,
+) -> Result<Vec<Arc<Scenario>>, Error> {
+    let is_random =
+        |day: u64| (day as f64 * random_share).floor() < ((day + 1) as f64 * random_share).floor();
+    numbers
+        .map(|day| {
+            let seed = DaySeed::training(run_seed, day)?;
+            let world = if is_random(day) { &World::Random } else { world };
+            // Every day has a seed of its own, so no two runs share a network that is drawn.
+            Ok(Arc::new(world.network(Purpose::Training, seed.get()).draw(seed)))
+        })
+        .collect()
+}
