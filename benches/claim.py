@@ -208,24 +208,25 @@ def sweep(shares: Shares) -> str:
 
 
 def figure(shares: Shares) -> str:
-    """Every training run as a dot, and the mean of each network as a line, for both worlds."""
-    left, width, row, top = 250, 300, 26, 60
+    """Every training run as a dot, and the mean of each network as a line, for all worlds."""
+    left, width, row, top, worlds = 340, 230, 26, 76, WORLDS | ANY_SIZE
+    full_width = left + len(worlds) * (width + 30)
     means = {key: shares[key].mean(axis=1) for key in shares if key[1] in NETWORKS}
-    ranges = {world: [mean for (of, _), means in means.items() if of == world for mean in means] for world in WORLDS}
-    # Both panels have the same scale.
+    ranges = {world: [mean for (of, _), means in means.items() if of == world for mean in means] for world in worlds}
+    # All panels have the same scale.
     span = max(max(of_world) - min(of_world) for of_world in ranges.values()) + 0.3
     height = top + row * len(NETWORKS) + 50
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {left + 2 * width + 60} {height}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {full_width} {height}" '
         'font-family="sans-serif" font-size="13" fill="#222">',
         "<title>Shares of the certified bound by network and world</title>",
-        f'<rect width="{left + 2 * width + 60}" height="{height}" fill="white"/>',
-        '<text x="10" y="24" font-size="15">Share of the certified bound on 100 unseen days, %: a dot is a training run, a bar the mean'
+        f'<rect width="{full_width}" height="{height}" fill="white"/>',
+        '<text x="10" y="24" font-size="15">Share of the certified bound on unseen days, %: a dot is a training run, a bar the mean'
         "</text>",
     ]
     for at, words in enumerate(NETWORKS.values()):
         parts.append(f'<text x="{left - 10}" y="{top + row * at + 22}" text-anchor="end">{words}</text>')
-    for panel, (world, words) in enumerate(WORLDS.items()):
+    for panel, (world, words) in enumerate(worlds.items()):
         high = max(ranges[world]) + 0.15
         low = high - span
         begin = left + panel * (width + 30)
@@ -233,7 +234,8 @@ def figure(shares: Shares) -> str:
         def across(share: float, begin: int = begin, low: float = low) -> float:
             return begin + width * (share - low) / span
 
-        parts.append(f'<text x="{begin}" y="{top - 10}">{world}, {words}</text>')
+        parts.append(f'<text x="{begin}" y="{top - 26}" font-weight="bold">{world}</text>')
+        parts.append(f'<text x="{begin}" y="{top - 8}">{words}</text>')
         bottom = top + row * len(NETWORKS) + 8
         tick = numpy.ceil(low / 0.5) * 0.5
         while tick <= high:
@@ -242,6 +244,8 @@ def figure(shares: Shares) -> str:
             parts.append(f'<text x="{x:.1f}" y="{bottom + 18}" text-anchor="middle">{tick:.1f}</text>')
             tick += 0.5
         for at, name in enumerate(NETWORKS):
+            if (world, name) not in means:
+                continue
             y = top + row * at + 18
             x = across(means[world, name].mean())
             parts.append(f'<line x1="{x:.1f}" y1="{y - 9}" x2="{x:.1f}" y2="{y + 9}" stroke="#222" stroke-width="3"/>')

@@ -39,6 +39,30 @@ def test_gcaps_x_learns_in_rounds(tmp_path):
     assert training.model.header["steps"] == rows[-1]["decisions"]
 
 
+def test_evolution_begins_with_given_weights(tmp_path):
+    first = trained(tmp_path / "first")
+    generations = {"generations": 2, "pairs": 1, "days": 1, "validation_days": 1, "eval_every": 1}
+    begin_with = tmp_path / "first" / "mlp.safetensors"
+
+    def evolved(out, policy="mlp", **arguments):
+        return vertifleet.train(
+            "paper", policy, out=tmp_path / out, preset="evolution", settings=generations, **arguments
+        )
+
+    still = {**generations, "learning_rate": 0}
+    unmoved = vertifleet.train(
+        "paper", "mlp", out=tmp_path / "still", preset="evolution", settings=still, begin_with=begin_with
+    )
+    weights = [model.tensors() for model in (unmoved.model, first.model)]
+    assert all(np.array_equal(weights[0][name], weights[1][name]) for name in weights[1])
+    training = evolved("evolved", begin_with=begin_with)
+    assert training.columns["generation"].tolist() == [1, 2]
+    assert training.columns["difference"].min() > 0
+    with pytest.raises(vertifleet.Error, match="same policy") as refused:
+        evolved("other", policy="gcaps", begin_with=begin_with)
+    assert refused.value.code == "V303"
+
+
 def test_a_run_that_was_interrupted_goes_on_to_the_same_weights(tmp_path):
     whole = trained(tmp_path / "whole", total_steps=2_000)
     # This is what Jupyter's stop button does; it works even if the tests run with SIGINT ignored.

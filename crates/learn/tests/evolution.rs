@@ -1,9 +1,11 @@
 //! Properties of a run by evolution, and of runs that begin with weights of another run.
 
-use std::path::Path;
+mod support;
+
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
+use support::{advance, finished, remains};
 use vertifleet_core::{Coded, Network, Stop, World};
 use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
 use vertifleet_learn::{Curve, Error, Model, TrainingRequest, TrainingRun, TrainingSettings};
@@ -42,23 +44,6 @@ fn plan(policy: Architecture, changes: &[(&str, &str)]) -> TrainingRequest {
     }
 }
 
-fn advance(run: &mut dyn TrainingRun) {
-    run.advance(&Stop::default(), &|_| ()).expect("training days are left");
-}
-
-fn finished(mut run: Box<dyn TrainingRun>) -> Box<dyn TrainingRun> {
-    while !run.is_done() {
-        advance(run.as_mut());
-    }
-    run
-}
-
-/// Everything that a run leaves, to be compared bit for bit.
-fn remains(run: &dyn TrainingRun, at: &Path) -> (Vec<u8>, Vec<u8>, Curve) {
-    run.write_checkpoint(at).expect("a folder to write to");
-    (std::fs::read(at).expect("the checkpoint"), run.model().to_bytes(), run.curve())
-}
-
 /// The gains over prices that a run measured.
 fn gains(run: &dyn TrainingRun) -> Vec<f64> {
     let Curve::Evolution(rows) = run.curve() else { panic!("a run by evolution") };
@@ -68,7 +53,7 @@ fn gains(run: &dyn TrainingRun) -> Vec<f64> {
 #[test]
 fn threads_and_interruptions_change_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
-    let (path, other) = (folder.path().join("checkpoint"), folder.path().join("other"));
+    let path = folder.path().join("checkpoint");
     let gcaps_x = Architecture::GcapsX(GcapsSettings::of_sizes(8, 2));
     for plan in [
         plan(small_mlp(), &[]),
@@ -79,27 +64,23 @@ fn threads_and_interruptions_change_nothing() {
     ] {
         let on = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            pool.install(|| {
-                remains(finished(plan.clone().start().expect("a plan")).as_ref(), &other)
-            })
+            pool.install(|| remains(finished(plan.clone().start().expect("a plan")).as_ref()))
         };
         let whole = on(1);
         assert!(whole == on(3), "{plan:?}");
         let mut first = plan.clone().start().expect("a plan");
         advance(first.as_mut());
-        let before = remains(first.as_ref(), &path);
+        first.write_checkpoint(&path).expect("a folder to write to");
+        let before = remains(first.as_ref());
         if !first.is_done() {
             let stop = Stop::default();
             stop.request();
             assert!(matches!(first.advance(&stop, &|_| ()), Err(Error::Stopped)));
-            assert!(
-                remains(first.as_ref(), &path) == before,
-                "a stop undoes nothing and does nothing"
-            );
+            assert!(remains(first.as_ref()) == before, "a stop undoes nothing and does nothing");
         }
         let rest = plan.clone().resume(&path).expect("its run");
         assert_eq!((rest.curve(), rest.work()), (first.curve(), first.work()));
-        assert!(remains(finished(rest).as_ref(), &other) == whole, "{plan:?}");
+        assert!(remains(finished(rest).as_ref()) == whole, "{plan:?}");
     }
 }
 

@@ -1,10 +1,13 @@
 //! Properties of a training run by either way to learn: the weights are the same on any number of threads and after
 //! any interruption.
 
+mod support;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
+use support::{advance, finished, remains};
 use vertifleet_core::{Coded, DaySeed, Network, Purpose, Stop, World};
 use vertifleet_learn::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, MlpSettings};
 use vertifleet_learn::{Curve, Error, Model, TrainingRequest, TrainingRun, TrainingSettings};
@@ -78,25 +81,6 @@ fn short(policy: Architecture, preset: &str, changes: &[(&str, &str)]) -> Traini
 
 fn plan(policy: Architecture) -> TrainingRequest {
     plan_with(policy, &[])
-}
-
-fn advance(run: &mut dyn TrainingRun) {
-    run.advance(&Stop::default(), &|_| ()).expect("training days are left");
-}
-
-fn finished(mut run: Box<dyn TrainingRun>) -> Box<dyn TrainingRun> {
-    while !run.is_done() {
-        advance(run.as_mut());
-    }
-    run
-}
-
-/// Everything that a run leaves, to be compared bit for bit.
-fn remains(run: &dyn TrainingRun) -> (Vec<u8>, Vec<u8>, Curve) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("checkpoint");
-    run.write_checkpoint(&path).expect("a folder to write to");
-    (std::fs::read(path).expect("the checkpoint"), run.model().to_bytes(), run.curve())
 }
 
 #[test]
