@@ -53,7 +53,7 @@ def test_evolution_begins_with_given_weights(tmp_path):
     unmoved = vertifleet.train(
         "paper", "mlp", out=tmp_path / "still", preset="evolution", settings=still, begin_with=begin_with
     )
-    weights = [model.tensors() for model in (unmoved.model, first.model)]
+    weights = [model.tensors for model in (unmoved.model, first.model)]
     assert all(np.array_equal(weights[0][name], weights[1][name]) for name in weights[1])
     training = evolved("evolved", begin_with=begin_with)
     assert training.columns["generation"].tolist() == [1, 2]
