@@ -30,6 +30,7 @@ FIGURE = Path("docs/src/images/claim.svg")
 WORLDS = {"paper": "one network", "random-places:8": "a new network each day"}
 # A world of networks of 5 to 30 vertiports, which models of one size cannot be for.
 ANY_SIZE = {"random": "networks of any size"}
+ALL_WORLDS = WORLDS | ANY_SIZE
 # The folders of scripts/claim, in the order of the tables.
 NETWORKS = {
     "capsules": "graph capsules, complete graph",
@@ -153,7 +154,7 @@ def table(shares: Shares, world: str) -> str:
         return words_of(differences[name, reference], corrected[name, reference])
 
     lines = [
-        f"`{world}`, {(WORLDS | ANY_SIZE)[world]}:",
+        f"`{world}`, {ALL_WORLDS[world]}:",
         "",
         "| model | seeds 1, 2, 3 | mean | against the first row | against plain layers |",
         "|---|---|---|---|---|",
@@ -209,10 +210,10 @@ def sweep(shares: Shares) -> str:
 
 def figure(shares: Shares) -> str:
     """Every training run as a dot, and the mean of each network as a line, for all worlds."""
-    left, width, row, top, worlds = 340, 230, 26, 76, WORLDS | ANY_SIZE
-    full_width = left + len(worlds) * (width + 30)
+    left, width, row, top = 340, 230, 26, 76
+    full_width = left + len(ALL_WORLDS) * (width + 30)
     means = {key: shares[key].mean(axis=1) for key in shares if key[1] in NETWORKS}
-    ranges = {world: [mean for (of, _), means in means.items() if of == world for mean in means] for world in worlds}
+    ranges = {world: [mean for (of, _), means in means.items() if of == world for mean in means] for world in ALL_WORLDS}
     # All panels have the same scale.
     span = max(max(of_world) - min(of_world) for of_world in ranges.values()) + 0.3
     height = top + row * len(NETWORKS) + 50
@@ -226,7 +227,7 @@ def figure(shares: Shares) -> str:
     ]
     for at, words in enumerate(NETWORKS.values()):
         parts.append(f'<text x="{left - 10}" y="{top + row * at + 22}" text-anchor="end">{words}</text>')
-    for panel, (world, words) in enumerate(worlds.items()):
+    for panel, (world, words) in enumerate(ALL_WORLDS.items()):
         high = max(ranges[world]) + 0.15
         low = high - span
         begin = left + panel * (width + 30)
@@ -259,7 +260,7 @@ def main() -> None:
         collect(Path(sys.argv[1]))
         return
     shares = read()
-    print("\n\n".join([*(table(shares, world) for world in WORLDS | ANY_SIZE), states(shares), sweep(shares)]))
+    print("\n\n".join([*(table(shares, world) for world in ALL_WORLDS), states(shares), sweep(shares)]))
     FIGURE.write_text(figure(shares))
 
 

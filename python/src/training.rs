@@ -7,7 +7,6 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 use serde_json::{Map, Value};
 use vertifleet_core::{Outputs, Stop, World};
-use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{
     Curve, Error, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
 };
@@ -126,20 +125,13 @@ pub(crate) fn train(
     threads: Option<WholeNumber>,
     watch: Option<Py<PyAny>>,
 ) -> PyResult<Training> {
-    let named = Architecture::named(policy).ok_or_else(|| {
+    let begun = begin_with.as_deref().map(vertifleet_learn::Model::read);
+    let begun = begun.transpose().map_err(Failure::from)?;
+    let mut policy = vertifleet_learn::sizes(policy, begun.as_ref()).ok_or_else(|| {
         let rule =
             format!("policy must be gcaps, mlp, gcaps-x, gcaps-full or mlp-full, found {policy:?}");
         Failure::argument(rule)
     })?;
-    let begun = begin_with
-        .as_deref()
-        .map(vertifleet_learn::Model::read)
-        .transpose()
-        .map_err(Failure::from)?;
-    let mut policy = match &begun {
-        Some(model) if model.kind() == policy => model.header().policy.clone(),
-        _ => named,
-    };
     let mut of_run = TrainingSettings::preset(&policy, preset).map_err(Failure::from)?;
     if let Some(settings) = settings {
         let named = changes(settings)?;

@@ -1,8 +1,8 @@
 //! A training run: what it is asked to do, how it advances, and what it leaves.
 //!
 //! There are three ways to learn, [PPO](crate::ppo), for `gcaps` and `mlp`, [imitation](crate::imitation) and
-//! [evolution](crate::evolution). Callers see one interface: a [`TrainingRun`] is advanced until it is done, and can be set aside and resumed. A [`RunFolder`] does
-//! that and writes the files.
+//! [evolution](crate::evolution). Callers see one interface: a [`TrainingRun`] is advanced until it is done, and can be set
+//! aside and resumed. A [`RunFolder`] does that and writes the files.
 //!
 //! Training days, validation days and comparison days come from disjoint ranges of seeds (`DaySeed`), so no run can
 //! ever learn or choose on a day that it is later compared on.
@@ -88,6 +88,13 @@ pub struct Work {
     pub units: &'static str,
 }
 
+/// The sizes of a run's policy of this kind: those of the weights that it begins with, or else the usual ones. `None` if
+/// there is no such kind.
+pub fn sizes(kind: &str, begin_with: Option<&Model>) -> Option<Architecture> {
+    let begun = begin_with.filter(|model| model.kind() == kind);
+    begun.map_or_else(|| Architecture::named(kind), |model| Some(model.header().policy.clone()))
+}
+
 impl TrainingRequest {
     /// Starts a run.
     ///
@@ -128,7 +135,7 @@ impl TrainingRequest {
                 Box::new(PpoRun::new(&self, asked, settings.clone(), checkpoint)?)
             }
             TrainingSettings::Evolution(settings) => {
-                Box::new(EvolutionRun::new(&self, asked, settings.clone(), checkpoint)?)
+                Box::new(EvolutionRun::new(&self, asked, *settings, checkpoint)?)
             }
             TrainingSettings::Ppo(_) => {
                 let rule = format!("{} does not learn by PPO", self.policy.name());

@@ -10,7 +10,7 @@ use rayon::ThreadPoolBuilder;
 use support::{advance, finished, remains};
 use vertifleet_core::{Coded, DaySeed, Network, Purpose, Stop, World};
 use vertifleet_learn::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, MlpSettings};
-use vertifleet_learn::{Curve, Error, Model, TrainingRequest, TrainingRun, TrainingSettings};
+use vertifleet_learn::{Error, Model, TrainingRequest, TrainingSettings};
 
 fn paper() -> Arc<Network> {
     Arc::new(Network::shipped("paper").expect("a shipped network"))

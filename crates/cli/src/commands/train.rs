@@ -4,7 +4,6 @@ use std::process::ExitCode;
 
 use anstream::eprintln;
 use vertifleet_core::{DaySeed, Outputs, Purpose, World};
-use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{
     Curve, Error, Model, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
 };
@@ -43,11 +42,8 @@ fn plan(
         Model::read(path)
     });
     let begin_with = begin_with.transpose()?;
-    let named = arguments.policy.name();
-    let mut policy = match &begin_with {
-        Some(model) if model.kind() == named => model.header().policy.clone(),
-        _ => Architecture::named(named).expect("every kind that can be trained has its sizes"),
-    };
+    let mut policy = vertifleet_learn::sizes(arguments.policy.name(), begin_with.as_ref())
+        .expect("every kind that can be trained has its sizes");
     let mut settings = TrainingSettings::preset(&policy, &arguments.preset)?;
     if arguments.steps.is_some() && !matches!(settings, TrainingSettings::Ppo(_)) {
         return Err(Failure::usage(

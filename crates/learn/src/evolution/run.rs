@@ -19,12 +19,9 @@ use crate::lockstep::play_together;
 use crate::model::Model;
 use crate::nn::Architecture;
 use crate::run::begin::{Begin, training_days};
-use crate::run::checkpoint::{self, tensor};
+use crate::run::checkpoint::{self, BEST_PARAMS};
 use crate::run::{Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite};
 use crate::validation::{Validated, ValidationDays, played};
-
-/// The tensor of a checkpoint that holds the weights that did best.
-const BEST_PARAMS: &str = "best_params";
 
 /// A run in progress.
 pub(crate) struct EvolutionRun {
@@ -109,7 +106,9 @@ impl EvolutionRun {
         let differences: Vec<f64> =
             played.iter().map(|[along, against]| along.score - against.score).collect();
         let pairs = differences.len() as f64;
-        let root = (differences.iter().map(|usd| usd * usd).sum::<f64>() / pairs).sqrt();
+        let root = (differences.iter().map(|difference| difference * difference).sum::<f64>()
+            / pairs)
+            .sqrt();
         if root > 0.0 {
             self.step(seed, &differences, root);
         }
@@ -120,7 +119,8 @@ impl EvolutionRun {
         let mut row = EvolutionRow {
             generation: done + 1,
             decisions,
-            difference: root / mean.abs(),
+            // A number that is not finite could not be read from a checkpoint again.
+            difference: if mean == 0.0 { 0.0 } else { root / mean.abs() },
             ..EvolutionRow::default()
         };
         let is_last = row.generation == self.settings.generations;
@@ -140,10 +140,9 @@ impl EvolutionRun {
 
     /// The days of the next generation, with days of as many vertiports side by side.
     fn days(&self) -> Result<Vec<Arc<Scenario>>, Error> {
-        let first = u64::from(self.generations_done()) * u64::from(self.settings.days);
-        let numbers = first..first + u64::from(self.settings.days);
-        let share = self.settings.random_share;
-        let mut days = training_days(&self.world, self.identity.seed, share, numbers)?;
+        let (round, EvolutionSettings { days, random_share, .. }) =
+            (self.generations_done(), self.settings);
+        let mut days = training_days(&self.world, self.identity.seed, random_share, (round, days))?;
         days.sort_by_key(|day| day.vertiports.len());
         Ok(days)
     }
@@ -243,8 +242,7 @@ fn read_checkpoint(
     parameters: usize,
 ) -> Result<(Vec<f32>, Adam, Progress), Error> {
     let mut checkpoint = checkpoint::read::<Progress>(path, identity, parameters)?;
-    let best = checkpoint.others(|file| tensor(file, BEST_PARAMS, parameters))?;
-    checkpoint.progress.best_params = best;
+    checkpoint.progress.best_params = checkpoint.best_params()?;
     let curve = &checkpoint.progress.curve;
     let broken = |rule| Err(Error::BadCheckpoint { rule });
     if curve.len() > settings.generations as usize {

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::settings::within;
 
 /// What a run plays, and how far it goes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EvolutionSettings {
     /// Number of generations.
     pub generations: u32,
@@ -27,7 +27,7 @@ pub struct EvolutionSettings {
 }
 
 impl Default for EvolutionSettings {
-    /// These values were chosen on validation days.
+    /// Noise and step size were chosen on validation days, of three pairs that were tried.
     fn default() -> Self {
         Self {
             generations: 100,

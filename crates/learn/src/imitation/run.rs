@@ -153,9 +153,8 @@ impl ImitationRun {
 
     /// The days of the next round.
     fn days(&self) -> Result<Vec<Arc<Scenario>>, Error> {
-        let first = u64::from(self.rounds_done()) * u64::from(self.settings.days);
-        let numbers = first..first + u64::from(self.settings.days);
-        training_days(&self.world, self.identity.seed, self.settings.random_share, numbers)
+        let round = (self.rounds_done(), self.settings.days);
+        training_days(&self.world, self.identity.seed, self.settings.random_share, round)
     }
 
     /// Plays a day and rolls out a share of its decisions.

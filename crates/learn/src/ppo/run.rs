@@ -10,7 +10,6 @@ use vertifleet_core::{DaySeed, Purpose, Scenario, Stop};
 
 use crate::adam::Adam;
 use crate::error::Error;
-use crate::features::shape;
 use crate::header::Header;
 use crate::learned::Learned;
 use crate::lockstep::play_together;
@@ -19,15 +18,14 @@ use crate::nn::{self, Weights};
 use crate::ppo::buffer::{Buffer, DayInProgress, Source};
 use crate::ppo::update::{Ppo, Update};
 use crate::ppo::{PpoRow, PpoSettings};
-use crate::run::checkpoint::{self, tensor};
+use crate::run::begin::Begin;
+use crate::run::checkpoint::{self, BEST_PARAMS};
 use crate::run::{Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite};
 
 /// Number of days whose rewards the curve averages, as in stable-baselines3.
 const RECENT_DAYS: usize = 100;
 /// Number of validation days that share one inference.
 const VALIDATION_BLOCK: usize = 16;
-/// The tensor of a checkpoint that holds the weights that did best.
-const BEST_PARAMS: &str = "best_params";
 
 /// A run in progress.
 pub(crate) struct PpoRun {
@@ -68,13 +66,7 @@ impl PpoRun {
         settings: PpoSettings,
         from: Option<&Path>,
     ) -> Result<Self, Error> {
-        let vertiports = plan.world.vertiports().ok_or_else(|| Error::BadSetting {
-            name: "network".to_owned(),
-            rule: format!("{} learns on networks of one size", plan.policy.name()),
-        })?;
-        let shape = shape(vertiports);
-        let net = nn::NeuralNetwork::new(plan.policy.clone(), shape)
-            .map_err(|rule| Error::BadSetting { name: "policy".to_owned(), rule })?;
+        let Begin { net, vertiports, header } = Begin::of(plan, 0.0)?;
         let (params, adam, mut progress) = if let Some(path) = from {
             read_checkpoint(path, &identity, &settings, net.layout().len())?
         } else {
@@ -89,12 +81,11 @@ impl PpoRun {
                 Ok(Arc::new(network.draw(DaySeed::validation(day)?)))
             })
             .collect::<Result<_, Error>>()?;
-        let scales = plan.world.network(Purpose::Training, 0).feature_scales();
         Ok(Self {
             buffer: Buffer::new(&source, &net, &settings, days)?,
-            ppo: Ppo::new(&net, shape.vertiports, &settings),
+            ppo: Ppo::new(&net, vertiports, &settings),
             weights: net.weights(params),
-            header: Header::of_run(plan, Some(scales), shape.into()),
+            header,
             identity,
             settings,
             net,
@@ -231,8 +222,7 @@ fn read_checkpoint(
     parameters: usize,
 ) -> Result<(Vec<f32>, Adam, Progress), Error> {
     let mut checkpoint = checkpoint::read::<Progress>(path, identity, parameters)?;
-    let best = checkpoint.others(|file| tensor(file, BEST_PARAMS, parameters))?;
-    checkpoint.progress.best_params = best;
+    checkpoint.progress.best_params = checkpoint.best_params()?;
     if checkpoint.progress.updates > settings.updates() {
         let rule = format!("{} updates are more than the run has", checkpoint.progress.updates);
         return Err(Error::BadCheckpoint { rule });

@@ -1,7 +1,6 @@
-//! What runs by imitation and by evolution have in common: the sizes of what a policy sees, its first weights, and the
-//! days that it learns from.
+//! What runs have in common before they learn: the sizes of what a policy sees, and, for imitation and evolution, the days
+//! that a round learns from.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use vertifleet_core::{DaySeed, Purpose, Scenario, World};
@@ -50,17 +49,18 @@ impl Begin {
     }
 }
 
-/// Training days by their numbers, of which a share come from random networks, a different one each, and the others
-/// from a world.
+/// The training days of a round or a generation, given as its number, counted from 0, and its number of days. A share of
+/// them come from random networks, a different one each, and the others from a world.
 pub(crate) fn training_days(
     world: &World,
     run_seed: u32,
     random_share: f64,
-    numbers: Range<u64>,
+    (round, days): (u32, u32),
 ) -> Result<Vec<Arc<Scenario>>, Error> {
     let is_random =
         |day: u64| (day as f64 * random_share).floor() < ((day + 1) as f64 * random_share).floor();
-    numbers
+    let first = u64::from(round) * u64::from(days);
+    (first..first + u64::from(days))
         .map(|day| {
             let seed = DaySeed::training(run_seed, day)?;
             let world = if is_random(day) { &World::Random } else { world };

@@ -28,6 +28,9 @@ const LIMIT_BYTES: u64 = 16 << 30;
 /// The tensors of the parameters and of Adam's moments.
 const LEARNER: [&str; 3] = ["params", "adam_first", "adam_second"];
 
+/// The tensor of the weights that did best, of the ways to learn that keep them.
+pub(crate) const BEST_PARAMS: &str = "best_params";
+
 /// A checkpoint that was read and that belongs to the run that is asked for.
 pub(crate) struct Checkpoint<Progress> {
     pub(crate) params: Vec<f32>,
@@ -98,6 +101,11 @@ fn parse<Progress: DeserializeOwned>(
 }
 
 impl<Progress> Checkpoint<Progress> {
+    /// The tensor of the weights that did best so far.
+    pub(crate) fn best_params(&self) -> Result<Vec<f32>, Error> {
+        self.others(|file| tensor(file, BEST_PARAMS, self.params.len()))
+    }
+
     /// The additional tensors of the way to learn, which `read` takes from the file.
     pub(crate) fn others<T>(
         &self,
