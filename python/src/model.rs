@@ -190,8 +190,8 @@ fn pass(net: &nn::NeuralNetwork, weights: &nn::Weights, inputs: Inputs<'_>) -> n
     space
 }
 
-/// The settings of a training preset, `default` or `paper` (Table 2), as a dict, with the given changes:
-/// `settings("paper", n_envs=16)`. Changed settings are checked in the same way as by `vertifleet train --set`.
+/// The settings of a training preset of `gcaps` and `mlp` as a dict: `default`, `paper` (Table 2), `imitation` or
+/// `evolution`. Settings can be changed: `settings("paper", n_envs=16)`. Changed settings are checked in the same way as by `vertifleet train --set`.
 #[pyfunction]
 #[pyo3(signature = (preset = "default", **changes))]
 pub(crate) fn settings<'py>(

@@ -1,7 +1,7 @@
 //! The values in Python that the name of a policy may refer to: a weight file, a model, or a function of the caller.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use pyo3::prelude::*;
@@ -20,6 +20,24 @@ use crate::own_policy::{Caller, OwnBatchPolicy, OwnPolicy};
 pub(crate) enum Weights<'py> {
     Model(PyRef<'py, Model>),
     Path(PathBuf),
+}
+
+impl Weights<'_> {
+    /// The model, read from its file if only the path is known.
+    pub(crate) fn model(&self) -> Result<Arc<vertifleet_learn::Model>, Failure> {
+        match self {
+            Self::Model(model) => Ok(Arc::clone(&model.model)),
+            Self::Path(path) => Ok(Arc::new(vertifleet_learn::Model::read(path)?)),
+        }
+    }
+
+    /// The path of the file, if that is what was given.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Model(_) => None,
+            Self::Path(path) => Some(path),
+        }
+    }
 }
 
 impl From<Weights<'_>> for PolicySource {

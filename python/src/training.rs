@@ -1,6 +1,6 @@
 //! `train`: training with the trainer of the `vertifleet` program, at the same speed.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use pyo3::prelude::*;
@@ -17,7 +17,7 @@ use crate::frames::{Columns, frame, plain};
 use crate::interruptible::{self, interruptible};
 use crate::model::{Model, borrowed, changes};
 use crate::network::Network;
-use crate::policy_source::OwnCalls;
+use crate::policy_source::{OwnCalls, Weights};
 use crate::whole_number::WholeNumber;
 
 /// The result of a training run: the model, the learning curve, and whether the run is complete.
@@ -119,15 +119,15 @@ pub(crate) fn train(
     preset: &str,
     settings: Option<&Bound<'_, PyMapping>>,
     seed: Option<WholeNumber>,
-    begin_with: Option<PathBuf>,
+    begin_with: Option<Weights<'_>>,
     resume: bool,
     force: bool,
     threads: Option<WholeNumber>,
     watch: Option<Py<PyAny>>,
 ) -> PyResult<Training> {
-    let begun = begin_with.as_deref().map(vertifleet_learn::Model::read);
-    let begun = begun.transpose().map_err(Failure::from)?;
-    let mut policy = vertifleet_learn::sizes(policy, begun.as_ref()).ok_or_else(|| {
+    let begun = begin_with.as_ref().map(Weights::model).transpose()?;
+    let read = begin_with.as_ref().and_then(Weights::path).map(Path::to_owned);
+    let mut policy = vertifleet_learn::sizes(policy, begun.as_deref()).ok_or_else(|| {
         let rule =
             format!("policy must be gcaps, mlp, gcaps-x, gcaps-full or mlp-full, found {policy:?}");
         Failure::argument(rule)
@@ -142,7 +142,7 @@ pub(crate) fn train(
         policy,
         settings: of_run,
         seed: seed.map_or(Ok(1), |seed| seed.of("seed"))?,
-        begin_with: begun,
+        begin_with: begun.as_deref().cloned(),
         commit: format!("python {}", env!("CARGO_PKG_VERSION")),
     };
     let threads = interruptible::threads(threads)?;
@@ -150,7 +150,7 @@ pub(crate) fn train(
     let of_watch = calls.clone();
     let outcome = interruptible(py, threads, move |stop| {
         let mut outputs = Outputs::new(force);
-        if let Some(path) = &begin_with {
+        if let Some(path) = &read {
             outputs.reads(path);
         }
         let folder = RunFolder::of(&plan.policy, &out);

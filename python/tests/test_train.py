@@ -55,7 +55,9 @@ def test_evolution_begins_with_given_weights(tmp_path):
     )
     weights = [model.tensors for model in (unmoved.model, first.model)]
     assert all(np.array_equal(weights[0][name], weights[1][name]) for name in weights[1])
-    training = evolved("evolved", begin_with=begin_with)
+    training = evolved("evolved", begin_with=first.model)
+    assert training.model.header["begun_with"] == first.model.sha256
+    assert "begun_with" not in first.model.header
     assert training.columns["generation"].tolist() == [1, 2]
     assert training.columns["difference"].min() > 0
     with pytest.raises(vertifleet.Error, match="same policy") as refused:

@@ -883,9 +883,9 @@ def sweep_report(
     """
 
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]:
-    """The settings of a training preset, `default` or `paper` (Table 2), as a dict, with the given
-    changes: `settings("paper", n_envs=16)`. Changed settings are checked in the same way as by
-    `vertifleet train --set`.
+    """The settings of a training preset of `gcaps` and `mlp` as a dict: `default`, `paper` (Table 2),
+    `imitation` or `evolution`. Settings can be changed: `settings("paper", n_envs=16)`. Changed
+    settings are checked in the same way as by `vertifleet train --set`.
     """
 
 def train(
@@ -896,7 +896,7 @@ def train(
     preset: str = "default",
     settings: Mapping[str, Any] | None = None,
     seed: SupportsIndex | None = None,
-    begin_with: _Path | None = None,
+    begin_with: Model | _Path | None = None,
     resume: bool = False,
     force: bool = False,
     threads: SupportsIndex | None = None,

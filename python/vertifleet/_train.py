@@ -11,7 +11,7 @@ from vertifleet._native import Network
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from vertifleet._native import Training
+    from vertifleet._native import Model, Training
 
 
 def train(
@@ -22,7 +22,7 @@ def train(
     preset: str = "default",
     settings: Mapping[str, Any] | None = None,
     seed: int = 1,
-    begin_with: str | os.PathLike[str] | None = None,
+    begin_with: Model | str | os.PathLike[str] | None = None,
     resume: bool = False,
     force: bool = False,
     threads: int | None = None,
@@ -43,7 +43,8 @@ def train(
             "imitation".
         settings: settings and sizes of the policy to change, by name, as ``--set`` does.
         seed: seed of the run; first weights, training days and choices follow from it.
-        begin_with: file with weights of the same kind of policy to begin with, in place of fresh ones.
+        begin_with: weights of the same kind of policy to begin with in place of fresh ones, a ``Model`` or
+            the path of a weight file.
         resume: whether to resume the run in the folder, which must have the same network, policy, settings,
             seed and weights to begin with.
         force: whether to replace files that the program did not write or that are read-only.

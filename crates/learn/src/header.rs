@@ -40,6 +40,10 @@ pub struct Header {
     pub commit: String,
     /// The number of decisions that had been learned from when these weights were kept.
     pub steps: u64,
+    /// The [hash](crate::Model::sha256) of the weights that the run began with; `None` if they were fresh, or if nothing
+    /// is known of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub begun_with: Option<String>,
 }
 
 /// Sizes of the observations of a policy.
@@ -73,6 +77,7 @@ struct RawHeader {
     seed: Option<u32>,
     commit: String,
     steps: u64,
+    begun_with: Option<String>,
 }
 
 impl Header {
@@ -92,6 +97,7 @@ impl Header {
             seed: Some(plan.seed),
             commit: plan.commit.clone(),
             steps: 0,
+            begun_with: plan.begun_with(),
         }
     }
 
@@ -126,6 +132,7 @@ impl Header {
             seed: raw.seed,
             commit: raw.commit,
             steps: raw.steps,
+            begun_with: raw.begun_with,
         };
         header.check()?;
         Ok(header)

@@ -124,7 +124,7 @@ impl TrainingRequest {
             policy: self.policy.clone(),
             settings: self.settings.clone(),
             seed: self.seed,
-            begun_with: self.begin_with.as_ref().map(Model::sha256),
+            begun_with: self.begun_with(),
         };
         self.check_begin()?;
         Ok(match &self.settings {
@@ -165,6 +165,11 @@ impl TrainingRequest {
             return bad("the weights must be of a network with the same feature_scales");
         }
         Ok(())
+    }
+
+    /// The hash of the weights to begin with.
+    pub(crate) fn begun_with(&self) -> Option<String> {
+        self.begin_with.as_ref().map(Model::sha256)
     }
 
     /// The weights before the first step.

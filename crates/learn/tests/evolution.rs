@@ -124,7 +124,11 @@ fn every_way_to_learn_begins_with_given_weights() {
         let settings = TrainingSettings::preset(&small_mlp(), preset).expect("a preset");
         let run =
             TrainingRequest { settings, begin_with: Some(given.clone()), ..plan(small_mlp(), &[]) };
-        assert_eq!(run.start().expect("a plan").model().params(), given.params(), "{preset}");
+        let model = run.start().expect("a plan").model();
+        assert_eq!(model.params(), given.params(), "{preset}");
+        assert_eq!(model.header().begun_with, Some(given.sha256()), "{preset}");
+        let read = Model::from_bytes(&model.to_bytes(), "again").expect("its own bytes");
+        assert_eq!(read.header(), model.header(), "{preset}");
     }
 }
 

@@ -64,8 +64,6 @@ impl EvolutionRun {
         from: Option<&Path>,
     ) -> Result<Self, Error> {
         let Begin { net, header, .. } = Begin::of(plan, settings.random_share)?;
-        let validation =
-            ValidationDays::of(&plan.world, settings.validation_days, plan.policy.fits_any_size())?;
         let (params, adam, progress) = if let Some(path) = from {
             read_checkpoint(path, &identity, &settings, net.layout().len())?
         } else {
@@ -79,6 +77,10 @@ impl EvolutionRun {
             let adam = Adam::new(params.len());
             (params, adam, progress)
         };
+        let is_done = progress.curve.len() >= settings.generations as usize;
+        // A run that is done measures nothing more, and what `prices` earns there takes its time.
+        let days = if is_done { 0 } else { settings.validation_days };
+        let validation = ValidationDays::of(&plan.world, days, plan.policy.fits_any_size())?;
         let world = plan.world.clone();
         let mut run =
             Self { identity, settings, header, world, validation, params, adam, progress };
@@ -119,8 +121,7 @@ impl EvolutionRun {
         let mut row = EvolutionRow {
             generation: done + 1,
             decisions,
-            // A number that is not finite could not be read from a checkpoint again.
-            difference: if mean == 0.0 { 0.0 } else { root / mean.abs() },
+            difference: share_of(root, mean),
             ..EvolutionRow::default()
         };
         let is_last = row.generation == self.settings.generations;
@@ -259,6 +260,12 @@ fn mean_gain(found: Validated) -> f64 {
     found.random_gain.map_or(found.gain, |random| f64::midpoint(found.gain, random))
 }
 
+/// The difference that moved weights make, as a share of the mean score; 0 where nothing is earned, because a checkpoint
+/// cannot hold a number that is not finite.
+fn share_of(difference: f64, mean: f64) -> f64 {
+    if mean == 0.0 { 0.0 } else { difference / mean.abs() }
+}
+
 /// The profit of a typical full flight of every aircraft of a day, dollars. Divided by it, days of large and of small
 /// fleets count alike.
 fn day_unit_usd(day: &Arc<Scenario>) -> f64 {
@@ -277,4 +284,15 @@ fn play_days(model: &Model, days: &[Arc<Scenario>]) -> Vec<DayTotals> {
     days.chunk_by(|one, other| one.vertiports.len() == other.vertiports.len())
         .flat_map(|days| play_together(policy.as_mut(), days))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::share_of;
+
+    #[test]
+    fn a_generation_that_earns_nothing_has_a_finite_row() {
+        assert_eq!(share_of(0.5, -2.0), 0.25);
+        assert_eq!(share_of(0.5, 0.0), 0.0);
+    }
 }
