@@ -30,7 +30,7 @@ lint: prepare python tools console-ready
 	cd docs && ../python/.venv/bin/stubtest vertifleet._native
 	python/.venv/bin/typos
 	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
-	shellcheck .ci/run scripts/*
+	shellcheck .ci/run scripts/* benches/table2/figure
 	cd web && npm run check
 
 # The Python package with all its extras, in python/.venv; and with those alone that install in seconds.
