@@ -8,7 +8,7 @@ use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyMapping};
 use vertifleet_core::check_output;
-use vertifleet_learn::nn::{self, Architecture, Inputs};
+use vertifleet_learn::nn::{self, AIRCRAFT_SHOWN, Architecture, FLEET_FEATURES, Inputs};
 use vertifleet_learn::{TrainingSettings, kinds, shipped};
 
 use crate::failure::Failure;
@@ -90,9 +90,10 @@ impl Model {
     /// The logits [B, N], minus infinity where the mask is 0, and the values [B] of a batch of decisions, as the policy
     /// in Rust computes them. The inputs `nodes` [B, N * F] or [B, N, F], `aircraft` [B, G], `mask` [B, N] and `clock`
     /// [B] or [B, 1], which is the share of the day that is left, are the same as in the observations of the vector
-    /// environment. `edges` [B, N, N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones.
-    /// For gcaps-x this is the output of the layers alone, without the day's prices.
-    #[pyo3(signature = (nodes, aircraft, mask, clock, edges = None))]
+    /// environment. `edges` [B, N, N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones, and
+    /// `fleet` [B, M, H] or [B, M * H] are the other aircraft, if the weights have a graph of them. For gcaps-x this is the output of the layers alone, without the day's prices.
+    #[pyo3(signature = (nodes, aircraft, mask, clock, edges = None, fleet = None))]
+    #[expect(clippy::too_many_arguments, reason = "each is a keyword that callers name")]
     fn forward<'py>(
         &self,
         nodes: &Bound<'py, PyAny>,
@@ -100,6 +101,7 @@ impl Model {
         mask: &Bound<'py, PyAny>,
         clock: &Bound<'py, PyAny>,
         edges: Option<&Bound<'py, PyAny>>,
+        fleet: Option<&Bound<'py, PyAny>>,
     ) -> Reduced<'py, Bound<'py, PyAny>> {
         let py = nodes.py();
         let [batch, vertiports] = sizes(mask)?;
@@ -107,19 +109,11 @@ impl Model {
         let net = self.model.net(vertiports.clamp(1, 256));
         let shape = net.shape();
         let (size, features) = (shape.vertiports, shape.node_features);
-        let edges = match (edges, self.model.header().policy.adjacency().is_observed()) {
-            (Some(edges), true) => entries("edges", edges, [batch, size * size])?,
-            (None, false) => Vec::new(),
-            (None, true) => {
-                let rule = "these weights need edges".to_owned();
-                let hint = "they come with the observation of an environment";
-                return Err(Failure::hinted(rule, hint.to_owned()).into());
-            }
-            (Some(_), false) => {
-                let rule = "these weights read no edges: leave them out";
-                return Err(Failure::argument(rule.to_owned()).into());
-            }
-        };
+        let policy = &self.model.header().policy;
+        let (edges, fleet) = (Beside("edges", edges), Beside("fleet", fleet));
+        let edges = edges.read(policy.adjacency().is_observed(), [batch, size * size])?;
+        let of_fleet = [batch, AIRCRAFT_SHOWN * FLEET_FEATURES];
+        let fleet = fleet.read(policy.has_aircraft_graph(), of_fleet)?;
         let nodes = entries("nodes", nodes, [batch, size * features])?;
         let aircraft = entries("aircraft", aircraft, [batch, shape.aircraft_features])?;
         let clock = entries("clock", clock, [batch, 1])?;
@@ -131,6 +125,7 @@ impl Model {
             aircraft: &aircraft,
             mask: &mask,
             edges: &edges,
+            fleet: &fleet,
             clock: &clock,
         };
         let space = py.detach(|| pass(&net, &self.model.weights(), inputs));
@@ -164,6 +159,29 @@ fn sizes(table: &Bound<'_, PyAny>) -> PyResult<[usize; 2]> {
     shape.try_into().map_err(|shape| {
         Failure::argument(format!("mask must have two dimensions, [B, N], found {shape:?}")).into()
     })
+}
+
+/// What a network may read beside the features, by the name of the argument.
+struct Beside<'a, 'py>(&'static str, Option<&'a Bound<'py, PyAny>>);
+
+impl Beside<'_, '_> {
+    /// Its entries, which must be given if and only if the weights read them.
+    fn read(self, is_read: bool, sizes: [usize; 2]) -> PyResult<Vec<f32>> {
+        let Self(name, given) = self;
+        match (given, is_read) {
+            (Some(array), true) => entries(name, array, sizes),
+            (None, false) => Ok(Vec::new()),
+            (None, true) => {
+                let hint = "an environment with observation=twin.reads shows what a network reads";
+                let rule = format!("these weights need {name}");
+                Err(Failure::hinted(rule, hint.to_owned()).into())
+            }
+            (Some(_), false) => {
+                let rule = format!("these weights read no {name}: leave it out");
+                Err(Failure::argument(rule).into())
+            }
+        }
+    }
 }
 
 /// The entries of an array of any number type, row by row. The array may have more or fewer than two dimensions if it

@@ -56,6 +56,7 @@ impl Observations {
             aircraft: &self.aircraft[..batch * aircraft_features],
             mask: &self.mask[..batch * vertiports],
             edges: &[],
+            fleet: &[],
             clock: &self.clock[..batch],
         }
     }

@@ -26,5 +26,6 @@ pub use architecture::{
     Shape,
 };
 pub use batch::{Inputs, Slopes};
+pub use gcaps::{AIRCRAFT_SHOWN, FLEET_FEATURES};
 pub use layout::{Layout, Tensor};
 pub use network::{Gradient, NeuralNetwork, Weights, Workspace};

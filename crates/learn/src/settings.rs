@@ -130,8 +130,11 @@ fn set_size(policy: &mut Architecture, name: &str, value: &str) -> Result<bool, 
         Architecture::Gcaps(sizes)
         | Architecture::GcapsX(sizes)
         | Architecture::GcapsFull(sizes) => {
-            if has(&members(&sizes.graph)) {
-                sizes.graph = with_member(&sizes.graph, name, value)?;
+            let mut of_graph = members(&sizes.graph);
+            // Files leave it out where it is false.
+            of_graph.entry("aircraft_graph").or_insert(false.into());
+            if has(&of_graph) {
+                sizes.graph = changed(of_graph, name, value)?;
             } else if name != "graph" && has(&members(sizes)) {
                 *sizes = with_member(sizes, name, value)?;
             } else {
@@ -152,7 +155,15 @@ fn with_member<S: Serialize + DeserializeOwned>(
     name: &str,
     value: &str,
 ) -> Result<S, Error> {
-    let mut members = members(settings);
+    changed(members(settings), name, value)
+}
+
+/// Settings with these members, of which one is changed by name.
+fn changed<S: DeserializeOwned>(
+    mut members: Map<String, Value>,
+    name: &str,
+    value: &str,
+) -> Result<S, Error> {
     if !members.contains_key(name) {
         let known = members.keys().cloned().collect::<Vec<_>>().join(", ");
         return Err(Error::UnknownSetting { name: name.to_owned(), known });

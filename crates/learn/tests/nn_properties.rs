@@ -47,6 +47,7 @@ impl Decisions {
             aircraft: &self.aircraft[first * aircraft_features..][..batch * aircraft_features],
             mask: &self.mask[first * vertiports..][..batch * vertiports],
             edges: &[],
+            fleet: &[],
             clock: &self.clock[first..][..batch],
         }
     }

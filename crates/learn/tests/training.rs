@@ -28,9 +28,10 @@ fn small_gcaps_x() -> Architecture {
     Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
 }
 
-/// A policy of the full observation, which shows edges too.
+/// A policy of the full observation, which shows edges and the other aircraft too.
 fn small_gcaps_full() -> Architecture {
-    let graph = GraphSettings { adjacency: Adjacency::Profit, ..GraphSettings::default() };
+    let adjacency = Adjacency::Profit;
+    let graph = GraphSettings { adjacency, aircraft_graph: true, ..GraphSettings::default() };
     Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
 }
 
@@ -379,5 +380,10 @@ fn what_a_policy_cannot_see_or_fit_is_refused_before_it_learns() {
     let sizes = GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) };
     for policy in [Architecture::Gcaps(sizes.clone()), Architecture::GcapsX(sizes)] {
         assert!(refused(plan(policy)).contains("shows no flights between two other vertiports"));
+    }
+    let graph = GraphSettings { aircraft_graph: true, ..GraphSettings::default() };
+    let sizes = GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) };
+    for policy in [Architecture::Gcaps(sizes.clone()), Architecture::GcapsX(sizes)] {
+        assert!(refused(plan(policy)).contains("shows no other aircraft one by one"));
     }
 }

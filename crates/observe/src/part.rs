@@ -72,6 +72,7 @@ pub enum Part {
     FullAircraft,
     DistanceEdges,
     ProfitEdges,
+    FullFleet,
 }
 
 /// What a part is.
@@ -128,7 +129,7 @@ const FLEET: &[Axis] = &[Axis::Aircraft];
 
 /// All parts, in the order of [`Part`].
 #[rustfmt::skip]
-const INFOS: [Info; 46] = [
+const INFOS: [Info; 47] = [
     info(Part::ActionMask, ("action_mask", Some("action_mask")), V, NONE, SHARE,
         "1 for each feasible choice; the deciding aircraft's own vertiport is hold"),
     info(Part::VertiportMask, ("vertiport_mask", None), V, NONE, SHARE,
@@ -221,6 +222,8 @@ const INFOS: [Info; 46] = [
         "1 / (1 + hours of flight), for the deciding aircraft's type; 0 out of range"),
     info(Part::ProfitEdges, ("profit_edges", None), PAIR, NONE, (0.0, 3.0),
         "profit per hour of a flight that begins now, in typical full flights, at most 3; 0 where it costs, or cannot be flown now"),
+    info(Part::FullFleet, ("full_fleet", None), &[Axis::Of(40), Axis::Of(16)], NONE, ANY,
+        "the other aircraft that are ready first, as a graph of aircraft of gcaps-full sees them; zeros where there are no more"),
 ];
 
 impl Part {
@@ -263,7 +266,11 @@ impl Part {
     pub fn is_of_the_full(self) -> bool {
         matches!(
             self,
-            Self::FullNodes | Self::FullAircraft | Self::DistanceEdges | Self::ProfitEdges
+            Self::FullNodes
+                | Self::FullAircraft
+                | Self::DistanceEdges
+                | Self::ProfitEdges
+                | Self::FullFleet
         )
     }
 
@@ -289,6 +296,7 @@ impl Part {
                     | Self::ClosedAhead
                     | Self::EnergyPrice
                     | Self::FullNodes
+                    | Self::FullFleet
             )
     }
 }

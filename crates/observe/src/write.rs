@@ -1,7 +1,7 @@
 //! Writes each part from what is seen of the day.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
-use vertifleet_learn::nn::Adjacency;
+use vertifleet_learn::nn::{AIRCRAFT_SHOWN, Adjacency, FLEET_FEATURES};
 use vertifleet_learn::{FullObservation, FullObserver, PricedObservation, PricedObserver, Scales};
 use vertifleet_sim::Leg;
 
@@ -86,6 +86,11 @@ impl Writer<'_> {
             Part::FullAircraft => copied(to, self.full.map(|full| full.aircraft)),
             Part::DistanceEdges => self.edges(to, Adjacency::Distance),
             Part::ProfitEdges => self.edges(to, Adjacency::Profit),
+            Part::FullFleet => {
+                if let Some(full) = self.full {
+                    full.write_fleet(to);
+                }
+            }
         }
     }
 
@@ -240,3 +245,4 @@ fn scaled(to: &mut [f32], from: &[f64], factor: f64) {
 const _: () =
     assert!(PricedObserver::NODE_FEATURES == 24 && PricedObserver::AIRCRAFT_FEATURES == 10);
 const _: () = assert!(FullObserver::NODE_FEATURES == 37 && FullObserver::AIRCRAFT_FEATURES == 11);
+const _: () = assert!(AIRCRAFT_SHOWN == 40 && FLEET_FEATURES == 16);

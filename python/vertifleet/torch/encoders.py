@@ -92,6 +92,30 @@ class CapsuleEncoder(CapsuleLayer):
         return nodes.new_ones(batch, count, count)
 
 
+class FleetEncoder(nn.Module):
+    """The graph of the other aircraft: one layer of capsules on the complete graph.
+
+    The mean of the capsules is read. What it returns is added to the decoder's query.
+    """
+
+    def __init__(self, features: int, width: int, moments: int) -> None:
+        super().__init__()
+        self.node = Linear(features, width)
+        self._moments = range(1, moments + 1)
+        for p in self._moments:
+            self.add_module(f"moment_{p}", Hops(width, hops=1))
+        self.join = Matrix(moments * width, width)
+
+    def forward(self, fleet: Tensor) -> Tensor:
+        """[B, M, H] -> [B, h]."""
+        batch, count, _ = fleet.shape
+        laplacians = laplacian(fleet.new_ones(batch, count, count), "plain")
+        features = self.node(fleet)
+        moments = [self.get_submodule(f"moment_{p}")(features**p, laplacians) for p in self._moments]
+        added: Tensor = self.join(torch.cat(moments, dim=-1).mean(dim=1))
+        return added
+
+
 class AttentionEncoder(nn.Module):
     """Layers of self-attention (Vaswani et al., 2017), in which every vertiport attends to all others."""
 

@@ -14,10 +14,10 @@ from torch import Tensor, nn
 from torch.nn.functional import relu
 
 from vertifleet import Error
-from vertifleet.torch.encoders import AttentionEncoder, CapsuleEncoder
+from vertifleet.torch.encoders import AttentionEncoder, CapsuleEncoder, FleetEncoder
 from vertifleet.torch.graph import graph_of
 from vertifleet.torch.layers import BEFORE_RELU, LOGITS, LayerNorm, Linear, Matrix, ValueHead
-from vertifleet.torch.twin import FULL_FEATURES, Twin, check_size, paper_features
+from vertifleet.torch.twin import FLEET_FEATURES, FULL_FEATURES, Twin, check_size, paper_features
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -37,8 +37,8 @@ class Gcaps(Twin):
     """
 
     kind = "gcaps"
-    sees_edges: ClassVar[bool] = False
-    """Whether the policy's observation shows the weights of edges."""
+    sees_all: ClassVar[bool] = False
+    """Whether the policy's observation shows the weights of edges and the other aircraft."""
 
     def __init__(
         self,
@@ -58,11 +58,16 @@ class Gcaps(Twin):
             raise Error("V451", f"width must be a multiple of heads ({heads}), found {width}")
         self.width, self.heads, self.graph = width, heads, graph_of(graph)
         self.edges = self.graph.edges
-        if self.edges and not self.sees_edges:
+        if self.edges and not self.sees_all:
             raise Error(
                 "V451", f"the observation of {self.kind} shows no flights between two other vertiports"
             )
+        if self.graph.aircraft_graph and not self.sees_all:
+            raise Error("V451", f"the observation of {self.kind} shows no other aircraft one by one")
         self.encoder = encoder_of(self.node_features, width, heads, self.graph)
+        if self.graph.aircraft_graph:
+            self.fleet_encoder = FleetEncoder(FLEET_FEATURES[1], width, self.graph.moments)
+            self.fleet = f"{self.features}fleet"
         self.decoder = Decoder(self.aircraft_features, width, heads, attention=self.graph.attention)
         self.value = ValueHead(width, width, means_width=width)
 
@@ -73,12 +78,19 @@ class Gcaps(Twin):
         return sizes if self.graph.is_of_the_paper else sizes | {"graph": self.graph.members}
 
     def forward(
-        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None = None
+        self,
+        nodes: Tensor,
+        aircraft: Tensor,
+        clock: Tensor,
+        edges: Tensor | None = None,
+        fleet: Tensor | None = None,
     ) -> tuple[Tensor, Tensor]:
         """Logits [B, N], not masked, and values [B]."""
         nodes = self.by_node(nodes)
         embeddings = self.encoder(nodes, self.by_edge(edges, nodes))
-        logits, y = self.decoder(embeddings, aircraft)
+        others = self.by_aircraft(fleet, len(nodes))
+        added = None if others is None else self.fleet_encoder(others)
+        logits, y = self.decoder(embeddings, aircraft, added)
         return logits, self.value(y, clock, embeddings.mean(dim=1))
 
 
@@ -107,12 +119,13 @@ class GcapsX(Gcaps):
 class GcapsFull(Gcaps):
     """The layers of :class:`Gcaps` on the observation "gcaps-full", which needs no bid prices.
 
-    Its weights fit any number of vertiports, and it is the only network that sees the weights of edges.
+    Its weights fit any number of vertiports, and it is the only network that sees the weights of edges and
+    the other aircraft.
     """
 
     kind = "gcaps-full"
     features = "full_"
-    sees_edges = True
+    sees_all = True
 
     def __init__(
         self, width: int = 64, heads: int = 4, graph: Graph | Mapping[str, Any] | None = None
@@ -178,7 +191,7 @@ class Decoder(nn.Module):
 
     ::
 
-        q = ψ W_Q + b_Q
+        q = ψ W_Q + b_Q   (+ what the graph of the other aircraft adds, if there is one)
         z = LayerNorm(q + MHA(q, E))
         y = LayerNorm(z + ReLU(z W_1 + b_1))
         logit_i = (y W_L) · E_i / sqrt(h)
@@ -198,9 +211,14 @@ class Decoder(nn.Module):
         self.norm_2 = LayerNorm(width)
         self.pointer = Matrix(width, width, LOGITS)
 
-    def forward(self, embeddings: Tensor, aircraft: Tensor) -> tuple[Tensor, Tensor]:
-        """Logits [B, N] and y [B, h] from embeddings [B, N, h] and the aircraft's features [B, G]."""
+    def forward(self, embeddings: Tensor, aircraft: Tensor, added: Tensor | None) -> tuple[Tensor, Tensor]:
+        """Logits [B, N] and y [B, h] from embeddings [B, N, h] and the aircraft's features [B, G].
+
+        What the other aircraft add to the query is [B, h].
+        """
         q = self.query(aircraft)
+        if added is not None:
+            q = q + added
         z = self.norm_1(q + self.attend(q, embeddings))
         y = self.norm_2(z + relu(self.feed_forward(z)))
         pointer = self.pointer(y) / math.sqrt(y.shape[-1])

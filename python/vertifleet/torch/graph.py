@@ -37,6 +37,8 @@ class Graph:
             now; "profit", the profit per hour of a flight now. The last three are seen by `GcapsFull` alone.
         laplacian: "plain", (D - A) / N, or "normalised", I - D^-1 A.
         attention: whether the decoder attends to the vertiports (Eq. 20), or reads their mean.
+        aircraft_graph: whether the decoder's query also reads a graph of the other aircraft; seen by
+            `GcapsFull` alone.
     """
 
     encoder: EncoderKind = "capsules"
@@ -46,6 +48,7 @@ class Graph:
     adjacency: Adjacency = "complete"
     laplacian: LaplacianKind = "plain"
     attention: bool = True
+    aircraft_graph: bool = False
 
     def __post_init__(self) -> None:
         sizes = {
@@ -61,9 +64,11 @@ class Graph:
             if found not in get_args(known):
                 listed = ", ".join(f'"{one}"' for one in get_args(known))
                 raise Error("V451", f"{name} must be one of {listed}, found {found!r}")
-        if not isinstance(self.attention, (bool, np.bool_)):
-            raise Error("V451", f"attention must be True or False, found {self.attention!r}")
-        object.__setattr__(self, "attention", bool(self.attention))
+        for name in ("attention", "aircraft_graph"):
+            found = getattr(self, name)
+            if not isinstance(found, (bool, np.bool_)):
+                raise Error("V451", f"{name} must be True or False, found {found!r}")
+            object.__setattr__(self, name, bool(found))
 
     @property
     def is_of_the_paper(self) -> bool:
@@ -73,7 +78,7 @@ class Graph:
     @property
     def encoder_is_of_the_paper(self) -> bool:
         """Whether the encoder is the paper's, whatever the decoder is."""
-        return replace(self, attention=True).is_of_the_paper
+        return replace(self, attention=True, aircraft_graph=False).is_of_the_paper
 
     @property
     def edges(self) -> str | None:
@@ -82,8 +87,14 @@ class Graph:
 
     @property
     def members(self) -> dict[str, Any]:
-        """The settings by their names, as they stand in the header of a weight file."""
-        return asdict(self)
+        """The settings by their names, as they stand in the header of a weight file.
+
+        It leaves `aircraft_graph` out where that is false, as files from before it do.
+        """
+        members = asdict(self)
+        if not self.aircraft_graph:
+            del members["aircraft_graph"]
+        return members
 
 
 def graph_of(given: Graph | Mapping[str, Any] | None) -> Graph:

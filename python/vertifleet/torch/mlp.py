@@ -51,11 +51,17 @@ class Mlp(Twin):
         return {"width": self.width, "layers": self.layers, "value_width": self.value_width}
 
     def forward(
-        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None = None
+        self,
+        nodes: Tensor,
+        aircraft: Tensor,
+        clock: Tensor,
+        edges: Tensor | None = None,
+        fleet: Tensor | None = None,
     ) -> tuple[Tensor, Tensor]:
-        """Logits [B, N], not masked, and values [B]; there are no edges."""
+        """Logits [B, N], not masked, and values [B]; there are no edges and no graph of aircraft."""
         nodes = self.by_node(nodes)
         self.by_edge(edges, nodes)
+        self.by_aircraft(fleet, len(nodes))
         x = torch.cat([nodes.flatten(start_dim=1), aircraft], dim=-1)
         for layer in self.trunk.values():
             x = relu(layer(x))

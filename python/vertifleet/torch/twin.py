@@ -37,6 +37,8 @@ class Twin(nn.Module, ABC):
     """What the names of the features that it reads begin with, in observations."""
     edges: str | None = None
     """The part of an observation that shows the weights of the edges; None if the network reads none."""
+    fleet: str | None = None
+    """The part of an observation that shows the other aircraft; None if the network has no graph of them."""
 
     def __init__(self, vertiports: int | None, node_features: int, aircraft_features: int) -> None:
         super().__init__()
@@ -47,7 +49,12 @@ class Twin(nn.Module, ABC):
 
     @abstractmethod
     def forward(
-        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None = None
+        self,
+        nodes: Tensor,
+        aircraft: Tensor,
+        clock: Tensor,
+        edges: Tensor | None = None,
+        fleet: Tensor | None = None,
     ) -> tuple[Tensor, Tensor]:
         """Logits [B, N], not masked, and values [B].
 
@@ -57,6 +64,8 @@ class Twin(nn.Module, ABC):
             clock: share of the day that is left, [B] or [B, 1]; only the value depends on it.
             edges: weights of the edges between vertiports, [B, N, N] or flat [B, N * N], in the direction of
                 flights, if the network reads any.
+            fleet: features of the other aircraft, [B, M, H] or flat [B, M * H], if the network has a graph of
+                them.
         """
 
     @property
@@ -70,7 +79,7 @@ class Twin(nn.Module, ABC):
         ``observation=twin.reads``.
         """
         parts = (f"{self.features}nodes", f"{self.features}aircraft", "clock", "action_mask")
-        return parts if self.edges is None else (*parts, self.edges)
+        return (*parts, *(part for part in (self.edges, self.fleet) if part is not None))
 
     @property
     def policy(self) -> dict[str, Any]:
@@ -122,6 +131,29 @@ class Twin(nn.Module, ABC):
             raise Error("V451", f"{rule}, found {list(edges.shape)}")
         return edges.reshape(batch, count, count)
 
+    def by_aircraft(self, fleet: Tensor | None, batch: int) -> Tensor | None:
+        """The features of the other aircraft as [B, M, H], from that shape or from a flat one.
+
+        Raises:
+            Error: V451 if the network has a graph of aircraft and there are none, or if it has none and there
+                are some, or if they have another shape.
+        """
+        if fleet is None and self.fleet is None:
+            return None
+        if fleet is None:
+            raise Error(
+                "V451",
+                f"these weights of {self.kind} need the other aircraft",
+                f"observations show {self.fleet!r}",
+            )
+        if self.fleet is None:
+            raise Error("V451", f"these weights of {self.kind} read no other aircraft: leave them out")
+        shown, features = FLEET_FEATURES
+        if list(fleet.shape) not in ([batch, shown, features], [batch, shown * features]):
+            rule = f"fleet must be [{batch}, {shown}, {features}] or flat [{batch}, {shown} * {features}]"
+            raise Error("V451", f"{rule}, found {list(fleet.shape)}")
+        return fleet.reshape(batch, shown, features)
+
 
 def paper_features(vertiports: int) -> tuple[int, int]:
     """F and G of §IV.A on a network with this many vertiports."""
@@ -130,6 +162,8 @@ def paper_features(vertiports: int) -> tuple[int, int]:
 
 FULL_FEATURES = 37, 11
 """F and G of the full observation, on a network of any size."""
+FLEET_FEATURES = 40, 16
+"""M and H: how many of the other aircraft it shows, and how many numbers of each."""
 
 
 def check_size(name: str, size: int, most: int = MOST, least: int = 1) -> int:

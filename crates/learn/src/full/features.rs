@@ -9,8 +9,8 @@ use vertifleet_policy::units_usd;
 use vertifleet_sim::{DayKey, Decision, View};
 
 use crate::gcaps_x::features::few;
-use crate::nn::{Adjacency, Shape};
-use crate::rows::{Row, Rows};
+use crate::nn::{AIRCRAFT_SHOWN, Adjacency, Architecture, FLEET_FEATURES, Shape};
+use crate::rows::{Beside, Row, Rows};
 
 /// F, the number of node features.
 pub(crate) const NODE_FEATURES: usize = 37;
@@ -72,6 +72,28 @@ pub(crate) const AIRCRAFT_FEATURE_NAMES: [&str; AIRCRAFT_FEATURES] = [
     "aircraft_a_vertiport",
     "aircraft_a_stand",
 ];
+/// The features of another aircraft in their order. The last ten are those of its vertiport, which [`OF_PLACE`] names.
+#[cfg(test)]
+pub(crate) const FLEET_FEATURE_NAMES: [&str; FLEET_FEATURES] = [
+    "is_there",
+    "ready_h",
+    "is_ready",
+    "is_here",
+    "is_of_own_type",
+    "day_left",
+    "block_h",
+    "profit",
+    "profit_per_h",
+    "demand_next",
+    "stands_free",
+    "ready_before",
+    "onward_best",
+    "onward_second",
+    "onward_flights",
+    "crowding",
+];
+/// What another aircraft shows of the vertiport at which it stands or will land, by the places of these node features.
+const OF_PLACE: [usize; 10] = [3, 4, 5, 9, 10, 12, 22, 23, 28, 35];
 /// Other aircraft that are ready this long before or after the deciding one want the same flights, seconds.
 const NEAR_S: u32 = 900;
 /// How soon other aircraft at a vertiport are ready, seconds; they are counted for each of these times.
@@ -88,6 +110,7 @@ pub(crate) fn shape(vertiports: usize) -> Shape {
 #[derive(Debug, Clone)]
 pub(crate) struct Writer {
     adjacency: Adjacency,
+    beside: Beside,
     units: Option<(DayKey, Vec<f64>)>,
     /// The other aircraft as the row being written counts them, by vertiport.
     seen: Vec<Seen>,
@@ -116,14 +139,21 @@ pub(crate) struct Scene<'a> {
 }
 
 impl Writer {
-    /// A writer of rows whose edges are those of an adjacency that is observed; others need none.
-    pub(crate) fn new(adjacency: Adjacency) -> Self {
-        Self { adjacency, units: None, seen: Vec::new() }
+    /// A writer of what a policy's network reads.
+    pub(crate) fn of(policy: &Architecture) -> Self {
+        let (adjacency, beside) = (policy.adjacency(), Beside::of(policy));
+        Self { adjacency, beside, units: None, seen: Vec::new() }
+    }
+
+    /// A writer of features alone.
+    pub(crate) fn of_features() -> Self {
+        let adjacency = Adjacency::Complete;
+        Self { adjacency, beside: Beside::default(), units: None, seen: Vec::new() }
     }
 
     /// No rows yet, for days with so many vertiports.
     pub(crate) fn rows(&self, vertiports: usize) -> Rows {
-        Rows::new(shape(vertiports), self.adjacency.is_observed())
+        Rows::new(shape(vertiports), self.beside)
     }
 
     /// Adds the row of a decision between all of its feasible choices. Returns the decision with the unit of money.
@@ -141,6 +171,9 @@ impl Writer {
             scene.write(seen, row);
             if !row.edges.is_empty() {
                 scene.write_edges(adjacency, view.vertiports(), row.edges);
+            }
+            if !row.fleet.is_empty() {
+                scene.write_fleet(row.nodes, row.fleet);
             }
         });
         scene
@@ -231,6 +264,42 @@ impl Scene<'_> {
                     Adjacency::Profit => 0.0,
                 };
             }
+        }
+    }
+
+    /// Writes the features of the other aircraft [M x H], the first that are ready before the others; `nodes` are those of
+    /// the vertiports. Rows without an aircraft stay as they are.
+    pub(crate) fn write_fleet(self, nodes: &[f32], fleet: &mut [f32]) {
+        let Self { view, decision, kind, .. } = self;
+        let mut first = [(Time::default(), decision.aircraft); AIRCRAFT_SHOWN];
+        let mut known = 0;
+        for other in
+            AircraftIx::all(view.places().len()).filter(|other| *other != decision.aircraft)
+        {
+            let entry = (view.ready_at(other), other);
+            let at = first[..known].partition_point(|known| *known < entry);
+            if at < AIRCRAFT_SHOWN {
+                known = (known + 1).min(AIRCRAFT_SHOWN);
+                first[at..known].rotate_right(1);
+                first[at] = entry;
+            }
+        }
+        for (&(ready, other), to) in
+            first[..known].iter().zip(fleet.chunks_exact_mut(FLEET_FEATURES))
+        {
+            let place = view.places()[other.at()];
+            let own = [
+                1.0,
+                hours(ready.since(decision.time)).min(2.0),
+                f64::from(u8::from(ready <= decision.time)),
+                f64::from(u8::from(place == decision.at)),
+                f64::from(u8::from(view.kind(other) == kind)),
+                self.share_of_day(ready),
+            ];
+            let of_place = &nodes[place.at() * NODE_FEATURES..][..NODE_FEATURES];
+            let of_place = OF_PLACE.iter().map(|&feature| of_place[feature]);
+            let numbers = own.iter().map(|&number| number as f32).chain(of_place);
+            to.iter_mut().zip(numbers).for_each(|(to, number)| *to = number);
         }
     }
 

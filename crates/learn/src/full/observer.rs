@@ -26,7 +26,7 @@ pub struct FullObservation<'a> {
 
 impl Default for FullObserver {
     fn default() -> Self {
-        let writer = Writer::new(Adjacency::Complete);
+        let writer = Writer::of_features();
         Self { rows: writer.rows(0), writer }
     }
 }
@@ -59,5 +59,10 @@ impl FullObservation<'_> {
     /// for each vertiport that flights come from. Entries of pairs that are out of range stay as they are.
     pub fn write_edges(&self, adjacency: Adjacency, stride: usize, edges: &mut [f32]) {
         self.scene.write_edges(adjacency, stride, edges);
+    }
+
+    /// Writes the features of the other aircraft that are ready first, [M][H]. Rows without an aircraft stay as they are.
+    pub fn write_fleet(&self, fleet: &mut [f32]) {
+        self.scene.write_fleet(self.nodes, fleet);
     }
 }

@@ -45,7 +45,7 @@ impl FullPolicy {
     }
 
     pub(crate) fn of(architecture: Architecture, weights: Arc<Weights>) -> Self {
-        let writer = Writer::new(architecture.adjacency());
+        let writer = Writer::of(&architecture);
         Self { architecture, weights, writer, sized: None }
     }
 

@@ -2,22 +2,34 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, World};
+use vertifleet_core::{AircraftIx, DaySeed, Network, Purpose, Scenario, VertiportIx, World};
 use vertifleet_policy::{DayPrices, Policy, PricedChoice, RolloutSettings, play};
 use vertifleet_sim::{Simulation, check::check};
 
 use crate::FullPolicy;
 use crate::full::features::{
-    AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Writer,
+    AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, FLEET_FEATURE_NAMES, NODE_FEATURE_NAMES,
+    NODE_FEATURES, Writer,
 };
 use crate::gcaps_x::features::Scene;
 use crate::gcaps_x::{first_column, played, with_opinions};
-use crate::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings};
+use crate::nn::{
+    AIRCRAFT_SHOWN, Adjacency, Architecture, FLEET_FEATURES, GcapsSettings, GraphSettings, Inputs,
+};
 use crate::rollouts::RolloutPlayer;
 
 fn small(adjacency: Adjacency) -> Architecture {
-    let graph = GraphSettings { adjacency, ..GraphSettings::default() };
+    with_graph(GraphSettings { adjacency, ..GraphSettings::default() })
+}
+
+fn with_graph(graph: GraphSettings) -> Architecture {
     Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
+}
+
+/// A policy that also reads a graph of the other aircraft.
+fn with_aircraft() -> Architecture {
+    let adjacency = Adjacency::Profit;
+    with_graph(GraphSettings { adjacency, aircraft_graph: true, ..GraphSettings::default() })
 }
 
 /// The same policy twice, with opinions of its own.
@@ -39,8 +51,7 @@ fn days() -> Vec<Arc<Scenario>> {
 
 #[test]
 fn any_weights_keep_every_rule_on_networks_of_any_size() {
-    for adjacency in [Adjacency::Complete, Adjacency::Profit] {
-        let policy = small(adjacency);
+    for policy in [small(Adjacency::Complete), small(Adjacency::Profit), with_aircraft()] {
         let weights = with_opinions(&policy, 1);
         let mut policy = FullPolicy::of(policy, weights);
         for day in days() {
@@ -77,14 +88,15 @@ fn a_batch_of_days_of_all_sizes_is_answered_as_each_alone() {
 fn features_are_bounded_and_choices_are_feasible_on_every_network() {
     for day in days() {
         let mut simulation = Simulation::new(Arc::clone(&day));
-        let mut writer = Writer::new(Adjacency::Profit);
+        let mut writer = Writer::of(&with_aircraft());
         let mut rows = writer.rows(day.vertiports.len());
         while let Some(decision) = simulation.next_decision() {
             let view = simulation.view();
             rows.clear();
             writer.push(view, &decision, &mut rows);
             let inputs = rows.inputs();
-            let numbers = inputs.nodes.iter().chain(inputs.aircraft).chain(inputs.edges);
+            let numbers = inputs.nodes.iter().chain(inputs.aircraft);
+            let numbers = numbers.chain(inputs.edges).chain(inputs.fleet);
             assert!(numbers.clone().all(|number| (-2.0..=4.0).contains(number)), "{numbers:?}");
             let feasible = view.feasible(&decision);
             let mask = inputs.mask.iter().enumerate();
@@ -100,6 +112,48 @@ fn features_are_bounded_and_choices_are_feasible_on_every_network() {
 }
 
 #[test]
+fn the_other_aircraft_that_are_ready_first_are_shown_with_their_vertiports() {
+    for day in days() {
+        let mut simulation = Simulation::new(Arc::clone(&day));
+        let mut writer = Writer::of(&with_aircraft());
+        let mut rows = writer.rows(day.vertiports.len());
+        for number in 0..300 {
+            let Some(decision) = simulation.next_decision() else { break };
+            if number % 50 == 49 {
+                let view = simulation.view();
+                rows.clear();
+                writer.push(view, &decision, &mut rows);
+                let Inputs { nodes, fleet, .. } = rows.inputs();
+                let mut others: Vec<_> = AircraftIx::all(view.places().len())
+                    .filter(|other| *other != decision.aircraft)
+                    .map(|other| (view.ready_at(other), other))
+                    .collect();
+                others.sort_unstable();
+                let shown = fleet.chunks_exact(FLEET_FEATURES);
+                assert_eq!(shown.len(), AIRCRAFT_SHOWN);
+                for (at, shown) in shown.enumerate() {
+                    let Some(&(ready, other)) = others.get(at) else {
+                        assert!(shown.iter().all(|number| *number == 0.0), "nobody is there");
+                        continue;
+                    };
+                    let place = view.places()[other.at()];
+                    let ready_h = ready.since(decision.time) as f32 / 3_600.0;
+                    assert_eq!((shown[0], shown[1]), (1.0, ready_h.min(2.0)));
+                    assert_eq!(shown[3] == 1.0, place == decision.at);
+                    let node = &nodes[place.at() * NODE_FEATURES..][..NODE_FEATURES];
+                    for (name, number) in FLEET_FEATURE_NAMES.iter().zip(shown).skip(6) {
+                        let feature = NODE_FEATURE_NAMES.iter().position(|known| known == name);
+                        assert_eq!(*number, node[feature.expect("of a vertiport")], "{name}");
+                    }
+                }
+            }
+            let choice = simulation.view().feasible(&decision).iter().next();
+            simulation.apply(choice.expect("a mask is never empty")).expect("it is feasible");
+        }
+    }
+}
+
+#[test]
 fn the_page_names_every_feature_in_its_order() {
     let page = include_str!("../../../../docs/src/concepts/policies.md");
     let (_, page) = page.split_once("\n## gcaps-full\n").expect("a section");
@@ -107,6 +161,8 @@ fn the_page_names_every_feature_in_its_order() {
     assert_eq!(first_column(page, &nodes), NODE_FEATURE_NAMES);
     let aircraft = format!("What the aircraft shows ({AIRCRAFT_FEATURES} numbers):");
     assert_eq!(first_column(page, &aircraft), AIRCRAFT_FEATURE_NAMES);
+    let others = format!("What each of the other aircraft shows ({FLEET_FEATURES} numbers)");
+    assert_eq!(first_column(page, &others), FLEET_FEATURE_NAMES);
 }
 
 #[test]

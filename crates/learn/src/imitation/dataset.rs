@@ -9,7 +9,7 @@ use vertifleet_core::VertiportIx;
 
 use crate::header::shape_of;
 use crate::nn::{Architecture, Inputs, Shape};
-use crate::rows::Rows;
+use crate::rows::{Beside, Rows};
 use crate::run::checkpoint::tensor;
 
 /// Samples from days with one number of vertiports.
@@ -76,8 +76,9 @@ pub(crate) struct Dataset(pub(crate) BTreeMap<usize, Samples>);
 /// The most vertiports that a network file may have.
 const MOST_VERTIPORTS: usize = 256;
 /// The tensors that a checkpoint has for the samples of each number of vertiports, which stands before these names. Only
-/// networks that observe edges have those, and only the features of the paper need masks beside them.
-const TENSORS: [&str; 6] = ["nodes", "aircraft", "priced", "values", "edges", "masks"];
+/// networks that observe edges or the other aircraft have those, and only the features of the paper need masks beside
+/// them.
+const TENSORS: [&str; 7] = ["nodes", "aircraft", "priced", "values", "edges", "masks", "fleet"];
 
 /// Whether the features of a policy do not tell which vertiports may be chosen.
 fn has_masks(policy: &Architecture) -> bool {
@@ -119,12 +120,12 @@ impl Dataset {
     ) -> impl Iterator<Item = (String, Cow<'_, [f32]>)> {
         let has_masks = has_masks(policy);
         self.0.iter().flat_map(move |(&vertiports, Samples { rows, priced, values })| {
-            let Inputs { nodes, aircraft, edges, mask, .. } = rows.inputs();
+            let Inputs { nodes, aircraft, edges, fleet, mask, .. } = rows.inputs();
             let masks = mask.iter().filter(|_| has_masks).map(|&open| f32::from(open));
             let masks = Cow::Owned(masks.collect());
-            let [nodes, aircraft, priced, values, edges] =
-                [nodes, aircraft, priced, values, edges].map(Cow::Borrowed);
-            let numbers = [nodes, aircraft, priced, values, edges, masks];
+            let [nodes, aircraft, priced, values, edges, fleet] =
+                [nodes, aircraft, priced, values, edges, fleet].map(Cow::Borrowed);
+            let numbers = [nodes, aircraft, priced, values, edges, masks, fleet];
             let named = TENSORS.iter().map(move |name| tensor_name(vertiports, name)).zip(numbers);
             named.filter(|(_, numbers)| !numbers.is_empty())
         })
@@ -157,22 +158,22 @@ impl Samples {
         }
         let shape = shape_of(policy, vertiports);
         let Shape { node_features, aircraft_features, .. } = shape;
-        let [nodes, aircraft, priced, values, edges, masks] =
+        let [nodes, aircraft, priced, values, edges, masks, fleet] =
             TENSORS.map(|name| tensor_name(vertiports, name));
         let numbers = file.tensor(&aircraft).map_err(|error| error.to_string())?.data().len() / 4;
         let rows = numbers / aircraft_features;
         let tensor = |name: &str, entries: usize| tensor(file, name, entries);
         let masks = has_masks(policy).then(|| tensor(&masks, rows * vertiports));
+        let [of_edges, of_fleet] = Beside::of(policy).widths(vertiports);
+        let beside = |name: &str, width: usize| {
+            if width == 0 { Ok(Vec::new()) } else { tensor(name, rows * width) }
+        };
         let samples = Self {
             rows: Rows::of(
                 shape,
                 tensor(&nodes, rows * vertiports * node_features)?,
                 tensor(&aircraft, rows * aircraft_features)?,
-                if policy.adjacency().is_observed() {
-                    tensor(&edges, rows * vertiports * vertiports)?
-                } else {
-                    Vec::new()
-                },
+                [beside(&edges, of_edges)?, beside(&fleet, of_fleet)?],
                 masks.transpose()?.as_deref(),
             ),
             priced: tensor(&priced, rows * vertiports)?,

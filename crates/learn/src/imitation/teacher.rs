@@ -21,7 +21,7 @@ use crate::imitation::dataset::{Judged, Samples};
 use crate::learned::Learned;
 use crate::nn::{Architecture, Weights};
 use crate::rollouts::RolloutPlayer;
-use crate::rows::Rows;
+use crate::rows::{Beside, Rows};
 
 /// Why a learned policy has an answer.
 const CHOOSES: &str = "every decision has a choice";
@@ -64,11 +64,11 @@ impl Teacher {
         vertiports: usize,
         settings: RolloutSettings,
     ) -> (Self, Samples) {
-        let rows = Rows::new(shape_of(policy, vertiports), policy.adjacency().is_observed());
+        let rows = Rows::new(shape_of(policy, vertiports), Beside::of(policy));
         let writer = match scales {
             Some(scales) => Writer::Paper(scales),
             None if policy.sees_prices() => Writer::Priced(priced::Writer::default()),
-            None => Writer::Full(full::Writer::new(policy.adjacency())),
+            None => Writer::Full(full::Writer::of(policy)),
         };
         let evaluator = RolloutEvaluator::new(settings.clone());
         let (player, judged) = (RolloutPlayer::default(), Vec::new());

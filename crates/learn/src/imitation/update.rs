@@ -22,7 +22,7 @@ use crate::gcaps_x::scorer::LOGITS_A_UNIT;
 use crate::header::network;
 use crate::imitation::dataset::{Dataset, Samples};
 use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
-use crate::rows::Rows;
+use crate::rows::{Beside, Rows};
 
 /// Nodes per forward and backward pass: as many as the second-level cache holds.
 const CHUNK_NODES: usize = 1_024;
@@ -167,7 +167,7 @@ impl Lane {
         if sized.as_ref().is_none_or(|(_, _, rows)| rows.vertiports() != vertiports) {
             let net = network(architecture, vertiports);
             let workspace = net.workspace(chunk_rows(vertiports));
-            let rows = Rows::new(samples.rows.shape(), architecture.adjacency().is_observed());
+            let rows = Rows::new(samples.rows.shape(), Beside::of(architecture));
             *sized = Some((net, workspace, rows));
         }
         let (net, workspace, chosen) = sized.as_mut().expect("made above");

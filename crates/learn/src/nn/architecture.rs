@@ -67,6 +67,10 @@ pub struct GraphSettings {
     pub laplacian: Laplacian,
     /// Whether the decoder attends to the vertiports (Eq. 20); without it, it reads their mean.
     pub attention: bool,
+    /// Whether the decoder's query also reads a graph of the other aircraft, as the follow-up study of the paper's authors
+    /// has one. Weight files leave it out where it is false, as those from before it do.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub aircraft_graph: bool,
 }
 
 /// What makes embeddings of the features of vertiports.
@@ -142,6 +146,7 @@ impl Default for GraphSettings {
             adjacency: Adjacency::Complete,
             laplacian: Laplacian::Plain,
             attention: true,
+            aircraft_graph: false,
         }
     }
 }
@@ -154,7 +159,7 @@ impl GraphSettings {
 
     /// Whether the encoder is the paper's, whatever the decoder is.
     pub(crate) fn encoder_is_of_the_paper(&self) -> bool {
-        Self { attention: true, ..*self }.is_of_the_paper()
+        Self { attention: true, aircraft_graph: false, ..*self }.is_of_the_paper()
     }
 
     fn adjacency_in_use(&self) -> Adjacency {
@@ -218,6 +223,16 @@ impl Architecture {
         }
     }
 
+    /// Whether the network reads a graph of the other aircraft.
+    pub fn has_aircraft_graph(&self) -> bool {
+        match self {
+            Self::Gcaps(settings) | Self::GcapsX(settings) | Self::GcapsFull(settings) => {
+                settings.graph.aircraft_graph
+            }
+            Self::Mlp(_) | Self::MlpFull(_) => false,
+        }
+    }
+
     /// Whether the weights fit networks of any size.
     pub fn fits_any_size(&self) -> bool {
         matches!(self, Self::GcapsX(_) | Self::GcapsFull(_))
@@ -228,13 +243,16 @@ impl Architecture {
     /// # Errors
     /// Returns the rule that is broken.
     pub(crate) fn check_graph(&self) -> Result<(), String> {
-        if !self.adjacency().is_observed() || matches!(self, Self::GcapsFull(_)) {
-            return Ok(());
+        let name = self.name();
+        if matches!(self, Self::GcapsFull(_)) {
+            Ok(())
+        } else if self.adjacency().is_observed() {
+            Err(format!("the observation of {name} shows no flights between two other vertiports"))
+        } else if self.has_aircraft_graph() {
+            Err(format!("the observation of {name} shows no other aircraft one by one"))
+        } else {
+            Ok(())
         }
-        Err(format!(
-            "the observation of {} shows no flights between two other vertiports",
-            self.name()
-        ))
     }
 
     /// Whether the policy decides by the day's bid prices and its network.

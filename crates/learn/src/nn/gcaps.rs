@@ -8,6 +8,7 @@ mod decoder;
 mod encoder;
 #[cfg(test)]
 mod encoder_tests;
+mod fleet;
 mod graph;
 #[cfg(test)]
 mod graph_tests;
@@ -18,6 +19,8 @@ mod self_attention;
 use capsule_layers::{CapsuleLayers, CapsuleSpace};
 use decoder::{Capsules, Decoder, DecoderSpace};
 use encoder::{Encoder, EncoderSpace};
+pub use fleet::{AIRCRAFT_SHOWN, FLEET_FEATURES};
+use fleet::{Fleet, FleetSpace};
 use graph::Graph;
 use products::{EncoderProducts, Products};
 use reads::Reads;
@@ -63,6 +66,8 @@ pub(crate) struct Gcaps {
     weights: DecoderWeights,
     products: Products,
     encoder: AnyEncoder,
+    /// The graph of the other aircraft.
+    fleet: Option<Fleet>,
     decoder: Decoder,
 }
 
@@ -86,6 +91,7 @@ enum AnySpace {
 #[derive(Debug)]
 pub(crate) struct GcapsSpace {
     encoder: AnySpace,
+    fleet: Option<FleetSpace>,
     decoder: DecoderSpace,
     capsule_slopes: Vec<f32>,
 }
@@ -129,6 +135,7 @@ impl Gcaps {
         } else {
             Ok(general_encoder(&mut layout, settings, shape))
         };
+        let fleet = graph.aircraft_graph.then(|| Fleet::new(&mut layout, width, graph.moments));
         let query =
             Linear::new(&mut layout, "decoder.query", (shape.aircraft_features, width), 1.0);
         let output = layout.matrix("decoder.output.weight", square, plain);
@@ -159,7 +166,7 @@ impl Gcaps {
         let decoder =
             Decoder { reads, query, output, first_norm, feed_forward, second_norm, head, products };
         let encoder = encoder.expect("made above");
-        Ok((Self { weights, products, encoder, decoder }, layout, behind, folded))
+        Ok((Self { weights, products, encoder, fleet, decoder }, layout, behind, folded))
     }
 
     pub(crate) fn space(&self, batch: usize) -> GcapsSpace {
@@ -172,6 +179,7 @@ impl Gcaps {
                 AnyEncoder::Capsules(layers) => AnySpace::Capsules(layers.space(batch)),
                 AnyEncoder::Transformer(layers) => AnySpace::Transformer(layers.space(batch)),
             },
+            fleet: self.fleet.as_ref().map(|fleet| fleet.space(batch)),
             decoder: DecoderSpace::new(&self.decoder, batch),
             capsule_slopes: vec![0.0; batch * vertiports * width],
         }
@@ -202,7 +210,9 @@ impl Gcaps {
     ) {
         self.encoder.forward(tensors, inputs, &mut space.encoder);
         let capsules = self.encoder.read(&space.encoder, inputs.batch);
-        self.decoder.forward(tensors, inputs, capsules, &mut space.decoder, outputs);
+        let fleet = self.fleet.as_ref().zip(space.fleet.as_mut());
+        let added = fleet.map(|(fleet, space)| fleet.forward(tensors, inputs, space));
+        self.decoder.forward(tensors, inputs, capsules, added, &mut space.decoder, outputs);
     }
 
     pub(crate) fn backward(
@@ -218,6 +228,10 @@ impl Gcaps {
         let given = Capsules { values, slopes: capsule_slopes };
         self.decoder.backward(tensors, inputs, given, slopes, &mut space.decoder, gradient);
         self.encoder.backward(tensors, inputs, &mut space.encoder, capsule_slopes, gradient);
+        if let Some((fleet, of_fleet)) = self.fleet.as_ref().zip(space.fleet.as_mut()) {
+            let slopes = space.decoder.query_slopes(inputs.batch, self.decoder.output.columns);
+            fleet.backward(tensors, inputs, slopes, of_fleet, gradient);
+        }
     }
 }
 
@@ -240,7 +254,7 @@ fn general_encoder(layout: &mut Layout, settings: &GcapsSettings, shape: Shape) 
             let (adjacency, laplacian) = (graph.adjacency, graph.laplacian);
             let edges = Graph { vertiports, node_features, adjacency, laplacian };
             let sizes = (graph.layers, graph.moments, graph.hops);
-            AnyEncoder::Capsules(CapsuleLayers::new(layout, edges, width, sizes))
+            AnyEncoder::Capsules(CapsuleLayers::new(layout, "encoder", edges, width, sizes))
         }
         EncoderKind::Transformer => {
             let (inputs, sizes) = ((vertiports, node_features), (width, heads));

@@ -2,7 +2,7 @@
 
 use crate::nn::architecture::{Architecture, Shape, check_size};
 use crate::nn::batch::{Inputs, Outputs, Slopes};
-use crate::nn::gcaps::{Gcaps, GcapsSpace};
+use crate::nn::gcaps::{AIRCRAFT_SHOWN, FLEET_FEATURES, Gcaps, GcapsSpace};
 use crate::nn::init;
 use crate::nn::layout::{Layout, Tensors};
 use crate::nn::mlp::{Mlp, MlpSpace};
@@ -238,6 +238,10 @@ impl NeuralNetwork {
         assert_eq!(inputs.clock.len(), batch, "clocks of the batch");
         if self.architecture.adjacency().is_observed() {
             assert_eq!(inputs.edges.len(), batch * vertiports * vertiports, "edges of the batch");
+        }
+        if self.architecture.has_aircraft_graph() {
+            let numbers = batch * AIRCRAFT_SHOWN * FLEET_FEATURES;
+            assert_eq!(inputs.fleet.len(), numbers, "other aircraft of the batch");
         }
     }
 }

@@ -13,7 +13,9 @@ use crate::nn::linear::Linear;
 use crate::nn::network::NeuralNetwork;
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 use crate::nn::value_head::ValueHead;
-use crate::nn::{Architecture, GcapsSettings, MlpSettings, Shape, relu};
+use crate::nn::{
+    AIRCRAFT_SHOWN, Architecture, FLEET_FEATURES, GcapsSettings, MlpSettings, Shape, relu,
+};
 
 const STEP: f32 = 4e-3;
 
@@ -260,12 +262,14 @@ pub(crate) fn check_network(architecture: Architecture, seed: u64, size: f32) {
         draws.iter().enumerate().map(|(at, x)| u8::from(*x > -0.2 || at % 5 == 0)).collect();
     let edges: Vec<f32> =
         numbers(batch * 5 * 5, seed + 8).iter().map(|weight| weight.max(0.0)).collect();
+    let fleet = numbers(batch * AIRCRAFT_SHOWN * FLEET_FEATURES, seed + 9);
     let inputs = Inputs {
         batch,
         nodes: &nodes,
         aircraft: &aircraft,
         mask: &mask,
         edges: &edges,
+        fleet: &fleet,
         clock: &clock,
     };
     let (of_logits, of_values) = (numbers(batch * 5, seed + 6), numbers(batch, seed + 7));

@@ -57,25 +57,27 @@ pub(crate) struct CapsuleSpace {
 }
 
 impl CapsuleLayers {
-    /// Adds the tensors of the layers.
+    /// Adds the tensors of the layers; their names begin with `name`.
     pub(crate) fn new(
         layout: &mut Layout,
+        name: &str,
         graph: Graph,
         width: usize,
         (layers, moments, hops): (usize, usize, usize),
     ) -> Self {
-        let node = Linear::new(layout, "encoder.node", (graph.node_features, width), 1.0);
+        let node = Linear::new(layout, &format!("{name}.node"), (graph.node_features, width), 1.0);
         // As many terms as there are hops add up before each rectifier.
         let hop = Init::Uniform { inputs: (hops + 1) * width, gain: init::BEFORE_RELU };
         let layer = |number: usize| {
-            let of_layer = if number == 1 { String::new() } else { format!("layer_{number}.") };
+            let of_layer =
+                if number == 1 { name.to_owned() } else { format!("{name}.layer_{number}") };
             let input = (number > 1).then(|| {
-                let name = format!("encoder.{of_layer}input");
+                let name = format!("{of_layer}.input");
                 Linear::new(layout, &name, (moments * width, width), 1.0)
             });
             let mut weights = Vec::new();
             for p in 1..=moments {
-                let name = |a: usize| format!("encoder.{of_layer}moment_{p}.hop_{a}.weight");
+                let name = |a: usize| format!("{of_layer}.moment_{p}.hop_{a}.weight");
                 let slots = (0..=hops).map(|a| layout.matrix(&name(a), (width, width), hop));
                 weights.push(slots.collect());
             }

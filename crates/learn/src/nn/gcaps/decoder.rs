@@ -1,7 +1,7 @@
 //! The decoder (§IV.B, Eq. 20 and 21), the logits and the value.
 //!
 //! ```text
-//! q = psi W_Q + b_Q
+//! q = psi W_Q + b_Q  (+ what the graph of the other aircraft adds, if there is one)
 //! z = LayerNorm(q + MHA(q, E))
 //! y = LayerNorm(z + ReLU(z W_1 + b_1))
 //! logit_i = (y W_L) . E_i / sqrt(h)
@@ -80,6 +80,11 @@ impl DecoderSpace {
         }
     }
 
+    /// The slopes of the queries after a backward pass [B x h].
+    pub(crate) fn query_slopes(&self, batch: usize, width: usize) -> &[f32] {
+        &self.slopes[..batch * width]
+    }
+
     /// The part of the memory that a batch uses.
     fn rows(&mut self, len: usize) -> Rows<'_> {
         Rows {
@@ -125,18 +130,22 @@ impl Decoder {
         self.width() / self.reads.heads
     }
 
-    /// Computes logits and values from capsules.
+    /// Computes logits and values from capsules. `added` is what the other aircraft add to the queries [B x h].
     pub(crate) fn forward(
         &self,
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
         capsules: &[f32],
+        added: Option<&[f32]>,
         space: &mut DecoderSpace,
         outputs: &mut Outputs,
     ) {
         let (batch, width) = (inputs.batch, self.width());
         let rows = space.rows(batch * width);
         self.query.forward(tensors, inputs.aircraft, rows.query);
+        if let Some(added) = added {
+            add(added, rows.query);
+        }
         self.attend(tensors, batch, capsules, rows.query, rows.reads, rows.heads);
 
         rows.sum.copy_from_slice(rows.query);

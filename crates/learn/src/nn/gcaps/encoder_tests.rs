@@ -39,6 +39,7 @@ impl Case {
             aircraft: &[],
             mask: &[],
             edges: &[],
+            fleet: &[],
             clock: &[],
         }
     }

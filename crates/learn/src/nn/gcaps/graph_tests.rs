@@ -43,6 +43,12 @@ fn no_attention_beside_the_encoder_of_the_paper() {
 }
 
 #[test]
+fn a_graph_of_the_other_aircraft_beside_that_of_the_vertiports() {
+    check(GraphSettings { aircraft_graph: true, ..GraphSettings::default() });
+    check(GraphSettings { aircraft_graph: true, moments: 1, hops: 0, ..GraphSettings::default() });
+}
+
+#[test]
 fn self_attention_in_two_layers() {
     check(GraphSettings {
         encoder: EncoderKind::Transformer,
