@@ -93,7 +93,6 @@ impl Model {
     /// environment. `edges` [B, N, N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones, and
     /// `fleet` [B, M, H] or [B, M * H] are the other aircraft, if the weights have a graph of them. For gcaps-x this is the output of the layers alone, without the day's prices.
     #[pyo3(signature = (nodes, aircraft, mask, clock, edges = None, fleet = None))]
-    #[expect(clippy::too_many_arguments, reason = "each is a keyword that callers name")]
     fn forward<'py>(
         &self,
         nodes: &Bound<'py, PyAny>,

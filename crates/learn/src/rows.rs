@@ -86,7 +86,7 @@ impl Rows {
             None => nodes.iter().step_by(shape.node_features).map(open).collect(),
         };
         let beside = Beside { edges: !edges.is_empty(), fleet: !fleet.is_empty() };
-        Self { nodes, aircraft, mask, clock, beside, edges, fleet, shape }
+        Self { shape, beside, nodes, aircraft, mask, edges, fleet, clock }
     }
 
     pub(crate) fn shape(&self) -> Shape {
