@@ -26,7 +26,7 @@ from torch import Tensor, nn
 
 from vertifleet import Error
 from vertifleet.torch import GcapsFull, Graph, save, scores
-from vertifleet.torch.twin import FLEET_FEATURES
+from vertifleet.torch.twin import FLEET_SHAPE
 
 LOGITS_A_UNIT = 20.0
 """The values of roll-outs are counted in typical full flights; one of these is so many logits."""
@@ -56,7 +56,7 @@ class Samples:
         if twin.edges:
             self.seen[twin.edges] = part("edges", vertiports, vertiports)
         if twin.fleet:
-            self.seen[twin.fleet] = part("fleet", *FLEET_FEATURES)
+            self.seen[twin.fleet] = part("fleet", *FLEET_SHAPE)
 
     def __len__(self) -> int:
         return len(self.values)

@@ -90,8 +90,9 @@ impl Model {
     /// The logits [B, N], minus infinity where the mask is 0, and the values [B] of a batch of decisions, as the policy
     /// in Rust computes them. The inputs `nodes` [B, N * F] or [B, N, F], `aircraft` [B, G], `mask` [B, N] and `clock`
     /// [B] or [B, 1], which is the share of the day that is left, are the same as in the observations of the vector
-    /// environment. `edges` [B, N, N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones, and
-    /// `fleet` [B, M, H] or [B, M * H] are the other aircraft, if the weights have a graph of them. For gcaps-x this is the output of the layers alone, without the day's prices.
+    /// environment. `edges` [B, N, N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones,
+    /// and `fleet` [B, M, H] or [B, M * H] are the other aircraft, if the weights have a graph of them. For gcaps-x this
+    /// is the output of the layers alone, without the day's prices.
     #[pyo3(signature = (nodes, aircraft, mask, clock, edges = None, fleet = None))]
     fn forward<'py>(
         &self,
@@ -109,7 +110,7 @@ impl Model {
         let shape = net.shape();
         let (size, features) = (shape.vertiports, shape.node_features);
         let policy = &self.model.header().policy;
-        let (edges, fleet) = (Beside("edges", edges), Beside("fleet", fleet));
+        let (edges, fleet) = (Given("edges", edges), Given("fleet", fleet));
         let edges = edges.read(policy.adjacency().is_observed(), [batch, size * size])?;
         let of_fleet = [batch, AIRCRAFT_SHOWN * FLEET_FEATURES];
         let fleet = fleet.read(policy.has_aircraft_graph(), of_fleet)?;
@@ -160,10 +161,10 @@ fn sizes(table: &Bound<'_, PyAny>) -> PyResult<[usize; 2]> {
     })
 }
 
-/// What a network may read beside the features, by the name of the argument.
-struct Beside<'a, 'py>(&'static str, Option<&'a Bound<'py, PyAny>>);
+/// An argument that only some weights read, by its name.
+struct Given<'a, 'py>(&'static str, Option<&'a Bound<'py, PyAny>>);
 
-impl Beside<'_, '_> {
+impl Given<'_, '_> {
     /// Its entries, which must be given if and only if the weights read them.
     fn read(self, is_read: bool, sizes: [usize; 2]) -> PyResult<Vec<f32>> {
         let Self(name, given) = self;
@@ -171,7 +172,7 @@ impl Beside<'_, '_> {
             (Some(array), true) => entries(name, array, sizes),
             (None, false) => Ok(Vec::new()),
             (None, true) => {
-                let hint = "an environment with observation=twin.reads shows what a network reads";
+                let hint = "the parts of an observation that show them are in the reference of observations";
                 let rule = format!("these weights need {name}");
                 Err(Failure::hinted(rule, hint.to_owned()).into())
             }

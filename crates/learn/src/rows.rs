@@ -70,10 +70,10 @@ impl Rows {
         }
     }
 
-    /// Rows with the features, edges and other aircraft of earlier [`inputs`](Self::inputs), and with their masks where the features do
-    /// not tell them.
+    /// Rows with the features, edges and other aircraft of earlier [`inputs`](Self::inputs), and with their masks where the
+    /// features do not tell them.
     pub(crate) fn of(
-        shape: Shape,
+        (shape, beside): (Shape, Beside),
         nodes: Vec<f32>,
         aircraft: Vec<f32>,
         [edges, fleet]: [Vec<f32>; 2],
@@ -85,7 +85,6 @@ impl Rows {
             Some(masks) => masks.iter().map(open).collect(),
             None => nodes.iter().step_by(shape.node_features).map(open).collect(),
         };
-        let beside = Beside { edges: !edges.is_empty(), fleet: !fleet.is_empty() };
         Self { shape, beside, nodes, aircraft, mask, edges, fleet, clock }
     }
 

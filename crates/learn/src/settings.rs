@@ -233,9 +233,19 @@ mod tests {
         let Architecture::GcapsFull(sizes) = &policy else { panic!("{policy:?}") };
         assert_eq!((sizes.width, sizes.graph.hops), (32, 1));
         assert_eq!(sizes.graph.adjacency, Adjacency::Profit);
+        for is_there in [true, false] {
+            set(&mut policy, &mut settings, [("aircraft_graph", is_there.to_string().as_str())])
+                .expect("a size");
+            assert_eq!(policy.has_aircraft_graph(), is_there);
+        }
         let before = (policy.clone(), settings.clone());
-        for (name, value) in [("adjacency", "near"), ("width", "-1"), ("graph", "1"), ("wide", "1")]
-        {
+        for (name, value) in [
+            ("adjacency", "near"),
+            ("aircraft_graph", "1"),
+            ("width", "-1"),
+            ("graph", "1"),
+            ("wide", "1"),
+        ] {
             set(&mut policy, &mut settings, [("hops", "0"), (name, value)]).expect_err(name);
         }
         assert_eq!((policy, settings), before);

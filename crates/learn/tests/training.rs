@@ -28,10 +28,17 @@ fn small_gcaps_x() -> Architecture {
     Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
 }
 
-/// A policy of the full observation, which shows edges and the other aircraft too.
+/// A policy of the full observation, which shows edges too.
 fn small_gcaps_full() -> Architecture {
-    let adjacency = Adjacency::Profit;
-    let graph = GraphSettings { adjacency, aircraft_graph: true, ..GraphSettings::default() };
+    full_with(GraphSettings { adjacency: Adjacency::Profit, ..GraphSettings::default() })
+}
+
+/// A policy of the full observation that reads a graph of the other aircraft.
+fn small_with_aircraft() -> Architecture {
+    full_with(GraphSettings { aircraft_graph: true, ..GraphSettings::default() })
+}
+
+fn full_with(graph: GraphSettings) -> Architecture {
     Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
 }
 
@@ -92,7 +99,8 @@ fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
         [plan(small_gcaps()), plan(small_mlp()), any_network, new_places(small_gcaps_full())];
     let by_itself = plan_with(small_gcaps_full(), &[("own_rounds", "1"), ("samples", "40")]);
     let imitating = [small_gcaps(), small_mlp()].map(|policy| short(policy, "imitation", &[]));
-    let others = [new_places(small_mlp_full()), new_places(small_mlp()), by_itself];
+    let places = [small_mlp_full(), small_mlp(), small_with_aircraft()].map(new_places);
+    let others = places.into_iter().chain([by_itself]);
     for plan in plans.into_iter().chain(others).chain(imitating) {
         let on = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
@@ -109,7 +117,9 @@ fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
     let terminal = plan_with(small_gcaps(), &[("reward", "terminal")]);
     let by_itself = plan_with(small_gcaps_x(), &[("own_rounds", "1"), ("samples", "40")]);
     let imitating = short(small_gcaps(), "imitation", &[]);
-    for plan in [terminal, plan(small_gcaps_x()), plan(small_gcaps_full()), by_itself, imitating] {
+    let full = [small_gcaps_full(), small_with_aircraft()].map(plan);
+    let others = [terminal, plan(small_gcaps_x()), by_itself, imitating];
+    for plan in others.into_iter().chain(full) {
         let whole = finished(plan.clone().start().expect("a plan"));
         let mut first = plan.clone().start().expect("a plan");
         advance(first.as_mut());

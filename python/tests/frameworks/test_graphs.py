@@ -13,12 +13,11 @@ torch = pytest.importorskip("torch")
 
 from vertifleet.envs import FleetEnv, FleetVectorEnv  # noqa: E402
 from vertifleet.torch import Gcaps, GcapsFull, GcapsX, Graph, MlpFull, act, load, masked, save, scores  # noqa: E402
-from vertifleet.torch.twin import of_sizes  # noqa: E402
+from vertifleet.torch.twin import FLEET_SHAPE, of_sizes  # noqa: E402
 
 REFERENCE = Path(__file__).parents[3] / "crates" / "learn" / "tests" / "reference"
 CASES = json.loads((REFERENCE / "graphs.json").read_text(encoding="utf-8"))
 GRAPHS = [case["sizes"]["graph"] for case in CASES]
-FLEET = 40, 16
 NAMES = ["-".join(str(setting) for setting in graph.values()) for graph in GRAPHS]
 EACH_GRAPH = pytest.mark.parametrize("graph", GRAPHS, ids=NAMES)
 FULL = ["full_nodes", "full_aircraft", "clock", "vertiport_mask", "action_mask"]
@@ -62,7 +61,7 @@ def test_outputs_and_gradients_are_those_that_the_program_is_held_to(case):
     edges = noise("edges", batch, count, count).clamp(min=0)
     edges[:, 0] = 0
     nodes, aircraft = noise("nodes", batch, count, 37), noise("aircraft", batch, 11)
-    fleet = noise("fleet", batch, *FLEET) if twin.fleet else None
+    fleet = noise("fleet", batch, *FLEET_SHAPE) if twin.fleet else None
     logits, values = twin(nodes, aircraft, noise("clock", batch), edges if twin.edges else None, fleet)
     expected = torch.tensor([np.nan if one is None else one for one in case["logits"]], dtype=torch.float64)
     mask = ~expected.isnan().view(batch, count)
@@ -101,7 +100,7 @@ def test_weights_of_any_graph_go_to_the_program_and_come_back(graph, tmp_path):
         mask, clock = np.ones((6, count)), random.random(6, np.float32)
         weights = random.random((6, count, count), np.float32) * (random.random((6, count, count)) < 0.5)
         beside = {"edges": weights.astype(np.float32)} if twin.edges else {}
-        beside |= {"fleet": random.random((6, *FLEET), np.float32)} if twin.fleet else {}
+        beside |= {"fleet": random.random((6, *FLEET_SHAPE), np.float32)} if twin.fleet else {}
         expected = model.forward(nodes, aircraft, mask, clock, **beside)
         with torch.inference_mode():
             inputs = (torch.from_numpy(array) for array in (nodes, aircraft, clock))
@@ -190,7 +189,8 @@ def test_padding_is_not_seen(graph):
     assert torch.equal(found > -torch.inf, batch["action_mask"] == 1)
     assert torch.equal(found.argmax(-1), torch.as_tensor(act(twin, observation)))
     (-found.log_softmax(-1).amax(-1).sum()).backward()
-    assert all(bool(weight.grad.isfinite().all()) for weight in twin.encoder.parameters())
+    readers = [twin.encoder, *([twin.fleet_encoder] if twin.fleet else [])]
+    assert all(bool(weight.grad.isfinite().all()) for reader in readers for weight in reader.parameters())
 
 
 def refused(call, *arguments, **named):
@@ -247,7 +247,7 @@ def test_other_aircraft_are_given_where_they_are_read_and_only_there(tmp_path):
         GcapsFull(width=8, heads=2),
     )
     nodes, aircraft, clock = torch.rand(2, 5, 37), torch.rand(2, 11), torch.rand(2)
-    fleet = torch.rand(2, *FLEET)
+    fleet = torch.rand(2, *FLEET_SHAPE)
     assert "full_fleet" in refused(reads, nodes, aircraft, clock)
     assert "no other aircraft" in refused(knows, nodes, aircraft, clock, fleet=fleet)
     assert "[2, 40, 16]" in refused(reads, nodes, aircraft, clock, fleet=fleet[:, :9])
@@ -283,7 +283,7 @@ def test_a_gpu_computes_the_same(graph):
     twin = drawn(GcapsFull(width=8, heads=2, graph=graph)).double()
     inputs = [torch.rand(*shape, dtype=torch.float64) for shape in ((3, 5, 37), (3, 11), (3,))]
     inputs += [torch.rand(3, 5, 5, dtype=torch.float64) if twin.edges else None]
-    inputs += [torch.rand(3, *FLEET, dtype=torch.float64) if twin.fleet else None]
+    inputs += [torch.rand(3, *FLEET_SHAPE, dtype=torch.float64) if twin.fleet else None]
     expected = [answer.detach() for answer in twin(*inputs)]
     found = twin.cuda()(*(None if part is None else part.cuda() for part in inputs))
     torch.testing.assert_close([answer.detach().cpu() for answer in found], expected)

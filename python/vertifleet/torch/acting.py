@@ -44,7 +44,8 @@ def scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
     Args:
         twin: the network.
         observation: a batch of observations, with the parts of `twin.reads`: "gcaps-x" has them for `GcapsX`,
-            "gcaps-full" for `GcapsFull` on the complete graph and `MlpFull`, "paper" for the others.
+            "gcaps-full" for `MlpFull` and for `GcapsFull` on the complete graph of vertiports alone, "paper"
+            for the others.
     """
     if twin.vertiports is not None or VERTIPORTS not in observation:
         return _scores(twin, observation)
@@ -90,7 +91,8 @@ def act(twin: Twin, observation: Mapping[str, NDArray[Any]]) -> int | NDArray[np
     Args:
         twin: the network.
         observation: an observation, with the parts of `twin.reads`: "gcaps-x" has them for `GcapsX`,
-            "gcaps-full" for `GcapsFull` on the complete graph and `MlpFull`, "paper" for the others.
+            "gcaps-full" for `MlpFull` and for `GcapsFull` on the complete graph of vertiports alone, "paper"
+            for the others.
 
     Returns:
         A vertiport for one observation, vertiports [B] for a batch of them.

@@ -1,10 +1,12 @@
-"""The encoders beside the paper's: graph capsules on any graph, and self-attention, which knows none.
+"""The encoders beside the paper's: graph capsules on any graph, self-attention, and that of the aircraft.
 
-They have the tensors of the program's `capsule_layers.rs` and `self_attention.rs`.
+Self-attention knows no graph. They have the tensors of the program's `capsule_layers.rs`,
+`self_attention.rs` and `fleet.rs`.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, cast
 
 import torch
@@ -92,27 +94,22 @@ class CapsuleEncoder(CapsuleLayer):
         return nodes.new_ones(batch, count, count)
 
 
-class FleetEncoder(nn.Module):
-    """The graph of the other aircraft: one layer of capsules on the complete graph.
+class FleetEncoder(CapsuleLayer):
+    """The graph of the other aircraft: one layer of capsules with one hop, on the complete graph.
 
     The mean of the capsules is read. What it returns is added to the decoder's query.
     """
 
-    def __init__(self, features: int, width: int, moments: int) -> None:
-        super().__init__()
+    def __init__(self, features: int, width: int, graph: Graph) -> None:
+        super().__init__(width, replace(graph, hops=1), is_first=True)
         self.node = Linear(features, width)
-        self._moments = range(1, moments + 1)
-        for p in self._moments:
-            self.add_module(f"moment_{p}", Hops(width, hops=1))
-        self.join = Matrix(moments * width, width)
+        self.join = Matrix(graph.moments * width, width)
 
     def forward(self, fleet: Tensor) -> Tensor:
         """[B, M, H] -> [B, h]."""
         batch, count, _ = fleet.shape
         laplacians = laplacian(fleet.new_ones(batch, count, count), "plain")
-        features = self.node(fleet)
-        moments = [self.get_submodule(f"moment_{p}")(features**p, laplacians) for p in self._moments]
-        added: Tensor = self.join(torch.cat(moments, dim=-1).mean(dim=1))
+        added: Tensor = self.join(self.capsules(self.node(fleet), laplacians).mean(dim=1))
         return added
 
 

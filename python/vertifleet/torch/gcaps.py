@@ -17,7 +17,7 @@ from vertifleet import Error
 from vertifleet.torch.encoders import AttentionEncoder, CapsuleEncoder, FleetEncoder
 from vertifleet.torch.graph import graph_of
 from vertifleet.torch.layers import BEFORE_RELU, LOGITS, LayerNorm, Linear, Matrix, ValueHead
-from vertifleet.torch.twin import FLEET_FEATURES, FULL_FEATURES, Twin, check_size, paper_features
+from vertifleet.torch.twin import FLEET_SHAPE, FULL_FEATURES, Twin, check_size, paper_features
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -37,8 +37,8 @@ class Gcaps(Twin):
     """
 
     kind = "gcaps"
-    sees_all: ClassVar[bool] = False
-    """Whether the policy's observation shows the weights of edges and the other aircraft."""
+    sees_the_full: ClassVar[bool] = False
+    """Whether the policy's observation may show the weights of edges and the other aircraft."""
 
     def __init__(
         self,
@@ -58,15 +58,15 @@ class Gcaps(Twin):
             raise Error("V451", f"width must be a multiple of heads ({heads}), found {width}")
         self.width, self.heads, self.graph = width, heads, graph_of(graph)
         self.edges = self.graph.edges
-        if self.edges and not self.sees_all:
+        if self.edges and not self.sees_the_full:
             raise Error(
                 "V451", f"the observation of {self.kind} shows no flights between two other vertiports"
             )
-        if self.graph.aircraft_graph and not self.sees_all:
+        if self.graph.aircraft_graph and not self.sees_the_full:
             raise Error("V451", f"the observation of {self.kind} shows no other aircraft one by one")
         self.encoder = encoder_of(self.node_features, width, heads, self.graph)
         if self.graph.aircraft_graph:
-            self.fleet_encoder = FleetEncoder(FLEET_FEATURES[1], width, self.graph.moments)
+            self.fleet_encoder = FleetEncoder(FLEET_SHAPE[1], width, self.graph)
             self.fleet = f"{self.features}fleet"
         self.decoder = Decoder(self.aircraft_features, width, heads, attention=self.graph.attention)
         self.value = ValueHead(width, width, means_width=width)
@@ -125,7 +125,7 @@ class GcapsFull(Gcaps):
 
     kind = "gcaps-full"
     features = "full_"
-    sees_all = True
+    sees_the_full = True
 
     def __init__(
         self, width: int = 64, heads: int = 4, graph: Graph | Mapping[str, Any] | None = None

@@ -24,7 +24,10 @@ OBSERVED = {"distance": "distance_edges", "reachable": "adjacency", "profit": "p
 
 @dataclass(frozen=True)
 class Graph:
-    """What a network has between the vertiports; by default the paper's (Table 3), on the complete graph.
+    """What a network has between the vertiports, and between the aircraft.
+
+    By default it is the paper's (Table 3), on the complete graph of the vertiports, without one of the
+    aircraft.
 
     Attributes:
         encoder: "capsules" (Eq. 18 and 19), or "transformer", self-attention of all vertiports, which knows

@@ -148,7 +148,7 @@ class Twin(nn.Module, ABC):
             )
         if self.fleet is None:
             raise Error("V451", f"these weights of {self.kind} read no other aircraft: leave them out")
-        shown, features = FLEET_FEATURES
+        shown, features = FLEET_SHAPE
         if list(fleet.shape) not in ([batch, shown, features], [batch, shown * features]):
             rule = f"fleet must be [{batch}, {shown}, {features}] or flat [{batch}, {shown} * {features}]"
             raise Error("V451", f"{rule}, found {list(fleet.shape)}")
@@ -162,7 +162,7 @@ def paper_features(vertiports: int) -> tuple[int, int]:
 
 FULL_FEATURES = 37, 11
 """F and G of the full observation, on a network of any size."""
-FLEET_FEATURES = 40, 16
+FLEET_SHAPE = 40, 16
 """M and H: how many of the other aircraft it shows, and how many numbers of each."""
 
 

@@ -2,7 +2,8 @@
 //! say of it, in numbers that mean the same on every network.
 //!
 //! Dollars are measured in the profit of a typical full flight of the network, times in hours, and passengers in
-//! flights; every number is bounded. Writing a row looks at every pair of vertiports three times, and once at the fleet.
+//! flights; every number is bounded. Writing a row looks at every pair of vertiports three times, and once at the fleet, twice if the
+//! other aircraft are shown one by one.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
 use vertifleet_policy::units_usd;
@@ -145,7 +146,7 @@ impl Writer {
         Self { adjacency, beside, units: None, seen: Vec::new() }
     }
 
-    /// A writer of features alone.
+    /// A writer of the features of vertiports and aircraft alone.
     pub(crate) fn of_features() -> Self {
         let adjacency = Adjacency::Complete;
         Self { adjacency, beside: Beside::default(), units: None, seen: Vec::new() }

@@ -33,9 +33,8 @@ fn with_aircraft() -> Architecture {
 }
 
 /// The same policy twice, with opinions of its own.
-fn twice(adjacency: Adjacency) -> [FullPolicy; 2] {
-    let policy = small(adjacency);
-    let weights = with_opinions(&policy, 1);
+fn twice(policy: &Architecture) -> [FullPolicy; 2] {
+    let weights = with_opinions(policy, 1);
     [(); 2].map(|()| FullPolicy::of(policy.clone(), Arc::clone(&weights)))
 }
 
@@ -63,7 +62,13 @@ fn any_weights_keep_every_rule_on_networks_of_any_size() {
 
 #[test]
 fn a_batch_of_days_of_all_sizes_is_answered_as_each_alone() {
-    let [mut alone, mut together] = twice(Adjacency::Reachable);
+    for policy in [small(Adjacency::Reachable), with_aircraft()] {
+        let [alone, together] = twice(&policy);
+        assert_answers_agree(alone, together);
+    }
+}
+
+fn assert_answers_agree(mut alone: FullPolicy, mut together: FullPolicy) {
     let mut simulations: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();
     for _ in 0..30 {
         let decisions: Vec<_> =
@@ -113,7 +118,10 @@ fn features_are_bounded_and_choices_are_feasible_on_every_network() {
 
 #[test]
 fn the_other_aircraft_that_are_ready_first_are_shown_with_their_vertiports() {
-    for day in days() {
+    let seed = DaySeed::validation(3).expect("a seed");
+    let large = Arc::new(Network::shipped("large").expect("shipped").draw(seed));
+    assert!(large.aircraft.len() > AIRCRAFT_SHOWN + 1, "not everybody is shown");
+    for day in days().into_iter().chain([large]) {
         let mut simulation = Simulation::new(Arc::clone(&day));
         let mut writer = Writer::of(&with_aircraft());
         let mut rows = writer.rows(day.vertiports.len());
@@ -139,7 +147,13 @@ fn the_other_aircraft_that_are_ready_first_are_shown_with_their_vertiports() {
                     let place = view.places()[other.at()];
                     let ready_h = ready.since(decision.time) as f32 / 3_600.0;
                     assert_eq!((shown[0], shown[1]), (1.0, ready_h.min(2.0)));
-                    assert_eq!(shown[3] == 1.0, place == decision.at);
+                    let is = |number: f32| number == 1.0;
+                    assert_eq!(is(shown[2]), ready <= decision.time);
+                    assert_eq!(is(shown[3]), place == decision.at);
+                    assert_eq!(is(shown[4]), view.kind(other) == view.kind(decision.aircraft));
+                    let day_s = day.operations.end.since(day.operations.start) as f32;
+                    let left_s = day.operations.end.since(ready) as f32;
+                    assert!((shown[5] - left_s / day_s).abs() < 1e-6);
                     let node = &nodes[place.at() * NODE_FEATURES..][..NODE_FEATURES];
                     for (name, number) in FLEET_FEATURE_NAMES.iter().zip(shown).skip(6) {
                         let feature = NODE_FEATURE_NAMES.iter().position(|known| known == name);
@@ -167,7 +181,7 @@ fn the_page_names_every_feature_in_its_order() {
 
 #[test]
 fn a_choice_that_is_rolled_out_to_the_end_is_worth_what_the_day_then_earns() {
-    let [mut rolled_out, mut alone] = twice(Adjacency::Complete);
+    let [mut rolled_out, mut alone] = twice(&small(Adjacency::Complete));
     let settings =
         RolloutSettings { horizon_s: 86_400, rollouts: 2, noise: 0.0, price_weight: 0.0 };
     // Nothing of this day is unknown.

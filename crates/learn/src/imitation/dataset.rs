@@ -164,16 +164,17 @@ impl Samples {
         let rows = numbers / aircraft_features;
         let tensor = |name: &str, entries: usize| tensor(file, name, entries);
         let masks = has_masks(policy).then(|| tensor(&masks, rows * vertiports));
-        let [of_edges, of_fleet] = Beside::of(policy).widths(vertiports);
-        let beside = |name: &str, width: usize| {
+        let beside = Beside::of(policy);
+        let [of_edges, of_fleet] = beside.widths(vertiports);
+        let optional = |name: &str, width: usize| {
             if width == 0 { Ok(Vec::new()) } else { tensor(name, rows * width) }
         };
         let samples = Self {
             rows: Rows::of(
-                shape,
+                (shape, beside),
                 tensor(&nodes, rows * vertiports * node_features)?,
                 tensor(&aircraft, rows * aircraft_features)?,
-                [beside(&edges, of_edges)?, beside(&fleet, of_fleet)?],
+                [optional(&edges, of_edges)?, optional(&fleet, of_fleet)?],
                 masks.transpose()?.as_deref(),
             ),
             priced: tensor(&priced, rows * vertiports)?,

@@ -47,8 +47,8 @@ pub struct GcapsSettings {
     pub graph: GraphSettings,
 }
 
-/// How a `gcaps` network relates the vertiports to each other. The default is the paper's (Table 3), on the complete
-/// graph; the others are what it can be compared with.
+/// How a `gcaps` network relates the vertiports to each other, and the aircraft. The default is the paper's (Table 3), on the
+/// complete graph of the vertiports; the others are what it can be compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GraphSettings {

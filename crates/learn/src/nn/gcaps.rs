@@ -252,7 +252,7 @@ fn general_encoder(layout: &mut Layout, settings: &GcapsSettings, shape: Shape) 
     match graph.encoder {
         EncoderKind::Capsules => {
             let (adjacency, laplacian) = (graph.adjacency, graph.laplacian);
-            let edges = Graph { vertiports, node_features, adjacency, laplacian };
+            let edges = Graph { nodes: vertiports, node_features, adjacency, laplacian };
             let sizes = (graph.layers, graph.moments, graph.hops);
             AnyEncoder::Capsules(CapsuleLayers::new(layout, "encoder", edges, width, sizes))
         }

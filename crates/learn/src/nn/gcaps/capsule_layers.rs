@@ -93,7 +93,7 @@ impl CapsuleLayers {
     }
 
     pub(crate) fn space(&self, batch: usize) -> CapsuleSpace {
-        let count = self.graph.vertiports;
+        let count = self.graph.nodes;
         let nodes = batch * count;
         let rows = |width: usize| vec![0.0; nodes * width];
         let of_layers = |layers: usize, width: usize| (0..layers).map(|_| rows(width)).collect();
@@ -117,8 +117,8 @@ impl CapsuleLayers {
         inputs: Inputs<'_>,
         space: &mut CapsuleSpace,
     ) {
-        let nodes = inputs.batch * self.graph.vertiports;
-        self.graph.write(inputs, &mut space.laplacians[..nodes * self.graph.vertiports]);
+        let nodes = inputs.batch * self.graph.nodes;
+        self.graph.write(inputs, &mut space.laplacians[..nodes * self.graph.nodes]);
         for at in 0..self.layers.len() {
             let (before, rest) = space.capsules.split_at_mut(at);
             let features = &mut space.features[at][..nodes * self.width];
@@ -131,7 +131,7 @@ impl CapsuleLayers {
             }
             let capsules = &mut rest[0][..nodes * self.capsule_width()];
             let room = Room {
-                laplacians: &space.laplacians[..nodes * self.graph.vertiports],
+                laplacians: &space.laplacians[..nodes * self.graph.nodes],
                 powers: &mut space.powers[..nodes * self.width],
                 power_slopes: &mut space.power_slopes[..nodes * self.width],
                 sums: space.sums.each_mut().map(|sums| &mut sums[..nodes * self.width]),
@@ -143,7 +143,7 @@ impl CapsuleLayers {
     /// The capsules of a batch after a forward pass.
     pub(crate) fn read<'space>(&self, space: &'space CapsuleSpace, batch: usize) -> &'space [f32] {
         let last = space.capsules.last().expect("there is a layer");
-        &last[..batch * self.graph.vertiports * self.capsule_width()]
+        &last[..batch * self.graph.nodes * self.capsule_width()]
     }
 
     fn capsules(
@@ -168,7 +168,7 @@ impl CapsuleLayers {
                     tensors.matrix(weight),
                 );
                 if a + 1 < weights.len() {
-                    add_product(laplacians, self.graph.vertiports, width, sums, next);
+                    add_product(laplacians, self.graph.nodes, width, sums, next);
                 }
                 std::mem::swap(&mut sums, &mut next);
             }
@@ -189,7 +189,7 @@ impl CapsuleLayers {
         slopes: &mut [f32],
         gradient: &mut [f32],
     ) {
-        let nodes = inputs.batch * self.graph.vertiports;
+        let nodes = inputs.batch * self.graph.nodes;
         for at in (0..self.layers.len()).rev() {
             let layer = &self.layers[at];
             let (before, here) = space.capsule_slopes.split_at_mut(at);
@@ -200,7 +200,7 @@ impl CapsuleLayers {
             let features = &space.features[at][..nodes * self.width];
             let feature_slopes = &mut space.slopes[..nodes * self.width];
             let room = Room {
-                laplacians: &space.laplacians[..nodes * self.graph.vertiports],
+                laplacians: &space.laplacians[..nodes * self.graph.nodes],
                 powers: &mut space.powers[..nodes * self.width],
                 power_slopes: &mut space.power_slopes[..nodes * self.width],
                 sums: space.sums.each_mut().map(|sums| &mut sums[..nodes * self.width]),
@@ -255,7 +255,7 @@ impl CapsuleLayers {
                 multiply(to, Write::Add, from, tensors.matrix(weight).transposed());
                 if a + 1 < weights.len() {
                     next.fill(0.0);
-                    add_transposed_product(laplacians, self.graph.vertiports, width, sums, next);
+                    add_transposed_product(laplacians, self.graph.nodes, width, sums, next);
                     std::mem::swap(&mut sums, &mut next);
                 }
             }

@@ -46,7 +46,7 @@ pub(crate) struct FleetSpace {
 impl Fleet {
     pub(crate) fn new(layout: &mut Layout, width: usize, moments: usize) -> Self {
         let graph = Graph {
-            vertiports: AIRCRAFT_SHOWN,
+            nodes: AIRCRAFT_SHOWN,
             node_features: FLEET_FEATURES,
             adjacency: Adjacency::Complete,
             laplacian: Laplacian::Plain,

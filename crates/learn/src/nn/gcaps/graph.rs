@@ -11,7 +11,7 @@ use crate::nn::batch::Inputs;
 /// How graphs are made.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Graph {
-    pub(crate) vertiports: usize,
+    pub(crate) nodes: usize,
     pub(crate) node_features: usize,
     pub(crate) adjacency: Adjacency,
     pub(crate) laplacian: Laplacian,
@@ -20,7 +20,7 @@ pub(crate) struct Graph {
 impl Graph {
     /// Writes L of every decision, [B x N x N].
     pub(crate) fn write(self, inputs: Inputs<'_>, laplacians: &mut [f32]) {
-        let count = self.vertiports;
+        let count = self.nodes;
         for (at, laplacian) in laplacians.chunks_exact_mut(count * count).enumerate() {
             match self.adjacency {
                 Adjacency::Complete => laplacian.fill(1.0),
@@ -38,7 +38,7 @@ impl Graph {
 
     /// Replaces A by L.
     fn turn_into_laplacian(self, adjacency: &mut [f32]) {
-        let count = self.vertiports;
+        let count = self.nodes;
         for (from, row) in adjacency.chunks_exact_mut(count).enumerate() {
             row[from] = 0.0;
             let degree: f32 = row.iter().sum();
