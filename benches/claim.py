@@ -142,6 +142,12 @@ def words_of(test: Test, corrected: float) -> str:
     return f"{mean:+.2f} ± {half:.2f}, p " + ("< 0.001" if corrected < 0.001 else f"= {corrected:.3f}")
 
 
+def means_of(runs: numpy.ndarray) -> str:
+    """The mean of each seed's run, and of all of them, as two cells."""
+    seeds = ", ".join(f"{mean:.2f}" for mean in runs.mean(axis=1))
+    return f"{seeds} | {runs.mean():.2f}"
+
+
 def table(shares: Shares, world: str) -> str:
     """The table of a world, as Markdown."""
     known = Differences(shares, world, NETWORKS)
@@ -163,9 +169,8 @@ def table(shares: Shares, world: str) -> str:
         "|---|---|---|---|---|",
     ]
     for name in known.shares:
-        seeds = ", ".join(f"{seed:.2f}" for seed in shares[world, name].mean(axis=1))
         others = " | ".join(against(name, reference) for reference in (graph, plain))
-        lines.append(f"| {NETWORKS[name]} | {seeds} | {shares[world, name].mean():.2f} | {others} |")
+        lines.append(f"| {NETWORKS[name]} | {means_of(shares[world, name])} | {others} |")
     lines.append(f"| `greedy` | | {shares[world, 'greedy'].mean():.2f} | | |")
     lines += ["", "Added when the results were known:", ""]
     lines.extend(f"- {NETWORKS[one]}, against {NETWORKS[other]}: {against(one, other)}" for one, other in AFTERWARDS)
@@ -192,10 +197,8 @@ def by_ppo(shares: Shares) -> str:
     """The policies of the paper, trained by PPO where networks change, as a table in Markdown."""
     world = "random-places:8"
     lines = ["| by PPO, on the paper's state | seeds 1, 2, 3 | mean |", "|---|---|---|"]
-    for name, words in BY_PPO.items():
-        seeds = ", ".join(f"{seed:.2f}" for seed in shares[world, name].mean(axis=1))
-        lines.append(f"| {words} | {seeds} | {shares[world, name].mean():.2f} |")
-    # As on the paper's state under imitation, runs vary so much that nothing else tells how much.
+    lines.extend(f"| {words} | {means_of(shares[world, name])} |" for name, words in BY_PPO.items())
+    # They vary more than the models of the tables, so only their own runs tell how much.
     graph, plain = BY_PPO
     test = Differences(shares, world, BY_PPO).of(graph, plain)
     lines.append(f"| graph capsules are ahead by | | {words_of(test, test[2])} |")

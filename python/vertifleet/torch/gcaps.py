@@ -17,7 +17,7 @@ from vertifleet import Error
 from vertifleet.torch.encoders import AttentionEncoder, CapsuleEncoder, FleetEncoder
 from vertifleet.torch.graph import graph_of
 from vertifleet.torch.layers import BEFORE_RELU, LOGITS, LayerNorm, Linear, Matrix, ValueHead
-from vertifleet.torch.twin import FLEET_SHAPE, FULL_FEATURES, Twin, check_size, paper_features
+from vertifleet.torch.twin import FLEET_SHAPE, FULL_FEATURES, Beside, Twin, check_size, paper_features
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -77,19 +77,11 @@ class Gcaps(Twin):
         sizes: dict[str, Any] = {"width": self.width, "heads": self.heads}
         return sizes if self.graph.is_of_the_paper else sizes | {"graph": self.graph.members}
 
-    def forward(
-        self,
-        nodes: Tensor,
-        aircraft: Tensor,
-        clock: Tensor,
-        edges: Tensor | None = None,
-        fleet: Tensor | None = None,
+    def _answers(
+        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, beside: Beside
     ) -> tuple[Tensor, Tensor]:
-        """Logits [B, N], not masked, and values [B]."""
-        nodes = self.by_node(nodes)
-        embeddings = self.encoder(nodes, self.by_edge(edges, nodes))
-        others = self.by_aircraft(fleet, len(nodes))
-        added = None if others is None else self.fleet_encoder(others)
+        embeddings = self.encoder(nodes, beside.edges)
+        added = None if beside.fleet is None else self.fleet_encoder(beside.fleet)
         logits, y = self.decoder(embeddings, aircraft, added)
         return logits, self.value(y, clock, embeddings.mean(dim=1))
 

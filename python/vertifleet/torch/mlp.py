@@ -10,7 +10,7 @@ from torch import Tensor, nn
 from torch.nn.functional import relu
 
 from vertifleet.torch.layers import BEFORE_RELU, LOGITS, Linear, ValueHead
-from vertifleet.torch.twin import FULL_FEATURES, Twin, check_size, paper_features
+from vertifleet.torch.twin import FULL_FEATURES, Beside, Twin, check_size, paper_features
 
 MOST_LAYERS = 16
 
@@ -50,18 +50,13 @@ class Mlp(Twin):
         """Width and number of the layers, and the width of the value head."""
         return {"width": self.width, "layers": self.layers, "value_width": self.value_width}
 
-    def forward(
+    def _answers(
         self,
         nodes: Tensor,
         aircraft: Tensor,
         clock: Tensor,
-        edges: Tensor | None = None,
-        fleet: Tensor | None = None,
+        beside: Beside,  # noqa: ARG002 - it reads nothing else
     ) -> tuple[Tensor, Tensor]:
-        """Logits [B, N], not masked, and values [B]; there are no edges and no graph of aircraft."""
-        nodes = self.by_node(nodes)
-        self.by_edge(edges, nodes)
-        self.by_aircraft(fleet, len(nodes))
         x = torch.cat([nodes.flatten(start_dim=1), aircraft], dim=-1)
         for layer in self.trunk.values():
             x = relu(layer(x))

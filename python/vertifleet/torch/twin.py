@@ -6,7 +6,7 @@ import math
 import operator
 from abc import ABC, abstractmethod
 from inspect import signature
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar
 
 from torch import Tensor, nn
 
@@ -15,8 +15,19 @@ from vertifleet import Error
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+BESIDE = {"edges": "edges", "fleet": "other aircraft"}
+"""What only some networks read, by the name of the argument."""
 MOST = 4096
 """Larger sizes can only come from a damaged file, and could ask for more memory than there is."""
+
+
+class Beside(NamedTuple):
+    """What a network may read beside the features of vertiports and of the deciding aircraft."""
+
+    edges: Tensor | None
+    """Weights of the edges between vertiports, [B, N, N]."""
+    fleet: Tensor | None
+    """Features of the other aircraft, [B, M, H]."""
 
 
 class Twin(nn.Module, ABC):
@@ -47,7 +58,6 @@ class Twin(nn.Module, ABC):
         self.aircraft_features = aircraft_features
         self.header: dict[str, Any] | None = None
 
-    @abstractmethod
     def forward(
         self,
         nodes: Tensor,
@@ -66,7 +76,22 @@ class Twin(nn.Module, ABC):
                 flights, if the network reads any.
             fleet: features of the other aircraft, [B, M, H] or flat [B, M * H], if the network has a graph of
                 them.
+
+        Raises:
+            Error: V451 if the network reads edges or other aircraft that are not given, or if some are given
+                that it does not read, or if an argument has another shape.
         """
+        nodes = self._by_node(nodes)
+        batch, count, _ = nodes.shape
+        between = self._beside("edges", edges, self.edges, (batch, count, count))
+        others = self._beside("fleet", fleet, self.fleet, (batch, *FLEET_SHAPE))
+        return self._answers(nodes, aircraft, clock, Beside(between, others))
+
+    @abstractmethod
+    def _answers(
+        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, beside: Beside
+    ) -> tuple[Tensor, Tensor]:
+        """Logits and values from what `forward` has checked, with nodes as [B, N, F]."""
 
     @property
     @abstractmethod
@@ -95,12 +120,8 @@ class Twin(nn.Module, ABC):
             "aircraft_features": self.aircraft_features,
         }
 
-    def by_node(self, nodes: Tensor) -> Tensor:
-        """Node features as [B, N, F], from that shape or from a flat one.
-
-        Raises:
-            Error: V451 if they belong to another number of vertiports or to another policy.
-        """
+    def _by_node(self, nodes: Tensor) -> Tensor:
+        """Node features as [B, N, F], from that shape or from a flat one."""
         batch, *shown = nodes.shape
         features = self.node_features
         vertiports = self.vertiports or math.prod(shown) // features
@@ -110,49 +131,25 @@ class Twin(nn.Module, ABC):
             raise Error("V451", f"{rule}, found {list(nodes.shape)}")
         return nodes.reshape(batch, vertiports, features)
 
-    def by_edge(self, edges: Tensor | None, nodes: Tensor) -> Tensor | None:
-        """The weights of edges as [B, N, N], from that shape or from a flat one, beside nodes [B, N, F].
+    def _beside(
+        self, name: str, given: Tensor | None, part: str | None, shape: tuple[int, int, int]
+    ) -> Tensor | None:
+        """An argument that only some networks read, in this shape, from that or from a flat one.
 
-        Raises:
-            Error: V451 if the network reads edges and there are none, or if it reads none and there are some,
-                or if they belong to another number of vertiports.
+        `part` is the part of an observation that shows it, None if the network does not read it.
         """
-        if edges is None and self.edges is None:
+        words = BESIDE[name]
+        if given is None and part is None:
             return None
-        batch, count, _ = nodes.shape
-        if edges is None:
-            raise Error(
-                "V451", f"these weights of {self.kind} need edges", f"observations show {self.edges!r}"
-            )
-        if self.edges is None:
-            raise Error("V451", f"these weights of {self.kind} read no edges: leave them out")
-        if list(edges.shape) not in ([batch, count, count], [batch, count * count]):
-            rule = f"edges must be [{batch}, {count}, {count}] or flat [{batch}, {count} * {count}]"
-            raise Error("V451", f"{rule}, found {list(edges.shape)}")
-        return edges.reshape(batch, count, count)
-
-    def by_aircraft(self, fleet: Tensor | None, batch: int) -> Tensor | None:
-        """The features of the other aircraft as [B, M, H], from that shape or from a flat one.
-
-        Raises:
-            Error: V451 if the network has a graph of aircraft and there are none, or if it has none and there
-                are some, or if they have another shape.
-        """
-        if fleet is None and self.fleet is None:
-            return None
-        if fleet is None:
-            raise Error(
-                "V451",
-                f"these weights of {self.kind} need the other aircraft",
-                f"observations show {self.fleet!r}",
-            )
-        if self.fleet is None:
-            raise Error("V451", f"these weights of {self.kind} read no other aircraft: leave them out")
-        shown, features = FLEET_SHAPE
-        if list(fleet.shape) not in ([batch, shown, features], [batch, shown * features]):
-            rule = f"fleet must be [{batch}, {shown}, {features}] or flat [{batch}, {shown} * {features}]"
-            raise Error("V451", f"{rule}, found {list(fleet.shape)}")
-        return fleet.reshape(batch, shown, features)
+        if given is None:
+            raise Error("V451", f"these weights of {self.kind} need {words}", f"observations show {part!r}")
+        if part is None:
+            raise Error("V451", f"these weights of {self.kind} read no {words}: leave them out")
+        batch, rows, columns = shape
+        if list(given.shape) not in ([batch, rows, columns], [batch, rows * columns]):
+            rule = f"{name} must be [{batch}, {rows}, {columns}] or flat [{batch}, {rows} * {columns}]"
+            raise Error("V451", f"{rule}, found {list(given.shape)}")
+        return given.reshape(shape)
 
 
 def paper_features(vertiports: int) -> tuple[int, int]:

@@ -2,8 +2,8 @@
 //! say of it, in numbers that mean the same on every network.
 //!
 //! Dollars are measured in the profit of a typical full flight of the network, times in hours, and passengers in
-//! flights; every number is bounded. Writing a row looks at every pair of vertiports three times, and once at the fleet, twice if the
-//! other aircraft are shown one by one.
+//! flights; every number is bounded. Writing a row looks at every pair of vertiports three times, and once at the fleet,
+//! twice if the other aircraft are shown one by one.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
 use vertifleet_policy::units_usd;
@@ -143,7 +143,7 @@ impl Writer {
     /// A writer of what a policy's network reads.
     pub(crate) fn of(policy: &Architecture) -> Self {
         let (adjacency, beside) = (policy.adjacency(), Beside::of(policy));
-        Self { adjacency, beside, units: None, seen: Vec::new() }
+        Self { adjacency, beside, ..Self::of_features() }
     }
 
     /// A writer of the features of vertiports and aircraft alone.
@@ -268,8 +268,8 @@ impl Scene<'_> {
         }
     }
 
-    /// Writes the features of the other aircraft [M x H], the first that are ready before the others; `nodes` are those of
-    /// the vertiports. Rows without an aircraft stay as they are.
+    /// Writes the features of the other aircraft that are ready first [M x H]; `nodes` are those of the vertiports. Rows
+    /// without an aircraft stay as they are.
     pub(crate) fn write_fleet(self, nodes: &[f32], fleet: &mut [f32]) {
         let Self { view, decision, kind, .. } = self;
         let mut first = [(Time::default(), decision.aircraft); AIRCRAFT_SHOWN];

@@ -61,7 +61,8 @@ impl FullObservation<'_> {
         self.scene.write_edges(adjacency, stride, edges);
     }
 
-    /// Writes the features of the other aircraft that are ready first, `[40][16]`. Rows without an aircraft stay as they are.
+    /// Writes the features of the other aircraft that are ready first, `[40][16]`. Rows without an aircraft stay as they
+    /// are.
     pub fn write_fleet(&self, fleet: &mut [f32]) {
         self.scene.write_fleet(self.nodes, fleet);
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, DaySeed, Network, Purpose, Scenario, VertiportIx, World};
 use vertifleet_policy::{DayPrices, Policy, PricedChoice, RolloutSettings, play};
-use vertifleet_sim::{Simulation, check::check};
+use vertifleet_sim::{Decision, Simulation, View, check::check};
 
 use crate::FullPolicy;
 use crate::full::features::{
@@ -128,41 +128,46 @@ fn the_other_aircraft_that_are_ready_first_are_shown_with_their_vertiports() {
         for number in 0..300 {
             let Some(decision) = simulation.next_decision() else { break };
             if number % 50 == 49 {
-                let view = simulation.view();
                 rows.clear();
-                writer.push(view, &decision, &mut rows);
-                let Inputs { nodes, fleet, .. } = rows.inputs();
-                let mut others: Vec<_> = AircraftIx::all(view.places().len())
-                    .filter(|other| *other != decision.aircraft)
-                    .map(|other| (view.ready_at(other), other))
-                    .collect();
-                others.sort_unstable();
-                let shown = fleet.chunks_exact(FLEET_FEATURES);
-                assert_eq!(shown.len(), AIRCRAFT_SHOWN);
-                for (at, shown) in shown.enumerate() {
-                    let Some(&(ready, other)) = others.get(at) else {
-                        assert!(shown.iter().all(|number| *number == 0.0), "nobody is there");
-                        continue;
-                    };
-                    let place = view.places()[other.at()];
-                    let ready_h = ready.since(decision.time) as f32 / 3_600.0;
-                    assert_eq!((shown[0], shown[1]), (1.0, ready_h.min(2.0)));
-                    let is = |number: f32| number == 1.0;
-                    assert_eq!(is(shown[2]), ready <= decision.time);
-                    assert_eq!(is(shown[3]), place == decision.at);
-                    assert_eq!(is(shown[4]), view.kind(other) == view.kind(decision.aircraft));
-                    let day_s = day.operations.end.since(day.operations.start) as f32;
-                    let left_s = day.operations.end.since(ready) as f32;
-                    assert!((shown[5] - left_s / day_s).abs() < 1e-6);
-                    let node = &nodes[place.at() * NODE_FEATURES..][..NODE_FEATURES];
-                    for (name, number) in FLEET_FEATURE_NAMES.iter().zip(shown).skip(6) {
-                        let feature = NODE_FEATURE_NAMES.iter().position(|known| known == name);
-                        assert_eq!(*number, node[feature.expect("of a vertiport")], "{name}");
-                    }
-                }
+                writer.push(simulation.view(), &decision, &mut rows);
+                assert_fleet_is_shown(simulation.view(), &decision, rows.inputs());
             }
             let choice = simulation.view().feasible(&decision).iter().next();
             simulation.apply(choice.expect("a mask is never empty")).expect("it is feasible");
+        }
+    }
+}
+
+fn assert_fleet_is_shown(
+    view: View<'_>,
+    decision: &Decision,
+    Inputs { nodes, fleet, .. }: Inputs<'_>,
+) {
+    let mut others: Vec<_> = AircraftIx::all(view.places().len())
+        .filter(|other| *other != decision.aircraft)
+        .map(|other| (view.ready_at(other), other))
+        .collect();
+    others.sort_unstable();
+    let shown = fleet.chunks_exact(FLEET_FEATURES);
+    assert_eq!(shown.len(), AIRCRAFT_SHOWN);
+    for (at, shown) in shown.enumerate() {
+        let Some(&(ready, other)) = others.get(at) else {
+            assert!(shown.iter().all(|number| *number == 0.0), "nobody is there");
+            continue;
+        };
+        let place = view.places()[other.at()];
+        let ready_h = ready.since(decision.time) as f32 / 3_600.0;
+        assert_eq!((shown[0], shown[1]), (1.0, ready_h.min(2.0)));
+        let is = |number: f32| number == 1.0;
+        assert_eq!(is(shown[2]), ready <= decision.time);
+        assert_eq!(is(shown[3]), place == decision.at);
+        assert_eq!(is(shown[4]), view.kind(other) == view.kind(decision.aircraft));
+        let day_s = view.day_end().since(view.day_start()) as f32;
+        assert!((shown[5] - view.day_end().since(ready) as f32 / day_s).abs() < 1e-6);
+        let node = &nodes[place.at() * NODE_FEATURES..][..NODE_FEATURES];
+        for (name, number) in FLEET_FEATURE_NAMES.iter().zip(shown).skip(6) {
+            let feature = NODE_FEATURE_NAMES.iter().position(|known| known == name);
+            assert_eq!(*number, node[feature.expect("of a vertiport")], "{name}");
         }
     }
 }

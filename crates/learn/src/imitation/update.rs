@@ -24,8 +24,8 @@ use crate::imitation::dataset::{Dataset, Samples};
 use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
 use crate::rows::{Beside, Rows};
 
-/// Vertiports per forward and backward pass: as many as the second-level cache holds. The aircraft of a graph of them come on
-/// top; they are not counted because the steps of a run would change with them.
+/// Vertiports per forward and backward pass: as many as the second-level cache holds. The aircraft of a graph of them
+/// come on top; they are not counted, so that the steps of a run do not depend on whether there is such a graph.
 const CHUNK_NODES: usize = 1_024;
 /// Chunks per step of Adam.
 const CHUNKS_A_STEP: usize = 8;

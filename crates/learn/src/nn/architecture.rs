@@ -47,8 +47,8 @@ pub struct GcapsSettings {
     pub graph: GraphSettings,
 }
 
-/// How a `gcaps` network relates the vertiports to each other, and the aircraft. The default is the paper's (Table 3), on the
-/// complete graph of the vertiports; the others are what it can be compared with.
+/// How a `gcaps` network relates the vertiports to each other, and the aircraft. The default is the paper's (Table 3), on
+/// the complete graph of the vertiports; the others are what it can be compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GraphSettings {
@@ -67,8 +67,8 @@ pub struct GraphSettings {
     pub laplacian: Laplacian,
     /// Whether the decoder attends to the vertiports (Eq. 20); without it, it reads their mean.
     pub attention: bool,
-    /// Whether the decoder's query also reads a graph of the other aircraft, as the follow-up study of the paper's authors
-    /// has one. Weight files leave it out where it is false, as those from before it do.
+    /// Whether the decoder's query also reads a graph of the other aircraft, as a later study of the paper's authors has
+    /// one (arXiv:2401.04851). Weight files leave it out where it is false, as those from before it do.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub aircraft_graph: bool,
 }

@@ -14,8 +14,8 @@ pub struct Inputs<'a> {
     /// Weights of the edges between vertiports [B x N x N], in the direction of flights; empty if the network's graph
     /// needs none.
     pub edges: &'a [f32],
-    /// Features of the other aircraft [B x M x H], of which M are shown ([`AIRCRAFT_SHOWN`](super::AIRCRAFT_SHOWN)) by H
-    /// numbers each ([`FLEET_FEATURES`](super::FLEET_FEATURES)); empty if the network has no graph of them.
+    /// Features of the other aircraft [B x M x H], with M and H as [`AIRCRAFT_SHOWN`](super::AIRCRAFT_SHOWN) and
+    /// [`FLEET_FEATURES`](super::FLEET_FEATURES); empty if the network has no graph of them.
     pub fleet: &'a [f32],
     /// Share of the day that is left `[B]`; only the value head sees it.
     pub clock: &'a [f32],

@@ -1,4 +1,5 @@
-//! The graph of the other aircraft, as the follow-up study of the paper's authors has one beside that of the vertiports.
+//! The graph of the other aircraft, as a later study of the paper's authors has one beside that of the vertiports
+//! (arXiv:2401.04851).
 //!
 //! Its nodes are the other aircraft that will be ready first, every one a neighbour of every other. One layer of graph
 //! capsules reads them; on a complete graph more than one hop says no more. What the mean of their capsules says is added
