@@ -10,7 +10,7 @@ use crate::days::{DayCell, now_ms};
 use crate::error::Error;
 use crate::keys::Busy;
 use crate::metrics::Metrics;
-use crate::store::{Store, StoredAnswer, StoredEvent};
+use crate::store::{AppendId, NewEvent, Store, StoredAnswer, StoredEvent};
 
 /// At most this many requests are committed together.
 const MOST_TOGETHER: usize = 1_024;
@@ -20,11 +20,19 @@ const A_MOMENT_MS: i64 = 5_000;
 
 /// Events of a day that wait to be stored.
 pub(crate) struct Append {
+    pub(crate) id: AppendId,
     pub(crate) day: Arc<DayCell>,
     pub(crate) events: Vec<StoredEvent>,
     pub(crate) answer: Option<StoredAnswer>,
     pub(crate) _busy: Option<Arc<Busy>>,
     pub(crate) done: oneshot::Sender<Result<(), Error>>,
+}
+
+impl Append {
+    fn new_events(&self) -> impl Iterator<Item = NewEvent<'_>> {
+        let (day, append) = (self.day.id(), self.id);
+        self.events.iter().map(move |event| NewEvent { day, append, event })
+    }
 }
 
 /// Takes events to be stored.
@@ -106,7 +114,11 @@ async fn write(store: &Store, metrics: &Metrics, failed_ms: &AtomicI64, batch: &
 async fn store_alone(store: &Store, append: &Append) -> Result<(), Error> {
     let outcome = store_together(store, std::slice::from_ref(append)).await;
     match (&outcome, append.events.last()) {
-        (Err(Error::Conflict), Some(last)) if store.has(append.day.id(), last).await? => Ok(()),
+        (Err(Error::Conflict), Some(last))
+            if store.is_stored_by(append.id, append.day.id(), last.seq).await? =>
+        {
+            Ok(())
+        }
         _ => outcome,
     }
 }
@@ -115,10 +127,7 @@ async fn store_together(store: &Store, batch: &[Append]) -> Result<(), Error> {
     if batch.iter().any(|append| append.day.has_failed.load(Ordering::Acquire)) {
         return Err(Error::Store { cause: "a day has failed".to_owned() });
     }
-    let events: Vec<(&str, &StoredEvent)> = batch
-        .iter()
-        .flat_map(|append| append.events.iter().map(|event| (append.day.id(), event)))
-        .collect();
+    let events: Vec<NewEvent<'_>> = batch.iter().flat_map(Append::new_events).collect();
     let answers: Vec<&StoredAnswer> =
         batch.iter().filter_map(|append| append.answer.as_ref()).collect();
     store.append(&events, &answers).await

@@ -21,7 +21,7 @@ use crate::error::Error;
 use crate::event::Event;
 use crate::keys::Busy;
 use crate::metrics::Metrics;
-use crate::store::{PAGE, Store, StoredAnswer, StoredDay, StoredEvent};
+use crate::store::{AppendId, PAGE, Store, StoredAnswer, StoredDay, StoredEvent};
 
 /// Events that a slow reader may be behind before it has to read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
@@ -402,6 +402,7 @@ impl Days {
         if day.stored.archived {
             return Err(Error::Archived { id: day.id().to_owned() });
         }
+        let id = AppendId::draw()?;
         let (done, outcome) = oneshot::channel();
         let answer = {
             let mut state = day.state();
@@ -415,7 +416,7 @@ impl Days {
             let Writer { idempotency, busy, .. } = writer;
             let kept = idempotency.map(|asked| asked.answered_with(&answer));
             let (day, events) = (Arc::clone(day), appended.events);
-            self.committer.push(Append { day, events, answer: kept, _busy: busy, done });
+            self.committer.push(Append { id, day, events, answer: kept, _busy: busy, done });
             answer
         };
         let stopped = || Error::Store { cause: "the service is stopping".to_owned() };

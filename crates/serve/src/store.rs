@@ -3,18 +3,20 @@
 //! Events are rows that are only ever added. Each has a sum over itself and the row before, so that a row that is
 //! missing, changed or torn is found when a day is read.
 
+mod append;
 mod library;
 mod open;
 mod tokens;
 
-use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use sqlx::any::AnyRow;
-use sqlx::{AnyPool, AssertSqlSafe, Row as _, query, query_scalar};
+use sqlx::{AnyPool, Row as _, query, query_scalar};
 
+use self::append::insert_answers;
+pub(crate) use self::append::{AppendId, NewEvent};
 pub(crate) use self::library::{Kind, StoredNetwork, StoredPolicy, Uploaded};
 pub(crate) use self::open::make_folder;
 pub use self::tokens::AuditRecord;
@@ -29,7 +31,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Rows that are read at once.
 pub(crate) const PAGE: u32 = 10_000;
 /// The version of the tables. A store of a newer version is refused.
-const VERSION: &str = "3";
+const VERSION: &str = "4";
 
 /// Where the data lies.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -299,68 +301,6 @@ impl Store {
         Ok(())
     }
 
-    /// Adds events of several days, all or none.
-    pub(crate) async fn append(
-        &self,
-        events: &[(&str, &StoredEvent)],
-        answers: &[&StoredAnswer],
-    ) -> Result<(), Error> {
-        let mut transaction = self.pool.begin().await?;
-        // A statement has at most 32,766 parameters in SQLite.
-        for events in events.chunks(4_000) {
-            let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain) VALUES ";
-            let sql = sql.to_owned() + &rows(events.len(), 7);
-            let mut insert = query(AssertSqlSafe(sql));
-            for (day, event) in events {
-                insert = insert
-                    .bind(*day)
-                    .bind(as_i64(event.seq))
-                    .bind(event.at_ms)
-                    .bind(&event.actor)
-                    .bind(&event.body)
-                    .bind(&event.notices)
-                    .bind(i64::from(event.chain));
-            }
-            insert.execute(&mut *transaction).await?;
-        }
-        self.check_days(&mut transaction, events).await?;
-        let at_ms = events.first().map_or(0, |(_, event)| event.at_ms);
-        insert_answers(&mut transaction, answers, at_ms).await?;
-        Ok(transaction.commit().await?)
-    }
-
-    /// Checks that nobody has archived or deleted the days of events that have just been added, and keeps everybody from it
-    /// until the transaction ends. `SQLite` has one writer at a time, which suffices for that.
-    async fn check_days(
-        &self,
-        transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
-        events: &[(&str, &StoredEvent)],
-    ) -> Result<(), Error> {
-        let days: BTreeSet<&str> = events.iter().map(|(day, _)| *day).collect();
-        let places: Vec<String> = (1..=days.len()).map(|place| format!("${place}")).collect();
-        let lock = if self.is_shared { " FOR SHARE" } else { "" };
-        // One question for all of them, because each has to be handed to the thread of the database and back.
-        let places = places.join(", ");
-        let select =
-            format!("SELECT id, archived FROM days WHERE id IN ({places}) ORDER BY id{lock}");
-        let mut select = query(AssertSqlSafe(select));
-        for day in &days {
-            select = select.bind(*day);
-        }
-        let mut found = HashMap::new();
-        for row in select.fetch_all(&mut **transaction).await? {
-            found.insert(row.try_get::<String, _>("id")?, row.try_get::<i64, _>("archived")?);
-        }
-        for day in days {
-            match found.get(day) {
-                Some(0) => {}
-                Some(_) => return Err(Error::Archived { id: day.to_owned() }),
-                None => return Err(Error::not_found("day", day)),
-            }
-        }
-        Ok(())
-    }
-
     /// The answer that was given to a request with this key.
     pub(crate) async fn answer(&self, key: &str) -> Result<Option<StoredAnswer>, Error> {
         let row = query("SELECT request, answer FROM answers WHERE idempotency_key = $1")
@@ -375,12 +315,6 @@ impl Store {
             })
         };
         row.map(answer).transpose()
-    }
-
-    /// Whether an event is stored just as it is here: what became of a commit that got no answer.
-    pub(crate) async fn has(&self, day: &str, event: &StoredEvent) -> Result<bool, Error> {
-        let found = self.events(day, event.seq - 1, 1).await?;
-        Ok(found.first() == Some(event))
     }
 
     /// All keys that requests have used; `None` if other processes may use keys too.
@@ -425,33 +359,6 @@ async fn check_at(
     let latest: i64 = latest.fetch_one(&mut **transaction).await?;
     let found = u64::try_from(latest).unwrap_or_default();
     if expected == found { Ok(()) } else { Err(Error::Moved { expected, found }) }
-}
-
-async fn insert_answers(
-    transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
-    answers: &[&StoredAnswer],
-    at_ms: i64,
-) -> Result<(), Error> {
-    for answers in answers.chunks(4_000) {
-        let sql = "INSERT INTO answers (idempotency_key, request, answer, at_ms) VALUES ";
-        let mut insert = query(AssertSqlSafe(sql.to_owned() + &rows(answers.len(), 4)));
-        for answer in answers {
-            insert =
-                insert.bind(&answer.key).bind(&answer.request).bind(&answer.answer).bind(at_ms);
-        }
-        insert.execute(&mut **transaction).await?;
-    }
-    Ok(())
-}
-
-/// The places of the values of some rows, `($1, $2), ($3, $4)`, as both databases read them.
-fn rows(rows: usize, columns: usize) -> String {
-    let row = |row: usize| {
-        let places: Vec<String> =
-            (1..=columns).map(|column| format!("${}", row * columns + column)).collect();
-        format!("({})", places.join(", "))
-    };
-    (0..rows).map(row).collect::<Vec<_>>().join(", ")
 }
 
 fn as_i64(seq: u64) -> i64 {

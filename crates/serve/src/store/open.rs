@@ -21,7 +21,8 @@ const TABLES: [&str; 9] = [
         time_zone TEXT NOT NULL DEFAULT '', sum BIGINT NOT NULL DEFAULT -1)",
     "CREATE TABLE IF NOT EXISTS events (
         day TEXT NOT NULL, seq BIGINT NOT NULL, at_ms BIGINT NOT NULL, actor TEXT NOT NULL,
-        body TEXT NOT NULL, notices TEXT NOT NULL, chain BIGINT NOT NULL, PRIMARY KEY (day, seq))",
+        body TEXT NOT NULL, notices TEXT NOT NULL, chain BIGINT NOT NULL,
+        append_id BIGINT NOT NULL DEFAULT 0, PRIMARY KEY (day, seq))",
     "CREATE TABLE IF NOT EXISTS answers (
         idempotency_key TEXT PRIMARY KEY, request TEXT NOT NULL, answer TEXT NOT NULL,
         at_ms BIGINT NOT NULL)",
@@ -43,13 +44,13 @@ const TABLES: [&str; 9] = [
 /// The lock of PostgreSQL under which tables are made: the letters of `fleet`.
 const LOCK: i64 = 0x66_6c65_6574;
 
-/// What a store of version 1 lacks.
-const SINCE_1: [&str; 2] = [
-    "ALTER TABLE days ADD COLUMN date TEXT NOT NULL DEFAULT ''",
-    "ALTER TABLE days ADD COLUMN time_zone TEXT NOT NULL DEFAULT ''",
+/// What stores of earlier versions lack, each with the version that lacked it last.
+const ADDED_AFTER: [(&str, &str); 4] = [
+    ("1", "ALTER TABLE days ADD COLUMN date TEXT NOT NULL DEFAULT ''"),
+    ("1", "ALTER TABLE days ADD COLUMN time_zone TEXT NOT NULL DEFAULT ''"),
+    ("2", "ALTER TABLE days ADD COLUMN sum BIGINT NOT NULL DEFAULT -1"),
+    ("3", "ALTER TABLE events ADD COLUMN append_id BIGINT NOT NULL DEFAULT 0"),
 ];
-/// What a store of version 2 lacks.
-const SINCE_2: &str = "ALTER TABLE days ADD COLUMN sum BIGINT NOT NULL DEFAULT -1";
 
 /// The settings of each connection to `SQLite`: a log that readers do not wait for, written to the disk before a commit
 /// is answered.
@@ -168,7 +169,7 @@ impl Store {
         let found: String = query_scalar("SELECT value FROM meta WHERE name = 'version'")
             .fetch_one(&self.pool)
             .await?;
-        if matches!(found.as_str(), "1" | "2") {
+        if ADDED_AFTER.iter().any(|(version, _)| *version == found) {
             return self.bring_up_to_date(&found).await;
         }
         if found != VERSION {
@@ -186,9 +187,9 @@ impl Store {
         let updated = query(update).bind(VERSION).bind(found).execute(&mut *transaction).await?;
         // Another service may have done it in the meantime.
         if updated.rows_affected() > 0 {
-            let since_1 = SINCE_1.into_iter().filter(|_| found == "1");
-            for statement in since_1.chain([SINCE_2]) {
-                query(statement).execute(&mut *transaction).await?;
+            // Versions have one digit, so their order is that of their texts.
+            for (_, statement) in ADDED_AFTER.iter().filter(|(version, _)| *version >= found) {
+                query(*statement).execute(&mut *transaction).await?;
             }
         }
         Ok(transaction.commit().await?)
@@ -239,6 +240,7 @@ mod tests {
             "ALTER TABLE days DROP COLUMN date",
             "ALTER TABLE days DROP COLUMN time_zone",
             "ALTER TABLE days DROP COLUMN sum",
+            "ALTER TABLE events DROP COLUMN append_id",
             "DROP TABLE networks",
             "DROP TABLE policies",
             "DROP TABLE descriptions",

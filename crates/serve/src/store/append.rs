@@ -1,0 +1,146 @@
+//! Events are stored: those of one append all or none, several appends together, and never on a day that is archived.
+
+use std::collections::{BTreeSet, HashMap};
+
+use sqlx::{AssertSqlSafe, Row as _, query, query_scalar};
+
+use super::{Store, StoredAnswer, StoredEvent, as_i64};
+use crate::error::Error;
+
+/// An event that is to be stored.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct NewEvent<'a> {
+    /// The id of its day.
+    pub(crate) day: &'a str,
+    /// The append that it belongs to.
+    pub(crate) append: AppendId,
+    /// The event.
+    pub(crate) event: &'a StoredEvent,
+}
+
+/// A random number that identifies one append, so that a service recognises its own events among equal events of other
+/// services.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct AppendId(i64);
+
+impl AppendId {
+    /// Draws a new id.
+    ///
+    /// # Errors
+    /// Returns [`Error::Internal`] if the operating system has no random numbers.
+    pub(crate) fn draw() -> Result<Self, Error> {
+        let random = getrandom::u64();
+        random
+            .map(|id| Self(id.cast_signed()))
+            .map_err(|error| Error::Internal { cause: error.to_string() })
+    }
+}
+
+impl Store {
+    /// Adds events of several days, all or none.
+    pub(crate) async fn append(
+        &self,
+        events: &[NewEvent<'_>],
+        answers: &[&StoredAnswer],
+    ) -> Result<(), Error> {
+        let mut transaction = self.pool.begin().await?;
+        // A statement has at most 32,766 parameters in SQLite.
+        for events in events.chunks(4_000) {
+            let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain, append_id) VALUES ";
+            let sql = sql.to_owned() + &rows(events.len(), 8);
+            let mut insert = query(AssertSqlSafe(sql));
+            for NewEvent { day, append: AppendId(append), event } in events {
+                insert = insert
+                    .bind(*day)
+                    .bind(as_i64(event.seq))
+                    .bind(event.at_ms)
+                    .bind(&event.actor)
+                    .bind(&event.body)
+                    .bind(&event.notices)
+                    .bind(i64::from(event.chain))
+                    .bind(*append);
+            }
+            insert.execute(&mut *transaction).await?;
+        }
+        self.check_days(&mut transaction, events).await?;
+        let at_ms = events.first().map_or(0, |new| new.event.at_ms);
+        insert_answers(&mut transaction, answers, at_ms).await?;
+        Ok(transaction.commit().await?)
+    }
+
+    /// Checks that nobody has archived or deleted the days of events that have just been added, and keeps everybody from it
+    /// until the transaction ends. `SQLite` has one writer at a time, which suffices for that.
+    async fn check_days(
+        &self,
+        transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
+        events: &[NewEvent<'_>],
+    ) -> Result<(), Error> {
+        let days: BTreeSet<&str> = events.iter().map(|new| new.day).collect();
+        let places: Vec<String> = (1..=days.len()).map(|place| format!("${place}")).collect();
+        let lock = if self.is_shared { " FOR SHARE" } else { "" };
+        // One question for all of them, because each has to be handed to the thread of the database and back.
+        let places = places.join(", ");
+        let select =
+            format!("SELECT id, archived FROM days WHERE id IN ({places}) ORDER BY id{lock}");
+        let mut select = query(AssertSqlSafe(select));
+        for day in &days {
+            select = select.bind(*day);
+        }
+        let mut found = HashMap::new();
+        for row in select.fetch_all(&mut **transaction).await? {
+            found.insert(row.try_get::<String, _>("id")?, row.try_get::<i64, _>("archived")?);
+        }
+        for day in days {
+            match found.get(day) {
+                Some(0) => {}
+                Some(_) => return Err(Error::Archived { id: day.to_owned() }),
+                None => return Err(Error::not_found("day", day)),
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the event with a number was stored by this append. An equal event may be there that another service stored,
+    /// so contents are not compared.
+    pub(crate) async fn is_stored_by(
+        &self,
+        append: AppendId,
+        day: &str,
+        seq: u64,
+    ) -> Result<bool, Error> {
+        let found: Option<i64> =
+            query_scalar("SELECT append_id FROM events WHERE day = $1 AND seq = $2")
+                .bind(day)
+                .bind(as_i64(seq))
+                .fetch_optional(&self.pool)
+                .await?;
+        Ok(found == Some(append.0))
+    }
+}
+
+pub(super) async fn insert_answers(
+    transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
+    answers: &[&StoredAnswer],
+    at_ms: i64,
+) -> Result<(), Error> {
+    for answers in answers.chunks(4_000) {
+        let sql = "INSERT INTO answers (idempotency_key, request, answer, at_ms) VALUES ";
+        let mut insert = query(AssertSqlSafe(sql.to_owned() + &rows(answers.len(), 4)));
+        for answer in answers {
+            insert =
+                insert.bind(&answer.key).bind(&answer.request).bind(&answer.answer).bind(at_ms);
+        }
+        insert.execute(&mut **transaction).await?;
+    }
+    Ok(())
+}
+
+/// The places of the values of some rows, `($1, $2), ($3, $4)`, as both databases read them.
+fn rows(rows: usize, columns: usize) -> String {
+    let row = |row: usize| {
+        let places: Vec<String> =
+            (1..=columns).map(|column| format!("${}", row * columns + column)).collect();
+        format!("({})", places.join(", "))
+    };
+    (0..rows).map(row).collect::<Vec<_>>().join(", ")
+}
