@@ -1,37 +1,58 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo check test soak database console console-ready console-test lint deny bench train suites notebooks python python-light python-test wheel sdist prepare tools
+.PHONY: demo program check test test-all rust-test python-light-test python-test console-test lint soak database console console-ready deny bench train suites notebooks python python-light wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network.
-demo: prepare
-	cargo build --release --locked -p vertifleet-cli
+demo: program
 	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,prices,rolling,mlp,gcaps,gcaps-x --days 100 --seed 1 --report out/report
 
-# What to run before a commit, in minutes: formatting, lints, Rust's tests, and those of Python that need no PyTorch and no Ray.
-check: prepare database python-light
-	cargo fmt --all --check
-	cargo clippy --workspace --all-targets --locked -- -D warnings
-	cargo test --workspace --locked
-	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check .
-	python/.venv/bin/pytest -q -c python/pyproject.toml --ignore python/tests/frameworks python/tests
+# The whole workspace decides on the features of dependencies, so that the tests can use what is compiled here.
+program: prepare
+	cargo build --release --locked --workspace --bin vertifleet
 
-# Rust's tests first: they take minutes, and need nothing to be downloaded but crates.
-test: prepare database
-	cargo test --workspace --locked
-	$(MAKE) console-test
-	$(MAKE) python-test
+# The settings of tests, which .cargo/checked.toml explains.
+CHECKED = --config .cargo/checked.toml --release --workspace --locked
+
+# What to run before a commit, in minutes: formatting, clippy, and the tests that find most: those beside the code.
+check: prepare
+	cargo fmt --all --check
+	cargo clippy $(CHECKED) --all-targets -- -D warnings
+	cargo test $(CHECKED) --lib --bins
+
+# Every test that needs neither a browser nor PyTorch nor Ray, documentation among them.
+test:
+	@scripts/groups rust-test python-light-test
+
+# Every test. Each group runs, also after another has failed, and the last lines name those that failed.
+test-all:
+	@scripts/groups rust-test console-test python-test
 
 # What CI adds to the tests.
 lint: prepare python tools console-ready
 	cargo fmt --all --check
-	cargo clippy --workspace --all-targets --locked -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
+	cargo clippy $(CHECKED) --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc $(CHECKED) --no-deps
 	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check . && .venv/bin/mypy
 	cd docs && ../python/.venv/bin/stubtest vertifleet._native
 	python/.venv/bin/typos
 	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
 	shellcheck .ci/run scripts/* benches/table2/figure
 	cd web && npm run check
+
+rust-test: prepare database
+	cargo test $(CHECKED) --no-fail-fast
+
+# Not from python/: Ray's workers would take the package from there, which has no extension module in the sources.
+python-light-test: python-light
+	python/.venv/bin/pytest -q -c python/pyproject.toml --ignore python/tests/frameworks python/tests
+python-test: python
+	python/.venv/bin/pytest -c python/pyproject.toml python/tests python/benches
+
+# The console in headless Chromium, with the program as tests build it; and whether web/dist is what web/ builds.
+console-test: prepare
+	@scripts/console test
+	cargo test $(CHECKED) --no-run
+	cd web && npm test && npm run dist-test && npm run e2e
 
 # The Python package with all its extras, in python/.venv; and with those alone that install in seconds.
 python: prepare
@@ -49,23 +70,13 @@ console: console-ready
 console-ready: prepare
 	@scripts/console build
 
-# The console in headless Chromium, with the program as `cargo test` has built it; and whether web/dist is what web/ builds.
-console-test: prepare
-	@scripts/console test
-	cargo test --workspace --locked --no-run
-	cd web && npm test && npm run dist-test && npm run e2e
-
 # How often the service survives: 1,000 kills while clients write, with each kind of store, and where writes fail too.
 soak: prepare database
-	VERTIFLEET_KILLS=1000 cargo test --release --locked -p vertifleet-cli --test serve_killed -- --nocapture
+	VERTIFLEET_KILLS=1000 cargo test $(CHECKED) --test cli serve_killed -- --nocapture
 
 # What the lints need beside Rust and Python.
 tools: prepare
 	@scripts/tools
-
-python-test: python
-	# Not from python/: Ray's workers would take the package from there, which has no extension module in the sources.
-	python/.venv/bin/pytest -c python/pyproject.toml python/tests python/benches
 
 # A wheel for every Linux of the last ten years, in python/dist.
 wheel: python
@@ -85,8 +96,7 @@ bench: prepare
 
 # How the shipped weights were made; they are then copied from out/train to models/paper, those of gcaps-x to models/any, with
 # their curves. Beside gcaps-x lie the curves of --seed 2 and --seed 3.
-train: prepare
-	cargo build --release --locked -p vertifleet-cli
+train: program
 	./target/release/vertifleet train --network paper --policy gcaps --seed 1 --out out/train
 	./target/release/vertifleet train --network paper --policy mlp --seed 1 --out out/train
 	./target/release/vertifleet train --network paper --policy gcaps-x --seed 1 --out out/train

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use vertifleet_core::Coded;
 
-#[path = "../tests/made_up/mod.rs"]
+#[path = "../tests/study/made_up.rs"]
 mod made_up;
 
 fn main() -> ExitCode {

@@ -1,15 +1,17 @@
 //! Matrix products over checked slices. This is the only module that calls the matrix-product crate, and therefore the
 //! only one with `unsafe` code.
 //!
-//! `gemm` chooses its kernel by the CPU at run time, so one build runs everywhere, and a given machine always computes
-//! the same bits. `faer`, which needs no `unsafe`, was 3 to 15 % slower on the largest products here.
+//! `gemm-f32` chooses its kernel by the CPU at run time, so one build runs everywhere, and a given machine always
+//! computes the same bits. `gemm` forwards to it, and builds kernels for complex and double numbers besides. `faer`,
+//! which needs no `unsafe`, was 3 to 15 % slower on the largest products here.
 
 #![expect(
     unsafe_code,
     reason = "gemm takes pointers; the matrices below have checked their slices"
 )]
 
-use gemm::Parallelism;
+use gemm_common::Parallelism;
+use gemm_f32::gemm::f32::get_gemm_fn;
 
 /// A matrix in a slice: entry (i, j) lies at `i * row_step + j * column_step`.
 #[derive(Debug, Clone, Copy)]
@@ -106,18 +108,25 @@ pub(crate) fn multiply(to: MatrixMut<'_>, write: Write, left: Matrix<'_>, right:
     assert_eq!((left.rows, right.columns), (rows, columns), "sizes of a product and its factors");
     assert_eq!(inner, right.rows, "inner sizes of a product");
     let factor = if write == Write::Subtract { -1.0 } else { 1.0 };
+    // The kernels write columns. A matrix with more than one column therefore is written as its transpose, which is the
+    // product of the transposed factors in the other order.
+    let (rows, columns, steps, left, right) = if row_step > 1 {
+        (columns, rows, (row_step, 1), right.transposed(), left.transposed())
+    } else {
+        (rows, columns, (1, row_step), left, right)
+    };
     // A slice is at most isize::MAX bytes long, and a step that is used is shorter than its slice.
     let step = |step: usize| isize::try_from(step).expect("a step inside a slice");
     // SAFETY: the two readable matrices and the writable one have their largest index inside their slices (checked by
     // the constructors), the writable one is borrowed exclusively and its entries do not overlap, and the sizes agree.
     unsafe {
-        gemm::gemm(
+        get_gemm_fn()(
             rows,
             columns,
             inner,
             entries.as_mut_ptr(),
-            1,
-            step(row_step),
+            step(steps.0),
+            step(steps.1),
             write != Write::Set,
             left.entries.as_ptr(),
             step(left.column_step),

@@ -1,5 +1,6 @@
 //! The service over HTTP, as its users meet it.
 
+mod any_state;
 mod api;
 mod archived_days;
 mod changed_minds;
@@ -8,6 +9,7 @@ mod console;
 mod days_of_ones_own;
 mod described_requests;
 mod malformed;
+mod openapi;
 mod operated_days;
 mod outlooks;
 #[cfg(unix)]

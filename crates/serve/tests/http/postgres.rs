@@ -1,6 +1,7 @@
 //! Two services that share a `PostgreSQL` database.
 
 use std::collections::BTreeSet;
+use std::sync::Barrier;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -70,6 +71,60 @@ fn two_services_share_a_database() {
     });
     let marks: BTreeSet<String> = marks(&two, &path).into_iter().collect();
     assert_eq!((marks.len(), one.get(&path).json["seq"].as_u64()), (100, Some(102)));
+}
+
+/// An event that clients send again and again without a difference.
+const BOOKED: &[u8] =
+    br#"{"type": "booked", "period": "07:00:00", "from": "V1", "to": "V2", "passengers": 1}"#;
+
+/// Sends an event that equals many others. Returns its number; `None` if another service was quicker.
+fn book(service: &Running, path: &str, key: Option<&str>) -> Option<u64> {
+    let headers: Vec<_> = key.map(|key| ("idempotency-key", key)).into_iter().collect();
+    let answer = service.send("POST", &format!("{path}/events"), &headers, BOOKED);
+    assert!(matches!(answer.status, 201 | 409), "{answer:?}");
+    answer.json["seq"].as_u64()
+}
+
+#[test]
+fn equal_events_that_reach_two_services_at_once_are_all_stored() {
+    const CLIENTS: usize = 4;
+    const EVENTS: usize = 50;
+    let database = Postgres::start();
+    let services = [(); 2].map(|()| Running::start_at(location(&database)));
+    let path = services[0].new_day("greedy");
+    let start = Barrier::new(CLIENTS);
+    // The clients of each service send their events with keys and without.
+    let write = |client: usize| {
+        let mut acknowledged = Vec::new();
+        for number in 0..EVENTS {
+            let key = (client >= 2).then(|| format!("{client}-{number}"));
+            start.wait();
+            if let Some(seq) = book(&services[client % 2], &path, key.as_deref()) {
+                acknowledged.push((key, seq));
+            }
+        }
+        acknowledged
+    };
+    let acknowledged: Vec<(Option<String>, u64)> = thread::scope(|scope| {
+        let clients: Vec<_> = (0..CLIENTS)
+            .map(|client| {
+                let write = &write;
+                scope.spawn(move || write(client))
+            })
+            .collect();
+        clients.into_iter().flat_map(|client| client.join().expect("it writes")).collect()
+    });
+    let numbers: BTreeSet<u64> = acknowledged.iter().map(|(_, seq)| *seq).collect();
+    assert!(numbers.len() > CLIENTS * EVENTS / 2, "{} events", numbers.len());
+    assert_eq!(numbers.len(), acknowledged.len(), "no two answers name the same event");
+    let stored = numbers.len() as u64;
+    for service in &services {
+        assert_eq!(service.get(&path).json["seq"], stored, "what was acknowledged is stored");
+        for (key, seq) in acknowledged.iter().filter(|(key, _)| key.is_some()) {
+            assert_eq!(book(service, &path, key.as_deref()), Some(*seq), "its key is known");
+        }
+        assert_eq!(service.get(&path).json["seq"], stored, "nothing is stored again");
+    }
 }
 
 #[test]

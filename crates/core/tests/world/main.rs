@@ -1,0 +1,13 @@
+//! What the files of the project promise: reading, checking, drawing and writing networks and days.
+
+mod any_input;
+mod beyond;
+mod drawing;
+mod errors;
+mod files;
+mod hopeless_demand;
+mod hourly;
+mod means;
+mod outputs;
+mod planning;
+mod sources;

@@ -1,0 +1,4 @@
+//! What observations promise.
+
+mod documentation;
+mod observation;

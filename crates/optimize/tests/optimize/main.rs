@@ -1,0 +1,10 @@
+//! What the bound, the planner and the rolling horizon promise.
+
+mod bound;
+mod bound_of_rest;
+mod designs;
+mod exhaustive;
+mod known_closures;
+mod planner;
+mod proof;
+mod rolling;

@@ -1,0 +1,10 @@
+//! What comparisons, evaluations, sweeps and searches for designs promise.
+
+mod account;
+mod evaluations;
+mod explain;
+mod generalisation;
+mod made_up;
+mod report;
+mod size;
+mod sweep;
