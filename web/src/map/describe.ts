@@ -1,13 +1,13 @@
 // What is said about what a person points at on the map, line by line, the name first.
 
 import { at } from '../model/arrays'
-import { isHold, type LegRecord } from '../model/record'
+import { latenessOf, minutesOverdue } from '../model/awaited'
+import { isHold, type LegRecord, type Seconds } from '../model/record'
 import { percent } from '../model/money'
 import { NONE, Phase } from '../model/motion'
 import type { Target } from '../model/target'
 import { clock, clockMinutes } from '../model/time'
 import { text } from '../text/text'
-import { standsOf } from './painters/names'
 import type { Scene } from './scene'
 
 const phaseNames: Record<Phase, keyof typeof text.map.phases> = {
@@ -37,6 +37,7 @@ function describeAircraft({ record, frame }: Scene, aircraft: number): string[] 
       ...describeLeg(
         leg,
         phase,
+        frame.time,
         record.vertiports.map((one) => one.id),
         seats,
       ),
@@ -45,22 +46,34 @@ function describeAircraft({ record, frame }: Scene, aircraft: number): string[] 
   return lines
 }
 
-function describeLeg(leg: LegRecord, phase: Phase, names: string[], seats: number): string[] {
+function describeLeg(leg: LegRecord, phase: Phase, time: Seconds, names: string[], seats: number): string[] {
   if (phase === Phase.holding) return [text.map.holdsUntil(clockMinutes(leg.ready))]
   if (phase === Phase.charging || phase === Phase.out) return [text.map.readyAt(clockMinutes(leg.ready))]
   if (phase === Phase.waiting || isHold(leg)) return []
   const load = leg.passengers === 0 ? text.map.empty : text.map.seats(leg.passengers, seats)
-  const next =
-    phase === Phase.delayed ? text.map.takesOff(clock(leg.departs)) : text.map.lands(clock(leg.arrives))
-  return [text.map.from(at(names, leg.from), at(names, leg.to)), `${load} · ${next}`]
+  const route = text.map.from(at(names, leg.from), at(names, leg.to))
+  return [route, `${load} · ${nextOf(leg, phase, time)}`, ...overdueOf(leg, time)]
+}
+
+/** When an aircraft takes off or lands, or when it should have. */
+function nextOf(leg: LegRecord, phase: Phase, time: Seconds): string {
+  if (leg.awaited !== undefined && latenessOf(leg, time) > 0)
+    return text.map.due[leg.awaited.report](clock(leg.awaited.due))
+  return phase === Phase.delayed ? text.map.takesOff(clock(leg.departs)) : text.map.lands(clock(leg.arrives))
+}
+
+function overdueOf(leg: LegRecord, time: Seconds): string[] {
+  const minutes = minutesOverdue(leg, time)
+  return minutes === 0 ? [] : [text.map.overdueBy(minutes)]
 }
 
 function describeVertiport(scene: Scene, vertiport: number): string[] {
-  const { taken, promised } = standsOf(scene, vertiport)
+  const { taken, promised, overdue } = scene.counts.standsOf(vertiport)
   const lines = [
     at(scene.record.vertiports, vertiport).id,
     text.map.stands(taken, promised, at(scene.room, vertiport)),
   ]
+  if (overdue > 0) lines.push(text.map.overdue(overdue))
   const sum = (end: 'from' | 'to') =>
     scene.allPairs.filter((pair) => pair[end] === vertiport).reduce((all, pair) => all + pair.passengers, 0)
   if (scene.allPairs.length > 0)
@@ -72,9 +85,12 @@ function describeVertiport(scene: Scene, vertiport: number): string[] {
 
 /** What the map shows in a sentence, for people who do not see it. */
 export function summarise(scene: Scene, time: number): string {
-  const { record, frame, closures } = scene
-  const flying = frame.phases.reduce((sum, phase) => sum + Number(phase === Phase.flying), 0)
-  const parts = [text.map.inTheAir(flying), text.map.closed(closures.length)].join(', ')
+  const { record, frame, counts, closures } = scene
+  const overdue = record.aircraft.flatMap(({ id }, one) => {
+    const minutes = at(frame.overdue_min, one)
+    return minutes === 0 ? [] : [text.map.overdueOne(id, minutes)]
+  })
+  const parts = [text.map.inTheAir(counts.inTheAir), ...overdue, text.map.closed(closures.length)].join(', ')
   const what = text.map.summary(
     text.map.vertiports(record.vertiports.length),
     text.map.aircraft(record.aircraft.length),

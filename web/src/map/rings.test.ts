@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest'
-import { COUNTED, piecesOf, radiusOf, StandState } from './rings'
+import { COUNTED, StandState } from '../model/counts'
+import { piecesOf, radiusOf } from './rings'
 
 const RADIUS = 16
 

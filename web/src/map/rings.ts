@@ -2,20 +2,7 @@
 // stands there, for whom a stand is kept, and what is free.
 
 import { at } from '../model/arrays'
-
-/** What a piece of a ring says, in the order in which pieces follow each other. */
-export const StandState = {
-  waiting: 0,
-  holding: 1,
-  charging: 2,
-  out: 3,
-  promised: 4,
-  free: 5,
-  over: 6,
-} as const
-export type StandState = (typeof StandState)[keyof typeof StandState]
-/** States that are counted; the others follow from these. */
-export const COUNTED = 5
+import { COUNTED, StandState } from '../model/counts'
 
 /** More stands than this are shown as one arc for each state: pieces would be too small to count. */
 const MOST_PIECES = 24

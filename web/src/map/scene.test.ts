@@ -3,7 +3,6 @@ import { prices } from '../model/fixtures/tiny'
 import { NONE } from '../model/motion'
 import { timeOf } from '../model/time'
 import { fit } from './camera'
-import { standsOf } from './painters/names'
 import { pick } from './pick'
 import { boxOf } from './plane'
 import { Scene } from './scene'
@@ -20,11 +19,11 @@ function at(clock: string): Scene {
 describe('a scene', () => {
   it('counts every aircraft at one vertiport', () => {
     const scene = at('07:05:00')
-    const stands = scene.room.map((_, one) => standsOf(scene, one))
+    const stands = scene.room.map((_, one) => scene.counts.standsOf(one))
     expect(stands).toEqual([
-      { taken: 0, promised: 2 },
-      { taken: 0, promised: 1 },
-      { taken: 0, promised: 0 },
+      { taken: 0, promised: 2, overdue: 0 },
+      { taken: 0, promised: 1, overdue: 0 },
+      { taken: 0, promised: 0, overdue: 0 },
     ])
     expect(scene.aircraftAt(0).map(({ aircraft }) => aircraft)).toEqual([1, 2])
   })

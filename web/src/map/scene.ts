@@ -2,24 +2,15 @@
 // every moment, and what changes only with decisions carries a revision, so that it is drawn anew only then.
 
 import { at } from '../model/arrays'
+import { Counts, destinationOf, holdingOf, type StandState } from '../model/counts'
 import { Fleet, NONE, Phase, type FleetFrame } from '../model/motion'
 import { roomOf } from '../model/occupancy'
 import type { ClosureRecord, DayRecord, Seconds } from '../model/record'
 import { Waiting, type WaitingPair } from '../model/waiting'
 import { Plane } from './plane'
-import { COUNTED, StandState } from './rings'
 
 /** More arcs would hide each other; those of the fewest passengers are left out. */
 const MOST_ARCS = 24
-
-const STATE_OF_PHASE: Record<Phase, StandState> = {
-  [Phase.waiting]: StandState.waiting,
-  [Phase.charging]: StandState.charging,
-  [Phase.holding]: StandState.holding,
-  [Phase.out]: StandState.out,
-  [Phase.delayed]: StandState.promised,
-  [Phase.flying]: StandState.promised,
-}
 
 export class Scene {
   readonly fleet: Fleet
@@ -27,8 +18,7 @@ export class Scene {
   readonly frame: FleetFrame
   /** Where aircraft are in the plane, two numbers each. */
   readonly aircraft: Float64Array
-  /** How many aircraft hold stands of each vertiport, by state. */
-  readonly counts: Uint16Array
+  readonly counts: Counts
   /** Stands and chargers of each vertiport. */
   readonly room: number[]
   /** Miles to the nearest other vertiport. */
@@ -40,15 +30,13 @@ export class Scene {
   /** Rises when rings, arcs or closures have changed. */
   revision = 0
   readonly #waiting: Waiting
-  readonly #formerCounts: Uint16Array
 
   constructor(readonly record: DayRecord) {
     this.fleet = new Fleet(record)
     this.plane = new Plane(this.fleet.geography)
     this.frame = this.fleet.frame()
     this.aircraft = new Float64Array(2 * record.aircraft.length)
-    this.counts = new Uint16Array(COUNTED * record.vertiports.length)
-    this.#formerCounts = new Uint16Array(this.counts.length)
+    this.counts = new Counts(record)
     this.room = record.vertiports.map(roomOf)
     this.nearest_mi = nearestOf(this.plane.vertiports)
     this.#waiting = new Waiting(record)
@@ -65,9 +53,7 @@ export class Scene {
 
   /** Where an aircraft flies to, or would if it were not delayed; NONE for one that stands. */
   destination(aircraft: number): number {
-    const phase = at(this.frame.phases, aircraft)
-    if (phase !== Phase.flying && phase !== Phase.delayed) return NONE
-    return at(this.record.legs, at(this.frame.legs, aircraft)).to
+    return destinationOf(this.record, this.frame, aircraft)
   }
 
   /** Where it comes from; NONE for one that stands. */
@@ -83,30 +69,23 @@ export class Scene {
     return Math.min(1, passengers / at(this.record.aircraft, aircraft).seats)
   }
 
+  /** Whether the departure or the landing of an aircraft is overdue. */
+  isOverdue(aircraft: number): boolean {
+    return at(this.frame.overdue_min, aircraft) > 0
+  }
+
   /** The aircraft that hold stands of a vertiport, with those that are on their way to it. */
   aircraftAt(vertiport: number): { aircraft: number; state: StandState }[] {
     return this.record.aircraft.flatMap((_, aircraft) => {
-      const holder = this.#holds(aircraft)
-      return holder.vertiport === vertiport ? [{ aircraft, state: holder.state }] : []
+      const holding = holdingOf(this.record, this.frame, aircraft)
+      return holding.vertiport === vertiport ? [{ aircraft, state: holding.state }] : []
     })
   }
 
   #count(): void {
-    this.#formerCounts.set(this.counts)
-    this.counts.fill(0)
-    for (let aircraft = 0; aircraft < this.frame.size; aircraft++) {
-      const destination = this.destination(aircraft)
-      const vertiport = destination === NONE ? at(this.frame.stands, aircraft) : destination
-      const slot = COUNTED * vertiport + STATE_OF_PHASE[at(this.frame.phases, aircraft) as Phase]
-      this.counts[slot] = at(this.counts, slot) + 1
-    }
-    if (this.counts.some((count, slot) => count !== this.#formerCounts[slot])) this.revision++
-  }
-
-  #holds(aircraft: number): { vertiport: number; state: StandState } {
-    const destination = this.destination(aircraft)
-    const state = STATE_OF_PHASE[at(this.frame.phases, aircraft) as Phase]
-    return { vertiport: destination === NONE ? at(this.frame.stands, aircraft) : destination, state }
+    const former = this.counts.revision
+    this.counts.count(this.frame)
+    if (this.counts.revision !== former) this.revision++
   }
 
   #showClosures(time: Seconds): void {

@@ -1,19 +1,21 @@
-// The layers of the map, one over the other: what lies beneath, what is on the map, and names. They are put into an element and
+// The layers of the map, one over the other: what lies beneath, what is on the map, names, and what is overdue. They are put into an element and
 // painted together, so that they always show the same moment from the same camera.
 
 import { Underlay } from './ground/underlay'
 import { CanvasPainter } from './painters/canvas'
 import { NamesPainter } from './painters/names'
+import { OverduePainter } from './painters/overdue'
 import type { Painter, Picture } from './painters/painter'
 
 export class Stage {
   readonly underlay = new Underlay()
   readonly #names = new NamesPainter()
+  readonly #overdue = new OverduePainter()
   #painter: Painter = new CanvasPainter()
   #picture: Picture | undefined
 
   constructor(private readonly element: HTMLElement) {
-    element.append(this.underlay.element, this.#painter.element, this.#names.element)
+    element.append(this.underlay.element, this.#painter.element, this.#names.element, this.#overdue.element)
   }
 
   /** Takes another painter in place of the one so far. */
@@ -30,6 +32,7 @@ export class Stage {
     this.underlay.paint({ plane: scene.plane, camera, size, colours })
     this.#painter.paint(picture)
     this.#names.paint(picture)
+    this.#overdue.paint(picture)
   }
 
   destroy(): void {

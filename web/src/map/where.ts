@@ -18,8 +18,10 @@ export interface Pixel {
   y: number
 }
 
-/** How far outside of the ring an aircraft stands that may not take off yet, pixels. */
+/** How far outside of the ring an aircraft is that may not take off yet, or is overdue, pixels. */
 const APRON_PX = 9
+/** How far apart aircraft are that are overdue on the same way. */
+const LINE_PX = 26
 
 export function vertiportPixel({ scene, camera, size }: Viewpoint, vertiport: number): Pixel {
   const places = scene.plane.vertiports
@@ -29,21 +31,45 @@ export function vertiportPixel({ scene, camera, size }: Viewpoint, vertiport: nu
   }
 }
 
-/** Where an aircraft is drawn. One that is delayed stands beside its vertiport, on the side of its destination. */
+/** Where an aircraft is drawn. One that is delayed stands beside its vertiport, on the side of its destination; one that should have
+ *  landed is on the other side of its way, outside of the ring of its destination. */
 export function aircraftPixel(viewpoint: Viewpoint, aircraft: number): Pixel {
   const { scene, camera, size } = viewpoint
   const x = pixelX(camera, size, at(scene.aircraft, 2 * aircraft))
   const y = pixelY(camera, size, at(scene.aircraft, 2 * aircraft + 1))
-  if (at(scene.frame.phases, aircraft) !== Phase.delayed) return { x, y }
-  const to = vertiportPixel(viewpoint, scene.destination(aircraft))
-  const away = Math.max(1, Math.hypot(to.x - x, to.y - y))
-  const aside = (radiusOf(scene, at(scene.frame.stands, aircraft), camera.scale) + APRON_PX) / away
-  return { x: x + (to.x - x) * aside, y: y + (to.y - y) * aside }
+  const isOverdue = scene.isOverdue(aircraft)
+  const isDelayed = at(scene.frame.phases, aircraft) === Phase.delayed
+  if (!isDelayed && !isOverdue) return { x, y }
+  const apron = APRON_PX + (isOverdue ? LINE_PX * beforeInLine(scene, aircraft) : 0)
+  const destination = vertiportPixel(viewpoint, scene.destination(aircraft))
+  if (isDelayed) {
+    const radius = radiusOf(scene, at(scene.frame.stands, aircraft), camera.scale)
+    return towards({ x, y }, destination, radius + apron)
+  }
+  const origin = vertiportPixel(viewpoint, scene.origin(aircraft))
+  const flown = Math.hypot(x - destination.x, y - destination.y)
+  const radius = radiusOf(scene, scene.destination(aircraft), camera.scale)
+  return towards(destination, origin, Math.max(flown, radius + apron))
+}
+
+function towards(from: Pixel, to: Pixel, distance_px: number): Pixel {
+  const share = distance_px / Math.max(1, Math.hypot(to.x - from.x, to.y - from.y))
+  return { x: from.x + (to.x - from.x) * share, y: from.y + (to.y - from.y) * share }
+}
+
+/** How many others are overdue on the same way and come before an aircraft in the line there. */
+function beforeInLine(scene: Scene, aircraft: number): number {
+  const isSame = (other: number) =>
+    scene.isOverdue(other) &&
+    scene.destination(other) === scene.destination(aircraft) &&
+    scene.origin(other) === scene.origin(aircraft)
+  return scene.record.aircraft.reduce((sum, _, other) => sum + Number(other < aircraft && isSame(other)), 0)
 }
 
 /** How visible an aircraft is at a pixel, 0 to 1. */
 export function visibility(viewpoint: Viewpoint, aircraft: number, { x, y }: Pixel): number {
   const { scene, camera } = viewpoint
+  if (scene.isOverdue(aircraft)) return 1
   const near = (vertiport: number) => {
     if (vertiport === NONE) return 1
     const place = vertiportPixel(viewpoint, vertiport)

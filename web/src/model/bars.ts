@@ -2,6 +2,7 @@
 // of a vertiport who holds it.
 
 import { at } from './arrays'
+import { minutesOverdue } from './awaited'
 import { NONE } from './motion'
 import { roomOf, staysOf, type Stay } from './occupancy'
 import type { DayRecord, LegRecord, Seconds } from './record'
@@ -20,6 +21,8 @@ export interface Bar {
   /** The share of the seats that is taken, of flights. */
   load: number
   isExpected: boolean
+  /** When the report of its end was due that is overdue; absent if none is. */
+  overdueSince?: Seconds
 }
 
 /** What was planned for a flight, where something else has come of it. */
@@ -69,17 +72,23 @@ function addLeg(row: FleetRow, record: DayRecord, leg: LegRecord, index: number)
   const { aircraft, decided, departs, arrives, ready } = leg
   const load = Math.min(1, leg.passengers / at(record.aircraft, aircraft).seats)
   const common = { aircraft, leg: index, load, isExpected: leg.is_expected }
-  const add = (kind: BarKind, begins: Seconds, ends: Seconds) => {
-    if (ends > begins) row.bars.push({ kind, begins, ends, ...common })
+  const add = (kind: BarKind, begins: Seconds, ends: Seconds, more: { overdueSince?: Seconds } = {}) => {
+    if (ends > begins) row.bars.push({ kind, begins, ends, ...common, ...more })
   }
   if (isHold(leg)) {
     add('hold', decided, ready)
     return
   }
-  add('delay', decided, departs)
-  add('flight', departs, arrives)
+  const isDeparture = leg.awaited?.report === 'departure'
+  add('delay', decided, departs, isDeparture ? overdueOf(leg) : {})
+  add('flight', departs, arrives, isDeparture ? {} : overdueOf(leg))
   add('charge', arrives, ready)
   if (leg.planned !== undefined) row.plans.push({ ...leg.planned, leg: index })
+}
+
+function overdueOf(leg: LegRecord | undefined): { overdueSince?: Seconds } {
+  if (leg?.awaited === undefined || minutesOverdue(leg) === 0) return {}
+  return { overdueSince: leg.awaited.due }
 }
 
 /** A row for each stand, vertiport by vertiport. */
@@ -118,7 +127,10 @@ function barsOf(stay: Stay, record: DayRecord): Bar[] {
     ['standing', Math.max(stay.ready, record.start), stay.leaves],
   ]
   const there = spans.filter(([, begins, ends]) => ends > begins)
-  return there.map(([kind, begins, ends]) => ({ kind, begins, ends, ...common }))
+  return there.map(([kind, begins, ends]) => {
+    const overdue = kind === 'promised' ? overdueOf(flight) : {}
+    return { kind, begins, ends, ...common, ...overdue }
+  })
 }
 
 /** The outages of an aircraft as far as it stands here. */

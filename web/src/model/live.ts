@@ -126,11 +126,12 @@ class Legs {
       const { passengers } = one.flight
       const decided = timeOf(one.flight.decided)
       if (latest?.decided === decided)
-        Object.assign(latest, this.#reported({ ...latest, ...times, passengers }))
+        Object.assign(latest, this.#awaiting(one, this.#reported({ ...latest, ...times, passengers })))
       else {
         const [from, to] = [known(places, one.flight.from), known(places, one.flight.to)]
         const flight = { aircraft, from, to, decided, departs: decided, ...times }
-        more.push(this.#reported({ ...flight, passengers, profit_usd: 0, is_expected: false }))
+        const leg = this.#reported({ ...flight, passengers, profit_usd: 0, is_expected: false })
+        more.push(this.#awaiting(one, leg))
       }
     }
     return more.length === 0 ? this.#legs : this.#with(more)
@@ -145,6 +146,22 @@ class Legs {
     if (latest === undefined || latest.from === latest.to) return
     if (times.arrives <= latest.decided) this.#legs = this.#legs.filter((leg) => leg !== latest)
     else if (!one.out_of_service) Object.assign(latest, times)
+  }
+
+  /** The leg of an aircraft that is under way, with the report that it waits for. Reports may be newer than the state. */
+  #awaiting({ phase }: AircraftState, leg: LegRecord): LegRecord {
+    const report = this.reports.decision(leg.aircraft, leg.decided)
+    if (report?.landed !== undefined) {
+      const ready = report.landed + leg.ready - leg.arrives
+      return { ...leg, arrives: report.landed, ready }
+    }
+    const hasDeparted = phase === 'in_the_air' || report?.hasDeparted === true
+    return {
+      ...leg,
+      awaited: hasDeparted
+        ? { report: 'landing', due: leg.arrives }
+        : { report: 'departure', due: leg.departs },
+    }
   }
 
   /** With legs of which the outlook knows nothing yet. What it expected of these aircraft before they are ready is void. */

@@ -2,6 +2,7 @@
 // record; a frame then takes a search in the legs of each aircraft and allocates nothing.
 
 import { at, countUpTo } from './arrays'
+import { latenessOf, minutesOverdue } from './awaited'
 import { Geography } from './geography'
 import type { AircraftRecord, DayRecord, LegRecord, Seconds } from './record'
 import { isHold } from './record'
@@ -39,6 +40,8 @@ export class FleetFrame {
   readonly legs: Int32Array
   /** The vertiport where it stands, or NONE in the air. */
   readonly stands: Int32Array
+  /** Whole minutes by which its departure or landing is overdue; 0 if it is not. */
+  readonly overdue_min: Int32Array
 
   constructor(readonly size: number) {
     this.places = new Float64Array(2 * size)
@@ -48,6 +51,7 @@ export class FleetFrame {
     this.charges = new Float32Array(size)
     this.legs = new Int32Array(size)
     this.stands = new Int32Array(size)
+    this.overdue_min = new Int32Array(size)
   }
 }
 
@@ -141,17 +145,20 @@ export class Fleet {
     frame.legs[one] = NONE
     frame.charges[one] = 1
     frame.phases[one] = Phase.waiting
+    frame.overdue_min[one] = 0
   }
 
   #showOnLeg(one: number, slot: number, time: Seconds, frame: FleetFrame): void {
     const aircraft = at(this.record.aircraft, one)
     const leg = this.#legAt(slot)
     frame.legs[one] = at(this.#legs, slot)
-    if (time < leg.departs || (isHold(leg) && time < leg.ready)) {
+    frame.overdue_min[one] = minutesOverdue(leg, time)
+    const isOnGround = time < leg.departs || leg.awaited?.report === 'departure'
+    if (isOnGround || (isHold(leg) && time < leg.ready)) {
       this.#stand(one, leg.from, frame)
       frame.phases[one] = isHold(leg) ? Phase.holding : Phase.delayed
       frame.charges[one] = chargedSince(at(this.#chargeAtDeparture, slot), aircraft, time - leg.departs)
-    } else if (time < leg.arrives) {
+    } else if (time < leg.arrives || leg.awaited !== undefined) {
       this.#fly(one, leg, time, frame)
       const [before, after] = [at(this.#chargeAtDeparture, slot), at(this.#chargeAtArrival, slot)]
       frame.charges[one] = before + (after - before) * shareOfTime(leg, time)
@@ -172,7 +179,10 @@ export class Fleet {
 
   #fly(one: number, leg: LegRecord, time: Seconds, frame: FleetFrame): void {
     const { takeoff_s, landing_s } = this.record
-    const [flown_s, left_s] = [time - leg.departs, leg.arrives - time]
+    // A flight whose landing is not reported when it is due goes back out to its approach and stays there.
+    const whole_s = leg.arrives - leg.departs
+    const left_s = Math.max(leg.arrives - time, Math.min(latenessOf(leg, time), landing_s / 2, whole_s / 2))
+    const flown_s = whole_s - left_s
     const share = shareOfWay(flown_s, left_s, takeoff_s, landing_s)
     this.geography.along(leg.from, leg.to, share, frame.places, frame.headings, one)
     frame.lifts[one] = Math.min(1, ramp(flown_s, takeoff_s), ramp(left_s, landing_s))
@@ -199,7 +209,7 @@ function ramp(passed_s: number, whole_s: number): number {
 }
 
 function shareOfTime(leg: LegRecord, time: Seconds): number {
-  return (time - leg.departs) / Math.max(leg.arrives - leg.departs, 1e-9)
+  return Math.min(1, (time - leg.departs) / Math.max(leg.arrives - leg.departs, 1e-9))
 }
 
 function chargedSince(charge: number, aircraft: AircraftRecord, seconds: number): number {

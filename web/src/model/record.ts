@@ -65,6 +65,8 @@ export interface LegRecord {
   ready: Seconds
   /** What was planned when it was decided, where something else has come of it. */
   planned?: { departs: Seconds; arrives: Seconds; ready: Seconds }
+  /** The report that a live day waits for next, and when it is due; absent once the aircraft has landed. */
+  awaited?: { report: 'departure' | 'landing'; due: Seconds }
   passengers: number
   profit_usd: number
   /** Whether the decision has not been taken yet: the leg is part of an outlook. */

@@ -10,6 +10,7 @@ import { timeOf } from './time'
 export interface ReportedDecision {
   departs?: Seconds
   hasDeparted: boolean
+  landed?: Seconds
   policy?: string
 }
 
@@ -80,6 +81,11 @@ export class Reports {
         const time = known === undefined || known.hasDeparted ? at : decided
         this.#latest.set(aircraft, time)
         this.#decisions.set(key(aircraft, time), { ...known, departs: at, hasDeparted: true })
+        break
+      }
+      case 'landed': {
+        const known = this.#decisions.get(key(aircraft, decided))
+        if (known !== undefined) known.landed = at
         break
       }
       case 'delayed': {

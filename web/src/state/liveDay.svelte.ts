@@ -5,6 +5,7 @@ import type { Service } from '../api/client'
 import { ProblemError } from '../api/problem'
 import { follow, type Connection } from '../api/stream'
 import type { AircraftState, DayInfo, DayState, Outlook, TakenEvent } from '../api/types'
+import { aircraftAt, endOfMinute, recordAt } from '../model/awaited'
 import { canBeTakenBack, decidedSince } from '../model/decisions'
 import { liveRecord } from '../model/live'
 import { canBeDecidedAnew, isOver } from '../model/over'
@@ -64,17 +65,30 @@ export class LiveDay {
     return this.#scenario
   }
 
-  /** The day as a record; undefined until its state is known. */
-  readonly record: DayRecord | undefined = $derived.by(() => {
+  /** The day as it was reported and is expected; undefined until its state is known. */
+  readonly #reportedRecord: DayRecord | undefined = $derived.by(() => {
     const [scenario, reports, state] = [this.#scenario, this.#reports, this.state]
     if (scenario === undefined || reports === undefined || state === undefined || this.#reported < 0)
       return undefined
     return liveRecord({ scenario, reports, state, outlook: this.outlook, flown: this.#flown })
   })
 
-  /** The record without what is only expected: what pictures of this moment show. */
+  /** The minute up to which nothing has happened that was not reported. */
+  readonly #minute: Seconds = $derived(endOfMinute(this.clock.time))
+
+  /** The day as a record, as it stands in this minute. */
+  readonly record: DayRecord | undefined = $derived(
+    this.#reportedRecord && recordAt(this.#reportedRecord, this.#minute),
+  )
+
+  /** Every aircraft as it stands in this minute. */
+  readonly aircraft: readonly AircraftState[] = $derived(
+    this.state === undefined || this.record === undefined ? [] : aircraftAt(this.state, this.record),
+  )
+
+  /** What was reported, without what is only expected: what pictures of a moment show. */
   readonly happened: DayRecord | undefined = $derived.by(() => {
-    const record = this.record
+    const record = this.#reportedRecord
     return record === undefined
       ? undefined
       : { ...record, legs: record.legs.filter((leg) => !leg.is_expected) }
@@ -165,9 +179,17 @@ export class LiveDay {
     this.refresh()
   }
 
+  /** The flight of an aircraft that is under way, with the report that it waits for. */
+  awaitedLeg(aircraft: string): LegRecord | undefined {
+    const { record } = this
+    return record?.legs.find(
+      (leg) => leg.awaited !== undefined && record.aircraft[leg.aircraft]?.id === aircraft,
+    )
+  }
+
   /** When an aircraft is or was ready. */
   readyOf(aircraft: string): Seconds {
-    return timeOf(this.state?.aircraft.find((one) => one.id === aircraft)?.ready ?? 0)
+    return timeOf(this.aircraft.find((one) => one.id === aircraft)?.ready ?? 0)
   }
 
   async #readAll(): Promise<void> {

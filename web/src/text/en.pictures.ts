@@ -9,6 +9,14 @@ export const map = {
   vertiports: (number: number) => plural(number, 'vertiport', 'vertiports'),
   aircraft: (number: number) => plural(number, 'aircraft', 'aircraft'),
   inTheAir: (number: number) => `${number} in the air`,
+  overdue: (number: number) => `${number} overdue`,
+  overdueBy: (minutes: number) => `overdue by ${minutes} min`,
+  overdueOne: (aircraft: string, minutes: number) => `${aircraft} overdue by ${minutes} min`,
+  late: (minutes: number) => `+${minutes} min`,
+  due: {
+    departure: (time: string) => `was to take off at ${time}`,
+    landing: (time: string) => `was to land at ${time}`,
+  },
   closed: (number: number) =>
     number === 0 ? 'no route is closed' : `${plural(number, 'route', 'routes')} closed`,
   summaryAt: (time: string, parts: string) => `At ${time}: ${parts}.`,
@@ -22,7 +30,8 @@ export const map = {
     full: 'flight, all seats taken',
     partial: 'flight, some seats taken',
     empty: 'flight without passengers',
-    delayed: 'take-off delayed',
+    delayed: 'waits to take off',
+    overdue: 'overdue, by minutes',
     waiting: 'waits for a decision',
     holding: 'holds',
     charging: 'charges',
@@ -105,6 +114,7 @@ export const timeline = {
   otherwise: (other: string, what: string, time: string, passengers: number | undefined) =>
     `differs from “${other}”: there ${what} since ${time}${passengers === undefined ? '' : ` with ${plural(passengers, 'passenger', 'passengers')}`}`,
   nothingThere: (other: string) => `differs from “${other}”: nothing there yet`,
+  late: (minutes: number) => `+${minutes}`,
   stand: (stand: string) => `stand ${stand}`,
   over: 'no stand for it',
 }

@@ -473,6 +473,7 @@ export const en = {
     standing: (at: string, ready: string) => `at ${at}, ready ${ready}`,
     sentOff: (from: string, to: string) => `sent off from ${from} to ${to}, has not departed`,
     inTheAir: (to: string, arrival: string) => `in the air to ${to}, lands ${arrival}`,
+    notLanded: (to: string, due: string) => `in the air to ${to}, was to land at ${due}`,
     outOfService: 'out of service',
     outUntil: (time: string) => `out of service until ${time}`,
   },

@@ -1,6 +1,7 @@
 // What is said about a bar of a timeline, line by line, the name first.
 
 import { at } from '../model/arrays'
+import { minutesOverdue } from '../model/awaited'
 import type { Bar } from '../model/bars'
 import type { Otherwise } from '../model/differ'
 import { dollarsAndCents } from '../model/money'
@@ -42,11 +43,13 @@ export function nameOf({ vertiports }: DayRecord, leg: LegRecord): string {
   return isHold(leg) ? text.timeline.hold(from) : text.timeline.flight(from, to)
 }
 
-/** Whether a leg is only expected, and what another play has in its place. */
+/** Whether a leg is overdue, whether it is only expected, and what another play has in its place. */
 export function notesOf(record: DayRecord, leg: LegRecord, beside?: Beside): string[] {
   const position = beside === undefined ? -1 : record.legs.indexOf(leg)
   const isOtherwise = beside?.otherwise.has(position) ?? false
+  const overdue_min = minutesOverdue(leg)
   return [
+    ...(overdue_min > 0 ? [text.map.overdueBy(overdue_min)] : []),
     ...(leg.is_expected ? [text.timeline.expected] : []),
     ...(isOtherwise && beside !== undefined ? [insteadOf(record, beside, position)] : []),
   ]

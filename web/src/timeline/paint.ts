@@ -2,12 +2,14 @@
 // the time: what is yet to come is veiled by another layer.
 
 import { at } from '../model/arrays'
+import { minutesOverdue } from '../model/awaited'
 import type { Bar, BarKind } from '../model/bars'
 import type { Otherwise } from '../model/differ'
 import type { DayRecord } from '../model/record'
 import { aircraftMeant, vertiportMeant, type Target } from '../model/target'
 import { css, type ColourName, type Rgb } from '../parts/colours'
 import type { Size } from '../parts/sheet'
+import { text } from '../text/text'
 import { Labels, runsOf, type Label, type Run } from './labels'
 import { barsWithin, type GanttRow } from './rows'
 import { pixelOf, ticks, type Span } from './span'
@@ -100,7 +102,7 @@ class RowPainter {
     this.#labels = new Labels(
       record,
       (text) => context.measureText(text).width,
-      (bar) => [Math.max(this.#x(bar.begins), 0), Math.min(this.#x(bar.ends), end)],
+      (bar) => [Math.max(this.#x(bar.begins), 0), Math.min(this.#x(bar.overdueSince ?? bar.ends), end)],
     )
   }
 
@@ -126,6 +128,7 @@ class RowPainter {
     const runs = runsOf(row.bars, first, end)
     for (const run of runs) this.#paintLabel(run, row, top)
     this.#paintMarks(runs, top)
+    for (const bar of row.bars.slice(first, end)) this.#paintOverdue(bar, row, top)
     for (const outage of row.outages) this.#paintBar(outage, row, top)
     for (const plan of row.plans) this.#paintPlan(plan.departs, plan.arrives, top)
   }
@@ -187,6 +190,28 @@ class RowPainter {
     if (bar.kind === 'outage') this.#hatch(left, y, width, height, css(colour, 0.5))
   }
 
+  /** What lies beyond the time at which an overdue aircraft should have departed or landed is hatched, with its minutes. */
+  #paintOverdue(bar: Bar, row: GanttRow, top: number): void {
+    const leg = this.picture.record.legs[bar.leg]
+    if (bar.overdueSince === undefined || leg === undefined) return
+    const { context, picture } = this
+    const { rowHeight, colours } = picture
+    const [left, right] = [this.#x(bar.overdueSince), this.#x(bar.ends)]
+    const look = this.#lookOf(bar, row)
+    const height = Math.max(4, look.height * (rowHeight - 2))
+    const y = top + 1 + look.place * (rowHeight - 2 - height)
+    context.fillStyle = css(colours.surface)
+    context.fillRect(left, y, right - left, height)
+    this.#hatch(left, y, right - left, height, css(colours.bad, 0.55))
+    context.strokeStyle = css(colours.bad)
+    context.lineWidth = 1.5
+    context.strokeRect(left, y, right - left, height)
+    const minutes = minutesOverdue(leg)
+    const whole = text.map.late(minutes)
+    const words = this.#labels.widthOf(whole) < right - left - 4 ? whole : text.timeline.late(minutes)
+    this.#writeOver(words, right - this.#labels.widthOf(words) - 2, y + height / 2 + 0.5, colours.bad)
+  }
+
   #outline(bar: Bar, width: number, colour: string, isChosen: boolean): void {
     const { context } = this
     context.strokeStyle = colour
@@ -241,14 +266,18 @@ class RowPainter {
       context.fillStyle = onBar
       context.fillText(text, left, y + 0.5)
     })
-    this.#within(end, size.width, () => {
-      context.strokeStyle = css(colours.surface, 0.85)
-      context.lineWidth = HALO_PX
-      context.lineJoin = 'round'
-      context.strokeText(text, left, y + 0.5)
-      context.fillStyle = css(colours.ink)
-      context.fillText(text, left, y + 0.5)
-    })
+    this.#within(end, size.width, () => this.#writeOver(text, left, y + 0.5, colours.ink))
+  }
+
+  /** Writes on a ground of its own, over whatever lies there. */
+  #writeOver(words: string, left: number, y: number, colour: Rgb): void {
+    const { context, picture } = this
+    context.strokeStyle = css(picture.colours.surface, 0.85)
+    context.lineWidth = HALO_PX
+    context.lineJoin = 'round'
+    context.strokeText(words, left, y)
+    context.fillStyle = css(colour)
+    context.fillText(words, left, y)
   }
 
   /** Draws from one pixel along the day to another and nowhere else. */

@@ -1,10 +1,11 @@
 // Draws the map on plain canvases: one for what changes with decisions, one for what moves. It needs no graphics processor.
 
 import { at } from '../../model/arrays'
-import { NONE, Phase } from '../../model/motion'
+import { COUNTED } from '../../model/counts'
+import { NONE } from '../../model/motion'
 import { aircraftMeant } from '../../model/target'
 import { css } from '../../parts/colours'
-import { COUNTED, piecesOf, radiusOf, ringWidth } from '../rings'
+import { piecesOf, radiusOf, ringWidth } from '../rings'
 import { aircraftPixel, direction, vertiportPixel, visibility, wayBegin, type Pixel } from '../where'
 import { changed } from './changes'
 import {
@@ -19,7 +20,7 @@ import {
   type Picture,
 } from './painter'
 import { Sheet } from '../../parts/sheet'
-import { drawSprites, FILLED, spriteName, type Sprites } from './sprites'
+import { drawSprites, FILLED, spriteName, toneOf, type Sprites } from './sprites'
 
 const TURN = 2 * Math.PI
 /** Aircraft further outside of the picture than this are not drawn. */
@@ -126,8 +127,7 @@ function paintAircraft(
   const { scene, colours, hovered, selected } = picture
   const isMarked = aircraftMeant(hovered) === one || aircraftMeant(selected) === one
   const half = (aircraftSize(px, at(scene.frame.lifts, one)) * (isMarked ? 1.25 : 1)) / FILLED
-  const tone = isMarked ? 'accent' : at(scene.frame.phases, one) === Phase.delayed ? 'waiting' : 'flying'
-  const sprite = sprites.mapping[spriteName(tone, scene.load(one))]
+  const sprite = sprites.mapping[spriteName(toneOf(scene, one, isMarked), scene.load(one))]
   if (sprite === undefined) return
   context.globalAlpha = isMarked ? 1 : visibility(picture, one, place)
   context.translate(place.x, place.y)
@@ -221,7 +221,7 @@ function paintRing(context: CanvasRenderingContext2D, picture: Picture, vertipor
   context.lineWidth = ringWidth(radius)
   const line = radius - ringWidth(radius) / 2
   for (const { begin, end, state } of piecesOf(
-    scene.counts,
+    scene.counts.held,
     COUNTED * vertiport,
     at(scene.room, vertiport),
     radius,

@@ -4,10 +4,11 @@
 import { Deck, OrthographicView, type Layer } from '@deck.gl/core'
 import { IconLayer, LineLayer, PathLayer, ScatterplotLayer } from '@deck.gl/layers'
 import { at } from '../../model/arrays'
-import { NONE, Phase } from '../../model/motion'
+import { COUNTED } from '../../model/counts'
+import { NONE } from '../../model/motion'
 import { aircraftMeant } from '../../model/target'
 import type { Rgb } from '../../parts/colours'
-import { COUNTED, piecesOf, radiusOf, ringWidth } from '../rings'
+import { piecesOf, radiusOf, ringWidth } from '../rings'
 import { aircraftPixel, direction, vertiportPixel, visibility, wayBegin, type Pixel } from '../where'
 import { changed } from './changes'
 import {
@@ -21,7 +22,7 @@ import {
   type Painter,
   type Picture,
 } from './painter'
-import { drawSprites, FILLED, LARGE_SPRITE, spriteName, type Sprites, type Tone } from './sprites'
+import { drawSprites, FILLED, LARGE_SPRITE, spriteName, toneOf, type Sprites, type Tone } from './sprites'
 
 type Colour = [number, number, number, number]
 type Point = [number, number]
@@ -186,7 +187,7 @@ function discLayer(picture: Picture): Layer {
 function pieceLayer(picture: Picture): Layer {
   const { scene, colours } = picture
   const pieces = vertiportPixels(picture).flatMap((place, vertiport) => {
-    const of = piecesOf(scene.counts, COUNTED * vertiport, at(scene.room, vertiport), place.radius)
+    const of = piecesOf(scene.counts.held, COUNTED * vertiport, at(scene.room, vertiport), place.radius)
     const width = ringWidth(place.radius)
     return of.map(({ begin, end, state }) => ({
       path: piece(place, place.radius - width / 2, begin - TURN / 4, end - TURN / 4),
@@ -260,11 +261,7 @@ function movingLayers(picture: Picture, sprites: Sprites): Layer[] {
   const flying = scene.record.aircraft.flatMap((_, aircraft): Flying[] => {
     if (scene.destination(aircraft) === NONE) return []
     const isMarked = aircraftMeant(hovered) === aircraft || aircraftMeant(selected) === aircraft
-    const tone = isMarked
-      ? 'accent'
-      : at(scene.frame.phases, aircraft) === Phase.delayed
-        ? 'waiting'
-        : 'flying'
+    const tone = toneOf(scene, aircraft, isMarked)
     return [{ ...aircraftPixel(picture, aircraft), aircraft, isMarked, tone }]
   })
   const size = ({ aircraft, isMarked }: Flying) =>

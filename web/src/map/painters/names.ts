@@ -4,8 +4,7 @@ import { at } from '../../model/arrays'
 import { css } from '../../parts/colours'
 import { shows } from '../camera'
 import { placeLabels, type LabelPlace, type Rectangle } from '../labels'
-import { COUNTED, radiusOf, StandState } from '../rings'
-import type { Scene } from '../scene'
+import { radiusOf } from '../rings'
 import { vertiportPixel } from '../where'
 import { changed } from './changes'
 import { stillParts, type Picture } from './painter'
@@ -81,7 +80,7 @@ function labelOf(
   const { scene, camera, hovered, selected } = picture
   const room = at(scene.room, vertiport)
   const name = at(scene.record.vertiports, vertiport).id
-  const { taken, promised } = standsOf(scene, vertiport)
+  const { taken, promised } = scene.counts.standsOf(vertiport)
   const detail = `${taken}${promised > 0 ? `+${promised}` : ''}/${room}`
   context.font = fonts.name
   const nameWidth = context.measureText(name).width
@@ -95,14 +94,6 @@ function labelOf(
     weight: isMarked ? Infinity : room,
     ...{ name, taken, detail },
   }
-}
-
-/** Aircraft that stand at a vertiport and those that are promised a stand. */
-export function standsOf(scene: Scene, vertiport: number): { taken: number; promised: number } {
-  const promised = at(scene.counts, COUNTED * vertiport + StandState.promised)
-  let all = 0
-  for (let state = 0; state < COUNTED; state++) all += at(scene.counts, COUNTED * vertiport + state)
-  return { taken: all - promised, promised }
 }
 
 function paintNumber(

@@ -1,11 +1,10 @@
 // What every painter of the map is given, and what it must do. There are two, which draw the same: on the graphics processor, and
 // on a plain canvas where there is none.
 
+import { StandState } from '../../model/counts'
 import type { ColourName, Rgb } from '../../parts/colours'
-import { Phase } from '../../model/motion'
 import { vertiportMeant, type Target } from '../../model/target'
 import type { Camera, Size } from '../camera'
-import { StandState } from '../rings'
 import type { Scene } from '../scene'
 
 export interface Picture {
@@ -61,8 +60,7 @@ const FEW = 40
 
 /** How large aircraft are and how strong their ways: less on a small picture, and less where many fly. */
 export function looksOf({ scene, size }: Picture): { aircraft_px: number; wayOpacity: number } {
-  const flying = scene.frame.phases.reduce((sum, phase) => sum + Number(phase === Phase.flying), 0)
-  const crowd = Math.sqrt(Math.min(1, FEW / Math.max(1, flying)))
+  const crowd = Math.sqrt(Math.min(1, FEW / Math.max(1, scene.counts.inTheAir)))
   const wanted = (3 + Math.min(size.width, size.height) / 110) * (0.6 + 0.4 * crowd)
   return {
     aircraft_px: Math.max(AIRCRAFT_PX.least, Math.min(AIRCRAFT_PX.most, wanted)),

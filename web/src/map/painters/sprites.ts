@@ -1,13 +1,16 @@
 // Pictures of aircraft: one for each colour and each number of quarters of the seats that are taken. To draw a picture some hundred
 // times a frame costs a tenth of what it costs to draw the shape.
 
+import { at } from '../../model/arrays'
+import { Phase } from '../../model/motion'
 import { css, type ColourName, type Rgb } from '../../parts/colours'
+import type { Scene } from '../scene'
 import { AIRCRAFT_SHAPE, fillOf } from './painter'
 
 /** How much of the picture the aircraft fills; the rest is its rim. */
 export const FILLED = 0.78
 const LOADS = 5
-const tones = ['flying', 'waiting', 'accent'] as const
+const tones = ['flying', 'waiting', 'bad', 'accent'] as const
 
 export type Tone = (typeof tones)[number]
 
@@ -17,6 +20,13 @@ export const LARGE_SPRITE = 64
 export interface Sprites {
   image: HTMLCanvasElement
   mapping: Record<string, { x: number; y: number; width: number; height: number }>
+}
+
+/** The colour of an aircraft on its way: that it is overdue matters more than whether it has taken off. */
+export function toneOf(scene: Scene, aircraft: number, isMarked: boolean): Tone {
+  if (isMarked) return 'accent'
+  if (scene.isOverdue(aircraft)) return 'bad'
+  return at(scene.frame.phases, aircraft) === Phase.delayed ? 'waiting' : 'flying'
 }
 
 export function spriteName(tone: Tone, load: number): string {

@@ -1,0 +1,1 @@
+export{t as WebGLDevice}from"./deck-C9U51ha_.js";
