@@ -80,6 +80,15 @@ test('one policy stays alone for whoever has the link', async ({ page }) => {
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
 })
 
+test('the moment is kept by a reload that follows at once', async ({ page }) => {
+  await page.goto(`${address}#policy=prices&with=`)
+  const scrubber = page.getByRole('slider', { name: 'Time of the day' })
+  await scrubber.focus()
+  await page.keyboard.press('End')
+  await page.reload()
+  await expect(scrubber).toHaveAttribute('aria-valuetext', /^09:06:01/)
+})
+
 test('a link leads to the moment', async ({ page }) => {
   await page.goto(`${address}#policy=greedy&with=prices&at=08:11:30`)
   await expect(page.getByRole('time')).toHaveText('08:11:30')
