@@ -7,7 +7,7 @@ import ts from 'typescript-eslint'
 import svelteConfig from './svelte.config.js'
 
 export default ts.config(
-  { ignores: ['dist/', 'node_modules/', 'out/', 'test-results/', 'src/api/schema.d.ts'] },
+  { ignores: ['browsers/', 'dist/', 'node_modules/', 'out/', 'test-results/', 'src/api/schema.d.ts'] },
   js.configs.recommended,
   ...ts.configs.strictTypeChecked,
   ...svelte.configs['flat/recommended'],

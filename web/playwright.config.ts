@@ -1,8 +1,9 @@
-// Tests of the console in Debian's Chromium against the real program: VERTIFLEET_PROGRAM, or the one that `cargo build` made.
-// With VERTIFLEET_PREVIEW=dist the console comes from that folder rather than from within the program, which then need not be
-// built again after every change of the console.
+// Tests of the console against the real program: VERTIFLEET_PROGRAM, or the one that `cargo build` made. They run in the pinned
+// Chromium of `browsers/`, or in VERTIFLEET_CHROMIUM. With VERTIFLEET_PREVIEW=dist the console comes from that folder rather than
+// from within the program, which then need not be built again after every change of the console.
 
 import { defineConfig } from '@playwright/test'
+import { chromium } from './tests/support/browsers'
 
 export default defineConfig({
   testDir: 'tests',
@@ -17,7 +18,7 @@ export default defineConfig({
     // Times of the computer are told with their zone.
     timezoneId: 'UTC',
     launchOptions: {
-      executablePath: process.env['VERTIFLEET_CHROMIUM'] ?? '/usr/bin/chromium',
+      executablePath: chromium,
       // Software drawing is many times faster without an emulated graphics processor.
       args: ['--no-sandbox', '--disable-gpu'],
     },

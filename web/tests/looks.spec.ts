@@ -7,7 +7,7 @@ import type { Program } from './support/program'
 import { screens, TOLERANCE } from './support/screens'
 import { expect, open, panel, test } from './support/test'
 
-/** Pictures have the font that comes with Debian's Chromium, whatever the machine prefers. */
+/** Pictures have a font that `scripts/console` installs, whatever the machine prefers. */
 async function useOneFont(page: Page): Promise<void> {
   await page.addInitScript(() => {
     document.addEventListener('DOMContentLoaded', () => {
@@ -66,7 +66,7 @@ for (const scheme of ['light', 'dark'] as const) {
     const fleet = await morning(program)
     await standStill(page)
     await useOneFont(page)
-    for (const screen of ['desk', 'wall', 'phone'] as const) {
+    for (const screen of ['desk', 'phone'] as const) {
       await page.setViewportSize(screens[screen])
       for (const [view, show] of Object.entries(views)) {
         // A view begins anew only on a page that was left.

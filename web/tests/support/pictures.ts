@@ -7,6 +7,7 @@ import { join, resolve } from 'node:path'
 import { pathToFileURL } from 'node:url'
 import { test as base, type Page } from '@playwright/test'
 import { createServer, type ViteDevServer } from 'vite'
+import { chromium } from './browsers'
 
 export { expect } from '@playwright/test'
 export { expectAccessible } from './test'
@@ -17,7 +18,7 @@ const large = resolve('../networks/large.toml')
 
 /** What a machine without a graphics processor does, as most machines that run tests. */
 export const withoutProcessor = {
-  executablePath: process.env['VERTIFLEET_CHROMIUM'] ?? '/usr/bin/chromium',
+  executablePath: chromium,
   args: ['--no-sandbox', '--disable-gpu'],
 }
 /** WebGL on the main processor. */
@@ -131,7 +132,7 @@ export const test = base.extend<Fixtures, WorkerFixtures>({
   },
 })
 
-/** Pictures of tests have the font that comes with Debian's Chromium, whatever the machine prefers. */
+/** Pictures of tests have a font that `scripts/console` installs, whatever the machine prefers. */
 function useOneFont(): void {
   const style = () => {
     const sheet = new CSSStyleSheet()

@@ -5,6 +5,5 @@ export const TOLERANCE = { maxDiffPixelRatio: 0.002 }
 
 export const screens = {
   desk: { width: 1280, height: 800 },
-  wall: { width: 1920, height: 1080 },
   phone: { width: 390, height: 844 },
 }

@@ -1,0 +1,31 @@
+import { expect, it } from 'vitest'
+import { AddressPace } from './addressPace'
+
+/** How many changes are let through of those that are wanted at every so many milliseconds of a time. */
+function changesIn(length_ms: number, every_ms: number): number {
+  const pace = new AddressPace()
+  let changes = 0
+  for (let now_ms = 0; now_ms < length_ms; now_ms += every_ms) {
+    if (pace.wait(now_ms) > 0) continue
+    pace.changed(now_ms)
+    changes += 1
+  }
+  return changes
+}
+
+it('lets steps by key through at once', () => {
+  expect(changesIn(2_000, 200)).toBe(10)
+  expect(changesIn(30, 15)).toBe(2)
+})
+
+it('lets a moment that is dragged through as often as browsers allow', () => {
+  expect(changesIn(30_000, 16)).toBeGreaterThan(60)
+  expect(changesIn(30_000, 16)).toBeLessThan(100)
+})
+
+it('lets changes through again after a rest', () => {
+  const pace = new AddressPace()
+  for (let change = 0; change < 30; change++) pace.changed(change)
+  expect(pace.wait(30)).toBeGreaterThan(200)
+  expect(pace.wait(20_000)).toBe(0)
+})
