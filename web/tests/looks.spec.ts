@@ -59,24 +59,23 @@ const views: Record<string, (page: Page, program: Program, fleet: Fleet) => Prom
   },
 }
 
-for (const scheme of ['light', 'dark'] as const) {
-  test(`the views of a day look as they did (${scheme})`, async ({ page, program }) => {
-    test.setTimeout(300_000)
-    await page.emulateMedia({ colorScheme: scheme })
-    const fleet = await morning(program)
-    await standStill(page)
-    await useOneFont(page)
+test('the views of a day look as they did', async ({ page, program }) => {
+  test.setTimeout(300_000)
+  const fleet = await morning(program)
+  await standStill(page)
+  await useOneFont(page)
+  for (const [view, show] of Object.entries(views)) {
     for (const screen of ['desk', 'phone'] as const) {
       await page.setViewportSize(screens[screen])
-      for (const [view, show] of Object.entries(views)) {
-        // A view begins anew only on a page that was left.
-        await page.goto('about:blank')
-        await show(page, program, fleet)
-        await page.mouse.move(0, 0)
-        await page.waitForTimeout(600)
+      // A view begins anew only on a page that was left.
+      await page.goto('about:blank')
+      await show(page, program, fleet)
+      await page.mouse.move(0, 0)
+      for (const scheme of ['light', 'dark'] as const) {
+        await page.emulateMedia({ colorScheme: scheme })
         const look = { ...TOLERANCE, mask: passing(page) }
         await expect.soft(page).toHaveScreenshot(`${view}-${screen}-${scheme}.png`, look)
       }
     }
-  })
-}
+  }
+})

@@ -16,7 +16,7 @@ test('200 aircraft are shown and decided', async ({ page, program }) => {
   await expect(map.getByText(/^A map of 60 vertiports and 200 aircraft/).first()).toBeAttached()
   for (const aircraft of ['A001', 'A002', 'A003']) {
     await expect(panel(page).getByRole('heading', { name: new RegExp(`^${aircraft}`) })).toBeVisible()
-    await page.waitForTimeout(400)
+    await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
     await page.keyboard.press('a')
     await expect(page.getByText(new RegExp(`^${aircraft} (flies to|holds at) `))).toBeVisible()
   }

@@ -127,7 +127,9 @@ export const test = base.extend<Fixtures, WorkerFixtures>({
       const [address] = server.resolvedUrls?.local ?? []
       await page.goto(`${address}tests/pages/pictures.html?${files}&${query}`)
       await page.locator('canvas:visible').first().waitFor()
-      await page.waitForTimeout(800)
+      // The first frame has the size of the page, the second what is drawn in it.
+      for (let frame = 0; frame < 2; frame++)
+        await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(drawn)))
     })
   },
 })

@@ -57,9 +57,21 @@ export function waiting(page: Page) {
   return page.getByRole('region', { name: 'Needs a decision' }).getByRole('listitem').getByRole('button')
 }
 
+/** Sees that axe finds nothing serious, in the light and in the dark, which differ in their contrasts alone. */
+export async function expectAccessibleInBoth(page: Page): Promise<void> {
+  await page.emulateMedia({ colorScheme: 'light' })
+  await expectAccessible(page)
+  await page.emulateMedia({ colorScheme: 'dark' })
+  await expectNothingSerious(new AxeBuilder({ page }).withRules('color-contrast'))
+}
+
 /** Sees that axe finds nothing serious. */
 export async function expectAccessible(page: Page): Promise<void> {
-  const { violations } = await new AxeBuilder({ page }).analyze()
+  await expectNothingSerious(new AxeBuilder({ page }))
+}
+
+async function expectNothingSerious(axe: AxeBuilder): Promise<void> {
+  const { violations } = await axe.analyze()
   const serious = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical')
   const found = serious.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' | ')}`)
   expect(found).toEqual([])
