@@ -7,8 +7,8 @@ import { chromium } from './tests/support/browsers'
 
 export default defineConfig({
   testDir: 'tests',
-  // Tests share two cores with a browser that draws in software.
-  workers: 1,
+  // Tests wait for states and not for times, so two may share the cores of a small machine.
+  workers: 2,
   timeout: 60_000,
   expect: { timeout: 10_000 },
   reporter: [['list']],
