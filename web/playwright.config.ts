@@ -9,8 +9,8 @@ export default defineConfig({
   testDir: 'tests',
   // Tests wait for states and not for times, so two may share the cores of a small machine.
   workers: 2,
-  timeout: 60_000,
-  expect: { timeout: 10_000 },
+  timeout: 120_000,
+  expect: { timeout: 20_000 },
   reporter: [['list']],
   outputDir: 'test-results',
   use: {
