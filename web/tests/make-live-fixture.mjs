@@ -58,7 +58,7 @@ most = 12
 `
 
 const folder = await mkdtemp(join(tmpdir(), 'vertifleet-fixture-'))
-const program = process.env.VERTIFLEET_PROGRAM ?? '../target/debug/vertifleet'
+const program = process.env.VERTIFLEET_PROGRAM ?? '../target/checked/release/vertifleet'
 const service = spawn(program, ['serve', '--listen', '127.0.0.1:0', '--data', folder])
 let said = ''
 const base = await new Promise((resolve) => {

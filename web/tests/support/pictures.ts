@@ -12,7 +12,7 @@ import { chromium } from './browsers'
 export { expect } from '@playwright/test'
 export { expectAccessible } from './test'
 
-const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/debug/vertifleet')
+const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/checked/release/vertifleet')
 const fixtures = resolve('src/model/fixtures')
 const large = resolve('../networks/large.toml')
 

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os'
 import { join, resolve } from 'node:path'
 import { preview, type PreviewServer } from 'vite'
 
-const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/debug/vertifleet')
+const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/checked/release/vertifleet')
 /** A folder to take the console from in the place of the program. */
 const previewed = process.env['VERTIFLEET_PREVIEW']
 
