@@ -2,27 +2,29 @@
 
 mod network;
 mod planning;
+#[cfg(feature = "service")]
+mod service;
 
-use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::builder::{PathBufValueParser, TypedValueParser as _};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use vertifleet_core::Purpose;
-use vertifleet_serve::Role;
 use vertifleet_study::PolicySource;
 
 use crate::typed::{
-    Speed, parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_role,
-    parse_seconds, parse_seed, parse_seed_of_a_run, parse_share, parse_speed, parse_split,
-    parse_steps, parse_threads, parse_token_name,
+    parse_count, parse_minutes, parse_model, parse_name, parse_pair, parse_seconds, parse_seed,
+    parse_seed_of_a_run, parse_share, parse_split, parse_steps, parse_threads,
 };
 
 pub(crate) use network::{ImportArguments, NetworkAction, NewArguments};
 pub(crate) use planning::{
     ExplainArguments, ExportArguments, ExportFormat, SizeArguments, SweepArguments,
 };
+
+#[cfg(feature = "service")]
+pub(crate) use service::{OperateArguments, ServeAction, ServeArguments, Speed, TokenAction};
 
 /// Decides where every electric air taxi of an urban fleet flies next.
 #[derive(Debug, Parser)]
@@ -67,115 +69,19 @@ pub(crate) enum Command {
     /// Measure policies on a frozen suite of days, and verify results
     Evaluate(EvaluateArguments),
     /// Run the dispatch service: live days over HTTP
+    #[cfg(feature = "service")]
     Serve(ServeArguments),
     /// Operate a day through a dispatch service, as an operator would
+    #[cfg(feature = "service")]
     Operate(OperateArguments),
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct ServeArguments {
-    /// Address to listen on
-    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8080")]
-    pub(crate) listen: SocketAddr,
-    /// Folder of the data, made at the first start
-    #[arg(long, value_name = "DIR", default_value = "vertifleet-data", global = true)]
-    pub(crate) data: PathBuf,
-    /// PostgreSQL database to keep the data in, instead of the folder
-    #[arg(long, value_name = "URL", global = true)]
-    pub(crate) database: Option<String>,
-    /// Speak TLS with the certificate in this PEM file, its chain included
-    #[arg(long, value_name = "FILE", requires = "key")]
-    pub(crate) certificate: Option<PathBuf>,
-    /// PEM file with the key of the certificate
-    #[arg(long, value_name = "FILE", requires = "certificate")]
-    pub(crate) key: Option<PathBuf>,
-    /// A proxy that speaks TLS stands before the service, which may then listen on other addresses
-    #[arg(long, conflicts_with = "certificate")]
-    pub(crate) behind_proxy: bool,
-    /// Send spans of requests to this collector of OpenTelemetry [default: OTEL_EXPORTER_OTLP_ENDPOINT, or to none]
-    #[arg(long, value_name = "URL")]
-    pub(crate) otlp: Option<String>,
-    /// Show this base map in the console instead of the bundled one: a style of MapLibre, or a PMTiles file
-    #[arg(long, value_name = "URL")]
-    pub(crate) basemap: Option<String>,
-    /// Show simulated, disturbed days of New York at 60 times their speed, one after the other, and keep nothing
-    #[arg(long, conflicts_with_all = ["data", "database", "certificate", "behind_proxy"])]
-    pub(crate) demo: bool,
-    #[command(subcommand)]
-    pub(crate) action: Option<ServeAction>,
-}
-
-#[derive(Debug, Subcommand)]
-pub(crate) enum ServeAction {
-    /// Make, list and revoke tokens
-    #[command(subcommand)]
-    Token(TokenAction),
-    /// Check every event of every day
-    Verify,
-    /// Copy the data to a new file, while the service may run
-    Backup {
-        /// The file
-        file: PathBuf,
+    /// Not in this build, which was made for `make demo`
+    #[cfg(not(feature = "service"))]
+    #[command(hide = true, alias = "operate")]
+    Serve {
+        /// Whatever the service would take
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        _ignored: Vec<String>,
     },
-    /// Put a copy back, into a folder without data
-    Restore {
-        /// The copy
-        file: PathBuf,
-    },
-    /// Print who did what beside the events of days, a JSON object a line
-    Audit,
-    /// Print a day with all its events as JSON
-    Export {
-        /// The id of the day
-        day: String,
-    },
-}
-
-#[derive(Debug, Subcommand)]
-pub(crate) enum TokenAction {
-    /// Make a token and print it; it cannot be printed again
-    Make {
-        /// What the token is called in the record of who did what
-        #[arg(long, value_parser = parse_token_name)]
-        name: String,
-        /// What it permits
-        #[arg(long, value_parser = parse_role)]
-        role: Role,
-    },
-    /// List the tokens, without their secrets, as JSON
-    List,
-    /// Revoke a token
-    Revoke {
-        /// The token's id, which is the part after vf_
-        id: String,
-    },
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct OperateArguments {
-    /// Address of the service, for example http://127.0.0.1:8080
-    pub(crate) url: String,
-    /// Network file, the name of a shipped network, random:NUMBER, or random-places:SIZE:NUMBER
-    #[arg(long, default_value = "paper")]
-    pub(crate) network: String,
-    /// Seed of the day
-    #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed)]
-    pub(crate) seed: u64,
-    /// The policy that decides
-    #[arg(long, default_value = "gcaps-x", value_parser = parse_name)]
-    pub(crate) policy: String,
-    /// Seconds of the day that pass in a second, or max
-    #[arg(long, default_value = "max", value_parser = parse_speed)]
-    pub(crate) speed: Speed,
-    /// Leave the decisions to others, such as people at the console, and wait for each
-    #[arg(long)]
-    pub(crate) by_hand: bool,
-    /// PEM file with certificates to trust, for a service whose certificate is its own
-    #[arg(long, value_name = "FILE")]
-    pub(crate) trust: Option<PathBuf>,
-    /// Print the day's numbers as JSON
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

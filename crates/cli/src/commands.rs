@@ -8,9 +8,11 @@ pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod generalise;
 pub(crate) mod network;
+#[cfg(feature = "service")]
 pub(crate) mod operate;
 pub(crate) mod plan;
 pub(crate) mod scenario;
+#[cfg(feature = "service")]
 pub(crate) mod serve;
 pub(crate) mod simulate;
 pub(crate) mod size;

@@ -46,8 +46,15 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Size(arguments) => commands::size::run(&arguments),
         Command::Evaluate(arguments) => commands::evaluate::run(&arguments),
+        #[cfg(feature = "service")]
         Command::Serve(arguments) => commands::serve::run(&arguments),
+        #[cfg(feature = "service")]
         Command::Operate(arguments) => commands::operate::run(&arguments),
+        #[cfg(not(feature = "service"))]
+        Command::Serve { .. } => Err(failure::Failure::usage(
+            "this build has no dispatch service".to_owned(),
+            "`make program` builds all of the program",
+        )),
     }
 }
 

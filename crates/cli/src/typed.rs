@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use vertifleet_core::{Coded as _, Purpose};
 use vertifleet_import::NewVertiport;
-use vertifleet_serve::Role;
 use vertifleet_study::size::Goal;
 use vertifleet_study::sweep::Factor;
 use vertifleet_study::{MOST_DAYS, PolicySource};
@@ -62,44 +61,12 @@ pub(crate) fn parse_vertiport(text: &str) -> Result<NewVertiport, String> {
     })
 }
 
-/// What a token is called.
-pub(crate) fn parse_token_name(text: &str) -> Result<String, String> {
-    match text.trim() {
-        "" => Err("expected a name, by which people know who did what".to_owned()),
-        name => Ok(name.to_owned()),
-    }
-}
-
 /// A policy's name. Blanks around it are removed, since users put them after commas.
 pub(crate) fn parse_name(text: &str) -> Result<String, String> {
     match text.trim() {
         "" => Err("expected a policy's name, found none; is there a comma too many?".to_owned()),
         name => Ok(name.to_owned()),
     }
-}
-
-/// How fast a day is operated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Speed {
-    /// Seconds of the day in a second.
-    Times(f64),
-    /// As fast as the service answers.
-    Max,
-}
-
-/// The speed of a day.
-pub(crate) fn parse_speed(text: &str) -> Result<Speed, String> {
-    match text.parse() {
-        _ if text == "max" => Ok(Speed::Max),
-        Ok(times) if (1.0..=1e6).contains(&times) => Ok(Speed::Times(times)),
-        _ => Err("expected a number from 1 to 1000000, or max".to_owned()),
-    }
-}
-
-/// What a token permits.
-pub(crate) fn parse_role(text: &str) -> Result<Role, String> {
-    let known = Role::ALL.map(Role::name).join(", ");
-    Role::named(text).ok_or_else(|| format!("expected one of {known}"))
 }
 
 /// The purpose of days.

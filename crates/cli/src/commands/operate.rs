@@ -7,12 +7,11 @@ use vertifleet_core::{DaySeed, Outputs};
 use vertifleet_progress::Bar;
 use vertifleet_serve::{Operation, OperationReport, operate};
 
-use crate::args::OperateArguments;
+use crate::args::{OperateArguments, Speed};
 use crate::commands::find_network;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
-use crate::typed::Speed;
 
 pub(crate) fn run(arguments: &OperateArguments) -> Result<ExitCode, Failure> {
     let stop = stop_on_interrupt()?;

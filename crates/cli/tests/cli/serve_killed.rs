@@ -102,13 +102,12 @@ impl Client<'_> {
             let (at, mark) = (number / 2 % days.len(), format!("{client}-{number}"));
             let key = format!("{mark} of {}", days[0]);
             let aircraft = format!("A{:02}", client + 1);
-            let (mark, body) = match number % 2 {
-                0 => (EQUAL.to_owned(), booked()),
-                _ => {
-                    let kind = "out_of_service";
-                    let body = json!({"type": kind, "aircraft": aircraft, "reason": mark});
-                    (mark, body)
-                }
+            let (mark, body) = if number % 2 == 0 {
+                (EQUAL.to_owned(), booked())
+            } else {
+                let kind = "out_of_service";
+                let body = json!({"type": kind, "aircraft": aircraft, "reason": mark});
+                (mark, body)
             };
             let path = format!("{}/events", days[at]);
             let Some(answer) = self.post(instances, &path, &key, &body) else { break };
