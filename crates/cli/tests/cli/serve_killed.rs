@@ -153,7 +153,7 @@ impl Trial<'_> {
     /// Kills one instance after the other, and starts each again at the same address.
     ///
     /// # Errors
-    /// Returns what went wrong if one ended by itself or does not start.
+    /// Returns what went wrong if an instance ended before it was killed, or does not start.
     fn kill(&self, services: &mut [Service], kills: std::ops::Range<u32>) -> Result<(), String> {
         let count = services.len();
         for kill in kills {

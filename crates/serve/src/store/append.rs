@@ -68,8 +68,8 @@ impl Store {
         Ok(transaction.commit().await?)
     }
 
-    /// Checks that nobody has archived or deleted the days of events that have just been added, and keeps everybody from it
-    /// until the transaction ends. `SQLite` has one writer at a time, which suffices for that.
+    /// Checks that the days of events that have just been added are there and not archived, and locks them until the
+    /// transaction ends. `SQLite` has one writer at a time, so it needs no lock.
     async fn check_days(
         &self,
         transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
