@@ -43,11 +43,14 @@ lint: prepare python tools console-ready
 rust-test: prepare database
 	cargo test $(CHECKED) --no-fail-fast
 
-# Not from python/: Ray's workers would take the package from there, which has no extension module in the sources.
+# Two tests at a time. Not from python/: Ray's workers would take the package from there, which has no extension module in
+# the sources.
+PYTEST = python/.venv/bin/pytest -c python/pyproject.toml --numprocesses 2 --dist worksteal
+
 python-light-test: python-light
-	python/.venv/bin/pytest -q -c python/pyproject.toml --ignore python/tests/frameworks python/tests
+	$(PYTEST) -q --ignore python/tests/frameworks python/tests
 python-test: python
-	python/.venv/bin/pytest -c python/pyproject.toml python/tests python/benches
+	$(PYTEST) python/tests python/benches
 
 # The console in headless Chromium, with the program as tests build it; and whether web/dist is what web/ builds.
 console-test: prepare

@@ -61,6 +61,12 @@ SETTINGS = settings(
 )
 
 NETWORK = Network("paper").toml.replace('name = "paper"', 'name = "uploaded"')
+# Days of tests end soon: each of a thousand questions of what would be otherwise plays one to its end.
+MORNING = (
+    Network("paper")
+    .toml.replace('name = "paper"', 'name = "morning"')
+    .replace('end = "18:00:00"', 'end = "08:00:00"')
+)
 WEIGHTS = Model.shipped("gcaps-x").to_bytes()
 # What exists, by what texts mean. The first is the one that stays while all else in a request varies.
 FORMATS: dict[str, list[Any]] = {
@@ -165,7 +171,7 @@ class Days:
     def make(self, kind: str) -> dict[str, Any]:
         """A day without events, one with a date and with decisions, or one that is archived."""
         dated = {"date": "2026-11-23", "time_zone": "Europe/Berlin"} if kind == "dated" else {}
-        day = self.send("POST", "/v1/days", json={"network": "paper", "policy": "greedy", **dated})
+        day = self.send("POST", "/v1/days", json={"network": "morning", "policy": "greedy", **dated})
         path = f"/v1/days/{day['id']}"
         if kind == "dated":
             for aircraft in ("A01", "A02"):
@@ -202,6 +208,7 @@ def days(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Days]:
     service = Service(tmp_path_factory.mktemp("service"))
     try:
         days = Days(service.url)
+        days.send("PUT", "/v1/networks/morning", json={"toml": MORNING})
         days.keep_uploads()
         yield days
     finally:

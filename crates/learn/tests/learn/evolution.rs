@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::support::{advance, finished, remains};
+use crate::support::{advance, finished, on_mornings, remains};
 use rayon::ThreadPoolBuilder;
 use vertifleet_core::{Coded, Network, Stop, World};
 use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
@@ -26,7 +26,7 @@ fn plan(policy: Architecture, changes: &[(&str, &str)]) -> TrainingRequest {
     let short = [
         ("generations", "3"),
         ("pairs", "2"),
-        ("days", "3"),
+        ("days", "2"),
         ("random_share", "0"),
         ("eval_every", "2"),
         ("validation_days", "1"),
@@ -59,7 +59,9 @@ fn threads_and_interruptions_change_nothing() {
         // Days of several sizes, and a policy that keeps the prices of one day at a time.
         plan(small_gcaps_full(), &[("random_share", "0.7"), ("generations", "1"), ("pairs", "1")]),
         plan(gcaps_x, &[("generations", "2"), ("pairs", "1")]),
-    ] {
+    ]
+    .map(on_mornings)
+    {
         let on = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| remains(finished(plan.clone().start().expect("a plan")).as_ref()))
@@ -119,7 +121,11 @@ fn every_way_to_learn_begins_with_given_weights() {
     let given =
         Model::new(begun.header().clone(), vec![0.125; begun.params().len()]).expect("weights");
     for preset in ["default", "paper", "imitation", "evolution"] {
-        let settings = TrainingSettings::preset(&small_mlp(), preset).expect("a preset");
+        let mut settings = TrainingSettings::preset(&small_mlp(), preset).expect("a preset");
+        // What it starts with is measured on validation days.
+        let days =
+            if matches!(preset, "default" | "paper") { "eval_days" } else { "validation_days" };
+        settings.set([(days, "1")]).expect("settings within their bounds");
         let run =
             TrainingRequest { settings, begin_with: Some(given.clone()), ..plan(small_mlp(), &[]) };
         let model = run.start().expect("a plan").model();

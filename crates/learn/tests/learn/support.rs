@@ -1,7 +1,17 @@
 //! What tests of all ways to learn do with a run.
 
-use vertifleet_core::Stop;
-use vertifleet_learn::{Curve, TrainingRun};
+use std::sync::Arc;
+
+use vertifleet_core::{Network, Stop};
+use vertifleet_learn::{Curve, TrainingRequest, TrainingRun};
+
+/// The same run on days of the `paper` network that end after two hours, for what is true of days of any length.
+pub(crate) fn on_mornings(asked: TrainingRequest) -> TrainingRequest {
+    let paper = Network::shipped("paper").expect("a shipped network");
+    let end = ("operations.end".to_owned(), "08:00:00".into());
+    let morning = paper.changed([(&end.0, &end.1)]).expect("a network");
+    TrainingRequest { world: Arc::new(morning).into(), ..asked }
+}
 
 pub(crate) fn advance(run: &mut dyn TrainingRun) {
     run.advance(&Stop::default(), &|_| ()).expect("training days are left");

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::support::{advance, finished, remains};
+use crate::support::{advance, finished, on_mornings, remains};
 use rayon::ThreadPoolBuilder;
 use vertifleet_core::{Coded, DaySeed, Network, Purpose, Stop, World};
 use vertifleet_learn::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, MlpSettings};
@@ -65,13 +65,13 @@ fn short(policy: Architecture, preset: &str, changes: &[(&str, &str)]) -> Traini
         ]
     } else {
         &[
-            ("total_steps", "4800"),
-            ("n_envs", "40"),
+            ("total_steps", "2400"),
+            ("n_envs", "20"),
             ("n_steps", "30"),
-            ("batch_size", "500"),
+            ("batch_size", "250"),
             ("n_epochs", "2"),
             ("eval_every", "2"),
-            ("eval_days", "3"),
+            ("eval_days", "2"),
         ]
     };
     settings.set(short.iter().chain(changes).copied()).expect("settings within their bounds");
@@ -92,14 +92,12 @@ fn plan(policy: Architecture) -> TrainingRequest {
 #[test]
 fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
     let any_network = plan_with(small_gcaps_x(), &[("random_share", "0.5")]);
-    let new_places = |policy| TrainingRequest { world: World::RandomPlaces(5), ..plan(policy) };
-    let plans =
-        [plan(small_gcaps()), plan(small_mlp()), any_network, new_places(small_gcaps_full())];
     let by_itself = plan_with(small_gcaps_full(), &[("own_rounds", "1"), ("samples", "40")]);
-    let imitating = [small_gcaps(), small_mlp()].map(|policy| short(policy, "imitation", &[]));
-    let places = [small_mlp_full(), small_mlp(), small_with_aircraft()].map(new_places);
-    let others = places.into_iter().chain([by_itself]);
-    for plan in plans.into_iter().chain(others).chain(imitating) {
+    let [gcaps, mlp] = [small_gcaps(), small_mlp()].map(|policy| short(policy, "imitation", &[]));
+    let mornings = [plan(small_gcaps()), plan(small_mlp()), any_network, by_itself, gcaps, mlp];
+    let new_places = [small_gcaps_full(), small_mlp_full(), small_mlp(), small_with_aircraft()]
+        .map(|policy| TrainingRequest { world: World::RandomPlaces(5), ..plan(policy) });
+    for plan in mornings.map(on_mornings).into_iter().chain(new_places) {
         let on = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| remains(finished(plan.clone().start().expect("a plan")).as_ref()))
@@ -115,9 +113,9 @@ fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
     let terminal = plan_with(small_gcaps(), &[("reward", "terminal")]);
     let by_itself = plan_with(small_gcaps_x(), &[("own_rounds", "1"), ("samples", "40")]);
     let imitating = short(small_gcaps(), "imitation", &[]);
-    let full = [small_gcaps_full(), small_with_aircraft()].map(plan);
-    let others = [terminal, plan(small_gcaps_x()), by_itself, imitating];
-    for plan in others.into_iter().chain(full) {
+    let [full, with_aircraft] = [small_gcaps_full(), small_with_aircraft()].map(plan);
+    let plans = [terminal, plan(small_gcaps_x()), by_itself, imitating, full, with_aircraft];
+    for plan in plans.map(on_mornings) {
         let whole = finished(plan.clone().start().expect("a plan"));
         let mut first = plan.clone().start().expect("a plan");
         advance(first.as_mut());
@@ -130,7 +128,7 @@ fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
 
 #[test]
 fn a_run_that_is_stopped_stands_as_before_and_goes_on() {
-    for plan in [plan(small_gcaps()), plan(small_gcaps_x())] {
+    for plan in [plan(small_gcaps()), plan(small_gcaps_x())].map(on_mornings) {
         let whole = finished(plan.clone().start().expect("a plan"));
         let mut run = plan.clone().start().expect("a plan");
         advance(run.as_mut());
