@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
 
-.PHONY: demo program check test test-all rust-test python-light-test python-test console-test lint soak database console console-ready deny bench train suites notebooks python python-light wheel sdist prepare tools
+.PHONY: demo program check test test-all rust-test python-light-test python-test console-test lint soak database console console-ready deny bench train suites notebooks python wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network. The dispatch service, half of a build, is left out.
 demo: prepare
@@ -45,12 +45,14 @@ rust-test: prepare database
 
 # Two tests at a time. Not from python/: Ray's workers would take the package from there, which has no extension module in
 # the sources.
-PYTEST = python/.venv/bin/pytest -c python/pyproject.toml --numprocesses 2 --dist worksteal
+PYTEST = bin/pytest -c python/pyproject.toml --numprocesses 2 --dist worksteal
 
-python-light-test: python-light
-	$(PYTEST) -q --ignore python/tests/frameworks python/tests
+python-light-test: prepare
+	cargo test $(CHECKED) --no-run
+	@scripts/python light
+	target/checked/python/$(PYTEST) -q --ignore python/tests/frameworks python/tests
 python-test: python
-	$(PYTEST) python/tests python/benches
+	python/.venv/$(PYTEST) python/tests python/benches
 
 # The console in headless Chromium, with the program as tests build it; and whether web/dist is what web/ builds.
 console-test: prepare
@@ -58,11 +60,9 @@ console-test: prepare
 	cargo test $(CHECKED) --no-run
 	cd web && npm test && npm run dist-test && npm run e2e
 
-# The Python package with all its extras, in python/.venv; and with those alone that install in seconds.
+# The Python package with all its extras, in python/.venv.
 python: prepare
-	@scripts/python dev
-python-light: prepare
-	@scripts/python light
+	@scripts/python
 
 # What the tests of services that share a database need.
 database:
@@ -88,7 +88,7 @@ wheel: python
 	cd python && PATH="$$PWD/.venv/bin:$$PATH" maturin build --release --locked --zig --compatibility manylinux2014 --out dist
 
 # The source distribution of the Python package, in python/dist.
-sdist: python-light
+sdist: python
 	scripts/sdist
 
 # Licences, versions and sources of the dependencies. Needs cargo-deny (`cargo install cargo-deny --locked`).
