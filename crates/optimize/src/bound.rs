@@ -1,7 +1,8 @@
 //! The certified upper bound: dollars that no schedule of a day earns more than.
 //!
-//! Stands and passengers get prices (`bound/prices.rs`). Any prices prove a bound in exact arithmetic
-//! (`bound/certificate.rs`), over a day that is laid out once (`bound/time_expanded_day.rs`). What the fleet would do
+//! Stands and flights get prices (`bound/prices.rs`). Any prices prove a bound in exact arithmetic
+//! (`bound/certificate.rs`), over a day that is laid out once (`bound/time_expanded_day.rs`), with passengers who buy whole
+//! flights (`bound/market.rs`). What the fleet would do
 //! at the prices (`bound/best_itineraries.rs`) shows how to improve them (`bound/descent.rs`), from coarse slices of
 //! time to fine ones (`bound/ladder.rs`). docs/src/concepts/bound.md has the proof. The prices of a bound can be kept
 //! in a file (`bound/kept.rs`).
@@ -13,6 +14,7 @@ mod designs;
 mod itinerary;
 mod kept;
 mod ladder;
+mod market;
 mod master;
 mod money;
 mod penalty;
@@ -30,6 +32,7 @@ use vertifleet_core::{Scenario, Stop, Time, VertiportIx};
 
 use crate::Error;
 use descent::Found;
+use market::Market;
 use prices::Prices;
 use slices::Slices;
 use step::STEPS;
@@ -49,9 +52,8 @@ pub(crate) const CENT_USD: f64 = 0.01;
 pub struct Bound {
     step: Step,
     slices: Slices,
+    market: Market,
     prices: Prices,
-    /// By period, from, to: the most that one more passenger is worth, micro-dollars.
-    passenger_shadow_price_usd: Vec<i64>,
     micro_usd: i128,
     is_final: bool,
 }
@@ -125,7 +127,7 @@ impl Bound {
         Self {
             step,
             slices: day.slices.clone(),
-            passenger_shadow_price_usd: day.passenger_shadow_prices(&found.prices),
+            market: day.market.clone(),
             prices: found.prices.clone(),
             micro_usd: found.bound(day),
             is_final: false,
@@ -180,9 +182,8 @@ impl Bound {
         micro_usd.into_iter().map(money::usd).collect()
     }
 
-    /// With one more passenger of a demand period, no schedule earns more than the bound plus this amount in dollars.
-    /// It is the passenger's price, or the whole margin of a passenger where fewer want to fly than an aircraft has
-    /// seats; if passengers wait, the larger of the margins of the two periods in which they may fly.
+    /// With one more passenger of a demand period, no schedule earns more than the bound plus this amount in dollars. It is
+    /// by how much one more passenger raises what the passengers of the pair can bring beyond the prices of their flights.
     pub fn passenger_shadow_price_usd(
         &self,
         period: usize,
@@ -190,7 +191,8 @@ impl Bound {
         to: VertiportIx,
     ) -> f64 {
         let size = self.size();
-        money::usd(self.passenger_shadow_price_usd[(period * size + from.at()) * size + to.at()])
+        let cell = (period * size + from.at()) * size + to.at();
+        money::usd(self.market.worth_of_one_more(cell, &self.prices.flight))
     }
 
     /// Number of vertiports.

@@ -24,12 +24,17 @@ struct Ready {
 }
 
 impl BestItineraries<'_> {
-    /// The best itinerary of each group, which is the aircraft of one layer that start alike, and their number.
+    /// The best itinerary of each group, which is the aircraft of one layer that start alike, and their number. Where the
+    /// flights that passengers buy depend on several prices, they are groups too.
     pub(super) fn of_groups(&self) -> Vec<(u32, Itinerary)> {
         let layers = self.day.layers.iter().enumerate();
         let groups =
             layers.flat_map(|(layer, kind)| kind.starts.iter().map(move |start| (layer, start)));
-        groups.map(|(layer, start)| (start.count, self.itinerary(layer, start))).collect()
+        let aircraft = groups.map(|(layer, start)| (start.count, self.itinerary(layer, start)));
+        let market = &self.day.market;
+        let buyers = (0..if market.has_one_price_a_cell() { 0 } else { market.blocks() })
+            .map(|block| (1, Itinerary::of_buyers(market, block, &self.prices.flight)));
+        aircraft.chain(buyers).collect()
     }
 
     fn itinerary(&self, layer: usize, start: &Start) -> Itinerary {
@@ -47,7 +52,7 @@ impl BestItineraries<'_> {
                 let payment = self.payment(ready);
                 itinerary.earnings -= payment as f64;
                 ready = if let Some(flight) = self.best_flight(ready, payment, slice) {
-                    itinerary.fly(self.day, self.prices, flight);
+                    itinerary.fly(flight);
                     self.goes_on(ready, flight.to.at(), flight.block_s)
                 } else {
                     self.goes_on(ready, ready.at, self.day.hold_s)
@@ -106,7 +111,7 @@ impl BestItineraries<'_> {
         self.day.flights(slice, ready.layer, ready.at).iter().find(|flight| {
             let to = flight.to.at();
             let goes_on = self.worth_less_paid(self.goes_on(ready, to, flight.block_s));
-            here == earnings(self.day, self.prices, flight) + paid(to) + goes_on
+            here == earnings(self.prices, flight) + paid(to) + goes_on
         })
     }
 }

@@ -1,16 +1,17 @@
 //! The certificate: prices prove a bound in exact whole numbers, however they were found.
 //!
-//! Let aircraft pay for the stands that they take and for the passengers that they carry, and give back the price of
-//! every stand and every passenger once. A schedule that keeps to the limits pays no more than is given back. The
-//! amount given back plus the most that each aircraft can earn at these prices is therefore at least the profit of any
-//! schedule (Lagrangian relaxation; docs/src/concepts/bound.md has the proof). The most that an aircraft can earn is a
-//! longest path through vertiports and whole seconds, found from the end of the day back to its start. Flights and
-//! holds last exactly as long on this path as in the simulator.
+//! Let aircraft pay for the stands that they take, and sell their flights to the passengers. Give back the price of every
+//! stand once, and the surplus of the passengers (`market.rs`). A schedule that keeps to the limits pays no more for stands
+//! than is given back, and its passengers bring no more beyond what they pay than their surplus. The amount given back plus
+//! the most that each aircraft can earn at these prices is therefore at least the profit of any schedule (Lagrangian
+//! relaxation; docs/src/concepts/bound.md has the proof). The most that an aircraft can earn is a longest path through
+//! vertiports and whole seconds, found from the end of the day back to its start. Flights and holds last exactly as long on
+//! this path as in the simulator.
 
 use pulp::{Arch, Simd, WithSimd};
 
 use super::prices::Prices;
-use super::time_expanded_day::{Flight, Start, TimeExpandedDay, small};
+use super::time_expanded_day::{Flight, Start, TimeExpandedDay};
 use vertifleet_core::Stop;
 
 /// Seconds that are computed side by side, so that their worths so far stay in the fastest memory.
@@ -209,7 +210,7 @@ impl LayerPass<'_> {
         self.raise(best, from, begin + self.day.hold_s as usize, past_slot, 0);
         for flight in self.day.flights(slice, self.layer, from) {
             let to = flight.to.at();
-            let flies = earnings(self.day, self.prices, flight) + self.paid(slice, to) - stays;
+            let flies = earnings(self.prices, flight) + self.paid(slice, to) - stays;
             self.raise(best, to, begin + flight.block_s as usize, past_slot, flies);
         }
         let layer = &self.day.layers[self.layer];
@@ -265,71 +266,15 @@ fn wait_freely(worths: &mut [i64], mut later: i64) {
     }
 }
 
-/// The most that a flight earns after it has paid for its passengers.
+/// What a flight earns: its price less what it costs.
 #[inline]
-pub(super) fn earnings(day: &TimeExpandedDay, prices: &Prices, flight: &Flight) -> i64 {
-    // No flight of a day on which passengers do not wait is any slower for the others.
-    if flight.waiting > 0 {
-        return earnings_with_waiting(day, prices, flight);
-    }
-    let cell = flight.cell as usize;
-    let a_passenger = day.margin[cell] - prices.demand[cell];
-    i64::from(flight.passengers) * a_passenger - flight.cost
+pub(super) fn earnings(prices: &Prices, flight: &Flight) -> i64 {
+    prices.flight[flight.sold_at as usize] - flight.cost
 }
 
-/// The same for a flight that those who have waited may board.
-#[cold]
-#[inline(never)]
-fn earnings_with_waiting(day: &TimeExpandedDay, prices: &Prices, flight: &Flight) -> i64 {
-    parties(day, prices, flight).map(Party::earns).sum::<i64>() - flight.cost
-}
-
-/// Passengers of one period on a flight.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Party {
-    /// Position of their period and pair of vertiports in [`TimeExpandedDay::demand`].
-    pub(super) cell: u32,
-    pub(super) passengers: u16,
-    /// What each earns after the flight has paid for it.
-    each: i64,
-}
-
-impl Party {
-    fn earns(self) -> i64 {
-        i64::from(self.passengers) * self.each
-    }
-}
-
-/// The passengers with whom a flight earns the most after it has paid for them. All pay the fare of the period in which
-/// it is decided. Those who wait pay the price of the period before, and where that is more than they bring, they are
-/// left behind. The seats go to those with the lower price first.
-pub(super) fn parties(
-    day: &TimeExpandedDay,
-    prices: &Prices,
-    flight: &Flight,
-) -> impl Iterator<Item = Party> + use<> {
-    let margin = day.margin[flight.cell as usize];
-    let party = |cell: u32, passengers: u16| {
-        let each = margin - prices.demand[cell as usize];
-        Party { cell, passengers: if each < 0 { 0 } else { passengers }, each }
-    };
-    let own = party(flight.cell, flight.passengers);
-    let pairs = small(day.size() * day.size());
-    let waiting = (flight.waiting > 0).then(|| party(flight.cell - pairs, flight.waiting));
-    let (first, second) = match waiting {
-        Some(waiting) if waiting.each < own.each => (own, Some(waiting)),
-        Some(waiting) => (waiting, Some(own)),
-        None => (own, None),
-    };
-    let seats_left = flight.seats - first.passengers;
-    let second =
-        second.map(|party| Party { passengers: party.passengers.min(seats_left), ..party });
-    [Some(first), second].into_iter().flatten()
-}
-
-/// The price of all stands and all passengers together.
+/// What is given back: the price of all stands, and the surplus of all passengers.
 fn dual_constant(day: &TimeExpandedDay, prices: &Prices) -> i128 {
     let stands = day.stands.iter().cycle().zip(&prices.stand);
-    let all = stands.chain(day.demand.iter().zip(&prices.demand));
-    all.map(|(&count, &price)| i128::from(count) * i128::from(price)).sum()
+    let stands = stands.map(|(&count, &price)| i128::from(count) * i128::from(price));
+    stands.sum::<i128>() + day.market.surplus(&prices.flight)
 }

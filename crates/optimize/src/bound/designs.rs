@@ -15,6 +15,7 @@ use vertifleet_core::{
 use super::Bound;
 use super::certificate::Certificate;
 use super::money;
+use super::prices::Prices;
 use super::time_expanded_day::TimeExpandedDay;
 use crate::Error;
 
@@ -22,7 +23,7 @@ use crate::Error;
 /// number of stands and chargers. Several of them add up to one for several days with the same designs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DesignBound {
-    /// Micro-dollars that are given back for passengers.
+    /// The surplus of the passengers, micro-dollars.
     passengers: i128,
     /// The most that an aircraft earns after it has paid, by type; micro-dollars.
     aircraft: Vec<i128>,
@@ -89,8 +90,10 @@ impl Bound {
         let day = TimeExpandedDay::of(&probe, &[], self.step_s())?;
         let size = day.size();
         assert_eq!(self.prices.stand.len(), day.slices.len() * size, "the prices are of this day");
+        let flight = self.market.prices_with_more_flights(&day.market, &self.prices.flight);
+        let prices = Prices { flight, ..self.prices.clone() };
         let mut certificate = Certificate::new(&day);
-        let evaluated = certificate.evaluate(&day, &self.prices, &Stop::default());
+        let evaluated = certificate.evaluate(&day, &prices, &Stop::default());
         evaluated.expect("it is not stopped");
         let mut aircraft = vec![0; probe.aircraft_types.len()];
         for (number, layer) in day.layers.iter().enumerate() {
@@ -102,9 +105,7 @@ impl Bound {
         for (at, &price) in self.prices.stand.iter().enumerate() {
             places[at % size] += i128::from(price);
         }
-        let given_back = day.demand.iter().zip(&self.prices.demand);
-        let passengers =
-            given_back.map(|(&waiting, &price)| i128::from(waiting) * i128::from(price)).sum();
+        let passengers = day.market.surplus(&prices.flight);
         Ok(DesignBound { passengers, aircraft, places })
     }
 }

@@ -1,34 +1,43 @@
-//! What one aircraft does all day, in the slices of a bound.
+//! What one aircraft does all day, in the slices of a bound, or what passengers buy all day.
 
 use std::ops::Range;
 
-use super::certificate::parties;
-use super::prices::Prices;
-use super::time_expanded_day::{Flight, TimeExpandedDay};
+use super::market::Market;
+use super::time_expanded_day::Flight;
 
-/// An itinerary through the day for one aircraft.
+/// An itinerary through the day for one aircraft, or the flights that some passengers buy.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Itinerary {
-    /// The profit of its flights before payments, micro-dollars.
+    /// What its flights earn without their prices, micro-dollars: a loss.
     pub(super) earnings: f64,
     /// The stays of the aircraft, one after the other, each as the slice before which it ends and its vertiport: the
     /// one where the aircraft is, or flies to, when slices end.
     pub(super) stays: Vec<(u32, u32)>,
-    /// For the passengers of each flight, their position in [`TimeExpandedDay::demand`] and their number. A flight that
-    /// passengers of two periods may board has an entry for each.
-    pub(super) flights: Vec<(u32, u32)>,
+    /// The position of the price of each flight, and how many of them are sold; those that are bought have a minus.
+    pub(super) flights: Vec<(u32, i32)>,
 }
 
 impl Itinerary {
-    /// Adds a flight, with the passengers with whom it earns the most at the prices.
-    pub(super) fn fly(&mut self, day: &TimeExpandedDay, prices: &Prices, flight: &Flight) {
-        let margin = day.margin[flight.cell as usize] as f64;
-        let mut on_board = 0;
-        for party in parties(day, prices, flight) {
-            self.flights.push((party.cell, party.passengers.into()));
-            on_board += u32::from(party.passengers);
+    /// What the passengers of a part of the market do at these prices: they buy flights and are nowhere.
+    pub(super) fn of_buyers(market: &Market, block: usize, prices: &[i64]) -> Self {
+        let (surplus, mut bought) = market.buy(block, prices, None);
+        bought.sort_unstable();
+        let paid: i128 = bought
+            .iter()
+            .map(|&(at, number)| i128::from(number) * i128::from(prices[at as usize]))
+            .sum();
+        let minus = |number: u32| -i32::try_from(number).expect("flights are fewer than seats");
+        Self {
+            earnings: (surplus + paid) as f64,
+            stays: Vec::new(),
+            flights: bought.into_iter().map(|(at, number)| (at, minus(number))).collect(),
         }
-        self.earnings += f64::from(on_board) * margin - flight.cost as f64;
+    }
+
+    /// Adds a flight.
+    pub(super) fn fly(&mut self, flight: &Flight) {
+        self.earnings -= flight.cost as f64;
+        self.flights.push((flight.sold_at, 1));
     }
 
     /// Adds a stay: the aircraft is at a vertiport, or flies there, at the ends of these slices.

@@ -20,7 +20,7 @@ use super::{Bound, Step, upper_bound_unless};
 use crate::Error;
 
 /// To be raised whenever the search would find other prices.
-const VERSION: u64 = 2;
+const VERSION: u64 = 3;
 /// No file that this program wrote is longer.
 const LONGEST: u64 = 256 << 20;
 
@@ -30,7 +30,7 @@ struct Kept {
     /// Length of the slices of these prices, minutes.
     minutes: u32,
     stand: Vec<i64>,
-    demand: Vec<i64>,
+    flight: Vec<i64>,
 }
 
 /// Does the same as [`upper_bound_unless`], but takes the prices from a file in `folder` if it exists, and otherwise
@@ -49,11 +49,11 @@ pub fn kept_upper_bound(
         return Ok(Some(bound));
     }
     let Some(bound) = upper_bound_unless(stopped, scenario, step)? else { return Ok(None) };
-    let (minutes, Prices { stand, demand }) = (bound.step.minutes, bound.prices);
-    let kept = Kept { minutes, stand, demand };
+    let (minutes, Prices { stand, flight }) = (bound.step.minutes, bound.prices);
+    let kept = Kept { minutes, stand, flight };
     create_folder(folder)?;
     write_atomically(&path, &serde_json::to_vec(&kept).expect("whole numbers are plain data"))?;
-    Ok(Some(Bound { prices: Prices { stand: kept.stand, demand: kept.demand }, ..bound }))
+    Ok(Some(Bound { prices: Prices { stand: kept.stand, flight: kept.flight }, ..bound }))
 }
 
 /// The bound of the prices in a file. Returns `None` if there is no such file, if it has no prices for this day, or if
@@ -63,7 +63,7 @@ fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound
     let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
     let Ok(step) = Step::from_minutes(kept.minutes) else { return Ok(None) };
     let day = TimeExpandedDay::of(scenario, &[], step.seconds())?;
-    let Some(prices) = Prices::checked(&day, kept.stand, kept.demand) else { return Ok(None) };
+    let Some(prices) = Prices::checked(&day, kept.stand, kept.flight) else { return Ok(None) };
     let proven = Certificate::new(&day).evaluate(&day, &prices, stopped);
     Ok(proven.map(|micro_usd| {
         let bound = Bound::of(step, &day, &Found { prices, micro_usd });

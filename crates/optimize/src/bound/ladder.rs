@@ -161,10 +161,10 @@ impl Search<'_> {
         let start = if let Some((coarser, prices)) = before {
             Some(prices.in_slices(&coarser, &slices, size))
         } else {
-            // Any prices prove a bound, so prices of zero give a first one at once.
+            // Any prices prove a bound, so the first ones give one at once.
             let day = day()?;
-            let zero = Prices::zero(&day);
-            self.prove(cut, &day, Descent { steps: 0, ..cut.to_the_second }, zero)
+            let first = Prices::first(&day);
+            self.prove(cut, &day, Descent { steps: 0, ..cut.to_the_second }, first)
         };
         let coarse = day()?.on_coarse_clock(TICK_S);
         let found = start.and_then(|start| self.search_coarsely(cut, &coarse, &slices, start));

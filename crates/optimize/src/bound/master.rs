@@ -8,10 +8,10 @@
 //! until no shift is worth much.
 
 use super::itinerary::Itinerary;
-use super::prices::{MOST_FOR_A_STAND, PACE_OF_PASSENGERS, Pace, Prices, whole};
+use super::prices::{MOST_FOR_A_STAND, PACE_OF_A_SEAT, Pace, Prices, whole};
 use super::time_expanded_day::TimeExpandedDay;
 
-/// The aircraft of one layer that start at the same vertiport.
+/// The aircraft of one layer that start alike, or the passengers of a part of the market.
 #[derive(Debug)]
 struct Group {
     count: f64,
@@ -33,6 +33,59 @@ const FORGOTTEN: u32 = 12;
 /// The most shifts of a group in one round.
 const SHIFTS: u32 = 6;
 
+/// Who buys the flights of a price: those of a cell that leave full, each as long as it costs no more than it brings, and the
+/// last one, which brings less. Where flights depend on several prices, groups buy them, and nobody else does.
+#[derive(Debug, Clone, Copy)]
+struct Buyers {
+    /// The highest price, which is what a full flight brings.
+    most: f64,
+    full: f64,
+    /// What the last flight brings; 0 without one.
+    last: f64,
+    pace: f64,
+}
+
+impl Buyers {
+    fn of(day: &TimeExpandedDay, position: usize) -> Self {
+        let most = day.market.most(position) as f64;
+        let pace = PACE_OF_A_SEAT * day.market.pace(position);
+        match day.market.alike(position) {
+            Some(alike) if most > 0.0 => {
+                let (full, last) = (alike.full as f64, alike.last_brings as f64);
+                Self { most, full, last, pace }
+            }
+            _ => Self { most, full: 0.0, last: 0.0, pace },
+        }
+    }
+
+    /// The number sold less the number that is bought at a price. At the price that the last flight brings, it may be bought
+    /// or not.
+    fn excess(self, sold: f64, price: f64) -> f64 {
+        let least = if price < self.last { self.full + 1.0 } else { self.full };
+        let most = if price <= self.last { self.full + 1.0 } else { self.full };
+        sold - sold.clamp(least, most)
+    }
+
+    /// The price that is by `a_flight` lower for each flight sold that is not bought at it, from a centre on.
+    fn price(self, sold: f64, centre: f64, a_flight: f64) -> f64 {
+        let without_last = centre - a_flight * (sold - self.full);
+        if without_last >= self.last {
+            return without_last.min(self.most);
+        }
+        (without_last + a_flight).clamp(0.0, self.last)
+    }
+
+    /// What the buyers have left at a price.
+    fn surplus(self, price: f64) -> f64 {
+        self.full * (self.most - price) + (self.last - price).max(0.0)
+    }
+
+    /// Whether the price moves with the number sold.
+    fn is_free(self, price: f64) -> bool {
+        price > 0.0 && price < self.most && price != self.last
+    }
+}
+
 /// The model around a centre, which is the best prices so far.
 pub(super) struct Master<'a> {
     day: &'a TimeExpandedDay,
@@ -41,11 +94,14 @@ pub(super) struct Master<'a> {
     centre: Prices,
     /// Micro-dollars by which a price moves for an excess of one, at a pace of 1.
     pub(super) reach: f64,
-    /// The number asked for less the number available, and the model's prices, in the order of [`Prices`].
+    /// The number of stands asked for less the number available, the number of flights sold less those that groups buy, and
+    /// the model's prices; in the order of [`Prices`].
     stand_excess: Vec<f64>,
-    demand_excess: Vec<f64>,
+    flight_excess: Vec<f64>,
     stand: Vec<f64>,
-    demand: Vec<f64>,
+    flight: Vec<f64>,
+    /// What else is known of each price of a flight.
+    buyers: Vec<Buyers>,
     /// Price of a stand from the first slice until each slice begins and the last one ends, by vertiport, then slice.
     paid: Vec<f64>,
 }
@@ -68,9 +124,10 @@ impl<'a> Master<'a> {
             groups: itineraries.into_iter().map(group).collect(),
             reach: 0.0,
             stand_excess: vec![0.0; centre.stand.len()],
-            demand_excess: vec![0.0; centre.demand.len()],
+            flight_excess: vec![0.0; centre.flight.len()],
             stand: centre.stand.iter().map(|&price| price as f64).collect(),
-            demand: centre.demand.iter().map(|&price| price as f64).collect(),
+            flight: centre.flight.iter().map(|&price| price as f64).collect(),
+            buyers: (0..centre.flight.len()).map(|position| Buyers::of(day, position)).collect(),
             paid: vec![0.0; centre.stand.len() + day.size()],
             centre,
         };
@@ -84,9 +141,7 @@ impl<'a> Master<'a> {
         for (at, excess) in self.stand_excess.iter_mut().enumerate() {
             *excess = -f64::from(self.day.stands[at % size]);
         }
-        for (excess, &waiting) in self.demand_excess.iter_mut().zip(&self.day.demand) {
-            *excess = -f64::from(waiting);
-        }
+        self.flight_excess.fill(0.0);
         for group in &self.groups {
             for known in group.itineraries.iter().filter(|known| known.share > 0.0) {
                 let aircraft = group.count * known.share;
@@ -95,8 +150,8 @@ impl<'a> Master<'a> {
                         self.stand_excess[slice * size + place] += aircraft;
                     }
                 }
-                for &(cell, passengers) in &known.itinerary.flights {
-                    self.demand_excess[cell as usize] += aircraft * f64::from(passengers);
+                for &(at, number) in &known.itinerary.flights {
+                    self.flight_excess[at as usize] += aircraft * f64::from(number);
                 }
             }
         }
@@ -113,10 +168,14 @@ impl<'a> Master<'a> {
         let stands = stands.map(|(at, (&excess, &price))| {
             self.pace.of_stands(at / size) * free(excess, price, MOST_FOR_A_STAND)
         });
-        let demand = self.demand_excess.iter().zip(&self.centre.demand).zip(&self.day.margin);
-        let demand =
-            demand.map(|((&excess, &price), &most)| PACE_OF_PASSENGERS * free(excess, price, most));
-        stands.sum::<f64>() + demand.sum::<f64>()
+        let flights = self.flight_excess.iter().zip(&self.centre.flight).zip(&self.buyers);
+        let flights = flights.map(|((&sold, &price), buyers)| {
+            let price = price as f64;
+            let excess = buyers.excess(sold, price);
+            let stuck = if excess > 0.0 { price <= 0.0 } else { price >= buyers.most };
+            if stuck { 0.0 } else { buyers.pace * excess * excess }
+        });
+        stands.sum::<f64>() + flights.sum::<f64>()
     }
 
     /// Moves the centre of the model to these prices.
@@ -138,9 +197,10 @@ impl<'a> Master<'a> {
         (self.centre.stand[at] as f64 + moved).clamp(0.0, MOST_FOR_A_STAND as f64)
     }
 
-    fn demand_price(&self, cell: usize) -> f64 {
-        let moved = self.reach * PACE_OF_PASSENGERS * self.demand_excess[cell];
-        (self.centre.demand[cell] as f64 + moved).clamp(0.0, self.day.margin[cell] as f64)
+    fn flight_price(&self, at: usize) -> f64 {
+        let buyers = self.buyers[at];
+        let centre = self.centre.flight[at] as f64;
+        buyers.price(self.flight_excess[at], centre, self.reach * buyers.pace)
     }
 
     /// Shifts aircraft until all shifts together are worth no more than about `enough` micro-dollars, or for `rounds`
@@ -153,8 +213,8 @@ impl<'a> Master<'a> {
         for place in 0..self.day.size() {
             self.pay(place, 0);
         }
-        for cell in 0..self.demand.len() {
-            self.demand[cell] = self.demand_price(cell);
+        for at in 0..self.flight.len() {
+            self.flight[at] = self.flight_price(at);
         }
         let mut possible = f64::INFINITY;
         for _ in 0..rounds {
@@ -190,9 +250,8 @@ impl<'a> Master<'a> {
         let rents = itinerary.stays().map(|(slices, place)| {
             self.paid[place * row + slices.end] - self.paid[place * row + slices.start]
         });
-        let passengers =
-            itinerary.flights.iter().map(|&(cell, n)| self.demand[cell as usize] * f64::from(n));
-        itinerary.earnings - rents.sum::<f64>() - passengers.sum::<f64>()
+        let sold = itinerary.flights.iter().map(|&(at, n)| self.flight[at as usize] * f64::from(n));
+        itinerary.earnings - rents.sum::<f64>() + sold.sum::<f64>()
     }
 
     /// Shifts aircraft of a group from bad itineraries to the best. Returns what could have been gained before,
@@ -253,11 +312,11 @@ impl<'a> Master<'a> {
                 resistance += self.pace.of_stands(slice) * (stand(leave) + stand(take));
             }
         }
-        for &(cell, passengers) in from.flights.iter().chain(&to.flights) {
-            let cell = cell as usize;
-            let passenger = free(self.demand[cell], self.day.margin[cell]);
-            resistance +=
-                PACE_OF_PASSENGERS * passenger * f64::from(passengers) * f64::from(passengers);
+        for &(at, number) in from.flights.iter().chain(&to.flights) {
+            let buyers = self.buyers[at as usize];
+            if buyers.is_free(self.flight[at as usize]) {
+                resistance += buyers.pace * f64::from(number) * f64::from(number);
+            }
         }
         self.reach * resistance.max(1e-3)
     }
@@ -285,9 +344,9 @@ impl<'a> Master<'a> {
             self.pay(place, first);
         }
         for (itinerary, change) in [(from, -aircraft), (to, aircraft)] {
-            for &(cell, passengers) in &itinerary.flights {
-                self.demand_excess[cell as usize] += change * f64::from(passengers);
-                self.demand[cell as usize] = self.demand_price(cell as usize);
+            for &(at, number) in &itinerary.flights {
+                self.flight_excess[at as usize] += change * f64::from(number);
+                self.flight[at as usize] = self.flight_price(at as usize);
             }
         }
     }
@@ -297,7 +356,7 @@ impl<'a> Master<'a> {
         for (to, &price) in to.stand.iter_mut().zip(&self.stand) {
             *to = whole(price);
         }
-        for (to, &price) in to.demand.iter_mut().zip(&self.demand) {
+        for (to, &price) in to.flight.iter_mut().zip(&self.flight) {
             *to = whole(price);
         }
     }
@@ -310,7 +369,9 @@ impl<'a> Master<'a> {
             group.count * worths.fold(f64::NEG_INFINITY, f64::max)
         });
         let stands = self.day.stands.iter().cycle().zip(&self.stand);
-        let dual_constant = stands.chain(self.day.demand.iter().zip(&self.demand));
-        fleet.sum::<f64>() + dual_constant.map(|(&n, price)| f64::from(n) * price).sum::<f64>()
+        let stands = stands.map(|(&number, price)| f64::from(number) * price);
+        let surplus = self.buyers.iter().zip(&self.flight);
+        let surplus = surplus.map(|(buyers, &price)| buyers.surplus(price));
+        fleet.sum::<f64>() + stands.sum::<f64>() + surplus.sum::<f64>()
     }
 }

@@ -224,8 +224,7 @@ impl Expected<'_> {
             let stays = certificate.paid(day, slice, at);
             for flight in day.flights(slice, layer, at) {
                 let to_at = flight.to.at();
-                let flies =
-                    earnings(day, prices, flight) + certificate.paid(day, slice, to_at) - stays;
+                let flies = earnings(prices, flight) + certificate.paid(day, slice, to_at) - stays;
                 let ready = begin + flight.block_s - expected_s + delay_s;
                 let onward = certificate.worths_less_paid(day, layer, to_at, ready as usize);
                 for (worth, onward) in worths[from..to].iter_mut().zip(onward) {

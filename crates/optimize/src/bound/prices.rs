@@ -1,4 +1,4 @@
-//! Prices of scarce resources: a stand when a slice ends, and the right to carry a passenger.
+//! Prices: that of a stand when a slice ends, which aircraft pay, and that of a flight, which passengers pay.
 //!
 //! Any prices within the limits of this file prove a bound (`certificate.rs`); good ones prove a tight one.
 
@@ -8,35 +8,40 @@ use super::time_expanded_day::TimeExpandedDay;
 /// The most that a stand may cost in a slice, micro-dollars. It keeps every sum of `certificate.rs` within `i64`.
 pub(super) const MOST_FOR_A_STAND: i64 = 100_000_000_000_000;
 
-/// Pace of a passenger's price, relative to that of a stand in a slice of a quarter of an hour.
-pub(super) const PACE_OF_PASSENGERS: f64 = 0.2;
+/// Pace of the price of a flight of one seat, relative to that of a stand in a slice of a quarter of an hour.
+pub(super) const PACE_OF_A_SEAT: f64 = 0.2;
 
 /// Prices in whole micro-dollars.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Prices {
     /// Price that an aircraft pays for its stand when a slice ends, by slice, then vertiport.
     pub(super) stand: Vec<i64>,
-    /// Price of the right to carry a passenger, by period, from, to; no more than the passenger's margin.
-    pub(super) demand: Vec<i64>,
+    /// Price of a flight, by period, from, to; of each, before and after those have left who waited for it, if passengers
+    /// wait; of each, by number of seats. No more than a flight can bring.
+    pub(super) flight: Vec<i64>,
 }
 
 impl Prices {
-    /// Prices of zero.
-    pub(super) fn zero(day: &TimeExpandedDay) -> Self {
-        Self { stand: vec![0; day.slices.len() * day.size()], demand: vec![0; day.demand.len()] }
+    /// Free stands, and flights that cost so much that nobody buys them.
+    pub(super) fn first(day: &TimeExpandedDay) -> Self {
+        let flight = (0..day.market.prices()).map(|position| day.market.most(position));
+        Self { stand: vec![0; day.slices.len() * day.size()], flight: flight.collect() }
     }
 
     /// Prices from a file, if they are valid prices for this day.
     pub(super) fn checked(
         day: &TimeExpandedDay,
         stand: Vec<i64>,
-        demand: Vec<i64>,
+        flight: Vec<i64>,
     ) -> Option<Self> {
         let lengths =
-            stand.len() == day.slices.len() * day.size() && demand.len() == day.demand.len();
+            stand.len() == day.slices.len() * day.size() && flight.len() == day.market.prices();
+        let within =
+            |(position, price): (usize, &i64)| (0..=day.market.most(position)).contains(price);
         let within = stand.iter().all(|price| (0..=MOST_FOR_A_STAND).contains(price))
-            && demand.iter().zip(&day.margin).all(|(price, margin)| (0..=*margin).contains(price));
-        (lengths && within).then_some(Self { stand, demand })
+            && lengths
+            && flight.iter().enumerate().all(within);
+        within.then_some(Self { stand, flight })
     }
 
     /// The same prices in other slices of the same day. The price of a stand in a slice is spread evenly over its
@@ -55,7 +60,7 @@ impl Prices {
                 stand.push(whole(parts.sum()).clamp(0, MOST_FOR_A_STAND));
             }
         }
-        Self { stand, demand: self.demand.clone() }
+        Self { stand, flight: self.flight.clone() }
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use proptest::prelude::{ProptestConfig, any, proptest};
 use vertifleet_core::{AircraftIx, DaySeed, Network, Scenario, Stop, TakeoffDelays, Time};
 use vertifleet_policy::{BidPricePolicy, Greedy, Lookahead, Policy, Random, draw, play};
-use vertifleet_sim::{Simulation, Trace, TraceRow};
+use vertifleet_sim::{Simulation, Trace};
 use vertifleet_testkit::{Size, any_extended_day};
 
 use super::certificate::Certificate;
@@ -48,14 +48,14 @@ fn traces(day: &Arc<Scenario>) -> Vec<Trace> {
 
 /// Arbitrary prices within their limits.
 fn any_prices(expanded: &TimeExpandedDay, seed: u64) -> Prices {
-    let zero = Prices::zero(expanded);
+    let first = Prices::first(expanded);
     let below = |at: usize, most: i64| {
         let part = draw(seed, 0, u32::try_from(at).expect("few prices")) % 1_000;
         i64::try_from(part).expect("small") * most / 1_000
     };
-    let stand = (0..zero.stand.len()).map(|at| below(at, 20_000_000)).collect();
-    let demand = expanded.margin.iter().enumerate().map(|(at, &most)| below(at, most)).collect();
-    Prices::checked(expanded, stand, demand).expect("within their limits")
+    let stand = (0..first.stand.len()).map(|at| below(at, 20_000_000)).collect();
+    let flight = first.flight.iter().enumerate().map(|(at, &most)| below(at, most)).collect();
+    Prices::checked(expanded, stand, flight).expect("within their limits")
 }
 
 /// Arbitrary payments for knowing delays.
@@ -105,28 +105,6 @@ fn layer_of(day: &Scenario, expanded: &TimeExpandedDay, aircraft: AircraftIx) ->
     expanded.layers.iter().position(own).expect("every aircraft has a layer")
 }
 
-/// For each decision, how many of its passengers had waited since the period before, where those who have waited board
-/// first.
-fn waited(day: &Scenario, trace: &Trace) -> Vec<u16> {
-    let mut left = day.demand.clone();
-    let board = |row: &TraceRow| {
-        let (period, pair) = (day.period_at(row.time), (row.from, row.to));
-        let ends = day.periods[period] + day.operations.passenger_wait_s;
-        let mut take = |period: usize, most: u16| {
-            let left = &mut left[period][pair];
-            let taken = u16::try_from(*left).map_or(most, |left| left.min(most));
-            *left -= u32::from(taken);
-            taken
-        };
-        let waited =
-            if period > 0 && row.time < ends { take(period - 1, row.passengers) } else { 0 };
-        let own = take(period, row.passengers - waited);
-        assert_eq!(waited + own, row.passengers, "nobody counts twice");
-        waited
-    };
-    trace.rows.iter().map(board).collect()
-}
-
 /// Plays a day by several rules, and checks each aircraft, and all of them together, against the proof.
 fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
     let mut expanded = TimeExpandedDay::of(day, &[], step_s).expect("a small day");
@@ -138,35 +116,35 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
     let bound = certificate.evaluate(&expanded, &prices, &never).expect("it is not stopped");
     for trace in traces(day) {
         let mut taken = vec![0; prices.stand.len()];
-        let mut carried = vec![0; prices.demand.len()];
-        let mut profit = 0;
-        let waited = waited(day, &trace);
+        let (mut profit, mut surplus) = (0, 0);
         for aircraft in AircraftIx::all(day.aircraft.len()) {
             let mut left = 0;
             for (slice, place) in places(day, &expanded, &trace, aircraft).into_iter().enumerate() {
                 taken[slice * expanded.size() + place] += 1;
                 left -= prices.stand[slice * expanded.size() + place];
             }
-            let flies = |(row, _): &(&TraceRow, _)| row.aircraft == aircraft && row.to != row.from;
-            for (row, &waited) in trace.rows.iter().zip(&waited).filter(flies) {
-                let period = day.period_at(row.time);
+            let layer = layer_of(day, &expanded, aircraft);
+            for row in
+                trace.rows.iter().filter(|row| row.aircraft == aircraft && row.to != row.from)
+            {
+                let slice = expanded.slices.containing(row.time.seconds());
+                let flights = expanded.flights(slice, layer, row.from.at());
+                let flight =
+                    flights.iter().find(|flight| flight.to == row.to).expect("it is flown");
+                let sold_for = prices.flight[flight.sold_at as usize];
+                let period = expanded.slices.period(slice);
                 let size = expanded.size();
                 let cell = (period * size + row.from.at()) * size + row.to.at();
-                let parties =
-                    [(cell, row.passengers - waited), (cell.saturating_sub(size * size), waited)];
                 // The amount is rounded down, because the proof must not depend on the rounding of a real day's
                 // amounts.
                 let earned = money::down(row.profit_usd());
+                let brought = i64::from(row.passengers) * expanded.market.margin(cell);
                 profit += i128::from(earned);
-                left += earned;
-                for (cell, passengers) in parties {
-                    carried[cell] += u32::from(passengers);
-                    left -= i64::from(passengers) * prices.demand[cell];
-                }
+                left += sold_for - (brought - earned);
+                surplus += i128::from(brought - sold_for);
             }
             // An aircraft earns no more than the longest path.
             let start = day.aircraft[aircraft.at()].at.at();
-            let layer = layer_of(day, &expanded, aircraft);
             left -= payments(&expanded, layer, &trace, aircraft);
             let worth = certificate.worth_less_paid(&expanded, layer, start, 0);
             assert!(
@@ -174,13 +152,12 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
                 "aircraft {aircraft:?} has {left} left, its best itinerary {worth}"
             );
         }
-        // What is paid for stands and passengers is no more than the amount given back.
+        // What is paid for stands, and what passengers bring beyond what they pay, is no more than the amount given back.
         for (at, &count) in taken.iter().enumerate() {
             assert!(count <= expanded.stands[at % expanded.size()]);
         }
-        for (&count, &waiting) in carried.iter().zip(&expanded.demand) {
-            assert!(count <= waiting);
-        }
+        let most = expanded.market.surplus(&prices.flight);
+        assert!(surplus <= most, "passengers have {surplus} left, at most {most}");
         let penalties = AircraftIx::all(day.aircraft.len()).map(|aircraft| {
             i128::from(payments(&expanded, layer_of(day, &expanded, aircraft), &trace, aircraft))
         });
@@ -255,8 +232,8 @@ proptest! {
         let (longer_proves, prices) = proven(&day, 900, mix);
         let (longer, shorter) = (TimeExpandedDay::of(&day, &[], 900), TimeExpandedDay::of(&day, &[], 180));
         let (longer, shorter) = (longer.expect("a small day"), shorter.expect("a small day"));
-        let mut same = Prices::zero(&shorter);
-        same.demand.clone_from(&prices.demand);
+        let mut same = Prices::first(&shorter);
+        same.flight.clone_from(&prices.flight);
         for slice in 0..longer.slices.len() {
             let last = shorter.slices.containing(longer.slices.last_s(slice));
             let size = longer.size();

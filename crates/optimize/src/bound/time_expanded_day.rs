@@ -7,12 +7,12 @@
 
 use std::collections::BTreeMap;
 
-use vertifleet_core::{ClosedTimes, Matrix, Scenario, Time, TypeIx, Vertiport, VertiportIx};
+use vertifleet_core::{ClosedTimes, Scenario, Time, TypeIx, Vertiport, VertiportIx};
 use vertifleet_sim::{Leg, Legs};
 
+use super::market::{Market, Part, index};
 use super::money;
 use super::penalty::Penalty;
-use super::prices::Prices;
 use super::slices::Slices;
 use crate::Error;
 
@@ -28,14 +28,8 @@ pub(super) struct Flight {
     pub(super) to: VertiportIx,
     /// Seconds from the decision until the aircraft may decide again, its delay included.
     pub(super) block_s: u32,
-    /// Position of its period and pair of vertiports in [`TimeExpandedDay::demand`].
-    pub(super) cell: u32,
-    /// The most passengers of its own period that it may carry: its seats, or the whole demand if that is less.
-    pub(super) passengers: u16,
-    /// The same for passengers of the period before who wait; 0 where none do.
-    pub(super) waiting: u16,
-    /// The most passengers that it may carry in all.
-    pub(super) seats: u16,
+    /// The position of its price in [`Prices::flight`](super::prices::Prices::flight).
+    pub(super) sold_at: u32,
     /// The least that it may cost with or without passengers, including its energy; micro-dollars.
     pub(super) cost: i64,
 }
@@ -47,7 +41,6 @@ pub(super) struct Layer {
     /// Whether its aircraft may wait for any time and not only for holds. An aircraft without outages that may wait for
     /// any time can do everything that an aircraft kept on the ground by an outage does.
     pub(super) waits_freely: bool,
-    pub(super) seats: u16,
     /// Where and when its aircraft start, those alike together, by vertiport and time.
     pub(super) starts: Vec<Start>,
 }
@@ -71,10 +64,8 @@ pub(super) struct TimeExpandedDay {
     pub(super) layers: Vec<Layer>,
     /// U_max by vertiport.
     pub(super) stands: Vec<u32>,
-    /// Passengers by period, from, to.
-    pub(super) demand: Vec<u32>,
-    /// The highest margin of a passenger, by period, from, to; micro-dollars, never negative.
-    pub(super) margin: Vec<i64>,
+    /// The passengers, who buy flights.
+    pub(super) market: Market,
     /// The least that the fleet may cost, whether or not it flies, micro-dollars.
     pub(super) fixed_cost: i64,
     /// Duration of a hold, seconds.
@@ -84,10 +75,6 @@ pub(super) struct TimeExpandedDay {
     pub(super) shortest_s: u32,
     /// What aircraft pay for knowing delays, if the bound is to be one without foresight.
     pub(super) penalty: Option<Penalty>,
-    /// Whether there is any flight for the passengers of a period and pair in that period, by period, from, to.
-    is_flown: Vec<bool>,
-    /// The same in the next period, while they wait.
-    is_flown_later: Vec<bool>,
     flights: Vec<Flight>,
     /// Position in `flights` of the first flight from each vertiport, by slice, layer, vertiport.
     offsets: Vec<usize>,
@@ -106,13 +93,10 @@ impl TimeExpandedDay {
         let slices = Slices::of(scenario, step_s);
         let mut day = Self {
             stands: scenario.vertiports.iter().map(room).collect(),
-            demand: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
-            margin: margins(scenario),
+            market: Market::of(scenario),
             fixed_cost: fixed_cost(scenario),
             hold_s: scenario.operations.hold_s,
             shortest_s: scenario.operations.hold_s,
-            is_flown: vec![false; scenario.periods.len() * scenario.vertiports.len().pow(2)],
-            is_flown_later: vec![false; scenario.periods.len() * scenario.vertiports.len().pow(2)],
             penalty: None,
             flights: Vec::new(),
             offsets: vec![0],
@@ -170,7 +154,8 @@ impl TimeExpandedDay {
             let times_s = (self.slices.start_s(slice), self.slices.last_s(slice));
             let [first, last] = [times_s.0, times_s.1].map(Time::from_seconds);
             for layer in 0..self.layers.len() {
-                let (kind, seats) = (self.layers[layer].kind, self.layers[layer].seats);
+                let kind = self.layers[layer].kind;
+                let seats = scenario.aircraft_types[kind.at()].seats;
                 for from in VertiportIx::all(size) {
                     for to in legs.within_range(kind, from).iter() {
                         if !closed.is_closed_throughout(from, to, first, last) {
@@ -200,43 +185,17 @@ impl TimeExpandedDay {
         let arrivals_s = (first_s + flight_s, self.slices.last_s(slice) + flight_s);
         let price_usd = lowest_energy_price_usd(scenario, arrivals_s);
         let cost_usd = leg.energy_kwh * price_usd + scenario.flight_cost_usd[(from, to)];
+        let part = if self.slices.wait(slice) { Part::Early } else { Part::Late };
         let cell = first_cell + from.at() * size + to.at();
-        let waiting = self.slices.wait(slice).then(|| cell - size * size);
-        self.is_flown[cell] = true;
-        if let Some(waiting) = waiting {
-            self.is_flown_later[waiting] = true;
-        }
-        let fit = |cell: usize| at_most(seats, self.demand[cell]);
+        let sold_at = self.market.position(cell, part, seats);
+        self.market.offer(sold_at);
         self.flights.push(Flight {
             to,
             block_s: leg.block_s() + late_s,
-            cell: small(cell),
-            passengers: fit(cell),
-            waiting: waiting.map_or(0, fit),
-            seats,
+            sold_at: index(sold_at),
             cost: money::down(cost_usd),
         });
         self.shortest_s = self.shortest_s.min(leg.block_s());
-    }
-
-    /// The most that one more passenger is worth, by period, from, to; micro-dollars. If the demand does not fill an
-    /// aircraft, one more may fly with the others, in the next period too if passengers wait, which the price does not
-    /// reflect. 0 where no flight leads.
-    pub(super) fn passenger_shadow_prices(&self, prices: &Prices) -> Vec<i64> {
-        let seats = self.layers.iter().map(|layer| layer.seats).max().unwrap_or(0);
-        let pairs = self.size().pow(2);
-        let margin = |is_flown: bool, cell: usize| if is_flown { self.margin[cell] } else { 0 };
-        let worth = |cell: usize| {
-            let (now, later) = (self.is_flown[cell], self.is_flown_later[cell]);
-            match self.demand[cell] {
-                _ if !now && !later => 0,
-                waiting if waiting < seats.into() => {
-                    margin(now, cell).max(margin(later, cell + pairs))
-                }
-                _ => prices.demand[cell],
-            }
-        };
-        (0..self.demand.len()).map(worth).collect()
     }
 
     /// Number of vertiports.
@@ -276,9 +235,8 @@ fn layers(scenario: &Scenario, ready: &[Time]) -> Vec<Layer> {
             }
             let start = |((at, ready_s), count)| Start { at, ready_s, count };
             let starts: Vec<Start> = alike.into_iter().map(start).collect();
-            let seats = scenario.aircraft_types[kind.at()].seats;
             if !starts.is_empty() {
-                layers.push(Layer { kind, waits_freely, seats, starts });
+                layers.push(Layer { kind, waits_freely, starts });
             }
         }
     }
@@ -300,15 +258,6 @@ fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
     layers.iter().map(within_range).sum()
 }
 
-/// The highest margin of a passenger, by period and pair. Carrying a passenger at a loss is never better than carrying
-/// none.
-fn margins(scenario: &Scenario) -> Vec<i64> {
-    let costs = scenario.passenger_cost_usd.cells();
-    let fares = (0..scenario.periods.len())
-        .flat_map(|period| scenario.fare_usd.in_period(period).cells().iter().zip(costs));
-    fares.map(|(fare, cost)| money::up(fare - cost).max(0)).collect()
-}
-
 /// What the fleet, the stands and the chargers cost whatever is decided, rounded down for each, and 0 where they cost
 /// nothing, which rounding down would make negative.
 fn fixed_cost(scenario: &Scenario) -> i64 {
@@ -326,13 +275,4 @@ fn lowest_energy_price_usd(scenario: &Scenario, arrivals_s: (u32, u32)) -> f64 {
     let period = |time_s| scenario.period_at(Time::from_seconds(time_s));
     let prices = &scenario.energy_price_usd[period(arrivals_s.0)..=period(arrivals_s.1)];
     prices.iter().copied().fold(f64::INFINITY, f64::min)
-}
-
-/// The passengers that fit on seats.
-fn at_most(seats: u16, passengers: u32) -> u16 {
-    u16::try_from(passengers).map_or(seats, |passengers| passengers.min(seats))
-}
-
-pub(super) fn small(position: usize) -> u32 {
-    u32::try_from(position).expect("the readers bound the cells of demand at 4,000,000")
 }

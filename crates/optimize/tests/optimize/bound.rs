@@ -235,7 +235,7 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
     assert_eq!(kept(&day, 30), found);
     let file = &files()[0];
     let whole = fs::read(file).expect("the file is there");
-    for damaged in [&b""[..], &whole[..whole.len() / 2], br#"{"stand":[1],"demand":[]}"#] {
+    for damaged in [&b""[..], &whole[..whole.len() / 2], br#"{"stand":[1],"flight":[]}"#] {
         fs::write(file, damaged).expect("a folder of ours");
         assert_eq!(kept(&day, 30), found);
         assert_eq!(fs::read(file).expect("the file is there"), whole);

@@ -64,7 +64,7 @@ fn an_honest_result_is_verified() {
     assert!(verification.valid, "{verification}");
     assert_eq!(verification.bound_share, Some(result.bound_share));
     assert!(
-        verification.to_string().starts_with("verified: greedy on paper-100, 100 days: 91.25 ")
+        verification.to_string().starts_with("verified: greedy on paper-100, 100 days: 91.26 ")
     );
 }
 
