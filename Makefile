@@ -26,7 +26,7 @@ test:
 
 # Every test. Each group runs, also after another has failed, and the last lines name those that failed.
 test-all:
-	@scripts/groups rust-test console-test python-test
+	@scripts/groups rust-test console-test python-light-test python-test
 
 # What CI adds to the tests.
 lint: prepare python tools console-ready
@@ -43,16 +43,16 @@ lint: prepare python tools console-ready
 rust-test: prepare database
 	cargo test $(CHECKED) --no-fail-fast
 
-# Two tests at a time. Not from python/: Ray's workers would take the package from there, which has no extension module in
-# the sources.
+# Two tests at a time, from the root: in python/, Ray's workers would import the sources, which have no extension module.
 PYTEST = bin/pytest -c python/pyproject.toml --numprocesses 2 --dist worksteal
 
 python-light-test: prepare
 	cargo test $(CHECKED) --no-run
 	@scripts/python light
 	target/checked/python/$(PYTEST) -q --ignore python/tests/frameworks python/tests
+# What needs PyTorch or Ray, and whether the wheel that users install works.
 python-test: python
-	python/.venv/$(PYTEST) python/tests python/benches
+	python/.venv/$(PYTEST) python/tests/frameworks python/tests/test_library.py python/benches
 
 # The console in headless Chromium, with the program as tests build it; and whether web/dist is what web/ builds.
 console-test: prepare
@@ -88,7 +88,7 @@ wheel: python
 	cd python && PATH="$$PWD/.venv/bin:$$PATH" maturin build --release --locked --zig --compatibility manylinux2014 --out dist
 
 # The source distribution of the Python package, in python/dist.
-sdist: python
+sdist: prepare
 	scripts/sdist
 
 # Licences, versions and sources of the dependencies. Needs cargo-deny (`cargo install cargo-deny --locked`).

@@ -61,7 +61,7 @@ SETTINGS = settings(
 )
 
 NETWORK = Network("paper").toml.replace('name = "paper"', 'name = "uploaded"')
-# Days of tests end soon: each of a thousand questions of what would be otherwise plays one to its end.
+# The days of these tests last two hours, because each of about a thousand what-ifs plays a day to its end.
 MORNING = (
     Network("paper")
     .toml.replace('name = "paper"', 'name = "morning"')
