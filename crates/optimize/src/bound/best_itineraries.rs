@@ -24,16 +24,17 @@ struct Ready {
 }
 
 impl BestItineraries<'_> {
-    /// The best itinerary of each group, which is the aircraft of one layer that start alike, and their number. Where the
-    /// flights that passengers buy depend on several prices, they are groups too.
+    /// The best itinerary of each group, which is the aircraft of one layer that start alike, and their number. Where
+    /// passengers choose between flights with several prices, those of each part of the market are a group too.
     pub(super) fn of_groups(&self) -> Vec<(u32, Itinerary)> {
         let layers = self.day.layers.iter().enumerate();
         let groups =
             layers.flat_map(|(layer, kind)| kind.starts.iter().map(move |start| (layer, start)));
         let aircraft = groups.map(|(layer, start)| (start.count, self.itinerary(layer, start)));
         let market = &self.day.market;
-        let buyers = (0..if market.has_one_price_a_cell() { 0 } else { market.blocks() })
-            .map(|block| (1, Itinerary::of_buyers(market, block, &self.prices.flight)));
+        let buyers = market.blocks_that_choose();
+        let buyers =
+            buyers.map(|block| (1, Itinerary::of_buyers(market, block, &self.prices.flight)));
         aircraft.chain(buyers).collect()
     }
 

@@ -8,36 +8,30 @@ use super::time_expanded_day::Flight;
 /// An itinerary through the day for one aircraft, or the flights that some passengers buy.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Itinerary {
-    /// What its flights earn without their prices, micro-dollars: a loss.
+    /// What it earns apart from the prices of flights and stands, micro-dollars: of an aircraft, minus the cost of its
+    /// flights; of passengers, what they bring.
     pub(super) earnings: f64,
     /// The stays of the aircraft, one after the other, each as the slice before which it ends and its vertiport: the
     /// one where the aircraft is, or flies to, when slices end.
     pub(super) stays: Vec<(u32, u32)>,
     /// The position of the price of each flight, and how many of them are sold; those that are bought have a minus.
-    pub(super) flights: Vec<(u32, i32)>,
+    pub(super) flights: Vec<(u32, f64)>,
 }
 
 impl Itinerary {
-    /// What the passengers of a part of the market do at these prices: they buy flights and are nowhere.
+    /// What the passengers of a part of the market do at these prices. They take no stands.
     pub(super) fn of_buyers(market: &Market, block: usize, prices: &[i64]) -> Self {
-        let (surplus, mut bought) = market.buy(block, prices, None);
-        bought.sort_unstable();
-        let paid: i128 = bought
-            .iter()
-            .map(|&(at, number)| i128::from(number) * i128::from(prices[at as usize]))
-            .sum();
-        let minus = |number: u32| -i32::try_from(number).expect("flights are fewer than seats");
-        Self {
-            earnings: (surplus + paid) as f64,
-            stays: Vec::new(),
-            flights: bought.into_iter().map(|(at, number)| (at, minus(number))).collect(),
-        }
+        let (surplus, bought) = market.buy(block, prices, None);
+        let paid = |&(at, number): &(u32, f64)| number * prices[at as usize] as f64;
+        let earnings = surplus as f64 + bought.iter().map(paid).sum::<f64>();
+        let flights = bought.into_iter().map(|(at, number)| (at, -number)).collect();
+        Self { earnings, stays: Vec::new(), flights }
     }
 
     /// Adds a flight.
     pub(super) fn fly(&mut self, flight: &Flight) {
         self.earnings -= flight.cost as f64;
-        self.flights.push((flight.sold_at, 1));
+        self.flights.push((flight.sold_at, 1.0));
     }
 
     /// Adds a stay: the aircraft is at a vertiport, or flies there, at the ends of these slices.

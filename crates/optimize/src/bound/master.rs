@@ -1,6 +1,8 @@
 //! The search's model of the day: a fleet that divides itself among the itineraries that are known so far, at prices
 //! that rise where more is asked for than is available.
 //!
+//! Where passengers choose between flights with several prices, they are groups of the fleet's kind, which buy flights.
+//!
 //! The model is the dual of the proximal step of a bundle method with one bundle for each group of like aircraft (K.
 //! Kiwiel, *Proximity control in bundle methods for convex nondifferentiable minimization*, Mathematical Programming
 //! 46, 1990): a price is the centre's price plus a pace times the excess, kept within its limits. Shifting aircraft
@@ -33,8 +35,8 @@ const FORGOTTEN: u32 = 12;
 /// The most shifts of a group in one round.
 const SHIFTS: u32 = 6;
 
-/// Who buys the flights of a price: those of a cell that leave full, each as long as it costs no more than it brings, and the
-/// last one, which brings less. Where flights depend on several prices, groups buy them, and nobody else does.
+/// The demand for the flights of one price: `full` flights at up to `most`, and one more at up to `last`. Both numbers are 0
+/// where passengers choose between flights with several prices: these are groups of the model.
 #[derive(Debug, Clone, Copy)]
 struct Buyers {
     /// The highest price, which is what a full flight brings.
@@ -66,7 +68,8 @@ impl Buyers {
         sold - sold.clamp(least, most)
     }
 
-    /// The price that is by `a_flight` lower for each flight sold that is not bought at it, from a centre on.
+    /// The price of the proximal step: from the centre, `a_flight` lower for each flight that is sold and not bought at this
+    /// price, and within its limits.
     fn price(self, sold: f64, centre: f64, a_flight: f64) -> f64 {
         let without_last = centre - a_flight * (sold - self.full);
         if without_last >= self.last {
@@ -151,7 +154,7 @@ impl<'a> Master<'a> {
                     }
                 }
                 for &(at, number) in &known.itinerary.flights {
-                    self.flight_excess[at as usize] += aircraft * f64::from(number);
+                    self.flight_excess[at as usize] += aircraft * number;
                 }
             }
         }
@@ -250,7 +253,7 @@ impl<'a> Master<'a> {
         let rents = itinerary.stays().map(|(slices, place)| {
             self.paid[place * row + slices.end] - self.paid[place * row + slices.start]
         });
-        let sold = itinerary.flights.iter().map(|&(at, n)| self.flight[at as usize] * f64::from(n));
+        let sold = itinerary.flights.iter().map(|&(at, number)| self.flight[at as usize] * number);
         itinerary.earnings - rents.sum::<f64>() + sold.sum::<f64>()
     }
 
@@ -312,10 +315,12 @@ impl<'a> Master<'a> {
                 resistance += self.pace.of_stands(slice) * (stand(leave) + stand(take));
             }
         }
+        // Flights that both have cancel out, but counting them keeps steps short: without them `paper` stopped at a bound
+        // that was 10 $ higher.
         for &(at, number) in from.flights.iter().chain(&to.flights) {
             let buyers = self.buyers[at as usize];
             if buyers.is_free(self.flight[at as usize]) {
-                resistance += buyers.pace * f64::from(number) * f64::from(number);
+                resistance += buyers.pace * number.abs();
             }
         }
         self.reach * resistance.max(1e-3)
@@ -345,7 +350,7 @@ impl<'a> Master<'a> {
         }
         for (itinerary, change) in [(from, -aircraft), (to, aircraft)] {
             for &(at, number) in &itinerary.flights {
-                self.flight_excess[at as usize] += change * f64::from(number);
+                self.flight_excess[at as usize] += change * number;
                 self.flight[at as usize] = self.flight_price(at as usize);
             }
         }
