@@ -77,9 +77,11 @@ impl Bound {
         table(py, self.passenger_shadow_price_usd.iter().copied(), [periods, size, size])
     }
 
-    /// The gap: by how much a profit is below the bound, as a share of the bound.
+    /// The gap: by how much a profit is below the bound, as a share of the bound. Both are taken before the costs of
+    /// aircraft and sites, which no decision changes.
     fn gap(&self, profit_usd: f64) -> f64 {
-        exact::gap(self.upper_bound_usd, profit_usd)
+        let fixed_usd = self.scenario.fixed_cost_usd();
+        exact::gap(self.upper_bound_usd + fixed_usd, profit_usd + fixed_usd)
     }
 
     fn __repr__(&self) -> String {

@@ -318,7 +318,9 @@ class Bound:
         passenger, no schedule earns more than the bound plus this price.
         """
     def gap(self, profit_usd: float) -> float:
-        """The gap: by how much a profit is below the bound, as a share of the bound."""
+        """The gap: by how much a profit is below the bound, as a share of the bound. Both are taken before
+        the costs of aircraft and sites, which no decision changes.
+        """
 
 @final
 class Plan:

@@ -55,6 +55,8 @@ pub struct Bound {
     market: Market,
     prices: Prices,
     micro_usd: i128,
+    /// What the fleet and its sites cost whatever is decided, micro-dollars.
+    fixed_cost: i64,
     is_final: bool,
 }
 
@@ -130,6 +132,7 @@ impl Bound {
             market: day.market.clone(),
             prices: found.prices.clone(),
             micro_usd: found.bound(day),
+            fixed_cost: day.fixed_cost,
             is_final: false,
         }
     }
@@ -144,9 +147,10 @@ impl Bound {
         self.upper_bound_usd() <= profit_usd + CENT_USD
     }
 
-    /// The [`gap`] of a profit to this bound.
+    /// The [`gap`] of a profit to this bound, both before the costs of aircraft and sites, which no decision changes.
     pub fn gap(&self, profit_usd: f64) -> f64 {
-        gap(self.upper_bound_usd(), profit_usd)
+        let operating_usd = money::usd_up(self.micro_usd + i128::from(self.fixed_cost));
+        gap(operating_usd, profit_usd + money::usd(self.fixed_cost))
     }
 
     /// Whether the search came to its end. If not, it ran out of time, and a longer search may find a lower bound.
@@ -202,11 +206,11 @@ impl Bound {
 }
 
 /// The amount by which a profit is below a bound, as a share of the bound. Where nothing can be earned, or a loss can
-/// only be kept small, it is the share of the loss that might be avoided, from 0 to 1.
+/// only be kept small, it is the share of the loss that might be avoided, from 0 to 1. A cent is nothing.
 pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
-    if bound_usd > 0.0 {
+    if bound_usd > CENT_USD {
         (bound_usd - profit_usd) / bound_usd
-    } else if profit_usd < 0.0 {
+    } else if profit_usd < -CENT_USD {
         (bound_usd - profit_usd) / -profit_usd
     } else {
         0.0
@@ -223,6 +227,9 @@ mod tests {
             (200.0, 150.0, 0.25),
             (200.0, -100.0, 1.5),
             (0.0, 0.0, 0.0),
+            // What rounding leaves of nothing.
+            (6e-11, -1e-4, 0.0),
+            (1e-4, 0.0, 0.0),
             (0.0, -70.0, 1.0),
             // $100 of the loss cannot be avoided, $25 can.
             (-100.0, -125.0, 0.2),

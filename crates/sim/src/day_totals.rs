@@ -80,6 +80,16 @@ impl DayTotals {
         }
     }
 
+    /// What the fleet and its sites cost whatever is decided, dollars.
+    pub fn fixed_cost_usd(&self) -> f64 {
+        self.aircraft_cost_usd + self.site_cost_usd
+    }
+
+    /// Profit before the costs that no decision changes, dollars.
+    pub fn operating_profit_usd(&self) -> f64 {
+        self.profit_usd + self.fixed_cost_usd()
+    }
+
     /// Every number with its name, in the order of the members.
     pub fn numbers(&self) -> [(&'static str, DayNumber); 17] {
         let Self { flights, repositioning_flights, holds, decisions, .. } = *self;

@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{Purpose, VertiportIx};
+use vertifleet_optimize::gap;
 use vertifleet_sim::{DayNumber, DayTotals};
 
 use crate::error::Error;
@@ -30,23 +31,17 @@ pub struct DayRecord {
 }
 
 impl DayRecord {
-    /// Profit as a share of the day's upper bound, if there is one. If the bound is not positive, it is the least
-    /// possible loss as a share of the loss: 1 if the loss is the least possible, 0 if no loss was necessary.
+    /// Operating profit as a share of its upper bound, if the day has one: both before the costs of aircraft and sites, which
+    /// no decision changes. The rest to 1 is the [`gap`]; where nothing can be earned, it is 1 without a loss and 0 with one.
     pub fn bound_share(&self) -> Option<f64> {
-        self.upper_bound_usd.map(|bound_usd| bound_share(self.totals.profit_usd, bound_usd))
+        self.upper_bound_usd.map(|bound_usd| bound_share(&self.totals, bound_usd))
     }
 }
 
-/// Profit as a share of an upper bound, as [`DayRecord::bound_share`] defines it.
-pub(crate) fn bound_share(profit_usd: f64, bound_usd: f64) -> f64 {
-    if bound_usd > 0.0 {
-        profit_usd / bound_usd
-    } else if profit_usd < 0.0 {
-        // The subtraction avoids -0 for a bound of 0.
-        (0.0 - bound_usd) / -profit_usd
-    } else {
-        1.0
-    }
+/// Operating profit as a share of its upper bound, as [`DayRecord::bound_share`] defines it. `bound_usd` is that of the
+/// profit.
+pub(crate) fn bound_share(totals: &DayTotals, bound_usd: f64) -> f64 {
+    1.0 - gap(bound_usd + totals.fixed_cost_usd(), totals.operating_profit_usd())
 }
 
 /// Time that one decision takes.
@@ -178,5 +173,33 @@ fn check_finite(policy: &str, day: &DayRecord) -> Result<(), Error> {
         Some((member, value)) => {
             Err(Error::NotFinite { policy: policy.to_owned(), day: day.day.clone(), member, value })
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::DayRecord;
+
+    #[test]
+    fn a_share_is_of_operating_profit() {
+        let share = |profit_usd: f64, upper_bound_usd: f64| {
+            let record: DayRecord = serde_json::from_value(json!({
+                "day": "a day", "seed": 1, "upper_bound_usd": upper_bound_usd, "profit_usd": profit_usd,
+                "aircraft_cost_usd": 60.0, "site_cost_usd": 40.0, "revenue_usd": 0.0,
+                "passenger_cost_usd": 0.0, "energy_cost_usd": 0.0, "energy_kwh": 0.0,
+                "potential_usd": 0.0, "reward": 0.0, "flights": 0, "repositioning_flights": 0,
+                "holds": 0, "decisions": 0, "passengers": 0, "spilled_passengers": 0,
+                "load_factor": 0.0,
+            }))
+            .expect("a record");
+            record.bound_share().expect("it has a bound")
+        };
+        // $80 of $100 are earned before fixed costs of $100.
+        assert!((share(-20.0, 0.0) - 0.8).abs() < 1e-12);
+        assert!((share(50.0, 100.0) - 0.75).abs() < 1e-12);
+        // Nothing can be earned.
+        assert_eq!([share(-100.0, -100.0), share(-101.0, -100.0)], [1.0, 0.0]);
     }
 }

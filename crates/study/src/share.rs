@@ -17,7 +17,7 @@ pub struct PolicyShare {
     pub knows_the_day: bool,
     /// What it looks at when it decides.
     pub sees: Sees,
-    /// Profit as a share of the day's upper bound.
+    /// Operating profit as a share of its upper bound.
     pub bound_share: Estimate,
     /// The share of the upper bound on the day where it is lowest.
     pub lowest_bound_share: f64,
@@ -43,7 +43,7 @@ impl PolicyShare {
     }
 }
 
-/// Profit as a share of the day's upper bound.
+/// Operating profit as a share of its upper bound.
 pub(crate) fn share(day: &DayRecord) -> f64 {
     day.bound_share().expect("every day has its bound")
 }

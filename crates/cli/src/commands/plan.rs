@@ -55,6 +55,7 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
 #[derive(Serialize)]
 struct Numbers<'a> {
     profit_usd: f64,
+    operating_profit_usd: f64,
     best_policy: &'a str,
     best_policy_usd: f64,
     upper_bound_usd: Option<f64>,
@@ -71,6 +72,7 @@ impl<'a> Numbers<'a> {
     fn of(scenario: &'a Scenario, plan: &'a Plan, bound: Option<&Bound>, seconds: f64) -> Self {
         Self {
             profit_usd: plan.profit_usd,
+            operating_profit_usd: plan.profit_usd + scenario.fixed_cost_usd(),
             best_policy: &plan.best_policy,
             best_policy_usd: plan.best_policy_usd,
             upper_bound_usd: bound.map(Bound::upper_bound_usd),
@@ -104,7 +106,12 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
     };
     let gap_percent = 100.0 * bound.gap(plan.profit_usd);
     let (bound_usd, step_min) = (bound.upper_bound_usd(), bound.step_s() / 60);
-    let share = if bound_usd > 0.0 { "of the bound" } else { "of the loss" };
+    let fixed_usd = scenario.fixed_cost_usd();
+    let share = match (bound_usd + fixed_usd > 0.0, fixed_usd > 0.0) {
+        (true, false) => "of the bound",
+        (true, true) => "of the bound before the costs of aircraft and sites",
+        (false, _) => "of the loss",
+    };
     let longer = if bound.is_final() { "" } else { "; a longer search may lower it" };
     lines.push(format!(
         "  upper bound     {bound_usd:>12.2} $    no schedule earns more (slices of {step_min} min{longer})"

@@ -115,9 +115,11 @@ pub struct PolicySummary {
     pub sees: Sees,
     /// Daily profit, in dollars.
     pub profit_usd: Estimate,
+    /// Daily profit before the costs of aircraft and sites, which no decision changes; dollars.
+    pub operating_profit_usd: Estimate,
     /// Box plot of the daily profit (Fig. 5).
     pub profit_box_usd: BoxSummary,
-    /// Daily profit as a share of the day's upper bound, where bounds were asked for.
+    /// Daily operating profit as a share of its upper bound, where bounds were asked for.
     pub bound_share: Option<Estimate>,
     /// Box plot of the share of the upper bound.
     pub bound_share_box: Option<BoxSummary>,
@@ -317,6 +319,7 @@ impl PolicySummary {
             description: policy.description.clone(),
             sees: policy.sees,
             profit_usd: Estimate::of(&daily_profit_usd),
+            operating_profit_usd: Estimate::of(&column(|day| day.totals.operating_profit_usd())),
             profit_box_usd: BoxSummary::of(&daily_profit_usd)?,
             bound_share: bound_share_box.is_some().then(|| Estimate::of(&daily_bound_share)),
             bound_share_box,

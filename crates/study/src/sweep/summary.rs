@@ -227,10 +227,10 @@ fn result(sweep: &Sweep, policy: usize, record: &CellRecord, best: &CellRecord) 
         let pairs = profits.iter().zip(&best.totals[policy]);
         pairs.map(|(profit_usd, best)| profit_usd - best.profit_usd).collect::<Vec<f64>>()
     };
-    let shares: Vec<f64> = profits
+    let shares: Vec<f64> = days
         .iter()
         .zip(&record.upper_bounds_usd)
-        .map(|(&profit_usd, &bound_usd)| bound_share(profit_usd, bound_usd))
+        .map(|(totals, &bound_usd)| bound_share(totals, bound_usd))
         .collect();
     let (carried, spilled) =
         (average(|day| day.passengers as f64), average(|day| day.spilled_passengers as f64));
