@@ -26,11 +26,11 @@ pub(super) struct Market {
     /// The highest margin of a passenger, by period, from, to; micro-dollars, never negative.
     margin: Vec<i64>,
     /// Whether there is any such flight, in the order of prices.
-    is_flown: Vec<bool>,
+    is_offered: Vec<bool>,
 }
 
-/// The flights of a cell, which is a demand period and a pair of vertiports. Where nobody waits into the next period, both
-/// parts have the same prices.
+/// The flights of a cell, which is a demand period and a pair of vertiports. Both parts have the same prices if passengers do
+/// not wait into the next period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
     /// Those that passengers of the period before may board, as long as they wait.
@@ -41,7 +41,7 @@ pub(super) enum Part {
 /// Flights that passengers buy: the position of their price, and their number.
 pub(super) type Bought = Vec<(u32, f64)>;
 
-/// The flights of one cell where all have the same number of seats and nobody waits.
+/// The flights of one cell if all have the same number of seats and passengers do not wait.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Alike {
     /// Number of flights that leave full.
@@ -64,9 +64,9 @@ impl Market {
             waits: scenario.operations.passenger_wait_s > 0,
             passengers: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
             margin: margins(scenario),
-            is_flown: Vec::new(),
+            is_offered: Vec::new(),
         };
-        market.is_flown = vec![false; market.passengers.len() * market.prices_a_cell()];
+        market.is_offered = vec![false; market.passengers.len() * market.prices_a_cell()];
         market
     }
 
@@ -80,7 +80,7 @@ impl Market {
 
     /// Number of prices.
     pub(super) fn prices(&self) -> usize {
-        self.is_flown.len()
+        self.is_offered.len()
     }
 
     /// The position of the price of flights of a cell with so many seats.
@@ -96,12 +96,12 @@ impl Market {
 
     /// Adds flights with this position of their price to those that are offered.
     pub(super) fn offer(&mut self, position: usize) {
-        self.is_flown[position] = true;
+        self.is_offered[position] = true;
     }
 
-    /// The price at which nobody buys flights, which is what a flight may bring at most; micro-dollars.
+    /// The highest price of a flight: the most that its passengers can bring; micro-dollars.
     pub(super) fn most(&self, position: usize) -> i64 {
-        if !self.is_flown[position] {
+        if !self.is_offered[position] {
             return 0;
         }
         let cell = position / self.prices_a_cell();
@@ -143,7 +143,7 @@ impl Market {
         if !self.has_one_price_a_cell() {
             return (0..self.blocks()).map(|block| self.buy(block, prices, None).0).sum();
         }
-        let offered = (0..self.prices()).filter(|&position| self.is_flown[position]);
+        let offered = (0..self.prices()).filter(|&position| self.is_offered[position]);
         let alike = offered.filter_map(|position| Some((self.alike(position)?, prices[position])));
         alike.map(|(alike, price)| alike.surplus(price)).sum()
     }
@@ -162,14 +162,14 @@ impl Market {
     /// The blocks in which passengers choose between flights with several prices.
     pub(super) fn blocks_that_choose(&self) -> impl Iterator<Item = usize> {
         let blocks = if self.has_one_price_a_cell() { 0 } else { self.blocks() };
-        (0..blocks).filter(|&block| self.is_offered_any(block))
+        (0..blocks).filter(|&block| self.offers_any(block))
     }
 
-    fn is_offered_any(&self, block: usize) -> bool {
+    fn offers_any(&self, block: usize) -> bool {
         let prices = self.prices_a_cell();
-        let cells = (block..self.passengers.len()).step_by(self.pairs());
-        let cells = cells.take(if self.waits { usize::MAX } else { 1 });
-        cells.flat_map(|cell| cell * prices..(cell + 1) * prices).any(|at| self.most(at) > 0)
+        let mut positions =
+            self.cells_of(block).flat_map(|cell| cell * prices..(cell + 1) * prices);
+        positions.any(|at| self.most(at) > 0)
     }
 
     /// By how much one more passenger of a cell raises the surplus, micro-dollars.
@@ -177,7 +177,13 @@ impl Market {
         let block = self.block_of(cell);
         let (more, _) = self.buy(block, prices, Some(cell));
         let (now, _) = self.buy(block, prices, None);
-        i64::try_from(more - now).expect("a passenger brings no more than the highest margin")
+        i64::try_from(more - now).expect("a passenger changes the surplus by a few flights")
+    }
+
+    /// The cells of a block, in the order of their periods.
+    fn cells_of(&self, block: usize) -> impl Iterator<Item = usize> {
+        let past = if self.waits { self.passengers.len() } else { block + 1 };
+        (block..past).step_by(self.pairs())
     }
 
     fn block_of(&self, cell: usize) -> usize {
@@ -189,7 +195,8 @@ impl Market {
     pub(super) fn prices_with_more_flights(&self, more: &Self, prices: &[i64]) -> Vec<i64> {
         let mut known = self.clone();
         let mut prices = prices.to_vec();
-        for position in (0..prices.len()).filter(|&at| more.is_flown[at] && !self.is_flown[at]) {
+        for position in (0..prices.len()).filter(|&at| more.is_offered[at] && !self.is_offered[at])
+        {
             let block = self.block_of(position / self.prices_a_cell());
             let (surplus, _) = known.buy(block, &prices, None);
             known.offer(position);
@@ -216,8 +223,8 @@ impl Alike {
     }
 }
 
-/// The position of a price in less memory.
-pub(super) fn index(position: usize) -> u32 {
+/// The position of a price as 32 bits.
+pub(super) fn compact(position: usize) -> u32 {
     u32::try_from(position).expect("the readers bound the cells of demand at 4,000,000")
 }
 

@@ -1,11 +1,11 @@
-//! The search's model of the day: a fleet that divides itself among the itineraries that are known so far, at prices
-//! that rise where more is asked for than is available.
+//! The search's model of the day: groups divide themselves among the itineraries that are known so far. Prices rise where
+//! more is asked for than is available, and those of flights fall where more are sold than bought.
 //!
-//! Where passengers choose between flights with several prices, they are groups of the fleet's kind, which buy flights.
+//! A group is aircraft that start alike. Passengers who choose between flights with several prices are groups too.
 //!
 //! The model is the dual of the proximal step of a bundle method with one bundle for each group of like aircraft (K.
 //! Kiwiel, *Proximity control in bundle methods for convex nondifferentiable minimization*, Mathematical Programming
-//! 46, 1990): a price is the centre's price plus a pace times the excess, kept within its limits. Shifting aircraft
+//! 46, 1990): a price is the centre's price moved by a pace times the excess, kept within its limits. Shifting aircraft
 //! from an itinerary to a better one of the same group raises the model's value, and prices follow. This continues
 //! until no shift is worth much.
 

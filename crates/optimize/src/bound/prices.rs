@@ -22,7 +22,7 @@ pub(super) struct Prices {
 }
 
 impl Prices {
-    /// Free stands, and flights that cost so much that nobody buys them.
+    /// Free stands, and every flight at its highest price.
     pub(super) fn first(day: &TimeExpandedDay) -> Self {
         let flight = (0..day.market.prices()).map(|position| day.market.most(position));
         Self { stand: vec![0; day.slices.len() * day.size()], flight: flight.collect() }

@@ -1,8 +1,8 @@
-//! The choices of the aircraft of a day, laid out for the search of their best itineraries: legs, holds, margins,
-//! limits.
+//! The choices of the aircraft of a day, laid out for the search of their best itineraries: legs, holds,
+//! limits, and the market for flights.
 //!
 //! Aircraft of one type are alike, so there is one layer for each type. Aircraft that have an outage today form a layer
-//! of their own, in which outages are dropped and waiting is free. The profit of a flight depends on the slice in which
+//! of their own, in which outages are dropped and waiting is free. The cost of a flight depends on the slice in which
 //! it begins, never on the second within it.
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use vertifleet_core::{ClosedTimes, Scenario, Time, TypeIx, Vertiport, VertiportIx};
 use vertifleet_sim::{Leg, Legs};
 
-use super::market::{Market, Part, index};
+use super::market::{Market, Part, compact};
 use super::money;
 use super::penalty::Penalty;
 use super::slices::Slices;
@@ -192,7 +192,7 @@ impl TimeExpandedDay {
         self.flights.push(Flight {
             to,
             block_s: leg.block_s() + late_s,
-            sold_at: index(sold_at),
+            sold_at: compact(sold_at),
             cost: money::down(cost_usd),
         });
         self.shortest_s = self.shortest_s.min(leg.block_s());

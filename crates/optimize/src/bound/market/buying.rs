@@ -1,15 +1,15 @@
 //! Which flights the passengers of a part of the market buy: those that leave them the most after they have paid.
 //!
-//! Where all flights of a cell have one price, that is a formula. Otherwise it is counted out: the cheapest flights for every
+//! Where all flights of a cell have one price, that is a formula. Otherwise it is enumerated: the cheapest flights for every
 //! number of seats, and, where passengers wait, the best of every period by the number of those who were left behind in the
 //! one before.
 
-use super::{Bought, Market, Part, index};
+use super::{Bought, Market, Part, compact};
 
-/// The most passengers of a cell for whom flights of several sizes are counted out. More fill so many flights that fractions
+/// The most passengers of a cell for whom flights of several sizes are enumerated. More fill so many flights that fractions
 /// of flights make little difference.
-pub(super) const MOST_COUNTED: u32 = 300;
-/// The same of two periods together where passengers wait, which takes time in proportion to the square. Counting out the 80
+pub(super) const MOST_ENUMERATED: u32 = 300;
+/// The same of two periods together where passengers wait, which takes time in proportion to the square. Enumerating the 80
 /// of `paper` made its bound 15 times as slow and 0.05 % tighter.
 pub(super) const MOST_WAITING: u32 = 60;
 /// The price of what cannot be bought. The sum of a few of them is in `i64`.
@@ -59,7 +59,7 @@ impl Choice {
 }
 
 /// The best of a cell and of all later ones, by the number who have waited for it.
-struct Counted {
+struct PeriodPlan {
     surplus: Vec<i64>,
     choices: Vec<Choice>,
     early: Offers,
@@ -74,12 +74,7 @@ impl Market {
         prices: &[i64],
         one_more: Option<usize>,
     ) -> (i128, Bought) {
-        let periods = self.passengers.len() / self.pairs();
-        let cells: Vec<usize> = if self.waits {
-            (0..periods).map(|period| period * self.pairs() + block).collect()
-        } else {
-            vec![block]
-        };
+        let cells: Vec<usize> = self.cells_of(block).collect();
         let passengers: Vec<u32> = cells
             .iter()
             .map(|&cell| self.passengers[cell].saturating_add((one_more == Some(cell)).into()))
@@ -92,7 +87,7 @@ impl Market {
             let before = period.checked_sub(1).map_or(0, |before| self.passengers[cells[before]]);
             before.saturating_add(self.passengers[cells[period]])
         };
-        let most = if self.waits { MOST_WAITING } else { MOST_COUNTED };
+        let most = if self.waits { MOST_WAITING } else { MOST_ENUMERATED };
         if (0..cells.len()).any(|period| waiting(period) > most) {
             return self.buy_fractions(&cells, &passengers, prices);
         }
@@ -101,17 +96,17 @@ impl Market {
             let before = if period > 0 { passengers[period - 1] } else { 0 };
             let own = passengers[period];
             after.resize(own as usize + 1, 0);
-            let counted = self.count_out(cells[period], (before, own), &after, prices);
-            after.clone_from(&counted.surplus);
-            seen.push(counted);
+            let plan = self.best_by_waiting(cells[period], (before, own), &after, prices);
+            after.clone_from(&plan.surplus);
+            seen.push(plan);
         }
         seen.reverse();
         let surplus = i128::from(after[0]);
         let (mut bought, mut waiting) = (Bought::new(), 0);
-        for counted in &seen {
-            let choice = counted.choices[waiting];
-            counted.early.flights_for(choice.early_seats, &mut bought);
-            counted.late.flights_for(choice.boarding() - choice.early_seats, &mut bought);
+        for plan in &seen {
+            let choice = plan.choices[waiting];
+            plan.early.flights_for(choice.early_seats, &mut bought);
+            plan.late.flights_for(choice.boarding() - choice.early_seats, &mut bought);
             waiting = choice.left;
         }
         (surplus, bought)
@@ -119,31 +114,31 @@ impl Market {
 
     /// The surplus of a cell whose flights all have one price, and the flights that are bought.
     fn buy_alike(&self, cell: usize, passengers: u32, price: i64) -> (i128, Bought) {
-        if !self.is_flown[cell] {
+        if !self.is_offered[cell] {
             return (0, Bought::new());
         }
         let alike = self.alike_for(cell, passengers);
         let full = if price <= alike.brings { passengers / u32::from(self.seats[0]) } else { 0 };
         let last = u32::from(price < alike.last_brings);
-        (alike.surplus(price), vec![(index(cell), f64::from(full + last))])
+        (alike.surplus(price), vec![(compact(cell), f64::from(full + last))])
     }
 
     /// The best that passengers of a cell can do, by the number of those who have waited for it. `after` is the surplus of
     /// later periods by the number who wait for the next.
-    fn count_out(
+    fn best_by_waiting(
         &self,
         cell: usize,
         (before, own): (u32, u32),
         after: &[i64],
         prices: &[i64],
-    ) -> Counted {
+    ) -> PeriodPlan {
         let (before, own) = (before as usize, own as usize);
         let early = self.offers(cell, Part::Early, before + own, prices);
         let late_seats = if self.waits { own } else { 0 };
         let late = self.offers(cell, Part::Late, late_seats, prices);
         let margin = self.margin[cell];
-        let nobody = (i64::MIN, Choice::default());
-        let mut best = vec![nobody; before + 1];
+        let infeasible = (i64::MIN, Choice::default());
+        let mut best = vec![infeasible; before + 1];
         for boarding in 0..=before + own {
             // At least as many seats are bought early as passengers board who have waited.
             let (mut cost, mut bought) = (UNAFFORDABLE, 0);
@@ -160,7 +155,8 @@ impl Market {
                 let others = boarding - waited;
                 if others <= own && cost < UNAFFORDABLE {
                     let left = own - others;
-                    let brings = i64::try_from(boarding).expect("they are counted") * margin;
+                    let brings =
+                        i64::try_from(boarding).expect("few passengers are enumerated") * margin;
                     let surplus = brings - cost + after[left];
                     if surplus > best[waited].0 {
                         best[waited] =
@@ -169,25 +165,25 @@ impl Market {
                 }
             }
         }
-        // Nobody has to board who has waited.
+        // Passengers who have waited need not board.
         for waited in 1..=before {
             if best[waited].0 <= best[waited - 1].0 {
                 best[waited] = best[waited - 1];
             }
         }
         let (surplus, choices) = best.into_iter().unzip();
-        Counted { surplus, choices, early, late }
+        PeriodPlan { surplus, choices, early, late }
     }
 
     /// The cheapest flights of a cell for any number of seats.
     fn offers(&self, cell: usize, part: Part, seats: usize, prices: &[i64]) -> Offers {
         let first = self.first_of(cell, part);
         let positions = first..first + self.seats.len();
-        let offered = positions.filter(|&position| self.is_flown[position]);
+        let offered = positions.filter(|&position| self.is_offered[position]);
         let flights: Vec<(u32, usize, i64)> = offered
             .map(|position| {
                 let seats = self.seats[position - first].into();
-                (index(position), seats, prices[position])
+                (compact(position), seats, prices[position])
             })
             .collect();
         let mut cost = Vec::with_capacity(seats + 1);
@@ -221,7 +217,7 @@ impl Market {
                 for (class, &seats) in self.seats.iter().enumerate() {
                     let position = self.first_of(cells[flown], part) + class;
                     let share = boarding.min(seats.into());
-                    if self.is_flown[position] && share > 0 {
+                    if self.is_offered[position] && share > 0 {
                         let brings =
                             i64::from(share) * self.margin[cells[flown]] - prices[position];
                         let all = i128::from(brings) * i128::from(passengers[period]);
@@ -235,7 +231,7 @@ impl Market {
             surplus += best.0;
             if let Some((position, share)) = best.1 {
                 let flights = f64::from(passengers[period]) / f64::from(share);
-                bought.push((index(position), flights));
+                bought.push((compact(position), flights));
             }
         }
         (surplus, bought)

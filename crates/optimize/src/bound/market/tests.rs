@@ -3,7 +3,7 @@
 use vertifleet_policy::draw;
 
 use super::Market;
-use super::buying::MOST_COUNTED;
+use super::buying::MOST_ENUMERATED;
 
 /// Small numbers that differ for every seed and place.
 struct Numbers {
@@ -35,9 +35,9 @@ fn any_market(seed: u64, most_passengers: u64) -> (Market, Vec<i64>) {
     let waits = numbers.below(2) == 0;
     let margin = (0..periods).map(|_| numbers.amount(100)).collect();
     let mut market =
-        Market { vertiports: 1, seats, waits, passengers, margin, is_flown: Vec::new() };
+        Market { vertiports: 1, seats, waits, passengers, margin, is_offered: Vec::new() };
     let prices = periods * market.prices_a_cell();
-    market.is_flown = (0..prices).map(|_| numbers.below(8) > 0).collect();
+    market.is_offered = (0..prices).map(|_| numbers.below(8) > 0).collect();
     let prices = (0..prices).map(|at| numbers.amount(1 + market.most(at).unsigned_abs())).collect();
     (market, prices)
 }
@@ -70,7 +70,7 @@ fn tried(market: &Market, prices: &[i64]) -> Option<i64> {
         let seats = u32::from(market.seats[at % market.seats.len()]);
         let cell = at / market.prices_a_cell();
         let before = if market.waits && cell > 0 { market.passengers[cell - 1] } else { 0 };
-        if market.is_flown[at] { (market.passengers[cell] + before).div_ceil(seats) } else { 0 }
+        if market.is_offered[at] { (market.passengers[cell] + before).div_ceil(seats) } else { 0 }
     };
     let most: Vec<u32> = (0..prices.len()).map(enough).collect();
     if most.iter().map(|&most| f64::from(most + 1)).product::<f64>() > 2_000.0 {
@@ -154,9 +154,9 @@ fn very_many_passengers_of_flights_that_are_alike_buy_whole_ones_too() {
         vertiports: 1,
         seats: vec![4],
         waits: false,
-        passengers: vec![4 * MOST_COUNTED + 2],
+        passengers: vec![4 * MOST_ENUMERATED + 2],
         margin: vec![10],
-        is_flown: vec![true],
+        is_offered: vec![true],
     };
     // A seat is left on the last flight, which is bought for less than its two passengers bring.
     assert_eq!(one.worth_of_one_more(0, &[15]), 10);
@@ -164,13 +164,13 @@ fn very_many_passengers_of_flights_that_are_alike_buy_whole_ones_too() {
 }
 
 #[test]
-fn very_many_passengers_are_not_counted_out() {
+fn very_many_passengers_buy_fractions_of_flights() {
     let (mut market, prices) = (0..1_000)
         .map(|seed| any_market(seed, 5))
         .find(|(market, _)| market.waits && market.seats.len() == 2 && market.passengers.len() == 3)
         .expect("one of them");
-    market.is_flown.fill(true);
-    market.passengers.fill(MOST_COUNTED * 1_000_000);
+    market.is_offered.fill(true);
+    market.passengers.fill(MOST_ENUMERATED * 1_000_000);
     let (surplus, bought) = market.buy(0, &prices, None);
     assert!(surplus > 0 && !bought.is_empty());
 }
@@ -181,10 +181,10 @@ fn flights_that_are_added_are_priced_as_low_as_leaves_the_surplus() {
     for seed in 0..500 {
         let (market, prices) = any_market(seed, 9);
         let mut more = market.clone();
-        more.is_flown.fill(true);
+        more.is_offered.fill(true);
         let found = market.prices_with_more_flights(&more, &prices);
         assert_eq!(more.surplus(&found), market.surplus(&prices));
-        let mut added = (0..prices.len()).filter(|&at| !market.is_flown[at] && found[at] > 0);
+        let mut added = (0..prices.len()).filter(|&at| !market.is_offered[at] && found[at] > 0);
         // The last that is added could not be a micro-dollar cheaper.
         if let Some(last) = added.next_back() {
             compared += 1;
@@ -192,7 +192,7 @@ fn flights_that_are_added_are_priced_as_low_as_leaves_the_surplus() {
             lower[last] -= 1;
             assert!(more.surplus(&lower) > market.surplus(&prices), "{market:?} at {found:?}");
         }
-        for at in (0..prices.len()).filter(|&at| market.is_flown[at]) {
+        for at in (0..prices.len()).filter(|&at| market.is_offered[at]) {
             assert_eq!(found[at], prices[at]);
         }
     }
