@@ -6,7 +6,6 @@ Tasks report their state by files in a folder, the stage, and tests tell them th
 import io
 import json
 import os
-import secrets
 import signal
 import sys
 import threading
@@ -16,11 +15,6 @@ import numpy as np
 import pytest
 
 import vertifleet
-
-os.environ["RAY_USAGE_STATS_ENABLED"] = "0"
-# Ray would write a token into the user's home directory.
-os.environ["RAY_AUTH_MODE"] = "token"
-os.environ["RAY_AUTH_TOKEN"] = secrets.token_hex(32)
 
 ray = pytest.importorskip("ray")
 

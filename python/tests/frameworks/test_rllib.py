@@ -1,7 +1,5 @@
 """Training with RLlib: what it plays, what it learns, and that the program decides as the trained network."""
 
-import os
-import secrets
 import subprocess
 import sys
 from pathlib import Path
@@ -10,11 +8,6 @@ import numpy as np
 import pytest
 
 import vertifleet
-
-os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
-# Ray would write a token into the user's home directory.
-os.environ.setdefault("RAY_AUTH_MODE", "token")
-os.environ.setdefault("RAY_AUTH_TOKEN", secrets.token_hex(32))
 
 torch = pytest.importorskip("torch")
 ray = pytest.importorskip("ray")

@@ -1,0 +1,13 @@
+"""How Ray runs in these tests, and in the programs that they start."""
+
+import os
+import secrets
+
+os.environ |= {
+    # Without an address, Ray joins the cluster that was started last here, which may be that of another test.
+    "RAY_ADDRESS": "local",
+    # Without a token, Ray would write one into the user's home directory.
+    "RAY_AUTH_MODE": "token",
+    "RAY_AUTH_TOKEN": secrets.token_hex(32),
+    "RAY_USAGE_STATS_ENABLED": "0",
+}
