@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
 
-use crate::{DayPrices, PricedChoice, Shortlist, draw};
+use crate::draw::Draws;
+use crate::{DayPrices, PricedChoice, Shortlist};
 
 /// Settings of roll-outs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,7 +37,7 @@ const LEAST_SHARED_LOOKS: usize = 500_000;
 const DECISION_APART_S: usize = 2_400;
 /// Number of standard errors by which another choice must be better than the one that is worth most at the prices.
 const DOUBT: f64 = 0.5;
-/// More than the largest [`noise`].
+/// More than the largest [`Noise`].
 const MOST_NOISE: f64 = 3.5;
 
 /// Memory to roll a choice out in.
@@ -306,7 +307,8 @@ impl RolloutSettings {
             return prices.best_with(view, decision, 0.0, |_| 0.0);
         }
         let noise_usd = self.noise * prices.stake_usd();
-        let added_usd = |to| noise_usd * noise(rollout, decision, to);
+        let noise = Noise::of(rollout, decision);
+        let added_usd = |to| noise_usd * noise.at(to);
         prices.best_with(view, decision, noise_usd * MOST_NOISE, added_usd)
     }
 
@@ -320,8 +322,9 @@ impl RolloutSettings {
         choices: impl IntoIterator<Item = PricedChoice>,
     ) -> VertiportIx {
         let noise_usd = if rollout == 0 { 0.0 } else { self.noise * prices.stake_usd() };
+        let noise = Noise::of(rollout, decision);
         let perturbed = |PricedChoice { worth_usd, to }| {
-            let worth_usd = worth_usd + noise_usd * noise(rollout, decision, to);
+            let worth_usd = worth_usd + noise_usd * noise.at(to);
             PricedChoice { worth_usd, to }
         };
         PricedChoice::best(choices.into_iter().map(perturbed)).unwrap_or(decision.at)
@@ -334,14 +337,26 @@ impl RolloutSettings {
     }
 }
 
-/// Noise that belongs to a roll-out, the aircraft and time of a decision, and a vertiport: approximately normal with
-/// mean 0 and standard deviation 1 (the sum of four uniform numbers).
-#[inline]
-fn noise(rollout: u32, decision: &Decision, to: VertiportIx) -> f64 {
-    let key = u64::from(decision.aircraft.0) << 32 | u64::from(decision.time.seconds());
-    let bits = draw(u64::from(rollout), key, u32::from(to.0));
-    let sum: u32 = [0, 16, 32, 48].iter().map(|shift| (bits >> shift & 0xffff) as u32).sum();
-    (f64::from(sum) / 65_536.0 - 2.0) * 3.0_f64.sqrt()
+/// Noise that belongs to a roll-out and the aircraft and time of a decision.
+#[derive(Debug, Clone, Copy)]
+struct Noise {
+    draws: Draws,
+}
+
+impl Noise {
+    fn of(rollout: u32, decision: &Decision) -> Self {
+        let key = u64::from(decision.aircraft.0) << 32 | u64::from(decision.time.seconds());
+        Self { draws: Draws::of(u64::from(rollout), key) }
+    }
+
+    /// The noise of a choice: approximately normal with mean 0 and standard deviation 1 (the sum of four uniform
+    /// numbers).
+    #[inline]
+    fn at(self, to: VertiportIx) -> f64 {
+        let bits = self.draws.bits(to.0.into());
+        let sum: u32 = [0, 16, 32, 48].iter().map(|shift| (bits >> shift & 0xffff) as u32).sum();
+        (f64::from(sum) / 65_536.0 - 2.0) * 3.0_f64.sqrt()
+    }
 }
 
 /// The worth of the positions of all aircraft, less the rent of each stand from now until its aircraft is ready,
