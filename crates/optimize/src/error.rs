@@ -57,18 +57,6 @@ pub enum Error {
         /// The network's name.
         network: String,
     },
-
-    /// V505. Passengers of the day wait into the next demand period, which the planner does not support. Fix: play such days
-    /// with a policy, or leave out `passenger_wait_s`.
-    #[error(
-        "{day}: passengers wait for {wait_s} s into the next demand period; the planner takes only days on which they do not wait"
-    )]
-    WaitingPassengers {
-        /// The day's name.
-        day: String,
-        /// Seconds for which they wait.
-        wait_s: u32,
-    },
 }
 
 impl Coded for Error {
@@ -79,7 +67,6 @@ impl Coded for Error {
             Self::TooManyFlights { .. } => 502,
             Self::SeparateChargers { .. } => 503,
             Self::OtherNetwork { .. } => 504,
-            Self::WaitingPassengers { .. } => 505,
         })
     }
 
@@ -87,7 +74,7 @@ impl Coded for Error {
         match self {
             Self::Core(error) => error.hint(),
             Self::TooManyFlights { .. } => Some("a longer step gives fewer possible flights"),
-            Self::SeparateChargers { .. } | Self::WaitingPassengers { .. } => {
+            Self::SeparateChargers { .. } => {
                 Some("the bound and every policy, rolling included, take such days")
             }
             Self::OtherNetwork { .. } => Some("name the network that the day was drawn from"),
@@ -101,8 +88,7 @@ impl Coded for Error {
             Self::Step { .. }
             | Self::TooManyFlights { .. }
             | Self::SeparateChargers { .. }
-            | Self::OtherNetwork { .. }
-            | Self::WaitingPassengers { .. } => Exit::Input,
+            | Self::OtherNetwork { .. } => Exit::Input,
         }
     }
 }

@@ -9,6 +9,7 @@ mod day;
 mod foresight;
 mod hop;
 mod itinerary_search;
+mod passengers;
 mod problem;
 mod schedule;
 mod search;
@@ -95,13 +96,8 @@ pub struct Plan {
 ///
 /// # Errors
 /// [`Error::SeparateChargers`] if a vertiport has chargers beside its stands, because the planner does not model holds
-/// there, and [`Error::WaitingPassengers`] if passengers wait into the next demand period, because it counts those of each
-/// period in whatever order they board.
+/// there.
 pub fn can_plan(scenario: &Scenario) -> Result<(), Error> {
-    let wait_s = scenario.operations.passenger_wait_s;
-    if wait_s > 0 {
-        return Err(Error::WaitingPassengers { day: scenario.name.clone(), wait_s });
-    }
     let separate = scenario.vertiports.iter().find(|vertiport| vertiport.chargers.is_some());
     separate.map_or(Ok(()), |vertiport| {
         let (day, vertiport) = (scenario.name.clone(), vertiport.id.clone());

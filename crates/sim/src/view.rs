@@ -252,6 +252,11 @@ impl<'a> View<'a> {
         self.scenario().operations.hold_s
     }
 
+    /// Seconds for which passengers who were not carried wait into the next demand period.
+    pub fn passenger_wait_s(&self) -> u32 {
+        self.scenario().operations.passenger_wait_s
+    }
+
     /// U_max of a vertiport: the number of its stands, or of its chargers where they are counted apart. A flight needs
     /// one.
     #[inline]

@@ -13,6 +13,8 @@ pub(super) struct Day {
     /// Last second at which aircraft decide, inclusive.
     pub(super) end_s: u32,
     pub(super) hold_s: u32,
+    /// Seconds for which passengers who were not carried wait into the next period.
+    pub(super) passenger_wait_s: u32,
     /// First second of each demand period.
     pub(super) period_starts_s: Vec<u32>,
     pub(super) energy_price_usd: Vec<f64>,
@@ -56,6 +58,7 @@ impl Day {
             vertiports,
             end_s: view.day_end().seconds(),
             hold_s: view.hold_s(),
+            passenger_wait_s: view.passenger_wait_s(),
             period_starts_s: view.period_starts().iter().map(|start| start.seconds()).collect(),
             energy_price_usd: view.energy_prices_usd().to_vec(),
             fixed_cost_usd: view.fixed_cost_usd(),

@@ -8,6 +8,7 @@
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 
 use super::hop::Hop;
+use super::passengers::Departure;
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 use super::stand_times::{Moment, Window};
@@ -218,9 +219,10 @@ impl ItinerarySearch {
         }
         let landing = day.landing(task.aircraft, choice.place, hop, choice.time_s);
         let cell = day.cell(choice.period, choice.place, hop.to);
-        let passengers = task.schedule.boarding(cell, task.seats);
+        let departure = Departure { cell, period: choice.period, take_off_s: choice.time_s };
+        let margin_usd = task.schedule.passengers.margin_usd(day, departure, task.seats);
         let cost_usd = day.flying_cost_usd(hop, choice.period, landing.arrival_s);
-        let profit_usd = passengers as f64 * day.margin_usd(cell) - cost_usd + task.noise_usd(cell);
+        let profit_usd = margin_usd - cost_usd + task.noise_usd(cell);
         self.reach(task, choice, hop.to, window, landing.ready_s, profit_usd);
     }
 

@@ -1,11 +1,9 @@
 //! A schedule: the flights of each aircraft. Holds, passengers on board and stands taken follow from them.
-//!
-//! The passengers of a pair and period are min(demand, seats of its flights) in total, in whatever order they board.
-//! The profit of one flight more or less is therefore exact in whatever order flights are entered.
 
 use vertifleet_core::{AircraftIx, VertiportIx};
 
 use super::day::Day;
+use super::passengers::{Departure, Passengers};
 use super::problem::Problem;
 use super::stand_times::{Moment, StandTimes};
 
@@ -32,8 +30,7 @@ pub(super) struct Itinerary {
 pub(super) struct Schedule {
     itineraries: Vec<Itinerary>,
     pub(super) stands: StandTimes,
-    /// Demand less seats flown, by period, then from, then to; negative where seats stay empty.
-    left: Vec<i64>,
+    pub(super) passengers: Passengers,
     value_usd: f64,
 }
 
@@ -53,8 +50,8 @@ impl Schedule {
                 whole: false,
             });
         }
-        let left = demand.iter().map(|&passengers| i64::from(passengers)).collect();
-        Self { itineraries, stands, left, value_usd: 0.0 - day.fixed_cost_usd }
+        let passengers = Passengers::of(day, demand);
+        Self { itineraries, stands, passengers, value_usd: 0.0 - day.fixed_cost_usd }
     }
 
     /// Profit of the schedule, dollars.
@@ -72,12 +69,6 @@ impl Schedule {
     #[inline]
     pub(super) fn is_whole(&self, aircraft: AircraftIx) -> bool {
         self.itineraries[aircraft.at()].whole
-    }
-
-    /// Number of passengers that one more flight with `seats` finds in a cell of the demand.
-    #[inline]
-    pub(super) fn boarding(&self, cell: usize, seats: i64) -> i64 {
-        self.left[cell].clamp(0, seats)
     }
 
     /// The vertiport of the aircraft after its last flight, and the second at which it is ready there.
@@ -108,7 +99,7 @@ impl Schedule {
             let moment = Moment::of(flight.take_off_s, aircraft);
             self.stands.take_back(flight.from, moment);
             self.stands.take_back(flight.to, moment);
-            self.value_usd -= self.enter_account(day, aircraft, flight, -1);
+            self.value_usd += self.enter_account(day, aircraft, flight, -1);
         }
         self.itineraries[aircraft.at()].flights.truncate(first);
         let (place, ready_s) = self.open_end(day, aircraft);
@@ -138,20 +129,16 @@ impl Schedule {
         itinerary.whole = true;
     }
 
-    /// Adds a flight to the account (`sign` 1) or removes it (-1). Returns the profit of the flight, dollars.
+    /// Adds a flight to the account (`sign` 1) or removes it (-1). Returns by how much the profit grows, dollars.
     fn enter_account(&mut self, day: &Day, aircraft: AircraftIx, flight: Flight, sign: i64) -> f64 {
         let hop = day.hop(day.kind(aircraft), flight.from, flight.to);
         let period = day.period_from(0, flight.take_off_s);
         let cell = day.cell(period, flight.from, flight.to);
-        let seats = day.seats(aircraft);
-        let before = self.left[cell];
-        let after = before - sign * seats;
-        self.left[cell] = after;
-        // Passengers of the pair are the demand less the remaining demand, which is at least 0.
-        let passengers = (before.max(0) - after.max(0)).abs();
+        let departure = Departure { cell, period, take_off_s: flight.take_off_s };
+        let margin_usd = self.passengers.add(day, departure, sign * day.seats(aircraft));
         let landing = day.landing(aircraft, flight.from, hop, flight.take_off_s);
         let cost_usd = day.flying_cost_usd(hop, period, landing.arrival_s);
-        passengers as f64 * day.margin_usd(cell) - cost_usd
+        margin_usd - sign as f64 * cost_usd
     }
 
     /// Sets the profit to an earlier amount, so that undoing a change leaves no rounding error behind.

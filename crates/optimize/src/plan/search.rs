@@ -193,7 +193,7 @@ fn leave_together(one: Option<Flight>, other: Option<Flight>) -> bool {
 mod tests {
     use std::sync::Arc;
 
-    use vertifleet_core::{DaySeed, Network};
+    use vertifleet_core::{DaySeed, Network, Scenario};
 
     use super::Search;
     use crate::plan::problem::Problem;
@@ -202,9 +202,16 @@ mod tests {
     #[test]
     fn the_account_of_many_changes_is_the_simulators() {
         let network = Network::shipped("paper").expect("a shipped network");
-        let day = Arc::new(network.draw(DaySeed::validation(9).expect("a seed")));
-        let problem = Problem::of(&day);
-        let start = start::best_policy(&day, Vec::new(), &mut |_, _| true);
+        let mut day = network.draw(DaySeed::validation(9).expect("a seed")).into_day();
+        for passenger_wait_s in [0, 1_200] {
+            day.operations.passenger_wait_s = passenger_wait_s;
+            account_is_the_simulators(&Arc::new(day.clone().check("a day").expect("a day")));
+        }
+    }
+
+    fn account_is_the_simulators(day: &Arc<Scenario>) {
+        let problem = Problem::of(day);
+        let start = start::best_policy(day, Vec::new(), &mut |_, _| true);
         let mut search = Search::new(start::schedule_of(&problem, &start.trace), 3);
         for step in 0..300 {
             // The temperature alternates between hot and cold, so that steps are kept as well as undone.
@@ -212,7 +219,7 @@ mod tests {
             assert!(search.current.stands.suffice(), "step {step}");
         }
         for schedule in [&search.current, &search.best] {
-            let (_, profit_usd) = start::flown(&day, schedule);
+            let (_, profit_usd) = start::flown(day, schedule);
             assert!((schedule.value_usd() - profit_usd).abs() < 1e-6);
         }
     }

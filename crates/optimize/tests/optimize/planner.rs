@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::exhaustive::best_of_all;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
-use vertifleet_core::{Coded, Matrix, Scenario, VertiportIx};
+use vertifleet_core::{Matrix, Scenario, VertiportIx};
 use vertifleet_optimize::{Budget, Plan, SearchSettings, StartingPolicy, plan};
 use vertifleet_policy::{
     BidPricePolicy, Greedy, Lookahead, Policy, PolicyError, Random, Replay, play,
@@ -53,30 +53,12 @@ fn a_plan_keeps_every_rule_and_earns_no_less_than_any_simple_one() {
     }
 }
 
-/// The same day on which passengers do not wait, which is the only kind that is planned.
-fn without_waiting(day: &Arc<Scenario>) -> Arc<Scenario> {
-    let mut day = Scenario::clone(day).into_day();
-    day.operations.passenger_wait_s = 0;
-    Arc::new(day.check("without waiting").expect("a day within the rules"))
-}
-
-#[test]
-fn a_day_on_which_passengers_wait_is_refused() {
-    let mut day = Scenario::clone(&paper_day(1)).into_day();
-    day.operations.passenger_wait_s = 900;
-    let day = Arc::new(day.check("waiting").expect("a day within the rules"));
-    let settings = SearchSettings { budget: Budget::Steps(1), searches: 1, seed: 5 };
-    let error = plan(&day, &settings, Vec::new(), &mut |_| true).expect_err("it is not planned");
-    assert_eq!(error.code().to_string(), "V505");
-    assert!(error.to_string().contains("900 s") && error.hint().is_some());
-}
-
 #[test]
 fn a_disturbed_day_is_planned_as_known_and_one_with_chargers_beside_stands_not_at_all() {
     let small = Size { vertiports: 6, fleet: 9, hours: 6 };
     let mut better = 0;
     for number in 500..560 {
-        let day = without_waiting(&any_extended_day(number, small));
+        let day = any_extended_day(number, small);
         let settings = SearchSettings { budget: Budget::Steps(60), searches: 2, seed: 5 };
         let plan = match plan(&day, &settings, Vec::new(), &mut |_| true) {
             Ok(plan) => plan,
@@ -100,7 +82,7 @@ fn a_tiny_disturbed_day_is_planned_as_well_as_any_sequence_of_decisions_allows()
     let tiny = Size { vertiports: 3, fleet: 3, hours: 2 };
     let mut compared = 0;
     for number in (600..700_u64).filter(|number| !number.is_multiple_of(4)) {
-        let day = without_waiting(&any_extended_day(number, tiny));
+        let day = any_extended_day(number, tiny);
         let best = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000);
         let Some(best) = best.filter(|&best| best > 0.0) else { continue };
         let found = planned(&day, 200).profit_usd;
@@ -135,9 +117,7 @@ fn of_thousands_of_tiny_days_a_handful_are_planned_below_their_optimum() {
     let days = |number| [any_day, any_extended_day].map(|kind| move |size| kind(number, size));
     let days: Vec<Arc<Scenario>> = sizes
         .into_iter()
-        .flat_map(|one| {
-            (5_000..5_400).flat_map(days).map(move |day| without_waiting(&day(size(one))))
-        })
+        .flat_map(|one| (5_000..5_400).flat_map(days).map(move |day| day(size(one))))
         .collect();
     let missed_usd = |day: &Arc<Scenario>| {
         let best = best_of_all(&mut Simulation::new(Arc::clone(day)), &mut 200_000)?;
