@@ -17,6 +17,7 @@ mod intervals;
 mod quads;
 mod ranks;
 mod relaxation;
+mod seats;
 mod units;
 mod values;
 mod volume;
@@ -168,7 +169,7 @@ impl DayPrices {
     }
 
     /// Worth of a feasible choice, dollars: the profit of its flight and the worth of being ready at its end, less the
-    /// prices of its passengers and of the stand until then.
+    /// price of the stand until then.
     #[inline]
     pub fn choice_usd(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
         self.choices(view, decision).worth_usd(to)

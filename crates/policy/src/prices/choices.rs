@@ -34,7 +34,7 @@ impl<'a> Choices<'a> {
     }
 
     /// Worth of a choice within range, dollars: the profit of its flight and the worth of being ready at its end, less
-    /// the prices of its passengers and of the stand until then.
+    /// the price of the stand until then. Later flights pay for their passengers; this one does not.
     #[inline]
     pub fn worth_usd(&self, to: VertiportIx) -> f64 {
         if to == self.own {

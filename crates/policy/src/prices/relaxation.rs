@@ -12,6 +12,7 @@ use super::clock::{Clock, SLOT_S};
 use super::fleet::{Fleet, Ready};
 use super::hops::Hops;
 use super::ranks::Ranks;
+use super::seats::Seats;
 use super::values::{HOLD, ValueTable};
 use super::wanted::Wanted;
 
@@ -37,8 +38,9 @@ pub(super) struct Relaxation {
     vertiports: usize,
     hold_s: u32,
     stands: Vec<f64>,
-    /// Passengers left, by period, then pair.
-    pub(super) demand: Vec<f64>,
+    seats_a_flight: Option<u32>,
+    /// What the passengers that are left ask for, by period, then pair.
+    pub(super) seats: Vec<Seats>,
     /// The pairs whose price or mean excess is not at rest.
     pub(super) wanted: Wanted,
     fleet: Fleet,
@@ -74,7 +76,8 @@ impl Relaxation {
             vertiports,
             hold_s: view.hold_s(),
             stands: stands.collect(),
-            demand: vec![0.0; pairs],
+            seats_a_flight: seats_a_flight(view),
+            seats: vec![Seats::default(); pairs],
             wanted: Wanted::none_of(pairs),
             fleet: Fleet::default(),
             first_slot: 0,
@@ -99,18 +102,26 @@ impl Relaxation {
         self.first_period = view.period();
         let (_, passenger) = self.begins();
         self.wanted.retain(|cell| cell >= passenger);
-        let pairs = self.vertiports * self.vertiports;
-        for (period, left) in self.demand.chunks_exact_mut(pairs).enumerate().skip(view.period()) {
-            for (left, &waiting) in left.iter_mut().zip(view.demand_left_in(period)) {
-                *left = f64::from(waiting);
+        for period in view.period()..view.period_starts().len() {
+            for from in VertiportIx::all(self.vertiports) {
+                self.count_seats(view, period, from);
             }
-        }
-        let excess = self.passenger_excess[passenger..].iter_mut();
-        for (excess, demand) in excess.zip(&self.demand[passenger..]) {
-            *excess = -demand;
         }
         self.hops.load(view);
         self.hops.charge_all(self.first_period, &self.passenger_usd);
+    }
+
+    /// Counts what passengers from a vertiport ask for in a period.
+    fn count_seats(&mut self, view: View<'_>, period: usize, from: VertiportIx) {
+        let first = (period * self.vertiports + from.at()) * self.vertiports;
+        let (fares_usd, costs_usd) = (view.fares_usd(period, from), view.passenger_costs_usd(from));
+        for to in VertiportIx::all(self.vertiports) {
+            let margin_usd = fares_usd[to.at()] - costs_usd[to.at()];
+            let passengers = view.demand_left(period, from, to);
+            let seats = Seats::of(passengers, self.seats_a_flight, margin_usd);
+            self.seats[first + to.at()] = seats;
+            self.passenger_excess[first + to.at()] = -seats.of_full_flights;
+        }
     }
 
     /// The destinations of decisions from one time to another, by the values that are [kept](Self::keep).
@@ -129,8 +140,8 @@ impl Relaxation {
         self.hops.len() * (self.clock.slots - self.first_slot)
     }
 
-    /// Evaluates the Lagrangian dual at the prices: the profit of the fleet after payments, plus the price of all
-    /// stands and passengers available, dollars. Also computes the excess.
+    /// Evaluates the Lagrangian dual at the prices: the profit of the fleet after payments, plus the price of all stands
+    /// and the surplus of all passengers, dollars. Also computes the excess.
     pub(super) fn evaluate(&mut self) -> f64 {
         self.charge();
         self.values.pay(&self.stand_usd, self.first_slot);
@@ -157,8 +168,8 @@ impl Relaxation {
         self.kept_decisions = self.decisions;
     }
 
-    /// Sets the excess of passengers to minus their number, as if no aircraft took any, and that of stands to zero.
-    /// Returns the price of all stands and passengers available, dollars.
+    /// Sets the excess of passengers to minus the seats that they ask for, as if no aircraft took any, and that of stands
+    /// to zero. Returns the price of all stands and the surplus of all passengers, dollars.
     fn offer_usd(&mut self) -> f64 {
         let (stand, _) = self.begins();
         let mut usd = 0.0;
@@ -169,9 +180,9 @@ impl Relaxation {
             }
         }
         for cell in self.wanted.all() {
-            let demand = self.demand[cell];
-            self.passenger_excess[cell] = -demand;
-            usd += self.passenger_usd[cell] * demand;
+            let (seats, price_usd) = (self.seats[cell], self.passenger_usd[cell]);
+            self.passenger_excess[cell] = -seats.at(price_usd);
+            usd += seats.surplus_usd(price_usd);
         }
         usd
     }
@@ -290,4 +301,10 @@ impl Relaxation {
     pub(super) fn passenger_usd(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
         self.passenger_usd[(period * self.vertiports + from.at()) * self.vertiports + to.at()]
     }
+}
+
+/// The number of seats of all aircraft types; `None` if there are several.
+fn seats_a_flight(view: View<'_>) -> Option<u32> {
+    let (first, others) = view.aircraft_types().split_first()?;
+    others.iter().all(|kind| kind.seats == first.seats).then_some(first.seats.into())
 }

@@ -118,7 +118,7 @@ impl Volume {
             sum + average(mean, excess, price_usd, weight)
         });
         for cell in relaxation.wanted.fresh() {
-            self.passenger_mean[cell] = -relaxation.demand[cell];
+            self.passenger_mean[cell] = -relaxation.seats[cell].of_full_flights;
         }
         let passengers_square = relaxation.wanted.all().fold(0.0, |sum, cell| {
             let excess = relaxation.passenger_excess[cell];
@@ -128,12 +128,12 @@ impl Volume {
         stands_square + passengers_square
     }
 
-    /// Takes the passengers off the list whose price is zero and the mean of whose excess is minus their number. As
-    /// long as nobody asks for them, further passes would not change either.
+    /// Takes the passengers off the list whose price is zero and the mean of whose excess is minus the seats of their full
+    /// flights. As long as nobody asks for them, further passes would not change either.
     fn forget_what_rests(&self, relaxation: &mut Relaxation) {
-        let (demand, price_usd) = (&relaxation.demand, &relaxation.passenger_usd);
+        let (seats, price_usd) = (&relaxation.seats, &relaxation.passenger_usd);
         relaxation.wanted.retain(|cell| {
-            let rests = self.passenger_mean[cell] == -demand[cell]
+            let rests = self.passenger_mean[cell] == -seats[cell].of_full_flights
                 && self.passenger_usd[cell] == 0.0
                 && price_usd[cell] == 0.0;
             !rests
