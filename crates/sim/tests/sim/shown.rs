@@ -15,7 +15,7 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         view.energy_price_usd(),
         view.energy_prices_usd(),
         view.aircraft_types(),
-        (view.day_start(), view.day_end(), view.hold_s(), view.day_seed()),
+        (view.day_start(), view.day_end(), view.hold_s(), view.passenger_wait_s(), view.day_seed()),
         view.vertiports(),
         view.period_at(decision.time + 1800),
         (view.day() == view.day(), view.route_changes(), view.fixed_cost_usd()),
