@@ -10,7 +10,7 @@ use super::day::Day;
 /// The passengers of every pair and period.
 #[derive(Debug, Clone)]
 pub(super) enum Passengers {
-    /// Nobody waits into the next period. Demand less seats flown, by cell; negative where seats stay empty.
+    /// On a day on which they do not wait: demand less seats flown, by cell; negative where seats stay empty.
     Leave(Vec<i64>),
     Wait(Waiting),
 }
@@ -43,7 +43,7 @@ pub(super) struct Departure {
 }
 
 impl Passengers {
-    /// The passengers of a day of whom nobody has been carried.
+    /// The passengers of a day without flights.
     pub(super) fn of(day: &Day, demand: &[u32]) -> Self {
         let demand: Vec<i64> = demand.iter().map(|&passengers| passengers.into()).collect();
         if day.passenger_wait_s == 0 {

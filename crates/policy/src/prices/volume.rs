@@ -129,7 +129,7 @@ impl Volume {
     }
 
     /// Takes the passengers off the list whose price is zero and the mean of whose excess is minus the seats of their full
-    /// flights. As long as nobody asks for them, further passes would not change either.
+    /// flights. As long as no aircraft asks for them, further passes would not change either.
     fn forget_what_rests(&self, relaxation: &mut Relaxation) {
         let (seats, price_usd) = (&relaxation.seats, &relaxation.passenger_usd);
         relaxation.wanted.retain(|cell| {
