@@ -149,11 +149,10 @@ describe('a proposal', () => {
     const worth = flight && worthOf(flight)
     expect(worth).toMatchObject({
       flight_usd: 144.21,
-      passengers_usd: -10,
       stand_usd: -43.15,
       worth_usd: 849.6,
     })
-    expect((worth?.flight_usd ?? 0) + (worth?.onward_usd ?? 0) - 10 - 43.15).toBeCloseTo(849.6)
+    expect((worth?.flight_usd ?? 0) + (worth?.onward_usd ?? 0) - 43.15).toBeCloseTo(849.6)
     expect(unpriced && worthOf(unpriced)).toBeUndefined()
   })
 })

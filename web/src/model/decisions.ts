@@ -104,24 +104,22 @@ export function isSameAdvice(one: Proposal, other: Proposal): boolean {
   return order(one) === order(other)
 }
 
-/** What a choice is worth at the bid prices, in parts that add up. */
+/** What a choice is worth at the bid prices, in parts that add up. The flight itself pays no price for its passengers. */
 export interface Worth {
   flight_usd: number
   /** What the aircraft can earn once it is ready there. */
   onward_usd: number
-  passengers_usd: number
   stand_usd: number
   worth_usd: number
 }
 
 /** The parts of a worth; undefined if the policy has no prices. */
 export function worthOf(alternative: Alternative): Worth | undefined {
-  const { worth_usd, stand_price_usd, passenger_price_usd, passengers, flight_profit_usd } = alternative
+  const { worth_usd, stand_price_usd, flight_profit_usd } = alternative
   if (worth_usd == null) return undefined
-  const passengers_usd = -(passenger_price_usd ?? 0) * passengers
   const stand_usd = -(stand_price_usd ?? 0)
-  const onward_usd = worth_usd - flight_profit_usd - passengers_usd - stand_usd
-  return { flight_usd: flight_profit_usd, onward_usd, passengers_usd, stand_usd, worth_usd }
+  const onward_usd = worth_usd - flight_profit_usd - stand_usd
+  return { flight_usd: flight_profit_usd, onward_usd, stand_usd, worth_usd }
 }
 
 /** A decision that was taken, and whether it still can be taken back. */

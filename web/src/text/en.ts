@@ -253,7 +253,6 @@ export const en = {
     worthParts: {
       flight: 'Profit of the flight',
       onward: 'What it can earn from there on',
-      passengers: 'Price of its passengers',
       stand: 'Price of its stand',
       sum: 'Worth',
     },
