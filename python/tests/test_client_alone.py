@@ -93,6 +93,6 @@ def test_httpx_is_needed_by_the_client_alone(tmp_path: Path) -> None:
     lines = ["import sys", "import vertifleet", "assert 'httpx' not in sys.modules"]
     lines += ["sys.modules['httpx'] = None", "import vertifleet.client"]
     done = subprocess.run(
-        [sys.executable, "-c", "\n".join(lines)], cwd=tmp_path, capture_output=True, text=True, timeout=120
+        [sys.executable, "-c", "\n".join(lines)], cwd=tmp_path, capture_output=True, text=True
     )
     assert "ImportError: vertifleet.client needs httpx: pip install vertifleet[client]" in done.stderr

@@ -18,7 +18,7 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "ppo.py"
 def test_the_example_learns_saves_and_compares(network: str, tmp_path: Path) -> None:
     command = [sys.executable, str(EXAMPLE), "--network", network, "--minutes", "0.02", "--days", "4"]
     command += ["--steps", "16", "--batch", "32", "--out", "agent.pt"]
-    done = subprocess.run(command, cwd=tmp_path, env=os.environ, capture_output=True, text=True, timeout=200)
+    done = subprocess.run(command, cwd=tmp_path, env=os.environ, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert "decisions, " in done.stdout
     assert "ppo     forecast" in done.stdout

@@ -360,6 +360,6 @@ def test_the_example_asks_first_whether_the_file_can_be_written(tmp_path):
         "--out",
         str(tmp_path / "nowhere" / "x.safetensors"),
     ]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=100)
+    done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 2
     assert "make the folder" in done.stderr

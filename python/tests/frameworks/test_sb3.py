@@ -459,7 +459,7 @@ def test_the_example_asks_first_whether_the_file_can_be_written(tmp_path):
         "--out",
         str(tmp_path / "nowhere" / "x.safetensors"),
     ]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=100)
+    done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 2
     assert "make the folder" in done.stderr
 
@@ -483,7 +483,7 @@ runpy.run_path(sys.argv[0], run_name="__main__")
 """
     environment = os.environ | {"OMP_NUM_THREADS": "1"}
     command = [sys.executable, "-c", stopped]
-    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=100)
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert vertifleet.Model.read(tmp_path / "mine.safetensors").header["steps"] == 160
     assert len(list((tmp_path / "mine.checkpoints").iterdir())) == 2
