@@ -21,6 +21,7 @@ mod penalty;
 mod prices;
 #[cfg(test)]
 mod proof_tests;
+mod rest;
 mod slices;
 mod step;
 mod time_expanded_day;
@@ -41,6 +42,7 @@ use time_expanded_day::TimeExpandedDay;
 pub use designs::{DesignBound, day_of_passengers};
 pub use kept::kept_upper_bound;
 pub(crate) use ladder::{Relaxed, Watch, search};
+pub(crate) use rest::{Rest, Way};
 pub use step::Step;
 pub use without_foresight::bound_without_foresight;
 

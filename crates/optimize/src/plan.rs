@@ -1,47 +1,46 @@
 //! The planner, which searches for the best schedule of a day that is known.
 //!
-//! [`plan`] starts from the best day of any policy (`plan/start.rs`) and improves it by large-neighbourhood search
-//! (`plan/search.rs`). The moves of the search are exact: each finds the best rest of the day for one aircraft while
+//! [`plan`] starts from the best day of any policy (`plan/start.rs`) and from a schedule that is made of the prices of a
+//! bound (`plan/dive.rs`), and improves them by large-neighbourhood search (`plan/searches.rs`). The moves of the search are exact: each finds the best rest of the day for one aircraft while
 //! the others keep their flights (`plan/itinerary_search.rs`). The plan that is returned has been played in the
 //! simulator.
 
 mod day;
+mod dive;
 mod foresight;
+mod guiding_prices;
 mod hop;
 mod itinerary_search;
 mod passengers;
 mod problem;
 mod schedule;
 mod search;
-mod stand_prices;
+mod searches;
 mod stand_times;
 mod start;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
 use vertifleet_core::Scenario;
-use vertifleet_policy::draw;
 use vertifleet_sim::{Simulation, Trace};
 
 use crate::Error;
+use crate::proof::POLL_INTERVAL;
+use dive::Dive;
 use problem::Problem;
-use search::Search;
+use searches::Searches;
 
 pub use start::StartingPolicy;
 
-/// Steps of each search in a round, after which the best schedule of all searches is kept.
-const STEPS_A_ROUND: u64 = 50;
-/// Rounds after which the search with the worst schedule continues from the best one's.
-const ROUNDS_A_MEETING: u64 = 100;
-/// Temperatures at which annealing begins and ends, dollars. From 20, days of `paper` earned 0.2 % less after 100,000
-/// steps, because that is too hot for a search that starts from a good day.
-const HOT_USD: f64 = 4.0;
-const COLD_USD: f64 = 1.0;
-
 /// Share of the remaining time for which a policy plays its day before it is judged whether it will finish in time.
 const JUDGED_FROM: f64 = 0.25;
+/// A dive is begun if it seems to take this share of the budget, or less.
+const DIVING: f64 = 0.5;
+/// Seconds for which a step of a search looks at a flight, about.
+const LOOK_S: f64 = 8e-9;
+/// Steps of each search in a round, after which the best schedule of all searches is kept.
+const STEPS_A_ROUND: u64 = 50;
 /// Seconds that a round takes at most where time is limited, so that `watch` is called many times a second on days of
 /// any size.
 const ROUND_S: f64 = 0.05;
@@ -109,9 +108,12 @@ pub fn can_plan(scenario: &Scenario) -> Result<(), Error> {
 /// one. A step looks at every flight from every vertiport in every minute.
 pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
     const PAPER_LOOKS: u64 = 8 * 8 * 720;
+    (paper_steps * PAPER_LOOKS / looks_a_step(scenario).max(PAPER_LOOKS)).max(1)
+}
+
+fn looks_a_step(scenario: &Scenario) -> u64 {
     let minutes = u64::from(scenario.operations.end.since(scenario.operations.start)) / 60;
-    let looks = (scenario.vertiports.len() as u64).pow(2) * minutes;
-    (paper_steps * PAPER_LOOKS / looks.max(PAPER_LOOKS)).max(1)
+    (scenario.vertiports.len() as u64).pow(2) * minutes
 }
 
 /// Plans a day that is known in full: actual demand, delays, closures and outages. The plan is never worse than the day
@@ -131,6 +133,11 @@ pub fn plan(
 ) -> Result<Plan, Error> {
     can_plan(scenario)?;
     let clock = Clock { budget: settings.budget, begun: Instant::now() };
+    let problem = Arc::new(Problem::of(scenario));
+    // Where no passenger pays for a seat, no flight earns anything.
+    let is_worth_it = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
+    let may_dive = is_worth_it && clock.allows(scenario, dive::search_steps(scenario) / DIVING);
+    let dive = may_dive.then(|| Dive::begin(scenario, &problem));
     let mut stopped = false;
     // The time that the prices of a day take at its start. The search needs them too.
     let mut first = Duration::ZERO;
@@ -150,52 +157,12 @@ pub fn plan(
     });
     let mut plan =
         Plan { trace, profit_usd, best_policy: policy, best_policy_usd: profit_usd, steps: 0 };
-    // Where no passenger pays for a seat, no flight earns anything.
-    let is_worth_it = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
     if is_worth_it && !stopped && clock.left() > first {
-        search(scenario, settings, &clock, &mut plan, watch);
+        let first = start::schedule_of(&problem, &plan.trace);
+        let searches = Searches::begin(scenario, settings, &problem, &first, dive);
+        searches.improve(&clock, &mut plan, watch);
     }
     Ok(plan)
-}
-
-/// Improves a plan until the budget is used up or `watch` stops it.
-fn search(
-    scenario: &Arc<Scenario>,
-    settings: &SearchSettings,
-    clock: &Clock,
-    plan: &mut Plan,
-    watch: &mut dyn FnMut(&SearchProgress) -> bool,
-) {
-    let problem = Problem::of(scenario);
-    let first = start::schedule_of(&problem, &plan.trace);
-    let mut searches: Vec<Search> = (0_u32..)
-        .take(settings.searches.max(1))
-        .map(|number| Search::new(first.clone(), draw(settings.seed, scenario.seed, number)))
-        .collect();
-    for round in 1.. {
-        let share = clock.share(plan.steps);
-        let progress = SearchProgress { share, steps: plan.steps, profit_usd: plan.profit_usd };
-        if !watch(&progress) || share >= 1.0 {
-            break;
-        }
-        let temperature_usd = HOT_USD * (COLD_USD / HOT_USD).powf(share);
-        let steps = clock.steps_a_round(plan.steps);
-        let until = clock.end_of_round();
-        let taken = searches.par_iter_mut().map(|search| {
-            let goes_on = || until.is_none_or(|until| Instant::now() < until);
-            let mut taken = 0;
-            while taken < steps && goes_on() {
-                search.step(&problem, temperature_usd);
-                taken += 1;
-            }
-            taken
-        });
-        plan.steps += taken.min().expect("there is a search");
-        if round % ROUNDS_A_MEETING == 0 {
-            meet(&mut searches);
-        }
-        keep_best(scenario, &searches, plan);
-    }
 }
 
 /// A budget that is being used up.
@@ -225,6 +192,16 @@ impl Clock {
         }
     }
 
+    /// Whether the budget seems to be enough for so many steps of a search.
+    fn allows(&self, scenario: &Scenario, steps: f64) -> bool {
+        match self.budget {
+            Budget::Time(limit) => {
+                steps * looks_a_step(scenario) as f64 * LOOK_S <= limit.as_secs_f64()
+            }
+            Budget::Steps(limit) => steps <= limit as f64,
+        }
+    }
+
     /// Whether a policy may continue with a day of which a share has been played: there must be time for one more
     /// decision, and the day must seem to finish in time.
     fn leaves_time_for(&self, day: &DayTimer, day_share: f64) -> bool {
@@ -239,6 +216,14 @@ impl Clock {
         match self.budget {
             Budget::Time(_) => STEPS_A_ROUND,
             Budget::Steps(limit) => STEPS_A_ROUND.min(limit - done),
+        }
+    }
+
+    /// How long to wait for what is to join the searches: not at all where time is limited.
+    fn patience(&self) -> Duration {
+        match self.budget {
+            Budget::Time(_) => Duration::ZERO,
+            Budget::Steps(_) => POLL_INTERVAL,
         }
     }
 
@@ -285,34 +270,6 @@ impl DayTimer {
 fn to_come_s(played: Duration, day_share: f64) -> f64 {
     let to_come = (1.0 - day_share).powi(2);
     played.as_secs_f64() * to_come / (1.0 - to_come)
-}
-
-/// Lets the search with the worst schedule continue from the best one's.
-fn meet(searches: &mut [Search]) {
-    let by_value = |&one: &usize, &other: &usize| {
-        searches[one].current.value_usd().total_cmp(&searches[other].current.value_usd())
-    };
-    let best = (0..searches.len()).max_by(by_value).expect("there is a search");
-    let worst = (0..searches.len()).min_by(by_value).expect("there is a search");
-    if best != worst {
-        let current = searches[best].current.clone();
-        searches[worst].current.clone_from(&current);
-    }
-}
-
-/// Plays the best schedule of all searches and keeps it if it earns more than the plan so far.
-fn keep_best(scenario: &Arc<Scenario>, searches: &[Search], plan: &mut Plan) {
-    let best = searches
-        .iter()
-        .map(|search| &search.best)
-        .max_by(|one, other| one.value_usd().total_cmp(&other.value_usd()))
-        .expect("there is a search");
-    if best.value_usd() > plan.profit_usd {
-        let (trace, profit_usd) = start::flown(scenario, best);
-        if profit_usd > plan.profit_usd {
-            (plan.trace, plan.profit_usd) = (trace, profit_usd);
-        }
-    }
 }
 
 #[cfg(test)]

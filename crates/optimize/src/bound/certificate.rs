@@ -274,7 +274,7 @@ pub(super) fn earnings(prices: &Prices, flight: &Flight) -> i64 {
 
 /// What is given back: the price of all stands, and the surplus of all passengers.
 fn dual_constant(day: &TimeExpandedDay, prices: &Prices) -> i128 {
-    let stands = day.stands.iter().cycle().zip(&prices.stand);
+    let stands = day.stands.iter().zip(&prices.stand);
     let stands = stands.map(|(&count, &price)| i128::from(count) * i128::from(price));
     stands.sum::<i128>() + day.market.surplus(&prices.flight)
 }

@@ -14,7 +14,7 @@ use vertifleet_core::Stop;
 use super::best_itineraries::BestItineraries;
 use super::certificate::Certificate;
 use super::itinerary::Itinerary;
-use super::master::Master;
+use super::master::{Groups, Master};
 use super::prices::{Pace, Prices};
 use super::time_expanded_day::TimeExpandedDay;
 
@@ -39,6 +39,9 @@ const FARTHEST: f64 = 1e15;
 /// step less than this multiple of it.
 const WINDOW: u32 = 40;
 const PROMISED: f64 = 3.0;
+
+/// The fall that is too small to continue for while aircraft are planned one after another, micro-dollars.
+const A_DOLLAR: f64 = 1e6;
 
 /// The settings of one part of the search.
 #[derive(Debug, Clone, Copy)]
@@ -76,60 +79,111 @@ impl Descent {
         stopped: &Stop,
         watch: &mut dyn FnMut(&Found) -> bool,
     ) -> Option<Found> {
-        let mut certificate = Certificate::new(day);
-        let micro_usd = certificate.evaluate(day, &start, stopped)?;
-        let mut trial = start.clone();
-        let mut best = Found { prices: start, micro_usd };
-        let itineraries =
-            BestItineraries { day, prices: &trial, certificate: &certificate }.of_groups();
-        let master = Master::new(day, pace, trial.clone(), itineraries);
-        let mut bundle = Bundle::new(master, self, micro_usd as f64);
-        let mut before = best.micro_usd;
-        for step in 1..=self.steps {
-            if !watch(&best) || !bundle.promises_enough(best.micro_usd as f64) {
-                break;
-            }
-            bundle.master.prices(&mut trial);
-            let Some(micro_usd) = certificate.evaluate(day, &trial, stopped) else { break };
-            let itineraries =
-                BestItineraries { day, prices: &trial, certificate: &certificate }.of_groups();
-            bundle.learn(itineraries, (best.micro_usd - micro_usd) as f64);
-            if micro_usd < best.micro_usd {
-                best.micro_usd = micro_usd;
-                best.prices.clone_from(&trial);
-                bundle.master.move_to(&trial);
-            }
-            if step % WINDOW == 0 {
-                if (before - best.micro_usd) as f64 <= self.enough * before as f64 {
-                    break;
-                }
-                before = best.micro_usd;
-            }
-        }
-        watch(&best);
-        Some(best)
+        let mut bundle = Bundle::begin(self, (day, pace), start, stopped)?;
+        bundle.descend(self, stopped, watch);
+        Some(bundle.best)
     }
 }
 
-/// The model, which is a bundle of itineraries for each group, with its last prediction.
-struct Bundle<'a> {
+/// The model, which is a bundle of itineraries for each group, and the best prices so far.
+pub(super) struct Bundle<'a> {
+    day: &'a TimeExpandedDay,
+    certificate: Certificate,
     master: Master<'a>,
+    pub(super) best: Found,
+    /// The prices that were evaluated last.
+    trial: Prices,
+    /// The fall of the bound that the model predicted last, micro-dollars.
     promised: f64,
     /// A prediction that is too small to continue for, micro-dollars.
     enough: f64,
 }
 
 impl<'a> Bundle<'a> {
-    /// A model whose first step aims at the fall that the descent's settings ask for.
-    fn new(mut master: Master<'a>, descent: Descent, bound: f64) -> Self {
-        let promised = descent.first * bound;
+    /// A model whose first step aims at the fall that the descent's settings ask for. Returns `None` if `stopped` is
+    /// requested.
+    pub(super) fn begin(
+        descent: Descent,
+        (day, pace): (&'a TimeExpandedDay, &'a Pace),
+        start: Prices,
+        stopped: &Stop,
+    ) -> Option<Self> {
+        let mut certificate = Certificate::new(day);
+        let micro_usd = certificate.evaluate(day, &start, stopped)?;
+        let itineraries =
+            BestItineraries { day, prices: &start, certificate: &certificate }.of_groups();
+        let mut master = Master::new(day, pace, start.clone(), itineraries);
+        let promised = descent.first * micro_usd as f64;
         master.reach = (promised / master.fall().max(1e-9)).min(FARTHEST);
-        Self { master, promised, enough: PROMISED * descent.enough * bound }
+        let enough = PROMISED * descent.enough * micro_usd as f64;
+        let best = Found { prices: start.clone(), micro_usd };
+        Some(Self { day, certificate, master, best, trial: start, promised, enough })
+    }
+
+    /// The model of a day on which some of the aircraft of `groups` have been planned. Returns `None` if `stopped` is
+    /// requested.
+    pub(super) fn again(
+        (day, pace): (&'a TimeExpandedDay, &'a Pace),
+        start: Prices,
+        groups: Groups,
+        stopped: &Stop,
+    ) -> Option<Self> {
+        let mut certificate = Certificate::new(day);
+        let micro_usd = certificate.evaluate(day, &start, stopped)?;
+        let itineraries =
+            BestItineraries { day, prices: &start, certificate: &certificate }.of_groups();
+        let mut master = Master::again(day, pace, start.clone(), groups);
+        master.learn(itineraries);
+        let best = Found { prices: start.clone(), micro_usd };
+        let (promised, enough) = (A_DOLLAR, A_DOLLAR);
+        Some(Self { day, certificate, master, best, trial: start, promised, enough })
+    }
+
+    /// Takes steps until the settings of the descent or `watch` end it, or `stopped` is requested.
+    pub(super) fn descend(
+        &mut self,
+        descent: Descent,
+        stopped: &Stop,
+        watch: &mut dyn FnMut(&Found) -> bool,
+    ) {
+        let mut before = self.best.micro_usd;
+        for step in 1..=descent.steps {
+            if !watch(&self.best) || !self.step(stopped) {
+                break;
+            }
+            if step % WINDOW == 0 {
+                if (before - self.best.micro_usd) as f64 <= descent.enough * before as f64 {
+                    break;
+                }
+                before = self.best.micro_usd;
+            }
+        }
+        watch(&self.best);
+    }
+
+    /// Evaluates the model's prices. Returns whether to continue: not if the model promises too little, or `stopped` is
+    /// requested.
+    fn step(&mut self, stopped: &Stop) -> bool {
+        if !self.promises_enough() {
+            return false;
+        }
+        self.master.prices(&mut self.trial);
+        let evaluated = self.certificate.evaluate(self.day, &self.trial, stopped);
+        let Some(micro_usd) = evaluated else { return false };
+        let Self { day, trial, certificate, .. } = self;
+        let itineraries = BestItineraries { day, prices: trial, certificate }.of_groups();
+        self.learn(itineraries, (self.best.micro_usd - micro_usd) as f64);
+        if micro_usd < self.best.micro_usd {
+            self.best.micro_usd = micro_usd;
+            self.best.prices.clone_from(&self.trial);
+            self.master.move_to(&self.trial);
+        }
+        true
     }
 
     /// Finds the model's prices, and returns whether they may lower the bound by enough to continue.
-    fn promises_enough(&mut self, best: f64) -> bool {
-        let enough = self.enough;
+    fn promises_enough(&mut self) -> bool {
+        let (best, enough) = (self.best.micro_usd as f64, self.enough);
         let mut unsettled = self.master.settle(ROUNDS, SETTLED * self.promised);
         for _ in 0..FAR_TRIES {
             self.promised = best - self.master.value();
@@ -153,5 +207,10 @@ impl<'a> Bundle<'a> {
             _ => 1.0,
         };
         self.master.reach = (change * self.master.reach).min(FARTHEST);
+    }
+
+    /// The best prices, and the model's groups.
+    pub(super) fn into_parts(self) -> (Prices, Groups) {
+        (self.best.prices, self.master.into_groups())
     }
 }

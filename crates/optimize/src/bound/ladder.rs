@@ -17,18 +17,18 @@ use super::time_expanded_day::TimeExpandedDay;
 use crate::Error;
 
 /// Seconds from one tick of the coarse clock to the next.
-const TICK_S: u32 = 60;
+pub(super) const TICK_S: u32 = 60;
 
 /// Slices of one length, and the effort of searching in them.
-struct Cut {
-    step: Step,
-    on_coarse_clock: Descent,
+pub(super) struct Cut {
+    pub(super) step: Step,
+    pub(super) on_coarse_clock: Descent,
     to_the_second: Descent,
 }
 
 /// The cuts from the coarsest to the finest. Prices that come from coarser slices need less search than those that
 /// begin at zero.
-const CUTS: [Cut; 5] = [
+pub(super) const CUTS: [Cut; 5] = [
     Cut {
         step: STEPS[0],
         on_coarse_clock: Descent { steps: 200, first: 0.05, enough: 5e-5 },

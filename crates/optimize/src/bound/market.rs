@@ -27,6 +27,8 @@ pub(super) struct Market {
     margin: Vec<i64>,
     /// Whether there is any such flight, in the order of prices.
     is_offered: Vec<bool>,
+    /// The blocks in which passengers choose between flights with several prices.
+    choosing: Vec<usize>,
 }
 
 /// The flights of a cell, which is a demand period and a pair of vertiports. Both parts have the same prices if passengers do
@@ -65,12 +67,13 @@ impl Market {
             passengers: scenario.demand.iter().flat_map(Matrix::cells).copied().collect(),
             margin: margins(scenario),
             is_offered: Vec::new(),
+            choosing: Vec::new(),
         };
         market.is_offered = vec![false; market.passengers.len() * market.prices_a_cell()];
         market
     }
 
-    fn prices_a_cell(&self) -> usize {
+    pub(super) fn prices_a_cell(&self) -> usize {
         self.seats.len() * if self.waits { 2 } else { 1 }
     }
 
@@ -92,6 +95,12 @@ impl Market {
     fn first_of(&self, cell: usize, part: Part) -> usize {
         let late = if self.waits && part == Part::Late { self.seats.len() } else { 0 };
         cell * self.prices_a_cell() + late
+    }
+
+    /// Sets the passengers who are left, by cell. Prices that are now above the [most](Self::most) are no longer valid.
+    pub(super) fn leave(&mut self, left: impl Iterator<Item = u32>) {
+        self.passengers.clear();
+        self.passengers.extend(left);
     }
 
     /// Adds flights with this position of their price to those that are offered.
@@ -160,9 +169,14 @@ impl Market {
     }
 
     /// The blocks in which passengers choose between flights with several prices.
-    pub(super) fn blocks_that_choose(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn blocks_that_choose(&self) -> impl Iterator<Item = usize> + Clone {
+        self.choosing.iter().copied()
+    }
+
+    /// Notes which blocks choose, once all flights are offered.
+    pub(super) fn open(&mut self) {
         let blocks = if self.has_one_price_a_cell() { 0 } else { self.blocks() };
-        (0..blocks).filter(|&block| self.offers_any(block))
+        self.choosing = (0..blocks).filter(|&block| self.offers_any(block)).collect();
     }
 
     fn offers_any(&self, block: usize) -> bool {

@@ -14,14 +14,14 @@ use super::prices::{MOST_FOR_A_STAND, PACE_OF_A_SEAT, Pace, Prices, whole};
 use super::time_expanded_day::TimeExpandedDay;
 
 /// The aircraft of one layer that start alike, or the passengers of a part of the market.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Group {
     count: f64,
     itineraries: Vec<Known>,
 }
 
 /// An itinerary that is known, and the share of the group that takes it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Known {
     itinerary: Itinerary,
     share: f64,
@@ -89,6 +89,37 @@ impl Buyers {
     }
 }
 
+/// The groups of a model, without its prices.
+#[derive(Debug, Clone)]
+pub(super) struct Groups {
+    groups: Vec<Group>,
+    reach: f64,
+}
+
+impl Groups {
+    /// The number of aircraft of a group that take one itinerary, if it is the one that most of them take; at most 1.
+    pub(super) fn agreed(&self, group: usize) -> f64 {
+        let Group { count, itineraries } = &self.groups[group];
+        let share = itineraries.iter().map(|known| known.share).fold(0.0, f64::max);
+        (count * share).min(1.0)
+    }
+
+    /// One aircraft of a group leaves it.
+    pub(super) fn leave(&mut self, group: usize) {
+        self.groups[group].count -= 1.0;
+    }
+
+    /// One aircraft that had left a group comes back.
+    pub(super) fn come_back(&mut self, group: usize) {
+        self.groups[group].count += 1.0;
+    }
+
+    /// Replaces all that is known of a group.
+    pub(super) fn forget(&mut self, group: usize, itinerary: Itinerary) {
+        self.groups[group].itineraries = vec![Known { itinerary, share: 1.0, idle: 0, worth: 0.0 }];
+    }
+}
+
 /// The model around a centre, which is the best prices so far.
 pub(super) struct Master<'a> {
     day: &'a TimeExpandedDay,
@@ -138,14 +169,32 @@ impl<'a> Master<'a> {
         master
     }
 
+    /// A model of the groups of an earlier one, on a day on which there is less left.
+    pub(super) fn again(
+        day: &'a TimeExpandedDay,
+        pace: &'a Pace,
+        centre: Prices,
+        Groups { groups, reach }: Groups,
+    ) -> Self {
+        let empty = Self::new(day, pace, centre, Vec::new());
+        let mut master = Self { groups, reach, ..empty };
+        master.count();
+        master
+    }
+
+    /// The groups, to begin another model with.
+    pub(super) fn into_groups(self) -> Groups {
+        Groups { groups: self.groups, reach: self.reach }
+    }
+
     /// Computes the excess anew.
     fn count(&mut self) {
         let size = self.day.size();
-        for (at, excess) in self.stand_excess.iter_mut().enumerate() {
-            *excess = -f64::from(self.day.stands[at % size]);
+        for (excess, &stands) in self.stand_excess.iter_mut().zip(&self.day.stands) {
+            *excess = -f64::from(stands);
         }
         self.flight_excess.fill(0.0);
-        for group in &self.groups {
+        for group in self.groups.iter().filter(|group| group.count > 0.0) {
             for known in group.itineraries.iter().filter(|known| known.share > 0.0) {
                 let aircraft = group.count * known.share;
                 for (slices, place) in known.itinerary.stays() {
@@ -261,6 +310,9 @@ impl<'a> Master<'a> {
     /// micro-dollars.
     fn shift_group(&mut self, group: usize) -> f64 {
         let count = self.groups[group].count;
+        if count == 0.0 {
+            return 0.0;
+        }
         let mut known = std::mem::take(&mut self.groups[group].itineraries);
         let mut possible = 0.0;
         for shift in 0..SHIFTS {
@@ -369,11 +421,11 @@ impl<'a> Master<'a> {
     /// The model's estimate of the bound that its prices prove, micro-dollars. It is never more than the true one, but
     /// for rounding.
     pub(super) fn value(&self) -> f64 {
-        let fleet = self.groups.iter().map(|group| {
+        let fleet = self.groups.iter().filter(|group| group.count > 0.0).map(|group| {
             let worths = group.itineraries.iter().map(|known| self.worth(&known.itinerary));
             group.count * worths.fold(f64::NEG_INFINITY, f64::max)
         });
-        let stands = self.day.stands.iter().cycle().zip(&self.stand);
+        let stands = self.day.stands.iter().zip(&self.stand);
         let stands = stands.map(|(&number, price)| f64::from(number) * price);
         let surplus = self.buyers.iter().zip(&self.flight);
         let surplus = surplus.map(|(buyers, &price)| buyers.surplus(price));

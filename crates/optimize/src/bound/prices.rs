@@ -66,6 +66,7 @@ impl Prices {
 
 /// The pace at which prices move. A stand's price in a slice moves in proportion to the length of the slice, so that
 /// the rent of a stay moves equally fast in slices of any length.
+#[derive(Debug, Clone)]
 pub(super) struct Pace {
     /// The pace of a stand's price, by slice.
     stand: Vec<f64>,

@@ -154,7 +154,7 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
         }
         // What is paid for stands, and what passengers bring beyond what they pay, is no more than the amount given back.
         for (at, &count) in taken.iter().enumerate() {
-            assert!(count <= expanded.stands[at % expanded.size()]);
+            assert!(count <= expanded.stands[at]);
         }
         let most = expanded.market.surplus(&prices.flight);
         assert!(surplus <= most, "passengers have {surplus} left, at most {most}");

@@ -62,8 +62,9 @@ pub(super) struct TimeExpandedDay {
     pub(super) slices: Slices,
     /// The types that have an aircraft in the fleet.
     pub(super) layers: Vec<Layer>,
-    /// U_max by vertiport.
+    /// Number of stands that are left, by slice, then vertiport: U_max, unless aircraft have been planned.
     pub(super) stands: Vec<u32>,
+    vertiports: usize,
     /// The passengers, who buy flights.
     pub(super) market: Market,
     /// The least that the fleet may cost, whether or not it flies, micro-dollars.
@@ -92,7 +93,8 @@ impl TimeExpandedDay {
         let layers = layers(scenario, ready);
         let slices = Slices::of(scenario, step_s);
         let mut day = Self {
-            stands: scenario.vertiports.iter().map(room).collect(),
+            stands: scenario.vertiports.iter().map(room).collect::<Vec<_>>().repeat(slices.len()),
+            vertiports: scenario.vertiports.len(),
             market: Market::of(scenario),
             fixed_cost: fixed_cost(scenario),
             hold_s: scenario.operations.hold_s,
@@ -104,6 +106,7 @@ impl TimeExpandedDay {
             layers,
         };
         day.add_flights(scenario, &legs);
+        day.market.open();
         Ok(day)
     }
 
@@ -198,9 +201,28 @@ impl TimeExpandedDay {
         self.shortest_s = self.shortest_s.min(leg.block_s());
     }
 
+    /// The position of each aircraft's start among those of all layers.
+    pub(super) fn group_of(&self, scenario: &Scenario) -> Vec<usize> {
+        let starts: Vec<(TypeIx, bool, usize)> = self
+            .layers
+            .iter()
+            .flat_map(|layer| {
+                let Layer { kind, waits_freely, starts } = layer;
+                starts.iter().map(move |start| (*kind, *waits_freely, start.at))
+            })
+            .collect();
+        let has_outage = has_outage(scenario);
+        let fleet = scenario.aircraft.iter().zip(has_outage);
+        let group = fleet.map(|(aircraft, has_outage)| {
+            let own = (aircraft.kind, has_outage, aircraft.at.at());
+            starts.iter().position(|&start| start == own).expect("each aircraft has a group")
+        });
+        group.collect()
+    }
+
     /// Number of vertiports.
     pub(super) fn size(&self) -> usize {
-        self.stands.len()
+        self.vertiports
     }
 
     /// The flights that aircraft of a layer may begin at a vertiport in a slice.
@@ -218,10 +240,7 @@ fn room(vertiport: &Vertiport) -> u32 {
 
 /// The layers of the fleet, by aircraft type in file order; of each type, the aircraft without outages come first.
 fn layers(scenario: &Scenario, ready: &[Time]) -> Vec<Layer> {
-    let mut has_outage = vec![false; scenario.aircraft.len()];
-    for outage in &scenario.disturbances.outages {
-        has_outage[outage.aircraft.at()] = true;
-    }
+    let has_outage = has_outage(scenario);
     let mut layers = Vec::new();
     for kind in TypeIx::all(scenario.aircraft_types.len()) {
         for waits_freely in [false, true] {
@@ -241,6 +260,15 @@ fn layers(scenario: &Scenario, ready: &[Time]) -> Vec<Layer> {
         }
     }
     layers
+}
+
+/// Whether each aircraft has an outage.
+fn has_outage(scenario: &Scenario) -> Vec<bool> {
+    let mut has_outage = vec![false; scenario.aircraft.len()];
+    for outage in &scenario.disturbances.outages {
+        has_outage[outage.aircraft.at()] = true;
+    }
+    has_outage
 }
 
 /// Seconds by which flights from a vertiport take off late in the slot that contains a time.

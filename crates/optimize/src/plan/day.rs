@@ -10,6 +10,8 @@ use super::hop::{Hop, Landing};
 #[derive(Debug)]
 pub(super) struct Day {
     pub(super) vertiports: usize,
+    /// First second of operations.
+    pub(super) first_s: u32,
     /// Last second at which aircraft decide, inclusive.
     pub(super) end_s: u32,
     pub(super) hold_s: u32,
@@ -56,6 +58,7 @@ impl Day {
         let fleet = AircraftIx::all(view.places().len());
         Self {
             vertiports,
+            first_s: view.day_start().seconds(),
             end_s: view.day_end().seconds(),
             hold_s: view.hold_s(),
             passenger_wait_s: view.passenger_wait_s(),
@@ -73,6 +76,10 @@ impl Day {
 
     pub(super) fn fleet(&self) -> impl ExactSizeIterator<Item = AircraftIx> + use<> {
         AircraftIx::all(self.kind_of.len())
+    }
+
+    pub(super) fn types(&self) -> impl ExactSizeIterator<Item = TypeIx> + use<> {
+        TypeIx::all(self.seats.len())
     }
 
     #[inline]

@@ -7,6 +7,7 @@
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 
+use super::guiding_prices::GuidingPrices;
 use super::hop::Hop;
 use super::passengers::Departure;
 use super::problem::Problem;
@@ -24,11 +25,21 @@ pub(super) struct Bias {
     pub(super) shift_s: u32,
     /// Share of the stand prices that the aircraft has to pay, so that it leaves scarce stands to others.
     pub(super) rent_share: f64,
+    /// Share that the aircraft has to pay of what flights bring beyond what they sell for, so that it leaves passengers to
+    /// others.
+    pub(super) flight_share: f64,
     /// Most dollars by which the assumed profit of a flight is off, so that the aircraft may leave a flight to another,
     /// or fly without profit to make room.
     pub(super) noise_usd: f64,
     /// Seed of the noise of each pair of vertiports and period.
     pub(super) noise_seed: u64,
+}
+
+/// The prices that guide a search, and how.
+#[derive(Clone, Copy)]
+pub(super) struct Guided<'a> {
+    pub(super) prices: &'a GuidingPrices,
+    pub(super) bias: Bias,
 }
 
 /// The best known way to be ready at a vertiport within a slot.
@@ -75,6 +86,7 @@ struct Task<'a> {
     seats: i64,
     /// First second of the first slot.
     origin_s: u32,
+    prices: &'a GuidingPrices,
     bias: Bias,
 }
 
@@ -110,9 +122,9 @@ impl ItinerarySearch {
     pub(super) fn complete(
         &mut self,
         problem: &Problem,
+        Guided { prices, bias }: Guided<'_>,
         schedule: &Schedule,
         aircraft: AircraftIx,
-        bias: Bias,
         flights: &mut Vec<Flight>,
     ) -> bool {
         debug_assert!(!schedule.is_whole(aircraft), "a whole itinerary is complete");
@@ -126,6 +138,7 @@ impl ItinerarySearch {
             kind: day.kind(aircraft),
             seats: day.seats(aircraft),
             origin_s: ready_s.saturating_sub(bias.shift_s),
+            prices,
             bias,
         };
         self.prepare(&task);
@@ -186,7 +199,7 @@ impl ItinerarySearch {
                         moment: Moment::of(time_s, task.aircraft),
                         value_usd,
                         period: day.period_from(slot_period, time_s),
-                        minute: task.problem.prices.minute(time_s),
+                        minute: task.prices.minute(time_s),
                     },
                 );
             }
@@ -222,7 +235,9 @@ impl ItinerarySearch {
         let departure = Departure { cell, period: choice.period, take_off_s: choice.time_s };
         let margin_usd = task.schedule.passengers.margin_usd(day, departure, task.seats);
         let cost_usd = day.flying_cost_usd(hop, choice.period, landing.arrival_s);
-        let profit_usd = margin_usd - cost_usd + task.noise_usd(cell);
+        let above_usd = task.prices.above_price_usd(day, task.kind, departure, margin_usd);
+        let profit_usd =
+            margin_usd - cost_usd + task.noise_usd(cell) - task.bias.flight_share * above_usd;
         self.reach(task, choice, hop.to, window, landing.ready_s, profit_usd);
     }
 
@@ -248,7 +263,7 @@ impl ItinerarySearch {
         ready_s: u32,
         profit_usd: f64,
     ) {
-        let Problem { day, prices, .. } = task.problem;
+        let (day, prices) = (&task.problem.day, task.prices);
         let rent_usd = prices.rent_usd(place, choice.minute, prices.minute(ready_s));
         let value_usd = choice.value_usd + profit_usd - task.bias.rent_share * rent_usd;
         if ready_s <= day.end_s {

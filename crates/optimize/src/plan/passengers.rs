@@ -42,7 +42,22 @@ pub(super) struct Departure {
     pub(super) take_off_s: u32,
 }
 
+impl Departure {
+    /// Whether the flights take off while passengers of the period before may wait.
+    #[inline]
+    pub(super) fn is_early(self, day: &Day) -> bool {
+        let Self { period, take_off_s, .. } = self;
+        period > 0 && take_off_s < day.period_starts_s[period] + day.passenger_wait_s
+    }
+}
+
 impl Passengers {
+    /// Those who have not been carried, by cell.
+    pub(super) fn left(&self) -> impl Iterator<Item = u32> {
+        let (Self::Leave(left) | Self::Wait(Waiting { left_over: left, .. })) = self;
+        left.iter().map(|&left| u32::try_from(left.max(0)).expect("no more than there were"))
+    }
+
     /// The passengers of a day without flights.
     pub(super) fn of(day: &Day, demand: &[u32]) -> Self {
         let demand: Vec<i64> = demand.iter().map(|&passengers| passengers.into()).collect();
@@ -142,8 +157,7 @@ struct Carried {
 
 impl Seats {
     fn add(&mut self, day: &Day, departure: Departure, seats: i64) {
-        let Departure { period, take_off_s, .. } = departure;
-        if period > 0 && take_off_s < day.period_starts_s[period] + day.passenger_wait_s {
+        if departure.is_early(day) {
             self.early += seats;
         } else {
             self.late += seats;

@@ -37,15 +37,15 @@ pub(super) struct Schedule {
 impl Schedule {
     /// A schedule without flights, in which every itinerary has to be completed.
     pub(super) fn unplanned(problem: &Problem) -> Self {
-        let Problem { day, places, demand, first_s, .. } = problem;
+        let Problem { day, places, demand, .. } = problem;
         let mut stands = StandTimes::empty(&day.stands);
         let mut itineraries = Vec::with_capacity(places.len());
         for (aircraft, &place) in day.fleet().zip(places) {
             stands.take_at_first(place);
-            stands.free(place, Moment::of(*first_s, aircraft));
+            stands.free(place, Moment::of(day.first_s, aircraft));
             itineraries.push(Itinerary {
                 place,
-                ready_s: *first_s,
+                ready_s: day.first_s,
                 flights: Vec::new(),
                 whole: false,
             });

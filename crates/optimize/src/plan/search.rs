@@ -10,7 +10,8 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use vertifleet_core::AircraftIx;
 
-use super::itinerary_search::{Bias, ItinerarySearch, SLOT_S};
+use super::guiding_prices::GuidingPrices;
+use super::itinerary_search::{Bias, Guided, ItinerarySearch, SLOT_S};
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 
@@ -68,11 +69,11 @@ impl Search {
     }
 
     /// Tries one neighbour; a loss is accepted with probability exp(-loss / `temperature_usd`).
-    pub(super) fn step(&mut self, problem: &Problem, temperature_usd: f64) {
+    pub(super) fn step(&mut self, problem: &Problem, prices: &GuidingPrices, temperature_usd: f64) {
         let profit_usd = self.current.value_usd();
         self.choose(problem);
         self.take_out(problem);
-        let whole = self.put_back(problem);
+        let whole = self.put_back(problem, prices);
         // 1 - u is never 0, so the logarithm is finite.
         let luck = (1.0 - self.random.random::<f64>()).ln();
         if whole && self.current.value_usd() - profit_usd >= temperature_usd * luck {
@@ -88,9 +89,9 @@ impl Search {
     /// Chooses aircraft and a moment. Flights that take off before it stay.
     fn choose(&mut self, problem: &Problem) {
         let from_s = if self.random.random_bool(WHOLE_DAYS) {
-            problem.first_s
+            problem.day.first_s
         } else {
-            self.random.random_range(problem.first_s..=problem.day.end_s)
+            self.random.random_range(problem.day.first_s..=problem.day.end_s)
         };
         let fleet = problem.day.fleet();
         let one = AircraftIx::new(self.random.random_range(0..fleet.len()));
@@ -132,8 +133,9 @@ impl Search {
 
     /// Completes the itineraries in the order in which they were chosen. Returns whether all of them could be
     /// completed.
-    fn put_back(&mut self, problem: &Problem) -> bool {
+    fn put_back(&mut self, problem: &Problem, prices: &GuidingPrices) -> bool {
         let rent_share = self.random.random::<f64>();
+        let flight_share = if prices.are_of_flights() { self.random.random::<f64>() } else { 0.0 };
         let noise_usd = self.draw_noise_usd(problem);
         for &aircraft in &self.taken_out.aircraft {
             // Its last flight stays, and the aircraft is not ready again before the plan's end.
@@ -143,11 +145,18 @@ impl Search {
             let bias = Bias {
                 shift_s: self.random.random_range(0..SLOT_S),
                 rent_share,
+                flight_share,
                 noise_usd,
                 noise_seed: self.random.random(),
             };
-            let found =
-                self.itineraries.complete(problem, &self.current, aircraft, bias, &mut self.way_on);
+            let guided = Guided { prices, bias };
+            let found = self.itineraries.complete(
+                problem,
+                guided,
+                &self.current,
+                aircraft,
+                &mut self.way_on,
+            );
             if !found {
                 return false;
             }
@@ -196,6 +205,7 @@ mod tests {
     use vertifleet_core::{DaySeed, Network, Scenario};
 
     use super::Search;
+    use crate::plan::guiding_prices::GuidingPrices;
     use crate::plan::problem::Problem;
     use crate::plan::start;
 
@@ -211,11 +221,12 @@ mod tests {
 
     fn account_is_the_simulators(day: &Arc<Scenario>) {
         let problem = Problem::of(day);
+        let prices = GuidingPrices::of_policies(day, &problem.day);
         let start = start::best_policy(day, Vec::new(), &mut |_, _| true);
         let mut search = Search::new(start::schedule_of(&problem, &start.trace), 3);
         for step in 0..300 {
             // The temperature alternates between hot and cold, so that steps are kept as well as undone.
-            search.step(&problem, f64::from(step % 5) * 20.0 + 0.1);
+            search.step(&problem, &prices, f64::from(step % 5) * 20.0 + 0.1);
             assert!(search.current.stands.suffice(), "step {step}");
         }
         for schedule in [&search.current, &search.best] {

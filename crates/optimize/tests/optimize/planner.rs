@@ -163,6 +163,19 @@ fn the_same_settings_give_the_same_plan_on_any_number_of_threads() {
     assert_ne!(one, other, "chance follows the seed");
 }
 
+/// A dive takes the time of many steps, so it is a part of long searches only.
+#[test]
+fn a_plan_with_a_dive_is_the_same_on_any_number_of_threads_and_keeps_every_rule() {
+    let day = any_extended_day(3, Size { vertiports: 4, fleet: 6, hours: 3 });
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| planned(&day, 25_000))
+    };
+    let one = on(1);
+    assert_eq!(one, on(2));
+    assert!(check(&day, &one.trace).is_valid());
+}
+
 #[test]
 fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
     let day = paper_day(3);

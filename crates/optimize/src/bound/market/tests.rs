@@ -34,8 +34,15 @@ fn any_market(seed: u64, most_passengers: u64) -> (Market, Vec<i64>) {
     let passengers = (0..periods).map(number).collect();
     let waits = numbers.below(2) == 0;
     let margin = (0..periods).map(|_| numbers.amount(100)).collect();
-    let mut market =
-        Market { vertiports: 1, seats, waits, passengers, margin, is_offered: Vec::new() };
+    let mut market = Market {
+        vertiports: 1,
+        seats,
+        waits,
+        passengers,
+        margin,
+        is_offered: Vec::new(),
+        choosing: Vec::new(),
+    };
     let prices = periods * market.prices_a_cell();
     market.is_offered = (0..prices).map(|_| numbers.below(8) > 0).collect();
     let prices = (0..prices).map(|at| numbers.amount(1 + market.most(at).unsigned_abs())).collect();
@@ -157,6 +164,7 @@ fn very_many_passengers_of_flights_that_are_alike_buy_whole_ones_too() {
         passengers: vec![4 * MOST_ENUMERATED + 2],
         margin: vec![10],
         is_offered: vec![true],
+        choosing: Vec::new(),
     };
     // A seat is left on the last flight, which is bought for less than its two passengers bring.
     assert_eq!(one.worth_of_one_more(0, &[15]), 10);

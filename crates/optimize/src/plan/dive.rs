@@ -1,0 +1,219 @@
+//! Price and dive: aircraft are planned one after another at the prices of a bound, which are found again after each.
+//!
+//! The aircraft on whose itinerary the search for prices agrees most comes first. Its itinerary is the best one that is
+//! feasible to the second, at the prices of stands and flights. Its stands and passengers are gone for the others
+//! (C. Joncour et al., *Column generation based primal heuristics*, Electronic Notes in Discrete Mathematics 36, 2010).
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::time::Duration;
+
+use vertifleet_core::{AircraftIx, Scenario, Stop};
+
+use super::guiding_prices::GuidingPrices;
+use super::itinerary_search::{Bias, Guided, ItinerarySearch};
+use super::problem::Problem;
+use super::schedule::{Flight, Schedule};
+use crate::bound::{Rest, Way};
+
+/// Steps of the search for prices after each aircraft.
+const STEPS: u32 = 20;
+/// The shares of the prices that aircraft pay, each in a dive of its own. At whole prices very many itineraries are worth the
+/// same, and one that earns little is as good as one that earns much. On a day of `dallas`, dives with shares of 1, 0.9, 0.8,
+/// 0.7 and 0.5 had 89,793, 94,106, 94,738, 94,373 and 92,922 $, and `rolling` 90,241.
+const SHARES: [f64; 2] = [0.8, 0.9];
+/// Steps of the search for the first prices, at most.
+const FIRST_STEPS: f64 = 1_500.0;
+
+/// What dives find: nothing if the day is too large for them.
+#[derive(Default)]
+pub(super) struct Dived {
+    /// The prices before the first aircraft was planned.
+    pub(super) prices: Option<GuidingPrices>,
+    /// The best schedule of the dives that found a place for every aircraft.
+    pub(super) schedule: Option<Schedule>,
+}
+
+/// A dive on a thread of its own. It ends soon after it is dropped.
+pub(super) struct Dive {
+    ended: Receiver<Dived>,
+    stop: Stop,
+}
+
+impl Dive {
+    /// Begins a dive.
+    pub(super) fn begin(scenario: &Arc<Scenario>, problem: &Arc<Problem>) -> Self {
+        let (send, ended) = sync_channel(1);
+        let stop = Stop::default();
+        let (scenario, problem, stopped) =
+            (Arc::clone(scenario), Arc::clone(problem), stop.clone());
+        std::thread::spawn(move || {
+            let found = Rest::of(&scenario, &stopped);
+            // If no one waits any more, what was found is not needed.
+            let _ = send.send(found.map_or_else(Dived::default, |rest| Dived {
+                prices: Some(GuidingPrices::of_rest(&problem.day, &rest)),
+                schedule: best_of_dives(&problem, &rest, &stopped),
+            }));
+        });
+        Self { ended, stop }
+    }
+
+    /// What was found, once the dives have come to an end. They are waited for with some patience.
+    pub(super) fn outcome(&self, patience: Duration) -> Option<Dived> {
+        match self.ended.recv_timeout(patience) {
+            Ok(dived) => Some(dived),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => panic!("a dive comes to an end"),
+        }
+    }
+}
+
+impl Drop for Dive {
+    fn drop(&mut self) {
+        self.stop.request();
+    }
+}
+
+/// About how many steps of a search take as long as a dive.
+pub(super) fn search_steps(scenario: &Scenario) -> f64 {
+    /// Steps of a search that take as long as a step for prices with aircraft of one type: 2 to 3 on cities, 8 on `paper`.
+    const EACH: f64 = 3.0;
+    let fleet = scenario.aircraft.len() as f64;
+    let steps = FIRST_STEPS + SHARES.len() as f64 * f64::from(STEPS) * fleet;
+    EACH * scenario.aircraft_types.len() as f64 * steps
+}
+
+/// The best of several dives.
+fn best_of_dives(problem: &Problem, rest: &Rest, stopped: &Stop) -> Option<Schedule> {
+    let dives = SHARES.map(|share| plan_one_by_one(problem, rest.clone(), share, stopped));
+    let by_value = |one: &Schedule, other: &Schedule| one.value_usd().total_cmp(&other.value_usd());
+    dives.into_iter().flatten().max_by(by_value)
+}
+
+/// Plans the fleet one aircraft after another, each at a share of the prices. Returns `None` if no place is found for one of
+/// them, or `stopped` is requested.
+fn plan_one_by_one(problem: &Problem, rest: Rest, share: f64, stopped: &Stop) -> Option<Schedule> {
+    let mut diver = Diver {
+        problem,
+        rest,
+        bias: Bias { rent_share: share, flight_share: share, ..Bias::default() },
+        schedule: Schedule::unplanned(problem),
+        left: problem.day.fleet().collect(),
+        planned: Vec::new(),
+        search: ItinerarySearch::default(),
+        flights: Vec::new(),
+    };
+    let mut may_take_back = diver.left.len();
+    while let Some(aircraft) = diver.rest.clearest(diver.left.iter().copied()) {
+        if stopped.is_requested() {
+            return None;
+        }
+        while !diver.plan(aircraft) {
+            may_take_back = may_take_back.checked_sub(1)?;
+            diver.make_room(aircraft)?;
+        }
+        diver.rest.price(diver.schedule.passengers.left(), STEPS, stopped);
+    }
+    Some(diver.schedule)
+}
+
+/// A dive in progress.
+struct Diver<'a> {
+    problem: &'a Problem,
+    rest: Rest,
+    bias: Bias,
+    schedule: Schedule,
+    left: Vec<AircraftIx>,
+    /// In the order in which they were planned.
+    planned: Vec<AircraftIx>,
+    search: ItinerarySearch,
+    /// Memory for the flights that are found.
+    flights: Vec<Flight>,
+}
+
+impl Diver<'_> {
+    /// Plans an aircraft. Returns `false` if no place is left for it.
+    fn plan(&mut self, aircraft: AircraftIx) -> bool {
+        let Self { problem, schedule, flights, .. } = self;
+        let prices = GuidingPrices::of_rest(&problem.day, &self.rest);
+        let guided = Guided { prices: &prices, bias: self.bias };
+        if !self.search.complete(problem, guided, schedule, aircraft, flights) {
+            return false;
+        }
+        schedule.complete(problem, aircraft, flights);
+        self.rest.plan(aircraft, &way(problem, aircraft, &self.flights));
+        self.left.retain(|&other| other != aircraft);
+        self.planned.push(aircraft);
+        true
+    }
+
+    /// Takes back the plan of the aircraft that was planned last of those that come to where this one starts. Returns `None`
+    /// if there is no such aircraft.
+    fn make_room(&mut self, aircraft: AircraftIx) -> Option<()> {
+        let Self { problem, schedule, flights, .. } = self;
+        let place = problem.places[aircraft.at()];
+        let comes = |other: &AircraftIx| {
+            let lands = schedule.flights(*other).iter().any(|flight| flight.to == place);
+            lands || problem.places[other.at()] == place
+        };
+        let last = self.planned.remove(self.planned.iter().rposition(comes)?);
+        flights.clear();
+        schedule.cut(problem, last, 0, flights);
+        self.rest.take_back(last, &way(problem, last, flights));
+        self.left.push(last);
+        Some(())
+    }
+}
+
+fn way(problem: &Problem, aircraft: AircraftIx, flights: &[Flight]) -> Way {
+    let flights = flights.iter().map(|flight| (flight.take_off_s, flight.to)).collect();
+    Way { start: problem.places[aircraft.at()], flights }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use vertifleet_core::{Scenario, Stop};
+    use vertifleet_policy::{Greedy, play};
+    use vertifleet_sim::Simulation;
+    use vertifleet_testkit::{Size, any_day, any_extended_day, paper_day};
+
+    use super::plan_one_by_one;
+    use crate::bound::Rest;
+    use crate::plan::problem::Problem;
+    use crate::plan::schedule::Schedule;
+    use crate::plan::{can_plan, start};
+
+    fn dived(day: &Arc<Scenario>) -> Option<Schedule> {
+        let never = Stop::default();
+        let rest = Rest::of(day, &never).expect("a small day");
+        plan_one_by_one(&Problem::of(day), rest, 0.8, &never)
+    }
+
+    #[test]
+    fn a_dive_keeps_every_rule_and_its_account_is_the_simulators() {
+        let small = Size { vertiports: 5, fleet: 8, hours: 4 };
+        let days =
+            (0..30).flat_map(|number| [any_day(number, small), any_extended_day(number, small)]);
+        let mut found = 0;
+        for day in days.filter(|day| can_plan(day).is_ok()) {
+            let Some(schedule) = dived(&day) else { continue };
+            let (_, profit_usd) = start::flown(&day, &schedule);
+            let difference_usd = schedule.value_usd() - profit_usd;
+            assert!(difference_usd.abs() < 1e-6, "{}: {difference_usd}", day.name);
+            found += 1;
+        }
+        assert!(found >= 40, "{found} dives found a place for each aircraft");
+    }
+
+    #[test]
+    fn on_a_day_of_paper_a_dive_earns_more_than_greedy() {
+        let day = paper_day(1);
+        let mut simulation = Simulation::new(Arc::clone(&day));
+        play(&mut simulation, &mut Greedy, |_| ()).expect("greedy always answers");
+        let greedy_usd = simulation.ledger().profit_usd();
+        let dive_usd = dived(&day).expect("room is made").value_usd();
+        assert!(dive_usd > greedy_usd, "{dive_usd} is no more than {greedy_usd}");
+    }
+}
