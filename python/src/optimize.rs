@@ -318,8 +318,8 @@ pub(crate) fn plan(
         let exact::ProvenPlan { plan, bound } =
             plan_with_proof(&day, &settings, starts, asked, stop, &mut |now, bound| {
                 bar.show(now, bound);
-            })?;
-        Ok::<_, exact::Error>(Plan {
+            });
+        Plan {
             trace: Trace { scenario: Arc::clone(&day), trace: Arc::new(plan.trace) },
             profit_usd: plan.profit_usd,
             best_policy: plan.best_policy,
@@ -327,9 +327,9 @@ pub(crate) fn plan(
             steps: plan.steps,
             // A day that is too large for a bound still gets a plan.
             bound: bound.map(|bound| Bound::of(&day, &bound)),
-        })
+        }
     })?;
-    Ok(outcome.map_err(Failure::from)?)
+    Ok(outcome)
 }
 
 /// Checks that an argument is from 0 to `most`.

@@ -36,18 +36,6 @@ pub enum Error {
         most_places: usize,
     },
 
-    /// V503. A vertiport has chargers beside its stands, which the planner does not support. Fix: play such days with a
-    /// policy, or give the vertiport stands only.
-    #[error(
-        "{day}: vertiport {vertiport:?} has chargers beside its stands; the planner takes only vertiports whose stands all charge"
-    )]
-    SeparateChargers {
-        /// The day's name.
-        day: String,
-        /// The first such vertiport.
-        vertiport: String,
-    },
-
     /// V504. A day has take-off delays that the named network never draws, so nothing is known of what they are on the mean.
     /// Fix: name the network that the day was drawn from.
     #[error("{day}: its take-off delays cannot have been drawn from the network {network:?}")]
@@ -65,7 +53,6 @@ impl Coded for Error {
             Self::Core(error) => return error.code(),
             Self::Step { .. } => 501,
             Self::TooManyFlights { .. } => 502,
-            Self::SeparateChargers { .. } => 503,
             Self::OtherNetwork { .. } => 504,
         })
     }
@@ -74,9 +61,6 @@ impl Coded for Error {
         match self {
             Self::Core(error) => error.hint(),
             Self::TooManyFlights { .. } => Some("a longer step gives fewer possible flights"),
-            Self::SeparateChargers { .. } => {
-                Some("the bound and every policy, rolling included, take such days")
-            }
             Self::OtherNetwork { .. } => Some("name the network that the day was drawn from"),
             Self::Step { .. } => None,
         }
@@ -85,10 +69,9 @@ impl Coded for Error {
     fn exit(&self) -> Exit {
         match self {
             Self::Core(error) => error.exit(),
-            Self::Step { .. }
-            | Self::TooManyFlights { .. }
-            | Self::SeparateChargers { .. }
-            | Self::OtherNetwork { .. } => Exit::Input,
+            Self::Step { .. } | Self::TooManyFlights { .. } | Self::OtherNetwork { .. } => {
+                Exit::Input
+            }
         }
     }
 }

@@ -27,7 +27,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let day = Arc::new(Network::find("paper")?.draw(DaySeed::comparison(1)?));
 //! let settings = SearchSettings { budget: Budget::Steps(100), searches: 1, seed: 1 };
-//! let found = plan(&day, &settings, Vec::new(), &mut |_| true)?;
+//! let found = plan(&day, &settings, Vec::new(), &mut |_| true);
 //! assert!(found.profit_usd >= found.best_policy_usd);
 //! # Ok(())
 //! # }
@@ -46,8 +46,7 @@ pub use bound::{
 };
 pub use error::Error;
 pub use plan::{
-    Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, can_plan, plan,
-    steps_of_equal_work,
+    Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, plan, steps_of_equal_work,
 };
 pub use proof::Proof;
 pub use proven_plan::{ProvenPlan, plan_with_proof};

@@ -5,6 +5,7 @@
 //! the others keep their flights (`plan/itinerary_search.rs`). The plan that is returned has been played in the
 //! simulator.
 
+mod chargers;
 mod day;
 mod dive;
 mod foresight;
@@ -25,7 +26,6 @@ use std::time::{Duration, Instant};
 use vertifleet_core::Scenario;
 use vertifleet_sim::{Simulation, Trace};
 
-use crate::Error;
 use crate::proof::POLL_INTERVAL;
 use dive::Dive;
 use problem::Problem;
@@ -91,19 +91,6 @@ pub struct Plan {
     pub steps: u64,
 }
 
-/// Checks that a day can be planned.
-///
-/// # Errors
-/// [`Error::SeparateChargers`] if a vertiport has chargers beside its stands, because the planner does not model holds
-/// there.
-pub fn can_plan(scenario: &Scenario) -> Result<(), Error> {
-    let separate = scenario.vertiports.iter().find(|vertiport| vertiport.chargers.is_some());
-    separate.map_or(Ok(()), |vertiport| {
-        let (day, vertiport) = (scenario.name.clone(), vertiport.id.clone());
-        Err(Error::SeparateChargers { day, vertiport })
-    })
-}
-
 /// The number of search steps on this day that take about as much work as `paper_steps` on a day of `paper`; at least
 /// one. A step looks at every flight from every vertiport in every minute.
 pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
@@ -122,16 +109,12 @@ fn looks_a_step(scenario: &Scenario) -> u64 {
 /// continue; if not, the plan is the best found by then.
 ///
 /// A limit of time is kept to within a second or a tenth of the limit, whatever the size of the day.
-///
-/// # Errors
-/// The errors of [`can_plan`].
 pub fn plan(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,
     more: Vec<StartingPolicy>,
     watch: &mut dyn FnMut(&SearchProgress) -> bool,
-) -> Result<Plan, Error> {
-    can_plan(scenario)?;
+) -> Plan {
     let clock = Clock { budget: settings.budget, begun: Instant::now() };
     let problem = Arc::new(Problem::of(scenario));
     // Where no passenger pays for a seat, no flight earns anything.
@@ -162,7 +145,7 @@ pub fn plan(
         let searches = Searches::begin(scenario, settings, &problem, &first, dive);
         searches.improve(&clock, &mut plan, watch);
     }
-    Ok(plan)
+    plan
 }
 
 /// A budget that is being used up.

@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use vertifleet_core::{Scenario, Stop};
 
+use crate::Bound;
 use crate::plan::{Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, plan};
 use crate::proof::{POLL_INTERVAL, Proof};
-use crate::{Bound, Error};
 
 /// A plan, and the best bound that was proven meanwhile; `None` if there was no time for one, or the day is too large
 /// for any.
@@ -25,9 +25,6 @@ pub struct ProvenPlan {
 ///
 /// `watch` is called many times a second with the progress of the plan and the best bound so far. Soon after `stop` is
 /// requested, the best plan and bound by then are returned.
-///
-/// # Errors
-/// The errors of [`plan()`].
 pub fn plan_with_proof(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,
@@ -35,7 +32,7 @@ pub fn plan_with_proof(
     gap: Option<f64>,
     stop: &Stop,
     watch: &mut dyn FnMut(&SearchProgress, Option<&Bound>),
-) -> Result<ProvenPlan, Error> {
+) -> ProvenPlan {
     let begun = Instant::now();
     let proof = Proof::begin(scenario);
     let plan = plan(scenario, settings, starts, &mut |progress| {
@@ -47,7 +44,7 @@ pub fn plan_with_proof(
             bound.is_reached_by(profit_usd) || gap.is_some_and(|gap| bound.gap(profit_usd) <= gap)
         });
         !is_good_enough && !stop.is_requested()
-    })?;
+    });
     let bound = match settings.budget {
         Budget::Time(limit) => proof.best_in_time(begun, limit),
         Budget::Steps(_) => {
@@ -55,5 +52,5 @@ pub fn plan_with_proof(
             proof.outcome()
         }
     };
-    Ok(ProvenPlan { plan, bound })
+    ProvenPlan { plan, bound }
 }

@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let ProvenPlan { plan, bound } =
         plan_with_proof(&scenario, &settings, starts, arguments.gap, &stop, &mut |now, bound| {
             bar.show(now, bound);
-        })?;
+        });
     drop(bar);
     let (bound, seconds) = (bound.as_ref(), begun.elapsed().as_secs_f64());
     plan.trace.write(&scenario, &arguments.output)?;

@@ -136,15 +136,12 @@ fn a_day_is_planned_between_the_best_policy_and_the_bound() {
 }
 
 #[test]
-fn a_day_with_chargers_beside_the_stands_is_not_planned() {
+fn a_day_with_chargers_beside_the_stands_is_planned() {
     let folder = folder();
     let at = folder.path();
     stdout(at, "scenario as-coded --seed 1 -o day.json");
-    assert!(failure(at, "plan day.json -o plan.csv", 2).contains("error[V503]"));
-    let compared = "compare --network as-coded --policies greedy,plan --days 2 --seed 1";
-    let compared = failure(at, compared, 2);
-    assert!(compared.contains("error[V503]"));
-    assert!(!at.join("plan.csv").exists());
+    stdout(at, "plan day.json --time-limit 3 -o plan.csv");
+    stdout(at, "check day.json plan.csv");
 }
 
 #[test]

@@ -231,7 +231,6 @@ const COMPARE: &[Misuse] = &[
     ("evaluate --verify small.toml --policies greedy", 2, "--policies"),
     ("evaluate --policies greedy --results notes.txt", 1, "V102"),
     ("evaluate --policies greedy --about code=x", 2, "--results"),
-    ("compare --network as-coded --policies plan --days 1 --seed 1", 2, "V503"),
     (
         "compare --network small.toml --policies greedy --days 1 --seed 1 --model greedy=w.st",
         2,

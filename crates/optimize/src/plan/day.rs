@@ -1,6 +1,6 @@
 //! The duration, energy and profit of every flight of a day, in the form that the search reads fastest.
 
-use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
+use vertifleet_core::{AircraftIx, Scenario, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 use super::foresight::Foresight;
@@ -22,8 +22,10 @@ pub(super) struct Day {
     pub(super) energy_price_usd: Vec<f64>,
     /// Cost of the fleet, whether or not it flies, dollars.
     pub(super) fixed_cost_usd: f64,
-    /// U_max of each vertiport.
+    /// U_max of each vertiport: the number of its stands, or of its chargers where it has them beside its stands.
     pub(super) stands: Vec<u16>,
+    /// Number of stands of each vertiport with chargers beside them.
+    beside_chargers: Vec<Option<u16>>,
     /// The type of each aircraft.
     kind_of: Vec<TypeIx>,
     seats: Vec<u16>,
@@ -35,8 +37,9 @@ pub(super) struct Day {
 }
 
 impl Day {
-    /// Takes the numbers from a view, with what is known of the day beyond it.
-    pub(super) fn of(view: View<'_>, foresight: Option<Foresight>) -> Self {
+    /// Takes the numbers of a scenario from a view of its start, with what is known of the day beyond it.
+    pub(super) fn of(scenario: &Scenario, view: View<'_>) -> Self {
+        let foresight = Foresight::of(scenario);
         let vertiports = view.vertiports();
         let types = view.aircraft_types();
         let mut hops = Vec::with_capacity(types.len() * vertiports);
@@ -66,6 +69,11 @@ impl Day {
             energy_price_usd: view.energy_prices_usd().to_vec(),
             fixed_cost_usd: view.fixed_cost_usd(),
             stands: VertiportIx::all(vertiports).map(|vertiport| view.stands(vertiport)).collect(),
+            beside_chargers: scenario
+                .vertiports
+                .iter()
+                .map(|one| one.chargers.map(|_| one.stands))
+                .collect(),
             kind_of: fleet.map(|aircraft| view.kind(aircraft)).collect(),
             seats: types.iter().map(|kind| kind.seats).collect(),
             hops,
@@ -95,6 +103,12 @@ impl Day {
     #[inline]
     pub(super) fn seats(&self, aircraft: AircraftIx) -> i64 {
         i64::from(self.seats_of(self.kind(aircraft)))
+    }
+
+    /// Number of stands of a vertiport that also has chargers; `None` where stands are the only places.
+    #[inline]
+    pub(super) fn stands_beside_chargers(&self, vertiport: VertiportIx) -> Option<u16> {
+        self.beside_chargers[vertiport.at()]
     }
 
     /// The flights that aircraft of a type can make from a vertiport.

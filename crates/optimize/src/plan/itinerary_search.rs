@@ -72,6 +72,8 @@ pub(super) struct ItinerarySearch {
     /// The windows in which each vertiport has a stand for one more aircraft, vertiport by vertiport. Each list ends
     /// with a window that never opens.
     windows: Vec<Window>,
+    /// Whether the aircraft is on a stand beside chargers at each label. Empty on a day without such stands.
+    has_stand: Vec<bool>,
     /// Position in `windows` of the first window of each vertiport that has not closed yet.
     current: Vec<usize>,
     best: Option<Finish>,
@@ -116,6 +118,16 @@ struct Choice {
     minute: usize,
 }
 
+/// A place that a choice leads to.
+#[derive(Clone, Copy)]
+struct Place {
+    at: VertiportIx,
+    /// When the aircraft can be there.
+    window: Window,
+    /// Whether it is on a stand beside chargers.
+    has_stand: bool,
+}
+
 impl ItinerarySearch {
     /// Writes the flights that complete the itinerary of `aircraft` best to `flights`. Returns `false` if the itinerary
     /// cannot be completed, because others have taken every stand that the aircraft could stay at.
@@ -142,7 +154,8 @@ impl ItinerarySearch {
             bias,
         };
         self.prepare(&task);
-        self.enter(&task, place, Label { value_usd: 0.0, ready_s, before: NONE });
+        let has_stand = schedule.flights(aircraft).is_empty();
+        self.enter(&task, place, Label { value_usd: 0.0, ready_s, before: NONE }, has_stand);
         self.settle(&task);
         let Some(finish) = self.best else { return false };
         self.read_back(day.vertiports, &finish, flights);
@@ -162,14 +175,20 @@ impl ItinerarySearch {
         let slots = (day.end_s - task.origin_s) / SLOT_S + 1;
         self.labels.clear();
         self.labels.resize(slots as usize * day.vertiports, UNREACHED);
+        let beside = task.schedule.beside_chargers.is_some();
+        self.has_stand.clear();
+        self.has_stand.resize(if beside { self.labels.len() } else { 0 }, false);
     }
 
     #[inline]
-    fn enter(&mut self, task: &Task<'_>, place: VertiportIx, label: Label) {
+    fn enter(&mut self, task: &Task<'_>, place: VertiportIx, label: Label, has_stand: bool) {
         let slot = ((label.ready_s - task.origin_s) / SLOT_S) as usize;
-        let known = &mut self.labels[slot * task.problem.day.vertiports + place.at()];
-        if label.value_usd > known.value_usd {
-            *known = label;
+        let at = slot * task.problem.day.vertiports + place.at();
+        if label.value_usd > self.labels[at].value_usd {
+            self.labels[at] = label;
+            if let Some(of_label) = self.has_stand.get_mut(at) {
+                *of_label = has_stand;
+            }
         }
     }
 
@@ -217,10 +236,23 @@ impl ItinerarySearch {
 
     #[inline]
     fn hold(&mut self, task: &Task<'_>, choice: &Choice) {
-        // The aircraft has its stand at least until it decides.
-        let Some(window) = self.window(choice.place, choice.moment) else { return };
+        let has_stand = self.has_stand_beside_chargers(task, choice);
+        // Otherwise the aircraft has its place at least until it decides.
+        let window =
+            if has_stand { Some(Window::ALWAYS) } else { self.window(choice.place, choice.moment) };
+        let Some(window) = window else { return };
         let ready_s = choice.time_s + task.problem.day.hold_s;
-        self.reach(task, choice, choice.place, window, ready_s, 0.0);
+        let place = Place { at: choice.place, window, has_stand };
+        self.reach(task, choice, place, ready_s, 0.0);
+    }
+
+    /// Whether the aircraft can hold on a stand beside chargers, where it is already or one is free.
+    #[inline]
+    fn has_stand_beside_chargers(&self, task: &Task<'_>, choice: &Choice) -> bool {
+        let Some(beside) = &task.schedule.beside_chargers else { return false };
+        task.problem.day.stands_beside_chargers(choice.place).is_some()
+            && (self.has_stand[choice.label as usize]
+                || beside.stands.has_room(choice.place, choice.moment))
     }
 
     #[inline]
@@ -238,7 +270,8 @@ impl ItinerarySearch {
         let above_usd = task.prices.above_price_usd(day, task.kind, departure, margin_usd);
         let profit_usd =
             margin_usd - cost_usd + task.noise_usd(cell) - task.bias.flight_share * above_usd;
-        self.reach(task, choice, hop.to, window, landing.ready_s, profit_usd);
+        let place = Place { at: hop.to, window, has_stand: false };
+        self.reach(task, choice, place, landing.ready_s, profit_usd);
     }
 
     /// The window of a vertiport that contains a moment, which must not be before the slot that is being settled.
@@ -252,28 +285,28 @@ impl ItinerarySearch {
         (window.opens <= moment).then_some(window)
     }
 
-    /// Enters that the aircraft can be ready at `place` at `ready_s`, if there is a stand for it until then.
+    /// Enters that the aircraft can be ready at a place at `ready_s`, if it can stay there until then.
     #[inline]
     fn reach(
         &mut self,
         task: &Task<'_>,
         choice: &Choice,
-        place: VertiportIx,
-        window: Window,
+        Place { at, window, has_stand }: Place,
         ready_s: u32,
         profit_usd: f64,
     ) {
         let (day, prices) = (&task.problem.day, task.prices);
-        let rent_usd = prices.rent_usd(place, choice.minute, prices.minute(ready_s));
+        let rent_usd = prices.rent_usd(at, choice.minute, prices.minute(ready_s));
         let value_usd = choice.value_usd + profit_usd - task.bias.rent_share * rent_usd;
         if ready_s <= day.end_s {
             if Moment::of(ready_s, task.aircraft) < window.closes {
-                self.enter(task, place, Label { value_usd, ready_s, before: choice.label });
+                let label = Label { value_usd, ready_s, before: choice.label };
+                self.enter(task, at, label, has_stand);
             }
         } else if window.closes == Moment::NEVER
             && self.best.is_none_or(|best| value_usd > best.value_usd)
         {
-            let last_to = (place != choice.place).then_some(place);
+            let last_to = (at != choice.place).then_some(at);
             self.best = Some(Finish { value_usd, label: choice.label, last_to });
         }
     }

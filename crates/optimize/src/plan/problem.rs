@@ -6,7 +6,6 @@ use vertifleet_core::{Matrix, Scenario, VertiportIx};
 use vertifleet_sim::Simulation;
 
 use super::day::Day;
-use super::foresight::Foresight;
 
 /// A planning problem, ready to be searched.
 pub(super) struct Problem {
@@ -24,7 +23,7 @@ impl Problem {
     pub(super) fn of(scenario: &Arc<Scenario>) -> Self {
         let simulation = Simulation::new(Arc::clone(scenario));
         let view = simulation.view();
-        let day = Day::of(view, Foresight::of(scenario));
+        let day = Day::of(scenario, view);
         let demand: Vec<u32> = scenario.demand.iter().flat_map(Matrix::cells).copied().collect();
         let seats = day.fleet().map(|aircraft| day.seats(aircraft)).max().unwrap_or(1);
         let margins_usd = (0..demand.len()).map(|cell| day.margin_usd(cell)).sum::<f64>();

@@ -2,6 +2,7 @@
 
 use vertifleet_core::{AircraftIx, VertiportIx};
 
+use super::chargers::{BesideChargers, Stay};
 use super::day::Day;
 use super::passengers::{Departure, Passengers};
 use super::problem::Problem;
@@ -30,6 +31,8 @@ pub(super) struct Itinerary {
 pub(super) struct Schedule {
     itineraries: Vec<Itinerary>,
     pub(super) stands: StandTimes,
+    /// The stands of vertiports with chargers. For these, `stands` has the chargers.
+    pub(super) beside_chargers: Option<BesideChargers>,
     pub(super) passengers: Passengers,
     value_usd: f64,
 }
@@ -50,8 +53,15 @@ impl Schedule {
                 whole: false,
             });
         }
-        let passengers = Passengers::of(day, demand);
-        Self { itineraries, stands, passengers, value_usd: 0.0 - day.fixed_cost_usd }
+        let mut schedule = Self {
+            itineraries,
+            stands,
+            beside_chargers: BesideChargers::of(day),
+            passengers: Passengers::of(day, demand),
+            value_usd: 0.0 - day.fixed_cost_usd,
+        };
+        schedule.count_chargers(day);
+        schedule
     }
 
     /// Profit of the schedule, dollars.
@@ -107,6 +117,7 @@ impl Schedule {
             self.stands.free(place, Moment::of(ready_s, aircraft));
             self.itineraries[aircraft.at()].whole = false;
         }
+        self.count_chargers(day);
     }
 
     /// Appends flights to an itinerary that is not whole, which makes it whole.
@@ -127,6 +138,42 @@ impl Schedule {
         let itinerary = &mut self.itineraries[aircraft.at()];
         itinerary.flights.extend_from_slice(flights);
         itinerary.whole = true;
+        self.count_chargers(day);
+    }
+
+    /// Whether a vertiport has more aircraft than chargers at some moment.
+    pub(super) fn is_overfull(&self) -> bool {
+        self.beside_chargers.as_ref().is_some_and(|beside| beside.is_overfull)
+    }
+
+    /// Counts the places of vertiports with chargers anew.
+    fn count_chargers(&mut self, day: &Day) {
+        let Some(mut beside) = self.beside_chargers.take() else { return };
+        let stays: Vec<Stay> = day.fleet().flat_map(|aircraft| self.stays(day, aircraft)).collect();
+        beside.count(day, &stays, &mut self.stands);
+        self.beside_chargers = Some(beside);
+    }
+
+    /// The stays of an aircraft. If its itinerary is not whole, it leaves the last one when it is ready.
+    fn stays(&self, day: &Day, aircraft: AircraftIx) -> Vec<Stay> {
+        let Itinerary { place, ready_s, flights, whole } = &self.itineraries[aircraft.at()];
+        let (comes, leaves) = (Moment::FIRST, Moment::NEVER);
+        let first = Stay { aircraft, at: *place, comes, ready_s: *ready_s, leaves };
+        let mut stays = vec![first];
+        for flight in flights {
+            let moment = Moment::of(flight.take_off_s, aircraft);
+            let hop = day.hop(day.kind(aircraft), flight.from, flight.to);
+            let landing = day.landing(aircraft, flight.from, hop, flight.take_off_s);
+            if let Some(last) = stays.last_mut() {
+                last.leaves = moment;
+            }
+            let (at, ready_s) = (flight.to, landing.ready_s);
+            stays.push(Stay { aircraft, at, comes: moment, ready_s, leaves });
+        }
+        if let Some(last) = stays.last_mut().filter(|_| !whole) {
+            last.leaves = Moment::of(last.ready_s, aircraft);
+        }
+        stays
     }
 
     /// Adds a flight to the account (`sign` 1) or removes it (-1). Returns by how much the profit grows, dollars.

@@ -161,6 +161,9 @@ impl Search {
                 return false;
             }
             self.current.complete(problem, aircraft, &self.way_on);
+            if self.current.is_overfull() {
+                return false;
+            }
         }
         true
     }
@@ -217,6 +220,9 @@ mod tests {
             day.operations.passenger_wait_s = passenger_wait_s;
             account_is_the_simulators(&Arc::new(day.clone().check("a day").expect("a day")));
         }
+        let with_chargers = Network::shipped("as-coded").expect("a shipped network");
+        let seed = DaySeed::validation(9).expect("a seed");
+        account_is_the_simulators(&Arc::new(with_chargers.draw(seed)));
     }
 
     fn account_is_the_simulators(day: &Arc<Scenario>) {
@@ -228,6 +234,7 @@ mod tests {
             // The temperature alternates between hot and cold, so that steps are kept as well as undone.
             search.step(&problem, &prices, f64::from(step % 5) * 20.0 + 0.1);
             assert!(search.current.stands.suffice(), "step {step}");
+            assert!(!search.current.is_overfull(), "step {step}");
         }
         for schedule in [&search.current, &search.best] {
             let (_, profit_usd) = start::flown(day, schedule);

@@ -31,11 +31,12 @@ pub(super) struct Window {
     pub(super) closes: Moment,
 }
 
+/// A change of the number of stands that are taken.
 #[derive(Debug, Clone, Copy)]
-struct Change {
-    moment: Moment,
+pub(super) struct Change {
+    pub(super) moment: Moment,
     /// 1 for a stand that is taken, -1 for one that is freed.
-    by: i32,
+    pub(super) by: i32,
 }
 
 /// The stands of every vertiport over the day.
@@ -45,6 +46,13 @@ pub(super) struct StandTimes {
     taken_at_first: Vec<i32>,
     /// The changes of each vertiport, in order.
     changes: Vec<Vec<Change>>,
+    /// The vertiports whose changes are only [replaced](Self::replace), all at once.
+    replaced: Vec<bool>,
+}
+
+impl Window {
+    /// The whole day.
+    pub(super) const ALWAYS: Self = Self { opens: Moment::FIRST, closes: Moment::NEVER };
 }
 
 impl StandTimes {
@@ -54,7 +62,20 @@ impl StandTimes {
             limit: limit.iter().map(|&stands| i32::from(stands)).collect(),
             taken_at_first: vec![0; limit.len()],
             changes: vec![Vec::new(); limit.len()],
+            replaced: vec![false; limit.len()],
         }
+    }
+
+    /// U_max of a vertiport.
+    pub(super) fn limit(&self, vertiport: VertiportIx) -> i32 {
+        self.limit[vertiport.at()]
+    }
+
+    /// Replaces all changes of a vertiport. From then on, what is entered for it one by one is ignored.
+    pub(super) fn replace(&mut self, vertiport: VertiportIx, at_first: i32, changes: Vec<Change>) {
+        self.replaced[vertiport.at()] = true;
+        self.taken_at_first[vertiport.at()] = at_first;
+        self.changes[vertiport.at()] = changes;
     }
 
     /// Records that an aircraft is at `vertiport`, or on its way there, before the first event.
@@ -73,6 +94,9 @@ impl StandTimes {
     }
 
     fn enter(&mut self, vertiport: VertiportIx, change: Change) {
+        if self.replaced[vertiport.at()] {
+            return;
+        }
         let changes = &mut self.changes[vertiport.at()];
         let at = changes.partition_point(|other| other.moment < change.moment);
         changes.insert(at, change);
@@ -80,10 +104,22 @@ impl StandTimes {
 
     /// Removes the change that was entered for this moment. No two changes of a vertiport share a moment.
     pub(super) fn take_back(&mut self, vertiport: VertiportIx, moment: Moment) {
+        if self.replaced[vertiport.at()] {
+            return;
+        }
         let changes = &mut self.changes[vertiport.at()];
         let at = changes.partition_point(|other| other.moment < moment);
         debug_assert!(changes[at].moment == moment, "only what was entered is taken back");
         changes.remove(at);
+    }
+
+    /// Whether one more aircraft has a stand at a moment.
+    pub(super) fn has_room(&self, vertiport: VertiportIx, moment: Moment) -> bool {
+        let before =
+            self.changes[vertiport.at()].iter().take_while(|change| change.moment < moment);
+        let taken =
+            self.taken_at_first[vertiport.at()] + before.map(|change| change.by).sum::<i32>();
+        taken < self.limit[vertiport.at()]
     }
 
     /// Appends the windows of a vertiport in order. No window touches the next.

@@ -15,7 +15,7 @@ use vertifleet_testkit::{Size, any_day, any_extended_day, paper_day};
 
 fn planned(day: &Arc<Scenario>, steps: u64) -> Plan {
     let settings = SearchSettings { budget: Budget::Steps(steps), searches: 2, seed: 5 };
-    plan(day, &settings, Vec::new(), &mut |_| true).expect("a day without chargers beside stands")
+    plan(day, &settings, Vec::new(), &mut |_| true)
 }
 
 #[test]
@@ -54,20 +54,12 @@ fn a_plan_keeps_every_rule_and_earns_no_less_than_any_simple_one() {
 }
 
 #[test]
-fn a_disturbed_day_is_planned_as_known_and_one_with_chargers_beside_stands_not_at_all() {
+fn a_disturbed_day_is_planned_as_known() {
     let small = Size { vertiports: 6, fleet: 9, hours: 6 };
     let mut better = 0;
     for number in 500..560 {
         let day = any_extended_day(number, small);
-        let settings = SearchSettings { budget: Budget::Steps(60), searches: 2, seed: 5 };
-        let plan = match plan(&day, &settings, Vec::new(), &mut |_| true) {
-            Ok(plan) => plan,
-            Err(error) => {
-                let chargers = day.vertiports.iter().any(|vertiport| vertiport.chargers.is_some());
-                assert!(chargers, "day {number}: {error}");
-                continue;
-            }
-        };
+        let plan = planned(&day, 60);
         let report = check(&day, &plan.trace);
         assert!(report.is_valid(), "day {number}: {report}");
         assert!((report.totals.profit_usd - plan.profit_usd).abs() < 1e-6, "day {number}");
@@ -81,7 +73,7 @@ fn a_disturbed_day_is_planned_as_known_and_one_with_chargers_beside_stands_not_a
 fn a_tiny_disturbed_day_is_planned_as_well_as_any_sequence_of_decisions_allows() {
     let tiny = Size { vertiports: 3, fleet: 3, hours: 2 };
     let mut compared = 0;
-    for number in (600..700_u64).filter(|number| !number.is_multiple_of(4)) {
+    for number in 600..700_u64 {
         let day = any_extended_day(number, tiny);
         let best = best_of_all(&mut Simulation::new(Arc::clone(&day)), &mut 3_000);
         let Some(best) = best.filter(|&best| best > 0.0) else { continue };
@@ -122,8 +114,7 @@ fn of_thousands_of_tiny_days_a_handful_are_planned_below_their_optimum() {
     let missed_usd = |day: &Arc<Scenario>| {
         let best = best_of_all(&mut Simulation::new(Arc::clone(day)), &mut 200_000)?;
         let settings = SearchSettings { budget: Budget::Steps(2_000), searches: 2, seed: 5 };
-        let plan = plan(day, &settings, Vec::new(), &mut |_| true).ok()?;
-        Some(best - plan.profit_usd)
+        Some(best - plan(day, &settings, Vec::new(), &mut |_| true).profit_usd)
     };
     let missed_usd: Vec<f64> = days.par_iter().filter_map(missed_usd).collect();
     let missed = missed_usd.iter().filter(|&&missed_usd| missed_usd > 1e-6).count();
@@ -159,7 +150,7 @@ fn the_same_settings_give_the_same_plan_on_any_number_of_threads() {
     let one = on(1);
     assert_eq!(one, on(2));
     let other_seed = SearchSettings { budget: Budget::Steps(300), searches: 2, seed: 6 };
-    let other = plan(&day, &other_seed, Vec::new(), &mut |_| true).expect("a day of paper");
+    let other = plan(&day, &other_seed, Vec::new(), &mut |_| true);
     assert_ne!(one, other, "chance follows the seed");
 }
 
@@ -186,11 +177,10 @@ fn a_plan_can_be_stopped_at_any_time_and_is_whole_then() {
         looks += 1;
         assert!((0.0..=1.0).contains(&progress.share));
         looks < 4
-    })
-    .expect("a day of paper");
+    });
     assert!(check(&day, &stopped.trace).is_valid());
     let at_once = SearchSettings { budget: Budget::Time(Duration::ZERO), ..settings };
-    let policy = plan(&day, &at_once, Vec::new(), &mut |_| true).expect("a day of paper");
+    let policy = plan(&day, &at_once, Vec::new(), &mut |_| true);
     assert_eq!((policy.steps, policy.profit_usd), (0, policy.best_policy_usd));
 }
 
@@ -210,8 +200,7 @@ fn without_time_the_plan_is_greedys_day() {
     let plan =
         plan(&day, &settings, vec![StartingPolicy::new("late", Box::new(NotInTime))], &mut |_| {
             true
-        })
-        .expect("a day");
+        });
     let mut simulation = Simulation::new(Arc::clone(&day));
     play(&mut simulation, &mut Greedy, |_| ()).expect("greedy always answers");
     assert_eq!((plan.profit_usd, plan.steps), (simulation.ledger().profit_usd(), 0));
@@ -225,7 +214,7 @@ fn a_plan_is_never_below_a_policy_that_it_is_given() {
     let settings = SearchSettings { budget: Budget::Steps(0), searches: 1, seed: 1 };
     let replay = Replay::new(Arc::new(better.trace.clone()));
     let replay = StartingPolicy::new("replay", Box::new(replay));
-    let given = plan(&day, &settings, vec![replay], &mut |_| true).expect("a day");
+    let given = plan(&day, &settings, vec![replay], &mut |_| true);
     assert_eq!((given.best_policy.as_str(), given.profit_usd), ("replay", better.profit_usd));
     assert!(given.profit_usd > planned(&day, 0).profit_usd, "it is better than any rule's day");
 }

@@ -1,0 +1,135 @@
+//! Vertiports with chargers beside their stands: when their places are taken.
+//!
+//! A flight needs a charger, from its take-off until the aircraft leaves. An aircraft that holds moves to a stand if one is
+//! free, and keeps its charger if not. Which aircraft finds a stand free depends on all others, so the places of such
+//! vertiports are counted again after every change of a schedule. An aircraft that takes a stand may keep another on its
+//! charger, so there may then be more aircraft than chargers, and the change has to be undone.
+
+use vertifleet_core::{AircraftIx, VertiportIx};
+
+use super::day::Day;
+use super::stand_times::{Change, Moment, StandTimes};
+
+/// What an aircraft does at a vertiport, from its take-off towards it until it leaves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stay {
+    pub(super) aircraft: AircraftIx,
+    pub(super) at: VertiportIx,
+    /// [`Moment::FIRST`] for an aircraft that starts here, which is on a stand.
+    pub(super) comes: Moment,
+    /// The second of its first decision here.
+    pub(super) ready_s: u32,
+    pub(super) leaves: Moment,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Event {
+    Comes,
+    Holds,
+    Leaves,
+}
+
+/// The stands beside the chargers of all vertiports.
+#[derive(Debug, Clone)]
+pub(super) struct BesideChargers {
+    /// The times at which these stands are taken. A vertiport without chargers has none.
+    pub(super) stands: StandTimes,
+    /// Whether there is a vertiport with more aircraft than chargers.
+    pub(super) is_overfull: bool,
+}
+
+impl BesideChargers {
+    /// The stands of a day without flights; `None` if no vertiport has chargers beside its stands.
+    pub(super) fn of(day: &Day) -> Option<Self> {
+        let all = VertiportIx::all(day.vertiports);
+        let any = all.into_iter().any(|vertiport| day.stands_beside_chargers(vertiport).is_some());
+        let limits: Vec<u16> = VertiportIx::all(day.vertiports)
+            .map(|vertiport| day.stands_beside_chargers(vertiport).unwrap_or(0))
+            .collect();
+        any.then(|| Self { stands: StandTimes::empty(&limits), is_overfull: false })
+    }
+
+    /// Counts the places of all vertiports with chargers: their stands here, and their chargers in `chargers`. The stays may
+    /// be in any order.
+    pub(super) fn count(&mut self, day: &Day, stays: &[Stay], chargers: &mut StandTimes) {
+        self.is_overfull = false;
+        for vertiport in VertiportIx::all(day.vertiports) {
+            if let Some(stands) = day.stands_beside_chargers(vertiport) {
+                let here: Vec<Stay> =
+                    stays.iter().filter(|stay| stay.at == vertiport).copied().collect();
+                let limits = (chargers.limit(vertiport), i32::from(stands));
+                let counted = Counted::of(day, &here, limits);
+                self.is_overfull |= counted.is_overfull;
+                chargers.replace(vertiport, 0, counted.chargers);
+                self.stands.replace(vertiport, counted.stands_at_first, counted.stands);
+            }
+        }
+    }
+}
+
+/// The changes of the places of one vertiport.
+#[derive(Default)]
+struct Counted {
+    chargers: Vec<Change>,
+    stands: Vec<Change>,
+    stands_at_first: i32,
+    is_overfull: bool,
+}
+
+impl Counted {
+    fn of(day: &Day, stays: &[Stay], (chargers, stands): (i32, i32)) -> Self {
+        let mut counted = Self::default();
+        let mut has_stand: Vec<bool> =
+            stays.iter().map(|stay| stay.comes == Moment::FIRST).collect();
+        let (mut on_chargers, mut on_stands) = (0, 0);
+        for &has_stand in &has_stand {
+            on_stands += i32::from(has_stand);
+        }
+        counted.stands_at_first = on_stands;
+        for (moment, stay, event) in events(day, stays) {
+            match event {
+                Event::Comes => {
+                    counted.is_overfull |= on_chargers >= chargers;
+                    on_chargers += 1;
+                    counted.chargers.push(Change { moment, by: 1 });
+                }
+                Event::Holds if has_stand[stay] || on_stands >= stands => {}
+                Event::Holds => {
+                    has_stand[stay] = true;
+                    on_chargers -= 1;
+                    on_stands += 1;
+                    counted.chargers.push(Change { moment, by: -1 });
+                    counted.stands.push(Change { moment, by: 1 });
+                }
+                Event::Leaves if has_stand[stay] => {
+                    on_stands -= 1;
+                    counted.stands.push(Change { moment, by: -1 });
+                }
+                Event::Leaves => {
+                    on_chargers -= 1;
+                    counted.chargers.push(Change { moment, by: -1 });
+                }
+            }
+        }
+        counted
+    }
+}
+
+/// What happens at a vertiport in the course of the day, with the number of the stay.
+fn events(day: &Day, stays: &[Stay]) -> Vec<(Moment, usize, Event)> {
+    let mut events = Vec::new();
+    for (number, stay) in stays.iter().enumerate() {
+        if stay.comes > Moment::FIRST {
+            events.push((stay.comes, number, Event::Comes));
+        }
+        let decisions_s = (stay.ready_s..=day.end_s).step_by(day.hold_s as usize);
+        let holds = decisions_s.map(|time_s| Moment::of(time_s, stay.aircraft));
+        let holds = holds.take_while(|&moment| moment < stay.leaves);
+        events.extend(holds.map(|moment| (moment, number, Event::Holds)));
+        if stay.leaves < Moment::NEVER {
+            events.push((stay.leaves, number, Event::Leaves));
+        }
+    }
+    events.sort_unstable();
+    events
+}
