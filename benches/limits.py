@@ -4,7 +4,7 @@ From the root of the project, after `cargo build --release -p vertifleet-cli`, o
 
     python3 benches/limits.py > limits.md
 
-The networks are those of benches/suite.py but `as-coded`, whose two pools of stands the planner refuses. Seconds are of the whole command, start and proof included. A limit is kept if no more
+The networks are those of benches/suite.py. Seconds are of the whole command, start and proof included. A limit is kept if no more
 than 10 % or 1 s goes by after it. With limits of 0 and 2 seconds not every policy's day can be played in time, so only at 10 seconds the
 plan is held against the policies; with 60 and 120 vertiports a day of `rolling` takes minutes, and is left out. The program ends with 1 if a limit is not kept, or a plan earns less than a policy.
 """
@@ -67,7 +67,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for network, _ in cases(folder, 1):
-            if arguments.only in network and network != "as-coded":
+            if arguments.only in network:
                 found, kept = rows(network, arguments.seed, folder)
                 all_kept &= kept
                 print("\n".join(found), flush=True)

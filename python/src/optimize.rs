@@ -198,8 +198,7 @@ impl Plan {
         self.profit_usd
     }
 
-    /// Name of the best of the policies that finished the day in time. The search began with the schedule of that
-    /// policy.
+    /// Name of the best of the policies that finished the day in time.
     #[getter]
     fn best_policy(&self) -> &str {
         &self.best_policy

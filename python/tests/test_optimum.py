@@ -26,7 +26,7 @@ LAST = HOURS * TICKS_AN_HOUR
 def grid_day(seed: int) -> dict[str, Any]:
     """A day of a few vertiports, which are 10, 15 or 20 miles apart.
 
-    At 60 mph, a flight takes 2, 3 or 4 ticks in the air and as many on the charger, beside a tick for
+    At 60 mph, a flight takes 2, 3 or 4 ticks in the air and as many on the charger, plus one tick for
     take-off and landing.
     """
     random = np.random.default_rng(seed)
@@ -81,7 +81,7 @@ def best_profit_usd(day: dict[str, Any], *, frees_first: bool) -> tuple[float, f
     """The most that a day can earn, as the profit of a schedule and as an upper bound that is hardly higher.
 
     Where aircraft leave a vertiport in the tick in which others fly to it, `frees_first` says whether all of
-    their stands are free before, or none of them. The truth is between: the number of an aircraft decides.
+    their stands are free before, or none of them. The optimum lies between, because aircraft decide in file order.
     """
     miles, fares = np.array(day["distance_mi"]), np.array(day["fare"])
     margins, demand = fares - np.array(day["passenger_cost"]), np.array(day["demand"])

@@ -343,8 +343,7 @@ class Plan:
         """Profit of the day, as the simulator accounts for it, dollars."""
     @property
     def best_policy(self) -> str:
-        """Name of the best of the policies that finished the day in time. The search began with the
-        schedule of that policy.
+        """Name of the best of the policies that finished the day in time.
         """
     @property
     def best_policy_usd(self) -> float:

@@ -1,9 +1,9 @@
 //! The planner, which searches for the best schedule of a day that is known.
 //!
 //! [`plan`] starts from the best day of any policy (`plan/start.rs`) and from a schedule that is made of the prices of a
-//! bound (`plan/dive.rs`), and improves them by large-neighbourhood search (`plan/searches.rs`). The moves of the search are exact: each finds the best rest of the day for one aircraft while
-//! the others keep their flights (`plan/itinerary_search.rs`). The plan that is returned has been played in the
-//! simulator.
+//! bound (`plan/dive.rs`), and improves them by large-neighbourhood search (`plan/searches.rs`). The moves of the search are
+//! exact: each finds the best rest of the day for one aircraft while the others keep their flights
+//! (`plan/itinerary_search.rs`). The plan that is returned has been played in the simulator.
 
 mod chargers;
 mod day;
@@ -26,7 +26,6 @@ use std::time::{Duration, Instant};
 use vertifleet_core::Scenario;
 use vertifleet_sim::{Simulation, Trace};
 
-use crate::proof::POLL_INTERVAL;
 use dive::Dive;
 use problem::Problem;
 use searches::Searches;
@@ -35,10 +34,11 @@ pub use start::StartingPolicy;
 
 /// Share of the remaining time for which a policy plays its day before it is judged whether it will finish in time.
 const JUDGED_FROM: f64 = 0.25;
-/// A dive is begun if it seems to take this share of the budget, or less.
-const DIVING: f64 = 0.5;
-/// Seconds for which a step of a search looks at a flight, about.
-const LOOK_S: f64 = 8e-9;
+/// A dive is begun if it seems to take this share of the budget, or less. Within this share, a thorough day of the rolling
+/// horizon is played beside it.
+const DIVE_SHARE: f64 = 0.5;
+/// About how long a step of a search takes for one flight, seconds.
+const SECONDS_A_FLIGHT: f64 = 8e-9;
 /// Steps of each search in a round, after which the best schedule of all searches is kept.
 const STEPS_A_ROUND: u64 = 50;
 /// Seconds that a round takes at most where time is limited, so that `watch` is called many times a second on days of
@@ -83,7 +83,7 @@ pub struct Plan {
     pub trace: Trace,
     /// Profit of the day, as the simulator accounts for it, dollars.
     pub profit_usd: f64,
-    /// Name of the best policy whose day was played within the budget. The search began with that day.
+    /// Name of the best policy whose day was played within the budget. One search began with that day.
     pub best_policy: String,
     /// Profit of that policy, dollars. The plan is never worse.
     pub best_policy_usd: f64,
@@ -118,9 +118,11 @@ pub fn plan(
     let clock = Clock { budget: settings.budget, begun: Instant::now() };
     let problem = Arc::new(Problem::of(scenario));
     // Where no passenger pays for a seat, no flight earns anything.
-    let is_worth_it = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
-    let may_dive = is_worth_it && clock.allows(scenario, dive::search_steps(scenario) / DIVING);
-    let dive = may_dive.then(|| Dive::begin(scenario, &problem));
+    let can_earn = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
+    let dives = can_earn && clock.allows(scenario, dive::search_steps(scenario) / DIVE_SHARE);
+    let begin_dive = || Dive::begin(scenario, &problem);
+    // A plan without a limit of time is one of several, perhaps, and takes one thread.
+    let early = (dives && !clock.waits_for_dive()).then(begin_dive);
     let mut stopped = false;
     // The time that the prices of a day take at its start. The search needs them too.
     let mut first = Duration::ZERO;
@@ -140,8 +142,20 @@ pub fn plan(
     });
     let mut plan =
         Plan { trace, profit_usd, best_policy: policy, best_policy_usd: profit_usd, steps: 0 };
-    if is_worth_it && !stopped && clock.left() > first {
+    // Until the dives have ended, another day to begin with is worth more than improving the best one so far.
+    if dives && !stopped {
+        let day = start::rolled_thoroughly(scenario, &mut || {
+            let (share, profit_usd) = (clock.share(0), plan.profit_usd);
+            stopped |= !watch(&SearchProgress { share, steps: 0, profit_usd });
+            !stopped && share < DIVE_SHARE
+        });
+        if let Some(day) = day.filter(|day| day.profit_usd > plan.profit_usd) {
+            (plan.trace, plan.profit_usd) = (day.trace, day.profit_usd);
+        }
+    }
+    if can_earn && !stopped && clock.left() > first {
         let first = start::schedule_of(&problem, &plan.trace);
+        let dive = early.or_else(|| dives.then(begin_dive));
         let searches = Searches::begin(scenario, settings, &problem, &first, dive);
         searches.improve(&clock, &mut plan, watch);
     }
@@ -175,11 +189,11 @@ impl Clock {
         }
     }
 
-    /// Whether the budget seems to be enough for so many steps of a search.
+    /// Whether the budget seems to be enough for this number of steps of a search.
     fn allows(&self, scenario: &Scenario, steps: f64) -> bool {
         match self.budget {
             Budget::Time(limit) => {
-                steps * looks_a_step(scenario) as f64 * LOOK_S <= limit.as_secs_f64()
+                steps * looks_a_step(scenario) as f64 * SECONDS_A_FLIGHT <= limit.as_secs_f64()
             }
             Budget::Steps(limit) => steps <= limit as f64,
         }
@@ -202,12 +216,9 @@ impl Clock {
         }
     }
 
-    /// How long to wait for what is to join the searches: not at all where time is limited.
-    fn patience(&self) -> Duration {
-        match self.budget {
-            Budget::Time(_) => Duration::ZERO,
-            Budget::Steps(_) => POLL_INTERVAL,
-        }
+    /// Whether searches wait for the dive before their first step, so that chance of time has no effect on the plan.
+    fn waits_for_dive(&self) -> bool {
+        matches!(self.budget, Budget::Steps(_))
     }
 
     /// The latest end of the next round, where time is limited.

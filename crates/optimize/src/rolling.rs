@@ -18,6 +18,12 @@ use vertifleet_sim::{Decision, View};
 const ROLLOUTS: RolloutSettings =
     RolloutSettings { horizon_s: 7_200, rollouts: 16, noise: 0.05, price_weight: 1.0 };
 
+/// The settings of another day to begin a plan with. It takes about four times as long. On 12 calm validation days of
+/// `los-angeles` half as many roll-outs earned 0.8 % more than the above, and on 20 of `san-francisco` 0.2 %; but for a plan it
+/// counts that the day is another one.
+const MORE_ROLLOUTS: RolloutSettings =
+    RolloutSettings { horizon_s: 10_800, rollouts: 64, ..ROLLOUTS };
+
 /// Prices the rest of the day and rolls choices out. It remembers one day at a time.
 #[derive(Debug, Clone)]
 pub struct Rolling {
@@ -28,8 +34,19 @@ pub struct Rolling {
 
 impl Default for Rolling {
     fn default() -> Self {
+        Self::with(ROLLOUTS)
+    }
+}
+
+impl Rolling {
+    fn with(settings: RolloutSettings) -> Self {
         let (prices, shortlist) = (PriceMemory::default(), Shortlist::default());
-        Self { prices, shortlist, evaluator: RolloutEvaluator::new(ROLLOUTS) }
+        Self { prices, shortlist, evaluator: RolloutEvaluator::new(settings) }
+    }
+
+    /// The policy with more roll-outs over a longer time.
+    pub(crate) fn thorough() -> Self {
+        Self::with(MORE_ROLLOUTS)
     }
 }
 

@@ -15,7 +15,7 @@ use crate::resolved_policy::ResolvedPolicy;
 use crate::sees::Sees;
 use crate::starting_policies::starting_policies;
 
-/// Number of steps of the planner on a day of `paper`, where they take about a quarter of a minute on one core; other
+/// Number of steps of the planner on a day of `paper`, where a plan takes about half a minute on one core; other
 /// days get as many steps as are the same amount of work. There is no time limit, so the plan is the same on every
 /// machine.
 const PLAN_STEPS: u64 = 200_000;

@@ -184,14 +184,10 @@ impl Error {
         }
     }
 
-    /// Whether a policy cannot play some days although nothing is wrong with it: its weights belong to another network,
-    /// or the planner does not support the days.
+    /// Whether a policy cannot play some days although nothing is wrong with it: its weights belong to another network.
     pub(crate) fn is_misfit(&self) -> bool {
         use vertifleet_learn::Error as Learn;
-        matches!(
-            self,
-            Self::Learn(Learn::NotShipped { .. } | Learn::WrongNetwork { .. }) | Self::Optimize(_)
-        )
+        matches!(self, Self::Learn(Learn::NotShipped { .. } | Learn::WrongNetwork { .. }))
     }
 }
 

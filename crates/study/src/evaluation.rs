@@ -40,7 +40,7 @@ pub struct LeftOut {
 
 impl Evaluation {
     /// Draws the days of a suite, and finds the policies. A policy that cannot play these days, because its weights
-    /// belong to another network, or because the planner does not support them, is left out.
+    /// belong to another network, is left out.
     ///
     /// # Errors
     /// Returns an error if there is no such policy, if two policies have the same name, if no policy can play these

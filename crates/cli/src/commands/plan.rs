@@ -93,7 +93,7 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
         format!("{} planned in {seconds:.1} s", scenario.name),
         format!("  profit          {:>12.2} $", plan.profit_usd),
         format!(
-            "  best policy     {:>12.2} $    {}, of those whose day was played in time; the search began there",
+            "  best policy     {:>12.2} $    {}, of those whose day was played in time",
             plan.best_policy_usd, plan.best_policy
         ),
     ];

@@ -122,7 +122,7 @@ impl<'a> Bundle<'a> {
 
     /// The model of a day on which some of the aircraft of `groups` have been planned. Returns `None` if `stopped` is
     /// requested.
-    pub(super) fn again(
+    pub(super) fn resume(
         (day, pace): (&'a TimeExpandedDay, &'a Pace),
         start: Prices,
         groups: Groups,
@@ -132,7 +132,7 @@ impl<'a> Bundle<'a> {
         let micro_usd = certificate.evaluate(day, &start, stopped)?;
         let itineraries =
             BestItineraries { day, prices: &start, certificate: &certificate }.of_groups();
-        let mut master = Master::again(day, pace, start.clone(), groups);
+        let mut master = Master::resume(day, pace, start.clone(), groups);
         master.learn(itineraries);
         let best = Found { prices: start.clone(), micro_usd };
         let (promised, enough) = (A_DOLLAR, A_DOLLAR);

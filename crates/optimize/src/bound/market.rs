@@ -98,9 +98,8 @@ impl Market {
     }
 
     /// Sets the passengers who are left, by cell. Prices that are now above the [most](Self::most) are no longer valid.
-    pub(super) fn leave(&mut self, left: impl Iterator<Item = u32>) {
-        self.passengers.clear();
-        self.passengers.extend(left);
+    pub(super) fn set_passengers(&mut self, left: Vec<u32>) {
+        self.passengers = left;
     }
 
     /// Adds flights with this position of their price to those that are offered.
@@ -169,12 +168,13 @@ impl Market {
     }
 
     /// The blocks in which passengers choose between flights with several prices.
-    pub(super) fn blocks_that_choose(&self) -> impl Iterator<Item = usize> + Clone {
+    pub(super) fn blocks_that_choose(&self) -> impl Iterator<Item = usize> {
         self.choosing.iter().copied()
     }
 
-    /// Notes which blocks choose, once all flights are offered.
-    pub(super) fn open(&mut self) {
+    /// Finds the blocks that choose, once all flights are offered. They stay the same when passengers are gone, because groups of
+    /// the search are in their order.
+    pub(super) fn find_choosing_blocks(&mut self) {
         let blocks = if self.has_one_price_a_cell() { 0 } else { self.blocks() };
         self.choosing = (0..blocks).filter(|&block| self.offers_any(block)).collect();
     }

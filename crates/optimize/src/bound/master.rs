@@ -115,7 +115,7 @@ impl Groups {
     }
 
     /// Replaces all that is known of a group.
-    pub(super) fn forget(&mut self, group: usize, itinerary: Itinerary) {
+    pub(super) fn replace_itineraries(&mut self, group: usize, itinerary: Itinerary) {
         self.groups[group].itineraries = vec![Known { itinerary, share: 1.0, idle: 0, worth: 0.0 }];
     }
 }
@@ -170,16 +170,14 @@ impl<'a> Master<'a> {
     }
 
     /// A model of the groups of an earlier one, on a day on which there is less left.
-    pub(super) fn again(
+    pub(super) fn resume(
         day: &'a TimeExpandedDay,
         pace: &'a Pace,
         centre: Prices,
         Groups { groups, reach }: Groups,
     ) -> Self {
-        let empty = Self::new(day, pace, centre, Vec::new());
-        let mut master = Self { groups, reach, ..empty };
-        master.count();
-        master
+        // The excess is counted before prices are moved by it.
+        Self { groups, reach, ..Self::new(day, pace, centre, Vec::new()) }
     }
 
     /// The groups, to begin another model with.

@@ -16,7 +16,8 @@ use super::prices::{Pace, Prices};
 use super::slices::Slices;
 use super::time_expanded_day::{Start, TimeExpandedDay};
 
-/// The price of a stand in a slice where none is left, micro-dollars: more than any flight gains by one.
+/// The least price of a stand in a slice where none is left, micro-dollars: far more than flights gain in a minute on the shipped
+/// networks.
 const NONE_LEFT: i64 = 300_000_000;
 
 /// The way of an aircraft through the day.
@@ -80,7 +81,7 @@ impl Rest {
     }
 
     /// Takes an aircraft out that has been planned.
-    pub(crate) fn plan(&mut self, aircraft: AircraftIx, way: &Way) {
+    pub(crate) fn remove(&mut self, aircraft: AircraftIx, way: &Way) {
         for at in self.stands_of(way) {
             self.day.stands[at] -= 1;
             if self.day.stands[at] == 0 {
@@ -123,19 +124,19 @@ impl Rest {
         (0..self.slices.len()).map(stand).collect()
     }
 
-    /// Finds the prices of the rest, in which so many passengers are left, by a number of steps.
-    pub(crate) fn price(&mut self, left: impl Iterator<Item = u32>, steps: u32, stopped: &Stop) {
-        self.day.market.leave(left);
+    /// Finds the prices of the rest by a number of steps. `left` are the passengers who are left, by cell.
+    pub(crate) fn price(&mut self, left: Vec<u32>, steps: u32, stopped: &Stop) {
+        self.day.market.set_passengers(left);
         for (position, price) in self.prices.flight.iter_mut().enumerate() {
             *price = (*price).min(self.day.market.most(position));
         }
         let market = &self.day.market;
         for (group, block) in (self.aircraft_groups..).zip(market.blocks_that_choose()) {
             let buyers = Itinerary::of_buyers(market, block, &self.prices.flight);
-            self.groups.forget(group, buyers);
+            self.groups.replace_itineraries(group, buyers);
         }
         let (prices, groups) = (self.prices.clone(), self.groups.clone());
-        let bundle = Bundle::again((&self.day, &self.pace), prices, groups, stopped);
+        let bundle = Bundle::resume((&self.day, &self.pace), prices, groups, stopped);
         if let Some(mut bundle) = bundle {
             let descent = Descent { steps, first: 0.0, enough: 0.0 };
             bundle.descend(descent, stopped, &mut |_| true);

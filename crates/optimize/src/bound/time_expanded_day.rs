@@ -106,7 +106,7 @@ impl TimeExpandedDay {
             layers,
         };
         day.add_flights(scenario, &legs);
-        day.market.open();
+        day.market.find_choosing_blocks();
         Ok(day)
     }
 

@@ -2,8 +2,8 @@
 //!
 //! A flight needs a charger, from its take-off until the aircraft leaves. An aircraft that holds moves to a stand if one is
 //! free, and keeps its charger if not. Which aircraft finds a stand free depends on all others, so the places of such
-//! vertiports are counted again after every change of a schedule. An aircraft that takes a stand may keep another on its
-//! charger, so there may then be more aircraft than chargers, and the change has to be undone.
+//! vertiports are counted again after every change of a schedule. A change of one aircraft may keep another on its charger
+//! for longer. If there are then more aircraft than chargers, the change has to be undone.
 
 use vertifleet_core::{AircraftIx, VertiportIx};
 
@@ -34,32 +34,36 @@ enum Event {
 pub(super) struct BesideChargers {
     /// The times at which these stands are taken. A vertiport without chargers has none.
     pub(super) stands: StandTimes,
-    /// Whether there is a vertiport with more aircraft than chargers.
-    pub(super) is_overfull: bool,
+    /// A vertiport with more aircraft than chargers, if there is one.
+    pub(super) overfull: Option<VertiportIx>,
 }
 
 impl BesideChargers {
     /// The stands of a day without flights; `None` if no vertiport has chargers beside its stands.
     pub(super) fn of(day: &Day) -> Option<Self> {
-        let all = VertiportIx::all(day.vertiports);
-        let any = all.into_iter().any(|vertiport| day.stands_beside_chargers(vertiport).is_some());
-        let limits: Vec<u16> = VertiportIx::all(day.vertiports)
-            .map(|vertiport| day.stands_beside_chargers(vertiport).unwrap_or(0))
+        let limits: Vec<Option<u16>> = VertiportIx::all(day.vertiports)
+            .map(|vertiport| day.stands_beside_chargers(vertiport))
             .collect();
-        any.then(|| Self { stands: StandTimes::empty(&limits), is_overfull: false })
+        let any = limits.iter().any(Option::is_some);
+        let limits: Vec<u16> = limits.into_iter().map(Option::unwrap_or_default).collect();
+        any.then(|| Self { stands: StandTimes::empty(&limits), overfull: None })
     }
 
     /// Counts the places of all vertiports with chargers: their stands here, and their chargers in `chargers`. The stays may
     /// be in any order.
     pub(super) fn count(&mut self, day: &Day, stays: &[Stay], chargers: &mut StandTimes) {
-        self.is_overfull = false;
-        for vertiport in VertiportIx::all(day.vertiports) {
+        self.overfull = None;
+        let mut by_vertiport = vec![Vec::new(); day.vertiports];
+        for stay in stays {
+            by_vertiport[stay.at.at()].push(*stay);
+        }
+        for (vertiport, stays) in VertiportIx::all(day.vertiports).zip(&by_vertiport) {
             if let Some(stands) = day.stands_beside_chargers(vertiport) {
-                let here: Vec<Stay> =
-                    stays.iter().filter(|stay| stay.at == vertiport).copied().collect();
                 let limits = (chargers.limit(vertiport), i32::from(stands));
-                let counted = Counted::of(day, &here, limits);
-                self.is_overfull |= counted.is_overfull;
+                let counted = Counted::of(day, stays, limits);
+                if counted.is_overfull {
+                    self.overfull = Some(vertiport);
+                }
                 chargers.replace(vertiport, 0, counted.chargers);
                 self.stands.replace(vertiport, counted.stands_at_first, counted.stands);
             }

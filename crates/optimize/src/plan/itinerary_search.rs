@@ -3,7 +3,8 @@
 //! This is a longest path over labels (vertiport, second at which the aircraft is ready). From each label the aircraft
 //! flies to any vertiport that has a stand for it from take-off until it is ready again, or holds. Labels are settled
 //! forwards in time. Of the labels of one vertiport within one minute only the best is kept, which bounds the work.
-//! Each is exact to the second, so the result is feasible.
+//! Each is exact to the second, so the result is feasible, but for vertiports with chargers beside stands
+//! (`chargers.rs`).
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 
@@ -72,6 +73,8 @@ pub(super) struct ItinerarySearch {
     /// The windows in which each vertiport has a stand for one more aircraft, vertiport by vertiport. Each list ends
     /// with a window that never opens.
     windows: Vec<Window>,
+    /// The windows of the stands beside chargers, by vertiport. Empty on a day without such stands.
+    beside_chargers: Vec<Vec<Window>>,
     /// Whether the aircraft is on a stand beside chargers at each label. Empty on a day without such stands.
     has_stand: Vec<bool>,
     /// Position in `windows` of the first window of each vertiport that has not closed yet.
@@ -175,9 +178,17 @@ impl ItinerarySearch {
         let slots = (day.end_s - task.origin_s) / SLOT_S + 1;
         self.labels.clear();
         self.labels.resize(slots as usize * day.vertiports, UNREACHED);
-        let beside = task.schedule.beside_chargers.is_some();
         self.has_stand.clear();
-        self.has_stand.resize(if beside { self.labels.len() } else { 0 }, false);
+        if let Some(beside) = &task.schedule.beside_chargers {
+            self.has_stand.resize(self.labels.len(), false);
+            self.beside_chargers.resize(day.vertiports, Vec::new());
+            for (vertiport, windows) in
+                VertiportIx::all(day.vertiports).zip(&mut self.beside_chargers)
+            {
+                windows.clear();
+                beside.stands.append_windows(vertiport, windows);
+            }
+        }
     }
 
     #[inline]
@@ -249,10 +260,13 @@ impl ItinerarySearch {
     /// Whether the aircraft can hold on a stand beside chargers, where it is already or one is free.
     #[inline]
     fn has_stand_beside_chargers(&self, task: &Task<'_>, choice: &Choice) -> bool {
-        let Some(beside) = &task.schedule.beside_chargers else { return false };
-        task.problem.day.stands_beside_chargers(choice.place).is_some()
-            && (self.has_stand[choice.label as usize]
-                || beside.stands.has_room(choice.place, choice.moment))
+        if task.problem.day.stands_beside_chargers(choice.place).is_none() {
+            return false;
+        }
+        let windows = &self.beside_chargers[choice.place.at()];
+        let at = windows.partition_point(|window| window.closes <= choice.moment);
+        self.has_stand[choice.label as usize]
+            || windows.get(at).is_some_and(|window| window.opens <= choice.moment)
     }
 
     #[inline]

@@ -52,10 +52,13 @@ impl Departure {
 }
 
 impl Passengers {
-    /// Those who have not been carried, by cell.
-    pub(super) fn left(&self) -> impl Iterator<Item = u32> {
-        let (Self::Leave(left) | Self::Wait(Waiting { left_over: left, .. })) = self;
-        left.iter().map(|&left| u32::try_from(left.max(0)).expect("no more than there were"))
+    /// Those who are not carried, by cell.
+    pub(super) fn left(&self, day: &Day) -> Vec<u32> {
+        let whole = |left: i64| u32::try_from(left.max(0)).expect("no more than there were");
+        match self {
+            Self::Leave(left) => left.iter().map(|&left| whole(left)).collect(),
+            Self::Wait(waiting) => waiting.left(day).map(whole).collect(),
+        }
     }
 
     /// The passengers of a day without flights.
@@ -95,6 +98,13 @@ impl Passengers {
 }
 
 impl Waiting {
+    /// Those of each cell who are left over when its period ends, less those whom flights of the next one carry.
+    fn left(&self, day: &Day) -> impl Iterator<Item = i64> {
+        let next = self.seats.iter().skip(day.vertiports * day.vertiports);
+        let early = next.map(|seats| seats.early).chain(std::iter::repeat(0));
+        self.left_over.iter().zip(early).map(|(&left_over, early)| left_over - left_over.min(early))
+    }
+
     fn add(&mut self, day: &Day, departure: Departure, seats: i64) -> f64 {
         let mut changed = std::mem::take(&mut self.changed);
         changed.clear();

@@ -122,7 +122,21 @@ impl Schedule {
 
     /// Appends flights to an itinerary that is not whole, which makes it whole.
     pub(super) fn complete(&mut self, problem: &Problem, aircraft: AircraftIx, flights: &[Flight]) {
-        let day = &problem.day;
+        self.append(&problem.day, aircraft, flights);
+        self.count_chargers(&problem.day);
+    }
+
+    /// A schedule with these flights of each aircraft, which make every itinerary whole.
+    pub(super) fn of(problem: &Problem, flights: &[Vec<Flight>]) -> Self {
+        let mut schedule = Self::unplanned(problem);
+        for (aircraft, flights) in problem.day.fleet().zip(flights) {
+            schedule.append(&problem.day, aircraft, flights);
+        }
+        schedule.count_chargers(&problem.day);
+        schedule
+    }
+
+    fn append(&mut self, day: &Day, aircraft: AircraftIx, flights: &[Flight]) {
         if self.is_whole(aircraft) {
             debug_assert!(flights.is_empty(), "a whole itinerary takes no more flights");
             return;
@@ -138,15 +152,14 @@ impl Schedule {
         let itinerary = &mut self.itineraries[aircraft.at()];
         itinerary.flights.extend_from_slice(flights);
         itinerary.whole = true;
-        self.count_chargers(day);
     }
 
-    /// Whether a vertiport has more aircraft than chargers at some moment.
-    pub(super) fn is_overfull(&self) -> bool {
-        self.beside_chargers.as_ref().is_some_and(|beside| beside.is_overfull)
+    /// A vertiport that has more aircraft than chargers at some moment, if there is one.
+    pub(super) fn overfull(&self) -> Option<VertiportIx> {
+        self.beside_chargers.as_ref().and_then(|beside| beside.overfull)
     }
 
-    /// Counts the places of vertiports with chargers anew.
+    /// Counts the places of vertiports with chargers again.
     fn count_chargers(&mut self, day: &Day) {
         let Some(mut beside) = self.beside_chargers.take() else { return };
         let stays: Vec<Stay> = day.fleet().flat_map(|aircraft| self.stays(day, aircraft)).collect();

@@ -1,7 +1,7 @@
 //! Searches side by side, which share what they find now and then.
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use vertifleet_core::Scenario;
@@ -12,7 +12,8 @@ use super::guiding_prices::GuidingPrices;
 use super::problem::Problem;
 use super::schedule::Schedule;
 use super::search::Search;
-use super::{Budget, Clock, Plan, SearchProgress, SearchSettings, start};
+use super::{Clock, Plan, SearchProgress, SearchSettings, start};
+use crate::proof::POLL_INTERVAL;
 
 /// Rounds after which the search with the worst schedule continues from the best one's.
 const ROUNDS_A_MEETING: u64 = 100;
@@ -35,8 +36,8 @@ pub(super) struct Searches<'a> {
 }
 
 impl<'a> Searches<'a> {
-    /// Searches that begin with a schedule. What the dive finds joins them: with a limit of time when it has come to an end,
-    /// otherwise before the first step.
+    /// Searches that begin with a schedule. The prices and the schedule of the dive join them: with a limit of time when it
+    /// has come to an end, otherwise before the first step.
     pub(super) fn begin(
         scenario: &'a Arc<Scenario>,
         settings: &'a SearchSettings,
@@ -73,21 +74,26 @@ impl<'a> Searches<'a> {
                 return;
             }
             self.join_dive(clock);
-            let is_waiting = self.dive.is_some() && matches!(clock.budget, Budget::Steps(_));
+            let is_waiting = self.dive.is_some() && clock.waits_for_dive();
             if !is_waiting {
                 plan.steps += self.round(clock, plan.steps);
             }
             self.keep_best(plan);
+            if !is_waiting && self.rounds.is_multiple_of(ROUNDS_A_MEETING) {
+                self.meet();
+            }
         }
     }
 
     /// If the dive has come to an end, its prices guide the searches from now on, and one begins with its schedule.
     fn join_dive(&mut self, clock: &Clock) {
-        let patience = clock.patience();
+        let patience = if clock.waits_for_dive() { POLL_INTERVAL } else { Duration::ZERO };
         let outcome = self.dive.as_ref().and_then(|dive| dive.outcome(patience));
         let Some(Dived { prices, schedule }) = outcome else { return };
         self.dive = None;
-        self.prices = prices.unwrap_or_else(|| self.prices.clone());
+        if let Some(prices) = prices {
+            self.prices = prices;
+        }
         self.add(schedule.unwrap_or_else(|| self.all[0].current.clone()));
         self.rounds = 0;
     }
@@ -109,9 +115,6 @@ impl<'a> Searches<'a> {
         });
         let taken = taken.min().expect("there is a search");
         self.rounds += 1;
-        if self.rounds.is_multiple_of(ROUNDS_A_MEETING) {
-            self.meet();
-        }
         taken
     }
 

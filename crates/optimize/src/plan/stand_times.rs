@@ -20,7 +20,7 @@ impl Moment {
 
     #[inline]
     pub(super) fn of(time_s: u32, aircraft: AircraftIx) -> Self {
-        Self(time_s << Self::AIRCRAFT_BITS | u32::from(aircraft.0))
+        Self(time_s << Self::AIRCRAFT_BITS | (u32::from(aircraft.0) + 1))
     }
 }
 
@@ -113,15 +113,6 @@ impl StandTimes {
         changes.remove(at);
     }
 
-    /// Whether one more aircraft has a stand at a moment.
-    pub(super) fn has_room(&self, vertiport: VertiportIx, moment: Moment) -> bool {
-        let before =
-            self.changes[vertiport.at()].iter().take_while(|change| change.moment < moment);
-        let taken =
-            self.taken_at_first[vertiport.at()] + before.map(|change| change.by).sum::<i32>();
-        taken < self.limit[vertiport.at()]
-    }
-
     /// Appends the windows of a vertiport in order. No window touches the next.
     pub(super) fn append_windows(&self, vertiport: VertiportIx, windows: &mut Vec<Window>) {
         let limit = self.limit[vertiport.at()];
@@ -189,6 +180,6 @@ mod tests {
         let latest = Moment::of(36 * 3600, AircraftIx(9_999));
         assert!(Moment::of(5, AircraftIx(7)) < Moment::of(5, AircraftIx(8)));
         assert!(Moment::of(5, AircraftIx(8)) < Moment::of(6, AircraftIx(0)));
-        assert!(Moment::FIRST <= Moment::of(0, AircraftIx(0)) && latest < Moment::NEVER);
+        assert!(Moment::FIRST < Moment::of(0, AircraftIx(0)) && latest < Moment::NEVER);
     }
 }

@@ -121,6 +121,14 @@ pub(super) fn best_policy(
     best
 }
 
+/// A day of the rolling horizon with more roll-outs, or `None` if `go_on`, called after each decision, returns `false`.
+pub(super) fn rolled_thoroughly(
+    scenario: &Arc<Scenario>,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Option<Played> {
+    Begun::by(&mut Rolling::thorough(), scenario, &mut |_| go_on()).whole("rolling")
+}
+
 /// The day that earns more; of equals, the first.
 fn better(one: Played, other: Played) -> Played {
     if other.profit_usd > one.profit_usd { other } else { one }
@@ -128,16 +136,12 @@ fn better(one: Played, other: Played) -> Played {
 
 /// The flights of a whole day's trace.
 pub(super) fn schedule_of(problem: &Problem, trace: &Trace) -> Schedule {
-    let mut schedule = Schedule::unplanned(problem);
     let mut flights = vec![Vec::new(); problem.day.fleet().len()];
     for row in trace.rows.iter().filter(|row| row.from != row.to) {
         let flight = Flight { take_off_s: row.time.seconds(), from: row.from, to: row.to };
         flights[row.aircraft.at()].push(flight);
     }
-    for (aircraft, flights) in problem.day.fleet().zip(&flights) {
-        schedule.complete(problem, aircraft, flights);
-    }
-    schedule
+    Schedule::of(problem, &flights)
 }
 
 /// Flies a schedule in the simulator. Returns its trace and its profit in dollars.
