@@ -343,8 +343,8 @@ class Plan:
         """Profit of the day, as the simulator accounts for it, dollars."""
     @property
     def best_policy(self) -> str:
-        """Name of the best of the policies that finished the day in time.
-        """
+        """Name of the best of the policies that finished the day in time."""
+
     @property
     def best_policy_usd(self) -> float:
         """Profit of that policy, dollars. The plan never earns less."""
