@@ -41,12 +41,12 @@ def rows(network: str, seed: int, folder: Path) -> tuple[list[str], bool]:
     scenario = json.loads(day.read_text())
     name = scenario["name"]
     policies = [policy for policy in POLICIES if policy != "rolling" or len(scenario["vertiports"]) < 60]
-    best_usd = max(run("simulate", str(day), "--policy", policy)["profit"] for policy in policies)
+    best_usd = max(run("simulate", str(day), "--policy", policy)["profit_usd"] for policy in policies)
     found, all_kept = [], True
     for limit_s in LIMITS_S:
         plan, seconds = planned(day, limit_s)
         kept = seconds <= max(1.1 * limit_s, limit_s + 1)
-        no_worse = limit_s < max(LIMITS_S) or plan["profit"] >= best_usd
+        no_worse = limit_s < max(LIMITS_S) or plan["profit_usd"] >= best_usd
         all_kept &= kept and no_worse
         gap = "-" if plan["gap"] is None else f"{100 * plan['gap']:.1f} %"
         found.append(

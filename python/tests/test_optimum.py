@@ -81,7 +81,8 @@ def best_profit_usd(day: dict[str, Any], *, frees_first: bool) -> tuple[float, f
     """The most that a day can earn, as the profit of a schedule and as an upper bound that is hardly higher.
 
     Where aircraft leave a vertiport in the tick in which others fly to it, `frees_first` says whether all of
-    their stands are free before, or none of them. The optimum lies between, because aircraft decide in file order.
+    their stands are free before, or none of them. The optimum lies between, because aircraft decide in file
+    order.
     """
     miles, fares = np.array(day["distance_mi"]), np.array(day["fare"])
     margins, demand = fares - np.array(day["passenger_cost"]), np.array(day["demand"])

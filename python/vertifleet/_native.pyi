@@ -344,7 +344,6 @@ class Plan:
     @property
     def best_policy(self) -> str:
         """Name of the best of the policies that finished the day in time."""
-
     @property
     def best_policy_usd(self) -> float:
         """Profit of that policy, dollars. The plan never earns less."""
