@@ -75,7 +75,7 @@ impl Descent {
         self,
         day: &TimeExpandedDay,
         pace: &Pace,
-        start: Prices,
+        start: &Prices,
         stopped: &Stop,
         watch: &mut dyn FnMut(&Found) -> bool,
     ) -> Option<Found> {
@@ -90,7 +90,7 @@ pub(super) struct Bundle<'a> {
     day: &'a TimeExpandedDay,
     certificate: Certificate,
     master: Master<'a>,
-    pub(super) best: Found,
+    best: Found,
     /// The prices that were evaluated last.
     trial: Prices,
     /// The fall of the bound that the model predicted last, micro-dollars.
@@ -105,38 +105,50 @@ impl<'a> Bundle<'a> {
     pub(super) fn begin(
         descent: Descent,
         (day, pace): (&'a TimeExpandedDay, &'a Pace),
-        start: Prices,
+        start: &Prices,
         stopped: &Stop,
     ) -> Option<Self> {
-        let mut certificate = Certificate::new(day);
-        let micro_usd = certificate.evaluate(day, &start, stopped)?;
-        let itineraries =
-            BestItineraries { day, prices: &start, certificate: &certificate }.of_groups();
-        let mut master = Master::new(day, pace, start.clone(), itineraries);
-        let promised = descent.first * micro_usd as f64;
-        master.reach = (promised / master.fall().max(1e-9)).min(FARTHEST);
-        let enough = PROMISED * descent.enough * micro_usd as f64;
-        let best = Found { prices: start.clone(), micro_usd };
-        Some(Self { day, certificate, master, best, trial: start, promised, enough })
+        let model = |itineraries| Master::new(day, pace, start.clone(), itineraries);
+        let mut bundle = Self::around(day, start, model, stopped)?;
+        let micro_usd = bundle.best.micro_usd as f64;
+        bundle.promised = descent.first * micro_usd;
+        bundle.enough = PROMISED * descent.enough * micro_usd;
+        let Self { master, promised, .. } = &mut bundle;
+        master.reach = (*promised / master.fall().max(1e-9)).min(FARTHEST);
+        Some(bundle)
     }
 
     /// The model of a day on which some of the aircraft of `groups` have been planned. Returns `None` if `stopped` is
     /// requested.
     pub(super) fn resume(
         (day, pace): (&'a TimeExpandedDay, &'a Pace),
-        start: Prices,
+        start: &Prices,
         groups: Groups,
         stopped: &Stop,
     ) -> Option<Self> {
+        let model = |itineraries| {
+            let mut master = Master::resume(day, pace, start.clone(), groups);
+            master.learn(itineraries);
+            master
+        };
+        Self::around(day, start, model, stopped)
+    }
+
+    /// A model that is made of the itineraries that are worth most at some prices, and those prices as the best so far.
+    fn around(
+        day: &'a TimeExpandedDay,
+        start: &Prices,
+        model: impl FnOnce(Vec<(u32, Itinerary)>) -> Master<'a>,
+        stopped: &Stop,
+    ) -> Option<Self> {
         let mut certificate = Certificate::new(day);
-        let micro_usd = certificate.evaluate(day, &start, stopped)?;
+        let micro_usd = certificate.evaluate(day, start, stopped)?;
         let itineraries =
-            BestItineraries { day, prices: &start, certificate: &certificate }.of_groups();
-        let mut master = Master::resume(day, pace, start.clone(), groups);
-        master.learn(itineraries);
+            BestItineraries { day, prices: start, certificate: &certificate }.of_groups();
+        let master = model(itineraries);
         let best = Found { prices: start.clone(), micro_usd };
         let (promised, enough) = (A_DOLLAR, A_DOLLAR);
-        Some(Self { day, certificate, master, best, trial: start, promised, enough })
+        Some(Self { day, certificate, master, best, trial: start.clone(), promised, enough })
     }
 
     /// Takes steps until the settings of the descent or `watch` end it, or `stopped` is requested.

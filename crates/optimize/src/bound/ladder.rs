@@ -164,13 +164,13 @@ impl Search<'_> {
             // Any prices prove a bound, so the first ones give one at once.
             let day = day()?;
             let first = Prices::first(&day);
-            self.prove(cut, &day, Descent { steps: 0, ..cut.to_the_second }, first)
+            self.prove(cut, &day, Descent { steps: 0, ..cut.to_the_second }, &first)
         };
         let coarse = day()?.on_coarse_clock(TICK_S);
-        let found = start.and_then(|start| self.search_coarsely(cut, &coarse, &slices, start));
+        let found = start.and_then(|start| self.search_coarsely(cut, &coarse, &slices, &start));
         drop(coarse);
         let Some(found) = found else { return Ok(None) };
-        let prices = self.prove(cut, &day()?, cut.to_the_second, found);
+        let prices = self.prove(cut, &day()?, cut.to_the_second, &found);
         Ok(prices.map(|prices| (slices, prices)))
     }
 
@@ -180,7 +180,7 @@ impl Search<'_> {
         cut: &Cut,
         coarse: &TimeExpandedDay,
         slices: &Slices,
-        start: Prices,
+        start: &Prices,
     ) -> Option<Prices> {
         let (pace, step) = (Pace::of(slices), comparisons(slices, TICK_S));
         let done = self.done;
@@ -201,7 +201,7 @@ impl Search<'_> {
         cut: &Cut,
         day: &TimeExpandedDay,
         descent: Descent,
-        start: Prices,
+        start: &Prices,
     ) -> Option<Prices> {
         let (pace, step) = (Pace::of(&day.slices), comparisons(&day.slices, 1));
         let done = self.done;

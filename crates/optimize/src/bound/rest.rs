@@ -58,7 +58,7 @@ impl Rest {
             };
             let pace = Pace::of(&slices);
             let descent = cut.on_coarse_clock;
-            let mut bundle = Bundle::begin(descent, (&day, &pace), start, stopped)?;
+            let mut bundle = Bundle::begin(descent, (&day, &pace), &start, stopped)?;
             bundle.descend(descent, stopped, &mut |_| true);
             if stopped.is_requested() {
                 return None;
@@ -135,8 +135,8 @@ impl Rest {
             let buyers = Itinerary::of_buyers(market, block, &self.prices.flight);
             self.groups.replace_itineraries(group, buyers);
         }
-        let (prices, groups) = (self.prices.clone(), self.groups.clone());
-        let bundle = Bundle::resume((&self.day, &self.pace), prices, groups, stopped);
+        let groups = self.groups.clone();
+        let bundle = Bundle::resume((&self.day, &self.pace), &self.prices, groups, stopped);
         if let Some(mut bundle) = bundle {
             let descent = Descent { steps, first: 0.0, enough: 0.0 };
             bundle.descend(descent, stopped, &mut |_| true);
