@@ -6,6 +6,7 @@
 //! lays the same features side by side and fits one number of vertiports. They learn by [imitation](crate::imitation) of
 //! roll-outs: prices help to judge choices while they learn, and are not needed to decide.
 
+mod board;
 pub(crate) mod features;
 mod observer;
 mod policy;

@@ -2,13 +2,13 @@
 //! say of it, in numbers that mean the same on every network.
 //!
 //! Dollars are measured in the profit of a typical full flight of the network, times in hours, and passengers in
-//! flights; every number is bounded. Writing a row looks at every pair of vertiports three times, and once at the fleet,
-//! twice if the other aircraft are shown one by one.
+//! flights; every number is bounded. Writing a row looks at every pair of vertiports four times, which [boards](Boards) make
+//! cheap, and once at the fleet, twice if the other aircraft are shown one by one.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
-use vertifleet_policy::units_usd;
-use vertifleet_sim::{DayKey, Decision, View};
+use vertifleet_sim::{Decision, View};
 
+use crate::full::board::{Board, Boards, Onward};
 use crate::gcaps_x::features::few;
 use crate::nn::{AIRCRAFT_SHOWN, Adjacency, Architecture, FLEET_FEATURES, Shape};
 use crate::rows::{Beside, Row, Rows};
@@ -107,17 +107,18 @@ pub(crate) fn shape(vertiports: usize) -> Shape {
     Shape { vertiports, node_features: NODE_FEATURES, aircraft_features: AIRCRAFT_FEATURES }
 }
 
-/// Writes rows. It keeps the units of the day that it wrote last, and its memory from row to row.
+/// Writes rows. It remembers the flights of the days that it wrote lately, and keeps its memory from row to row.
 #[derive(Debug, Clone)]
 pub(crate) struct Writer {
     adjacency: Adjacency,
     beside: Beside,
-    units: Option<(DayKey, Vec<f64>)>,
-    /// The other aircraft as the row being written counts them, by vertiport.
+    boards: Boards,
+    /// What the row being written says of each vertiport.
     seen: Vec<Seen>,
 }
 
-/// The other aircraft that stand at a vertiport or are on their way there.
+/// A vertiport as the deciding aircraft would find it: the other aircraft that stand there or are on their way there, and the
+/// flights from there.
 #[derive(Debug, Clone, Copy, Default)]
 struct Seen {
     /// The time at which the deciding aircraft would be ready there.
@@ -127,6 +128,8 @@ struct Seen {
     near: u16,
     /// The number of aircraft that are ready within each time of [`READY_S`].
     within: [u16; 5],
+    /// What can be flown from there at each time of [`ONWARD_S`].
+    onward: [Onward; 3],
 }
 
 /// A decision with the unit of money.
@@ -149,7 +152,7 @@ impl Writer {
     /// A writer of the features of vertiports and aircraft alone.
     pub(crate) fn of_features() -> Self {
         let adjacency = Adjacency::Complete;
-        Self { adjacency, beside: Beside::default(), units: None, seen: Vec::new() }
+        Self { adjacency, beside: Beside::default(), boards: Boards::default(), seen: Vec::new() }
     }
 
     /// No rows yet, for days with so many vertiports.
@@ -165,13 +168,15 @@ impl Writer {
         rows: &mut Rows,
     ) -> Scene<'a> {
         let kind = view.kind(decision.aircraft);
-        let scene = Scene { view, decision, kind, unit_usd: self.unit_usd(view, kind) };
+        let unit_usd = self.boards.of(view).unit_usd(kind);
+        let scene = Scene { view, decision, kind, unit_usd };
         self.look_around(scene);
         let (adjacency, seen) = (self.adjacency, &self.seen);
+        let board = self.boards.latest();
         rows.push(|row| {
             scene.write(seen, row);
             if !row.edges.is_empty() {
-                scene.write_edges(adjacency, view.vertiports(), row.edges);
+                scene.write_edges(board, adjacency, view.vertiports(), row.edges);
             }
             if !row.fleet.is_empty() {
                 scene.write_fleet(row.nodes, row.fleet);
@@ -180,23 +185,24 @@ impl Writer {
         scene
     }
 
-    /// The profit of a typical full flight of a type, dollars.
-    pub(crate) fn unit_usd(&mut self, view: View<'_>, kind: TypeIx) -> f64 {
-        let day = view.day();
-        if self.units.as_ref().is_none_or(|(known, _)| *known != day) {
-            self.units = Some((day, units_usd(view)));
-        }
-        self.units.as_ref().map_or(1.0, |(_, units_usd)| units_usd[kind.at()])
+    /// The flights of the day that was written last.
+    pub(super) fn board(&self) -> &Board {
+        self.boards.latest()
     }
 
-    /// Counts the other aircraft at each vertiport.
+    /// Looks at the flights from each vertiport, and counts the other aircraft there.
     fn look_around(&mut self, Scene { view, decision, kind, .. }: Scene<'_>) {
         let legs = view.legs_from(kind, decision.at);
+        let board = self.boards.of(view);
         self.seen.resize(legs.len(), Seen::default());
         for (to, (seen, leg)) in self.seen.iter_mut().zip(legs).enumerate() {
             let stays = to == decision.at.at();
             let block_s = if stays { view.hold_s() } else { leg.block_s() };
-            *seen = Seen { ready: decision.time + block_s, ..Seen::default() };
+            let (to, ready) = (VertiportIx::new(to), decision.time + block_s);
+            let onward = ONWARD_S.map(|later_s| board.onward(view, kind, to, ready + later_s));
+            // What leaves now is looked at last, so that it is there when edges are written.
+            board.look(view, kind, to, decision.time);
+            *seen = Seen { ready, onward, ..Seen::default() };
         }
         for (other, place) in AircraftIx::all(view.places().len()).zip(view.places()) {
             if other == decision.aircraft {
@@ -212,16 +218,6 @@ impl Writer {
             }
         }
     }
-}
-
-/// What can be flown from a vertiport at a time.
-#[derive(Debug, Clone, Copy, Default)]
-struct Onward {
-    /// The highest profits per hour of a flight, in units.
-    best: [f64; 3],
-    /// The number of flights that pay, and their profit in units, if seats are full as far as passengers last.
-    flights: f64,
-    profit: f64,
 }
 
 impl Scene<'_> {
@@ -245,11 +241,19 @@ impl Scene<'_> {
 
     /// Writes the weights of the edges of an adjacency, with a row of `stride` entries for each vertiport. Entries of
     /// pairs that are out of range stay as they are.
-    pub(crate) fn write_edges(self, adjacency: Adjacency, stride: usize, edges: &mut [f32]) {
+    pub(super) fn write_edges(
+        self,
+        board: &Board,
+        adjacency: Adjacency,
+        stride: usize,
+        edges: &mut [f32],
+    ) {
         let Self { view, decision, kind, .. } = self;
+        let period = view.period_at(decision.time);
         let vertiports = VertiportIx::all(view.vertiports());
         for (from, row) in vertiports.zip(edges.chunks_exact_mut(stride)) {
             let closed = view.closed(from);
+            let rates = board.rates(kind, from, period);
             for to in view.within_range(kind, from).iter() {
                 let is_open = !closed.contains(to);
                 row[to.at()] = match adjacency {
@@ -259,9 +263,7 @@ impl Scene<'_> {
                         (1.0 / (1.0 + flight_h)) as f32
                     }
                     Adjacency::Reachable => f32::from(u8::from(is_open)),
-                    Adjacency::Profit if is_open => {
-                        self.rates(decision.time, from)(to).0.clamp(0.0, 3.0) as f32
-                    }
+                    Adjacency::Profit if is_open => rates[to.at()],
                     Adjacency::Profit => 0.0,
                 };
             }
@@ -354,7 +356,7 @@ impl Scene<'_> {
         let block_h = hours(seen.ready.since(time));
         let (stands, taken) = (view.stands(to), view.stands_taken()[to.at()]);
         let left_h = hours(view.day_end().since(seen.ready));
-        let [onward, then, last] = ONWARD_S.map(|later_s| self.onward(to, seen.ready + later_s));
+        let [onward, then, last] = seen.onward;
         let period = view.demand_left_in(view.period());
         let arriving: u32 = period.iter().skip(to.at()).step_by(view.vertiports()).sum();
         let neighbours = view.within_range(kind, to).iter();
@@ -401,49 +403,9 @@ impl Scene<'_> {
             1.0 - f64::from(shut) / f64::from(all.max(1)),
         ]
     }
-
-    /// The flights from a vertiport at a time: for each destination the profit per hour, the profit, both in units, and
-    /// the passengers who want to fly.
-    fn rates(self, time: Time, from: VertiportIx) -> impl Fn(VertiportIx) -> (f64, f64, u32) {
-        let Self { view, kind, unit_usd, .. } = self;
-        let departures = view.departures(time, kind, from);
-        let waiting = view.demand_left_in(view.period_at(time));
-        let waiting = &waiting[from.at() * view.vertiports()..][..view.vertiports()];
-        move |to| {
-            let waiting = waiting[to.at()];
-            let profit = departures.profit_usd(to, waiting) / unit_usd;
-            let block_h = hours(departures.block_s(to)).max(0.1);
-            (profit / block_h, profit, waiting)
-        }
-    }
-
-    fn onward(self, from: VertiportIx, time: Time) -> Onward {
-        let Self { view, kind, .. } = self;
-        let mut onward = Onward::default();
-        if time > view.day_end() {
-            return onward;
-        }
-        let seats = f64::from(view.aircraft_type(kind).seats);
-        let rates = self.rates(time, from);
-        for to in view.within_range(kind, from).iter() {
-            let (mut rate, profit, waiting) = rates(to);
-            if rate <= 0.0 {
-                continue;
-            }
-            let flights = f64::from(waiting) / seats;
-            onward.flights += flights;
-            onward.profit += flights * profit;
-            for best in &mut onward.best {
-                if rate > *best {
-                    std::mem::swap(&mut rate, best);
-                }
-            }
-        }
-        onward
-    }
 }
 
-fn hours(seconds: u32) -> f64 {
+pub(super) fn hours(seconds: u32) -> f64 {
     f64::from(seconds) / 3_600.0
 }
 

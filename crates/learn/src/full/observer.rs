@@ -2,12 +2,12 @@
 
 use vertifleet_sim::{Decision, View};
 
+use crate::full::board::Board;
 use crate::full::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Scene, Writer};
 use crate::nn::Adjacency;
 use crate::rows::Rows;
 
-/// Shows decisions as policies of the full observation see them. It remembers the unit of money of the day that it showed
-/// last.
+/// Shows decisions as policies of the full observation see them. It remembers the flights of the days that it showed lately.
 #[derive(Debug, Clone)]
 pub struct FullObserver {
     writer: Writer,
@@ -21,6 +21,7 @@ pub struct FullObservation<'a> {
     pub nodes: &'a [f32],
     /// The features of the aircraft, `[11]`.
     pub aircraft: &'a [f32],
+    board: &'a Board,
     scene: Scene<'a>,
 }
 
@@ -50,7 +51,12 @@ impl FullObserver {
         rows.clear();
         let scene = writer.push(view, decision, rows);
         let inputs = rows.inputs();
-        FullObservation { nodes: inputs.nodes, aircraft: inputs.aircraft, scene }
+        FullObservation {
+            nodes: inputs.nodes,
+            aircraft: inputs.aircraft,
+            board: writer.board(),
+            scene,
+        }
     }
 }
 
@@ -58,7 +64,7 @@ impl FullObservation<'_> {
     /// Writes the weights of the edges between vertiports, in the direction of flights, with a row of `stride` entries
     /// for each vertiport that flights come from. Entries of pairs that are out of range stay as they are.
     pub fn write_edges(&self, adjacency: Adjacency, stride: usize, edges: &mut [f32]) {
-        self.scene.write_edges(adjacency, stride, edges);
+        self.scene.write_edges(self.board, adjacency, stride, edges);
     }
 
     /// Writes the features of the other aircraft that are ready first, `[40][16]`. Rows without an aircraft stay as they

@@ -1,7 +1,7 @@
 //! A view as text, with everything that it shows.
 
-use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
-use vertifleet_sim::{Decision, Imagined, View};
+use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
+use vertifleet_sim::{Decision, Departures, Imagined, View};
 
 /// Everything that a view shows at a decision, as text.
 pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
@@ -52,6 +52,7 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
                 assert_eq!(departures.block_s(to), leg.block_s());
                 shown.push(format!("{leg:?} {profit}"));
             }
+            assert_profits_are_steady(view, departures, kind, from);
         }
         for period in 0..view.period_starts().len() {
             shown.push(format!("{:?}", view.fares_usd(period, from)));
@@ -67,6 +68,23 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     // What is looked at later is what it was.
     assert_eq!(played_out(view.snapshot().view()), shown[shown.len() - 1]);
     shown
+}
+
+/// While departures say that profits are steady, they are.
+fn assert_profits_are_steady(
+    view: View<'_>,
+    departures: Departures<'_>,
+    kind: TypeIx,
+    from: VertiportIx,
+) {
+    let destinations = view.within_range(kind, from);
+    let steady = departures.steady(destinations);
+    let last = Time::from_seconds(steady.end.seconds().min(48 * 3600) - 1);
+    for other in [steady.start, last].map(|time| view.departures(time, kind, from)) {
+        for to in destinations.iter() {
+            assert_eq!(departures.profit_usd(to, 3).to_bits(), other.profit_usd(to, 3).to_bits());
+        }
+    }
 }
 
 /// The rest of the day as it can be imagined, with the choices made by a fixed rule.

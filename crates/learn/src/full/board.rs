@@ -1,0 +1,175 @@
+//! The flights that can leave each vertiport, looked at once and remembered while nothing changes of what they follow from.
+//!
+//! A decision looks at all pairs of vertiports four times, at different times of the day. Between two decisions the passengers
+//! of one pair have changed, and the hour perhaps. So what a vertiport's flights came to is kept with the passengers that were
+//! counted, and is true as long as these are the same and the time lies where [`Departures::steady`](vertifleet_sim::Departures::steady) says that profits are.
+//! That holds whatever simulation asks: the day itself, or roll-outs of it that have gone different ways.
+
+use std::ops::Range;
+
+use vertifleet_core::{Time, TypeIx, VertiportIx};
+use vertifleet_policy::units_usd;
+use vertifleet_sim::{DayKey, View};
+
+use crate::full::features::hours;
+
+/// Demand periods that are kept; a later one takes the place of the one that lies so many before it.
+const PERIODS: usize = 4;
+/// Most vertiports of all days that are kept at a time, as many as a batch of decisions has.
+const MOST_VERTIPORTS: usize = 2_048;
+
+/// The boards of the days that were looked at lately.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Boards {
+    days: Vec<(DayKey, Board)>,
+    vertiports: usize,
+    latest: usize,
+}
+
+/// The flights of a day.
+#[derive(Debug, Clone)]
+pub(super) struct Board {
+    vertiports: usize,
+    /// The profit of a typical full flight, dollars, by type.
+    units_usd: Vec<f64>,
+    /// By type, demand period and vertiport.
+    known: Vec<Known>,
+    /// By type, demand period and pair of vertiports: the passengers that were counted, and the profit per hour of a flight in
+    /// units, between 0 and 3 and 0 out of range.
+    waiting: Vec<u32>,
+    rates: Vec<f32>,
+}
+
+/// What is known of a vertiport's flights at some times of decision.
+#[derive(Debug, Clone)]
+struct Known {
+    steady: Range<Time>,
+    onward: Onward,
+}
+
+/// What can be flown from a vertiport at a time.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Onward {
+    /// The highest profits per hour of a flight, in units.
+    pub(super) best: [f64; 3],
+    /// The number of flights that pay, and their profit in units, if seats are full as far as passengers last.
+    pub(super) flights: f64,
+    pub(super) profit: f64,
+}
+
+impl Boards {
+    /// The board of a day.
+    pub(super) fn of(&mut self, view: View<'_>) -> &mut Board {
+        let day = view.day();
+        let known = self.days.iter().position(|(known, _)| *known == day);
+        let at = known.unwrap_or_else(|| {
+            if self.vertiports + view.vertiports() > MOST_VERTIPORTS {
+                *self = Self::default();
+            }
+            self.vertiports += view.vertiports();
+            self.days.push((day, Board::of(view)));
+            self.days.len() - 1
+        });
+        self.latest = at;
+        &mut self.days[at].1
+    }
+
+    /// The board that was asked for last.
+    pub(super) fn latest(&self) -> &Board {
+        &self.days[self.latest].1
+    }
+}
+
+impl Board {
+    fn of(view: View<'_>) -> Self {
+        let vertiports = view.vertiports();
+        let rows = view.aircraft_types().len() * PERIODS * vertiports;
+        let never = Known { steady: Time::default()..Time::default(), onward: Onward::default() };
+        Self {
+            vertiports,
+            units_usd: units_usd(view),
+            known: vec![never; rows],
+            waiting: vec![0; rows * vertiports],
+            rates: vec![0.0; rows * vertiports],
+        }
+    }
+
+    /// The profit of a typical full flight of a type, dollars.
+    pub(super) fn unit_usd(&self, kind: TypeIx) -> f64 {
+        self.units_usd[kind.at()]
+    }
+
+    /// What can be flown from a vertiport at a time of the day.
+    pub(super) fn onward(
+        &mut self,
+        view: View<'_>,
+        kind: TypeIx,
+        from: VertiportIx,
+        time: Time,
+    ) -> Onward {
+        if time > view.day_end() {
+            return Onward::default();
+        }
+        let row = self.look(view, kind, from, time);
+        self.known[row].onward
+    }
+
+    /// Profit per hour of a flight from a vertiport to each, in units, between 0 and 3, and 0 out of range, as they were when the
+    /// vertiport and the type were last looked at for a demand period.
+    pub(super) fn rates(&self, kind: TypeIx, from: VertiportIx, period: usize) -> &[f32] {
+        &self.rates[self.row(kind, from, period) * self.vertiports..][..self.vertiports]
+    }
+
+    fn row(&self, kind: TypeIx, from: VertiportIx, period: usize) -> usize {
+        (kind.at() * PERIODS + period % PERIODS) * self.vertiports + from.at()
+    }
+
+    /// Makes the row of a vertiport's flights true, and says which it is.
+    pub(super) fn look(
+        &mut self,
+        view: View<'_>,
+        kind: TypeIx,
+        from: VertiportIx,
+        time: Time,
+    ) -> usize {
+        let count = self.vertiports;
+        let period = view.period_at(time);
+        let row = self.row(kind, from, period);
+        let waiting = &view.demand_left_in(period)[from.at() * count..][..count];
+        let counted = &mut self.waiting[row * count..][..count];
+        if self.known[row].steady.contains(&time) && counted == waiting {
+            return row;
+        }
+        counted.copy_from_slice(waiting);
+        let departures = view.departures(time, kind, from);
+        let unit_usd = self.units_usd[kind.at()];
+        let rates = &mut self.rates[row * count..][..count];
+        let mut onward = Onward::default();
+        for to in view.within_range(kind, from).iter() {
+            let waiting = waiting[to.at()];
+            let profit = departures.profit_usd(to, waiting) / unit_usd;
+            let rate = profit / hours(departures.block_s(to)).max(0.1);
+            rates[to.at()] = rate.clamp(0.0, 3.0) as f32;
+            onward.add(rate, profit, f64::from(waiting) / f64::from(departures.seats()));
+        }
+        self.known[row] =
+            Known { steady: departures.steady(view.within_range(kind, from)), onward };
+        row
+    }
+}
+
+impl Onward {
+    /// Adds a destination: the profit per hour and the profit of a flight, in units, and the number of flights.
+    fn add(&mut self, mut rate: f64, profit: f64, flights: f64) {
+        if rate <= 0.0 {
+            return;
+        }
+        self.flights += flights;
+        self.profit += flights * profit;
+        for best in &mut self.best {
+            if rate > *best {
+                std::mem::swap(&mut rate, best);
+            }
+        }
+    }
+}
