@@ -7,6 +7,7 @@
 
 use crate::nn::architecture::{Adjacency, Laplacian};
 use crate::nn::batch::Inputs;
+use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 
 /// How graphs are made.
 #[derive(Debug, Clone, Copy)]
@@ -74,9 +75,9 @@ pub(crate) fn add_product(
     from: &[f32],
     to: &mut [f32],
 ) {
-    each_weight(laplacians, count, |row, column, weight| {
-        add_scaled(weight, &from[column * width..][..width], &mut to[row * width..][..width]);
-    });
+    for (laplacian, from, to) in factors(laplacians, count, width, from, to) {
+        multiply(to, Write::Add, laplacian, from);
+    }
 }
 
 /// Adds the transpose of L times X of every decision to `to`.
@@ -87,23 +88,22 @@ pub(crate) fn add_transposed_product(
     from: &[f32],
     to: &mut [f32],
 ) {
-    each_weight(laplacians, count, |row, column, weight| {
-        add_scaled(weight, &from[row * width..][..width], &mut to[column * width..][..width]);
-    });
-}
-
-/// Visits the weights of all decisions, row by row, with the rows of the nodes that they connect.
-fn each_weight(laplacians: &[f32], count: usize, mut visit: impl FnMut(usize, usize, f32)) {
-    for (row, weights) in laplacians.chunks_exact(count).enumerate() {
-        let first = row / count * count;
-        for (at, &weight) in weights.iter().enumerate() {
-            visit(row, first + at, weight);
-        }
+    for (laplacian, from, to) in factors(laplacians, count, width, from, to) {
+        multiply(to, Write::Add, laplacian.transposed(), from);
     }
 }
 
-fn add_scaled(weight: f32, from: &[f32], to: &mut [f32]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to += weight * from;
-    }
+/// L, X and what their product is added to, of every decision.
+fn factors<'a>(
+    laplacians: &'a [f32],
+    count: usize,
+    width: usize,
+    from: &'a [f32],
+    to: &'a mut [f32],
+) -> impl Iterator<Item = (Matrix<'a>, Matrix<'a>, MatrixMut<'a>)> {
+    let laplacians = laplacians.chunks_exact(count * count);
+    let from = from.chunks_exact(count * width).map(move |from| Matrix::new(from, count, width));
+    let to = to.chunks_exact_mut(count * width).map(move |to| MatrixMut::new(to, count, width));
+    let square = move |laplacian| Matrix::new(laplacian, count, count);
+    laplacians.map(square).zip(from).zip(to).map(|((laplacian, from), to)| (laplacian, from, to))
 }
