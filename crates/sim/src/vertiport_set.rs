@@ -93,15 +93,17 @@ impl VertiportSet {
     /// The members in ascending order.
     #[inline]
     pub fn iter(&self) -> impl Iterator<Item = VertiportIx> + use<> {
-        self.words.into_iter().enumerate().flat_map(|(at, word)| {
-            let mut left = word;
-            std::iter::from_fn(move || {
-                (left != 0).then(|| {
-                    let member = Self::member(at, left);
-                    left &= left - 1;
-                    member
-                })
-            })
+        let (mut words, mut at) = (self.words, 0);
+        std::iter::from_fn(move || {
+            while let Some(word) = words.get_mut(at) {
+                if *word != 0 {
+                    let member = Self::member(at, *word);
+                    *word &= *word - 1;
+                    return Some(member);
+                }
+                at += 1;
+            }
+            None
         })
     }
 

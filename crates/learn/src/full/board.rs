@@ -14,7 +14,7 @@ use vertifleet_sim::{DayKey, View};
 use crate::full::features::hours;
 
 /// Demand periods that are kept; a later one takes the place of the one that lies so many before it.
-const PERIODS: usize = 4;
+const PERIODS: usize = 8;
 /// Most vertiports of all days that are kept at a time, as many as a batch of decisions has.
 const MOST_VERTIPORTS: usize = 2_048;
 

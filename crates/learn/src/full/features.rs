@@ -239,8 +239,8 @@ impl Scene<'_> {
         }
     }
 
-    /// Writes the weights of the edges of an adjacency, with a row of `stride` entries for each vertiport. Entries of
-    /// pairs that are out of range stay as they are.
+    /// Writes the weights of the edges of an adjacency, with a row of `stride` entries for each vertiport, over zeros: what
+    /// is 0, as pairs out of range are, need not be written.
     pub(super) fn write_edges(
         self,
         board: &Board,
@@ -252,20 +252,24 @@ impl Scene<'_> {
         let period = view.period_at(decision.time);
         let vertiports = VertiportIx::all(view.vertiports());
         for (from, row) in vertiports.zip(edges.chunks_exact_mut(stride)) {
-            let closed = view.closed(from);
-            let rates = board.rates(kind, from, period);
-            for to in view.within_range(kind, from).iter() {
-                let is_open = !closed.contains(to);
-                row[to.at()] = match adjacency {
-                    Adjacency::Complete | Adjacency::Similarity => 1.0,
-                    Adjacency::Distance => {
+            let (in_range, closed) = (view.within_range(kind, from), view.closed(from));
+            match adjacency {
+                Adjacency::Complete | Adjacency::Similarity => {
+                    in_range.iter().for_each(|to| row[to.at()] = 1.0);
+                }
+                Adjacency::Distance => {
+                    for to in in_range.iter() {
                         let flight_h = hours(view.leg(kind, from, to).flight_s);
-                        (1.0 / (1.0 + flight_h)) as f32
+                        row[to.at()] = (1.0 / (1.0 + flight_h)) as f32;
                     }
-                    Adjacency::Reachable => f32::from(u8::from(is_open)),
-                    Adjacency::Profit if is_open => rates[to.at()],
-                    Adjacency::Profit => 0.0,
-                };
+                }
+                Adjacency::Reachable => {
+                    in_range.without(&closed).iter().for_each(|to| row[to.at()] = 1.0);
+                }
+                Adjacency::Profit => {
+                    row[..view.vertiports()].copy_from_slice(board.rates(kind, from, period));
+                    closed.iter().for_each(|to| row[to.at()] = 0.0);
+                }
             }
         }
     }
@@ -359,11 +363,8 @@ impl Scene<'_> {
         let [onward, then, last] = seen.onward;
         let period = view.demand_left_in(view.period());
         let arriving: u32 = period.iter().skip(to.at()).step_by(view.vertiports()).sum();
-        let neighbours = view.within_range(kind, to).iter();
-        let closed = view.closed(to);
-        let (all, shut) = neighbours.fold((0_u32, 0_u32), |(all, shut), at| {
-            (all + 1, shut + u32::from(closed.contains(at)))
-        });
+        let neighbours = view.within_range(kind, to);
+        let (all, shut) = (neighbours.len(), neighbours.and(&view.closed(to)).len());
         [
             f64::from(u8::from(stays)),
             f64::from(u8::from(in_range)),

@@ -62,7 +62,7 @@ impl FullObserver {
 
 impl FullObservation<'_> {
     /// Writes the weights of the edges between vertiports, in the direction of flights, with a row of `stride` entries
-    /// for each vertiport that flights come from. Entries of pairs that are out of range stay as they are.
+    /// for each vertiport that flights come from, over zeros: what is 0, as pairs out of range are, need not be written.
     pub fn write_edges(&self, adjacency: Adjacency, stride: usize, edges: &mut [f32]) {
         self.scene.write_edges(self.board, adjacency, stride, edges);
     }
