@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
-use vertifleet_core::{DaySeed, Purpose, Scenario, World};
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, World, random_city};
 use vertifleet_policy::{BidPricePolicy, Policy, play};
 use vertifleet_sim::{DayTotals, Simulation};
 
@@ -29,10 +29,15 @@ pub(crate) struct Validated {
 }
 
 impl ValidationDays {
-    /// So many days of a world, and as many of random networks where `of_any_size` is set.
+    /// So many days of a world, and as many of random networks and [`random_city`], by turns, where `of_any_size` is set.
     pub(crate) fn of(world: &World, count: u32, of_any_size: bool) -> Result<Self, Error> {
         let random = if of_any_size { count } else { 0 };
-        Ok(Self { own: drawn(world, count)?, random: drawn(&World::Random, random)? })
+        let of_world = |day| world.network(Purpose::Validation, day);
+        let at_random = |day| match day % 2 {
+            0 => World::Random.network(Purpose::Validation, day),
+            _ => Arc::new(random_city(Purpose::Validation, day)),
+        };
+        Ok(Self { own: drawn(of_world, count)?, random: drawn(at_random, random)? })
     }
 
     /// Lets a model play the days.
@@ -46,9 +51,12 @@ impl ValidationDays {
     }
 }
 
-fn drawn(world: &World, count: u32) -> Result<Vec<(Arc<Scenario>, f64)>, Error> {
+fn drawn(
+    network: impl Fn(u64) -> Arc<Network>,
+    count: u32,
+) -> Result<Vec<(Arc<Scenario>, f64)>, Error> {
     let days = (0..u64::from(count))
-        .map(|day| Ok(world.network(Purpose::Validation, day).draw(DaySeed::validation(day)?)))
+        .map(|day| Ok(network(day).draw(DaySeed::validation(day)?)))
         .collect::<Result<Vec<Scenario>, Error>>()?;
     let days: Vec<Arc<Scenario>> = days.into_iter().map(Arc::new).collect();
     let priced = |day: &Arc<Scenario>| played(&mut BidPricePolicy::default(), day).profit_usd;

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{DaySeed, Purpose, Scenario, World};
+use vertifleet_core::{DaySeed, Purpose, Scenario, World, random_city};
 
 use crate::error::Error;
 use crate::header::{FeatureShape, Header, shape_of};
@@ -50,22 +50,28 @@ impl Begin {
 }
 
 /// The training days of a round or a generation, given as its number, counted from 0, and its number of days. A share of
-/// them come from random networks, a different one each, and the others from a world.
+/// them come from random networks and [`random_city`], by turns and a different one each, and the others from a world.
 pub(crate) fn training_days(
     world: &World,
     run_seed: u32,
     random_share: f64,
     (round, days): (u32, u32),
 ) -> Result<Vec<Arc<Scenario>>, Error> {
-    let is_random =
-        |day: u64| (day as f64 * random_share).floor() < ((day + 1) as f64 * random_share).floor();
+    // The number of random days before a day.
+    let random_before = |day: u64| (day as f64 * random_share).floor() as u64;
     let first = u64::from(round) * u64::from(days);
     (first..first + u64::from(days))
         .map(|day| {
             let seed = DaySeed::training(run_seed, day)?;
-            let world = if is_random(day) { &World::Random } else { world };
+            let number = random_before(day);
+            let is_random = number < random_before(day + 1);
             // Every day has a seed of its own, so no two runs share a network that is drawn.
-            Ok(Arc::new(world.network(Purpose::Training, seed.get()).draw(seed)))
+            let network = match (is_random, number % 2) {
+                (false, _) => world.network(Purpose::Training, seed.get()),
+                (true, 0) => World::Random.network(Purpose::Training, seed.get()),
+                (true, _) => Arc::new(random_city(Purpose::Training, seed.get())),
+            };
+            Ok(Arc::new(network.draw(seed)))
         })
         .collect()
 }
