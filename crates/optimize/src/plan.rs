@@ -19,6 +19,7 @@ mod search;
 mod searches;
 mod stand_times;
 mod start;
+mod tempo;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -34,11 +35,10 @@ pub use start::StartingPolicy;
 
 /// Share of the remaining time for which a policy plays its day before it is judged whether it will finish in time.
 const JUDGED_FROM: f64 = 0.25;
-/// A dive is begun if it seems to take this share of the budget, or less. Within this share, a thorough day of the rolling
-/// horizon is played beside it.
+/// Dives take this share of the budget, or less. Within this share, a thorough day of the rolling horizon is played beside them.
 const DIVE_SHARE: f64 = 0.5;
-/// About how long a step of a search takes for one flight, seconds.
-const SECONDS_A_FLIGHT: f64 = 8e-9;
+/// With less time than this, no dive is begun.
+const LEAST_TO_DIVE: Duration = Duration::from_secs(5);
 /// Steps of each search in a round, after which the best schedule of all searches is kept.
 const STEPS_A_ROUND: u64 = 50;
 /// Seconds that a round takes at most where time is limited, so that `watch` is called many times a second on days of
@@ -119,8 +119,8 @@ pub fn plan(
     let problem = Arc::new(Problem::of(scenario));
     // Where no passenger pays for a seat, no flight earns anything.
     let can_earn = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
-    let dives = can_earn && clock.allows(scenario, dive::search_steps(scenario) / DIVE_SHARE);
-    let begin_dive = || Dive::begin(scenario, &problem);
+    let dives = can_earn && clock.leaves_time_to_dive(scenario);
+    let begin_dive = || Dive::begin(scenario, &problem, clock.at_share(DIVE_SHARE));
     // A plan without a limit of time is one of several, perhaps, and takes one thread.
     let early = (dives && !clock.waits_for_dive()).then(begin_dive);
     let mut stopped = false;
@@ -189,13 +189,19 @@ impl Clock {
         }
     }
 
-    /// Whether the budget seems to be enough for this number of steps of a search.
-    fn allows(&self, scenario: &Scenario, steps: f64) -> bool {
+    /// Whether dives may be worth their time, of which they know how to use any amount, or the budget is enough for them in steps.
+    fn leaves_time_to_dive(&self, scenario: &Scenario) -> bool {
         match self.budget {
-            Budget::Time(limit) => {
-                steps * looks_a_step(scenario) as f64 * SECONDS_A_FLIGHT <= limit.as_secs_f64()
-            }
-            Budget::Steps(limit) => steps <= limit as f64,
+            Budget::Time(limit) => limit >= LEAST_TO_DIVE,
+            Budget::Steps(limit) => dive::search_steps(scenario) <= DIVE_SHARE * limit as f64,
+        }
+    }
+
+    /// When a share of the time will have passed, if time is limited.
+    fn at_share(&self, share: f64) -> Option<Instant> {
+        match self.budget {
+            Budget::Time(limit) => Some(self.begun + limit.mul_f64(share)),
+            Budget::Steps(_) => None,
         }
     }
 

@@ -1,6 +1,6 @@
 //! What is left of a day while its aircraft are planned one after another, and its prices.
 //!
-//! The prices come from the same search as those of a bound, on the coarse clock and in the finest slices. They prove
+//! The prices come from the same search as those of a bound, on the coarse clock, in slices as fine as time allows. They prove
 //! nothing. Once an aircraft has been planned, its stands and passengers are gone, and a few more steps of the search find
 //! the prices of the rest.
 
@@ -8,7 +8,7 @@ use vertifleet_core::{AircraftIx, Scenario, Stop, VertiportIx};
 
 use super::descent::{Bundle, Descent};
 use super::itinerary::Itinerary;
-use super::ladder::{CUTS, TICK_S};
+use super::ladder::{CUTS, Cut, TICK_S};
 use super::market::Part;
 use super::master::Groups;
 use super::money;
@@ -43,35 +43,47 @@ pub(crate) struct Rest {
 }
 
 impl Rest {
-    /// A whole day, with prices. Returns `None` if it is too large, or `stopped` is requested before they are found.
-    pub(crate) fn of(scenario: &Scenario, stopped: &Stop) -> Option<Self> {
-        let finest = CUTS.last()?;
-        TimeExpandedDay::fits(scenario, finest.step.seconds()).ok()?;
-        let mut before: Option<(Slices, Prices)> = None;
-        for cut in &CUTS {
-            let slices = Slices::of(scenario, cut.step.seconds());
-            let day = TimeExpandedDay::of(scenario, &[], cut.step.seconds()).ok()?;
+    /// A whole day, with prices. `allows` is asked with the number of steps so far: before each cut also with the most that it takes,
+    /// and with 0 after each step. The prices are as fine as it allows. Returns `None` if the day is too large, or `stopped` is
+    /// requested before the prices are found.
+    pub(crate) fn of(
+        scenario: &Scenario,
+        stopped: &Stop,
+        allows: &mut dyn FnMut(u32, u32) -> bool,
+    ) -> Option<Self> {
+        let mut found: Option<Self> = None;
+        let mut steps = 0;
+        for Cut { step, on_coarse_clock: descent, .. } in &CUTS {
+            if !allows(steps, descent.steps) {
+                break;
+            }
+            let Ok(day) = TimeExpandedDay::of(scenario, &[], step.seconds()) else { break };
             let day = day.on_coarse_clock(TICK_S);
-            let start = match before.take() {
+            let slices = Slices::of(scenario, step.seconds());
+            let start = match &found {
                 None => Prices::first(&day),
-                Some((coarser, prices)) => prices.in_slices(&coarser, &slices, day.size()),
+                Some(coarser) => coarser.prices.in_slices(&coarser.slices, &slices, day.size()),
             };
             let pace = Pace::of(&slices);
-            let descent = cut.on_coarse_clock;
-            let mut bundle = Bundle::begin(descent, (&day, &pace), &start, stopped)?;
-            bundle.descend(descent, stopped, &mut |_| true);
+            let mut bundle = Bundle::begin(*descent, (&day, &pace), &start, stopped)?;
+            bundle.descend(*descent, stopped, &mut |_| {
+                steps += 1;
+                allows(steps, 0)
+            });
             if stopped.is_requested() {
                 return None;
             }
             let (prices, groups) = bundle.into_parts();
-            if cut.step == finest.step {
-                let group_of = day.group_of(scenario);
-                let aircraft_groups = day.layers.iter().map(|layer| layer.starts.len()).sum();
-                return Some(Self { day, slices, pace, prices, groups, group_of, aircraft_groups });
-            }
-            before = Some((slices, prices));
+            let group_of = day.group_of(scenario);
+            let aircraft_groups = day.layers.iter().map(|layer| layer.starts.len()).sum();
+            found = Some(Self { day, slices, pace, prices, groups, group_of, aircraft_groups });
         }
-        None
+        found
+    }
+
+    /// The most steps that the search for the prices of a whole day takes.
+    pub(crate) fn most_steps() -> u32 {
+        CUTS.iter().map(|cut| cut.on_coarse_clock.steps).sum()
     }
 
     /// Of some aircraft, the one on whose itinerary the search agrees most.

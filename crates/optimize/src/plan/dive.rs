@@ -3,10 +3,13 @@
 //! The aircraft on whose itinerary the search for prices agrees most comes first. Its itinerary is the best one that is
 //! feasible to the second, at the prices of stands and flights. Its stands and passengers are gone for the others
 //! (C. Joncour et al., *Column generation based primal heuristics*, Electronic Notes in Discrete Mathematics 36, 2010).
+//!
+//! Where time is limited, a dive is as thorough as it can be within its time: prices are found in coarser slices of the day,
+//! and again after every few aircraft only.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use vertifleet_core::{AircraftIx, Scenario, Stop, VertiportIx};
 
@@ -14,6 +17,7 @@ use super::guiding_prices::GuidingPrices;
 use super::itinerary_search::{Bias, Guided, ItinerarySearch};
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
+use super::tempo::{Tempo, seconds_until};
 use crate::bound::{Rest, Way};
 
 /// Steps of the search for prices after each aircraft.
@@ -22,8 +26,6 @@ const STEPS: u32 = 20;
 /// one that earns little is as good as one that earns much. On calm validation day 3000 of `dallas`, dives with shares of 1, 0.9, 0.8,
 /// 0.7 and 0.5 had 89,793, 94,106, 94,738, 94,373 and 92,922 $, and `rolling` 90,241.
 const SHARES: [f64; 2] = [0.8, 0.9];
-/// Steps of the search for the first prices, at most.
-const FIRST_STEPS: f64 = 1_500.0;
 
 /// The prices and the schedule that dives find: none if the day is too large for them.
 #[derive(Default)]
@@ -41,19 +43,20 @@ pub(super) struct Dive {
 }
 
 impl Dive {
-    /// Begins a dive.
-    pub(super) fn begin(scenario: &Arc<Scenario>, problem: &Arc<Problem>) -> Self {
+    /// Begins dives that seem to end by a time, if one is given.
+    pub(super) fn begin(
+        scenario: &Arc<Scenario>,
+        problem: &Arc<Problem>,
+        until: Option<Instant>,
+    ) -> Self {
         let (send, ended) = sync_channel(1);
         let stop = Stop::default();
         let (scenario, problem, stopped) =
             (Arc::clone(scenario), Arc::clone(problem), stop.clone());
         std::thread::spawn(move || {
-            let found = Rest::of(&scenario, &stopped);
+            let dived = dive(&scenario, &problem, until, &stopped);
             // The receiver may be gone; then the result is not needed.
-            let _ = send.send(found.map_or_else(Dived::default, |rest| Dived {
-                prices: Some(GuidingPrices::of_rest(&problem.day, &rest)),
-                schedule: best_of_dives(&problem, rest, &stopped),
-            }));
+            let _ = send.send(dived.unwrap_or_default());
         });
         Self { ended, stop }
     }
@@ -74,26 +77,54 @@ impl Drop for Dive {
     }
 }
 
-/// About how many steps of a search take as long as a dive.
+/// About how many steps of a search take as long as thorough dives.
 pub(super) fn search_steps(scenario: &Scenario) -> f64 {
     /// Steps of a search that take as long as a step for prices with aircraft of one type: 2 to 3 on cities, 8 on `paper`.
     const EACH: f64 = 3.0;
     let fleet = scenario.aircraft.len() as f64;
-    let steps = FIRST_STEPS + SHARES.len() as f64 * f64::from(STEPS) * fleet;
+    let steps = f64::from(Rest::most_steps()) + SHARES.len() as f64 * f64::from(STEPS) * fleet;
     EACH * scenario.aircraft_types.len() as f64 * steps
 }
 
-/// The best of several dives.
-fn best_of_dives(problem: &Problem, rest: Rest, stopped: &Stop) -> Option<Schedule> {
-    let one = plan_one_by_one(problem, rest.clone(), SHARES[0], stopped);
-    let other = plan_one_by_one(problem, rest, SHARES[1], stopped);
-    let by_value = |one: &Schedule, other: &Schedule| one.value_usd().total_cmp(&other.value_usd());
-    [one, other].into_iter().flatten().max_by(by_value)
+/// The prices of a day and the best of the dives that there is time for; `None` if there is not even time for prices.
+fn dive(
+    scenario: &Scenario,
+    problem: &Problem,
+    until: Option<Instant>,
+    stopped: &Stop,
+) -> Option<Dived> {
+    let fleet = scenario.aircraft.len() as f64;
+    let begun = Instant::now();
+    let rest = Rest::of(scenario, stopped, &mut |steps, next| {
+        // The first cut tells how long a step takes. A finer one should leave time to find prices after each aircraft.
+        let to_come = if next == 0 { 0.0 } else { f64::from(next) + f64::from(STEPS) * fleet };
+        let takes_s = begun.elapsed().as_secs_f64() * to_come / f64::from(steps.max(1));
+        until.is_none_or(|until| steps == 0 || takes_s < seconds_until(until))
+    })?;
+    let prices = GuidingPrices::of_rest(&problem.day, &rest);
+    let mut best: Option<Schedule> = None;
+    for share in SHARES {
+        let begun = Instant::now();
+        let found = plan_one_by_one(problem, rest.clone(), share, until, stopped);
+        let by_value =
+            |one: &Schedule, other: &Schedule| one.value_usd().total_cmp(&other.value_usd());
+        best = best.into_iter().chain(found).max_by(by_value);
+        if until.is_some_and(|until| begun.elapsed().as_secs_f64() > seconds_until(until)) {
+            break;
+        }
+    }
+    Some(Dived { prices: Some(prices), schedule: best })
 }
 
 /// Plans the fleet one aircraft after another, each at a share of the prices. Returns `None` if no place is found for one of
-/// them, or `stopped` is requested.
-fn plan_one_by_one(problem: &Problem, rest: Rest, share: f64, stopped: &Stop) -> Option<Schedule> {
+/// them, or if `stopped` is requested.
+fn plan_one_by_one(
+    problem: &Problem,
+    rest: Rest,
+    share: f64,
+    until: Option<Instant>,
+    stopped: &Stop,
+) -> Option<Schedule> {
     let mut diver = Diver {
         problem,
         rest,
@@ -105,16 +136,22 @@ fn plan_one_by_one(problem: &Problem, rest: Rest, share: f64, stopped: &Stop) ->
         flights: Vec::new(),
     };
     let mut may_take_back = diver.left.len();
+    let mut tempo = Tempo::until(until);
     while let Some(aircraft) = diver.rest.clearest(diver.left.iter().copied()) {
         if stopped.is_requested() {
             return None;
         }
-        while let Err(full) = diver.plan(aircraft) {
-            may_take_back = may_take_back.checked_sub(1)?;
-            diver.make_room(full)?;
+        tempo.planning.time(|| {
+            while let Err(full) = diver.plan(aircraft) {
+                may_take_back = may_take_back.checked_sub(1)?;
+                diver.make_room(full)?;
+            }
+            Some(())
+        })?;
+        if tempo.is_time_to_price(diver.left.len()) {
+            let left = diver.schedule.passengers.left(&problem.day);
+            tempo.pricing.time(|| diver.rest.price(left, STEPS, stopped));
         }
-        let left = diver.schedule.passengers.left(&problem.day);
-        diver.rest.price(left, STEPS, stopped);
     }
     Some(diver.schedule)
 }
@@ -192,8 +229,8 @@ mod tests {
 
     fn dived(day: &Arc<Scenario>) -> Option<Schedule> {
         let never = Stop::default();
-        let rest = Rest::of(day, &never).expect("a small day");
-        plan_one_by_one(&Problem::of(day), rest, 0.8, &never)
+        let rest = Rest::of(day, &never, &mut |_, _| true).expect("a small day");
+        plan_one_by_one(&Problem::of(day), rest, 0.8, None, &never)
     }
 
     #[test]
