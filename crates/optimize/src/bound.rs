@@ -99,11 +99,10 @@ pub fn upper_bound_of_rest(
     Ok(bound.filter(|_| !stopped.is_requested()))
 }
 
-/// The shortest step of a few minutes for which a day is not too large; `None` if it is too large for all. Slices of a
-/// minute are left out, because they take long and prove little more.
+/// The shortest step for which a day is not too large; `None` if it is too large for all.
 pub(crate) fn finest_step(scenario: &Scenario) -> Option<Step> {
     let fits = |step: &Step| TimeExpandedDay::fits(scenario, step.seconds()).is_ok();
-    STEPS.into_iter().rev().filter(|step| step.minutes > 1).find(fits)
+    STEPS.into_iter().rev().find(fits)
 }
 
 /// Ignores all progress, and only passes a request to stop on.

@@ -76,7 +76,7 @@ fn a_proof_has_a_bound_from_the_first_moments_on_and_only_ever_a_better_one() {
     assert!(shares.is_sorted(), "{shares:?}");
     assert!(last < bounds[0] && greedy_usd(&day) <= last);
     assert!(proof.has_ended() && proof.share() == 1.0);
-    let step = Step::from_minutes(3).expect("a step");
+    let step = Step::from_minutes(1).expect("a step");
     assert_eq!(last, upper_bound(&day, step).expect("a small day").upper_bound_usd());
 }
 
