@@ -299,7 +299,7 @@ pub(crate) struct GeneraliseArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct EvaluateArguments {
-    /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, random-50, random-places-100, large; or all
+    /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, cities-100, random-50, random-places-100, large; or all
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "paper-100", value_parser = parse_name)]
     pub(crate) suite: Vec<String>,
     /// Policies, separated by commas, as compare takes them; the others are measured against the first

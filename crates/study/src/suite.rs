@@ -40,6 +40,8 @@ pub struct Suite {
 enum DrawnFrom {
     /// A shipped network, from seed 1 on.
     Network(&'static str),
+    /// The same number of days of each shipped city, one city after the other, each from seed 1 on.
+    Cities,
     /// A random network for each day, from number 0 on; the seed is the network's number.
     RandomNetworks,
     /// A network like the paper's with so many vertiports at random places for each day, from number 0 on; the seed is
@@ -60,8 +62,11 @@ macro_rules! suite {
     };
 }
 
+/// The cities of `cities-100`.
+const CITIES: [&str; 5] = ["new-york", "san-francisco", "los-angeles", "dallas", "paris"];
+
 /// All suites.
-pub const SUITES: [Suite; 6] = [
+pub const SUITES: [Suite; 7] = [
     suite!("paper-100", 100, 1, DrawnFrom::Network("paper"), "100 days of the paper's network"),
     suite!(
         "disrupted-100",
@@ -77,6 +82,7 @@ pub const SUITES: [Suite; 6] = [
         DrawnFrom::Network("new-york"),
         "100 days of nine sites around New York"
     ),
+    suite!("cities-100", 100, 1, DrawnFrom::Cities, "20 days of each of five real cities"),
     suite!(
         "random-50",
         50,
@@ -129,7 +135,7 @@ impl Suite {
     pub fn network(&self) -> Option<&'static str> {
         match self.drawn_from {
             DrawnFrom::Network(name) => Some(name),
-            DrawnFrom::RandomNetworks | DrawnFrom::RandomPlaces(_) => None,
+            DrawnFrom::Cities | DrawnFrom::RandomNetworks | DrawnFrom::RandomPlaces(_) => None,
         }
     }
 
@@ -137,6 +143,7 @@ impl Suite {
     pub(crate) fn home(&self) -> &'static str {
         match self.drawn_from {
             DrawnFrom::Network(name) => name,
+            DrawnFrom::Cities => "cities",
             DrawnFrom::RandomNetworks => "random",
             DrawnFrom::RandomPlaces(_) => "paper",
         }
@@ -183,22 +190,30 @@ impl Suite {
     }
 
     fn scenarios(&self, stop: &Stop) -> Result<Vec<Arc<Scenario>>, Error> {
-        let shipped = self
-            .network()
-            .map(|name| Network::shipped(name).expect("a test draws the days of every suite"));
-        let draw = |number: u64| {
+        let shipped = |name| Network::shipped(name).expect("a test draws the days of every suite");
+        let networks: Vec<Network> = match self.drawn_from {
+            DrawnFrom::Network(name) => vec![shipped(name)],
+            DrawnFrom::Cities => CITIES.map(shipped).into(),
+            DrawnFrom::RandomNetworks | DrawnFrom::RandomPlaces(_) => Vec::new(),
+        };
+        let days_each = self.days / networks.len().max(1);
+        let draw = |number: usize| {
             if stop.is_requested() {
                 return Err(Error::Stopped);
             }
-            let seed = DaySeed::comparison;
-            Ok(Arc::new(match (self.drawn_from, &shipped) {
-                (DrawnFrom::RandomPlaces(size), _) => {
-                    random_places(Purpose::Comparison, size, number)?.draw(seed(number)?)
+            let seed = |number: usize| DaySeed::comparison(number as u64);
+            Ok(Arc::new(match self.drawn_from {
+                DrawnFrom::Network(_) | DrawnFrom::Cities => {
+                    networks[number / days_each].draw(seed(number % days_each + 1)?)
                 }
-                (_, Some(network)) => network.draw(seed(number + 1)?),
-                (_, None) => random_network(Purpose::Comparison, number).draw(seed(number)?),
+                DrawnFrom::RandomNetworks => {
+                    random_network(Purpose::Comparison, number as u64).draw(seed(number)?)
+                }
+                DrawnFrom::RandomPlaces(size) => {
+                    random_places(Purpose::Comparison, size, number as u64)?.draw(seed(number)?)
+                }
             }))
         };
-        (0..self.days as u64).into_par_iter().map(draw).collect()
+        (0..self.days).into_par_iter().map(draw).collect()
     }
 }
