@@ -58,7 +58,7 @@ pub(crate) fn training_days(
     (round, days): (u32, u32),
 ) -> Result<Vec<Arc<Scenario>>, Error> {
     // The number of random days before a day.
-    let random_before = |day: u64| (day as f64 * random_share).floor() as u64;
+    let random_before = |day: u64| (day as f64 * random_share).floor();
     let first = u64::from(round) * u64::from(days);
     (first..first + u64::from(days))
         .map(|day| {
@@ -66,10 +66,10 @@ pub(crate) fn training_days(
             let number = random_before(day);
             let is_random = number < random_before(day + 1);
             // Every day has a seed of its own, so no two runs share a network that is drawn.
-            let network = match (is_random, number % 2) {
+            let network = match (is_random, number % 2.0 == 0.0) {
                 (false, _) => world.network(Purpose::Training, seed.get()),
-                (true, 0) => World::Random.network(Purpose::Training, seed.get()),
-                (true, _) => Arc::new(random_city(Purpose::Training, seed.get())),
+                (true, true) => World::Random.network(Purpose::Training, seed.get()),
+                (true, false) => Arc::new(random_city(Purpose::Training, seed.get())),
             };
             Ok(Arc::new(network.draw(seed)))
         })
