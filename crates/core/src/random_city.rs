@@ -4,12 +4,10 @@
 //! passengers an hour, spread by gravity and drawn one by one; two types of aircraft fly; energy and fares may change with
 //! the hour; and days go wrong.
 
-use std::fmt::Write;
-
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use crate::random_network::generator;
+use crate::random_network::{generator, put};
 use crate::{Network, Purpose};
 
 /// The share of a day's passengers in each hour from 6 on, percent: those of `new-york`.
@@ -189,10 +187,6 @@ fn write_disturbances(text: &mut String, vertiports: usize, random: &mut ChaCha8
             probability = random.random_range(0.01..0.06),
         ),
     );
-}
-
-fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
-    text.write_fmt(what).expect("memory takes everything");
 }
 
 #[cfg(test)]

@@ -118,7 +118,8 @@ fn write_demand(
     }
 }
 
-fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
+/// Adds to a text.
+pub(crate) fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
     text.write_fmt(what).expect("memory takes everything");
 }
 

@@ -189,7 +189,7 @@ impl Clock {
         }
     }
 
-    /// Whether dives may be worth their time, of which they know how to use any amount, or the budget is enough for them in steps.
+    /// Whether to begin dives: with a limit of time if there are a few seconds, and otherwise if there are steps for whole ones.
     fn leaves_time_to_dive(&self, scenario: &Scenario) -> bool {
         match self.budget {
             Budget::Time(limit) => limit >= LEAST_TO_DIVE,

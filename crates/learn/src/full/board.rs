@@ -1,9 +1,9 @@
 //! The flights that can leave each vertiport, looked at once and remembered while nothing changes of what they follow from.
 //!
 //! A decision looks at all pairs of vertiports four times, at different times of the day. Between two decisions the passengers
-//! of one pair have changed, and the hour perhaps. So what a vertiport's flights came to is kept with the passengers that were
-//! counted, and is true as long as these are the same and the time lies where [`Departures::steady`](vertifleet_sim::Departures::steady) says that profits are.
-//! That holds whatever simulation asks: the day itself, or roll-outs of it that have gone different ways.
+//! of one pair have changed, and the hour perhaps. So a vertiport's flights are kept with the passengers that were counted. They are
+//! true while the same passengers wait, at the times at which profits are
+//! [steady](vertifleet_sim::Departures::steady). That holds for the day itself and for roll-outs of it that have gone different ways.
 
 use std::ops::Range;
 
@@ -52,7 +52,7 @@ struct Known {
 pub(super) struct Onward {
     /// The highest profits per hour of a flight, in units.
     pub(super) best: [f64; 3],
-    /// The number of flights that pay, and their profit in units, if seats are full as far as passengers last.
+    /// The passengers of the destinations that pay, in full flights, and the profit of these flights in units.
     pub(super) flights: f64,
     pub(super) profit: f64,
 }

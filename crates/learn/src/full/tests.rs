@@ -117,6 +117,30 @@ fn features_are_bounded_and_choices_are_feasible_on_every_network() {
 }
 
 #[test]
+fn what_is_remembered_is_what_is_seen_anew() {
+    let mut remembering = Writer::of(&with_aircraft());
+    let mut days: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();
+    for number in 0..400 {
+        // By turns, as in a batch, and with a different choice each time.
+        for simulation in &mut days {
+            let Some(decision) = simulation.next_decision() else { continue };
+            let view = simulation.view();
+            let [kept, fresh] =
+                [&mut remembering, &mut Writer::of(&with_aircraft())].map(|writer| {
+                    let mut rows = writer.rows(view.vertiports());
+                    writer.push(view, &decision, &mut rows);
+                    let Inputs { nodes, aircraft, edges, .. } = rows.inputs();
+                    [nodes, aircraft, edges].concat()
+                });
+            assert!(kept == fresh, "decision {number}");
+            let feasible = view.feasible(&decision);
+            let choice = feasible.nth(number % feasible.len()).expect("a rank within the mask");
+            simulation.apply(choice).expect("it is feasible");
+        }
+    }
+}
+
+#[test]
 fn the_other_aircraft_that_are_ready_first_are_shown_with_their_vertiports() {
     let seed = DaySeed::validation(3).expect("a seed");
     let large = Arc::new(Network::shipped("large").expect("shipped").draw(seed));
