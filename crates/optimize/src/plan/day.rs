@@ -124,6 +124,12 @@ impl Day {
         &hops[at.expect("only pairs within range are flown")]
     }
 
+    /// The shortest time from one decision of an aircraft to the next, seconds.
+    pub(super) fn shortest_s(&self) -> u32 {
+        let blocks_s = self.hops.iter().flatten().map(|hop| hop.block_s);
+        blocks_s.fold(self.hold_s, u32::min)
+    }
+
     /// The end of a flight that an aircraft begins at a vertiport at a second.
     #[inline]
     pub(super) fn landing(
@@ -170,12 +176,17 @@ impl Day {
         self.margins_usd[cell]
     }
 
-    /// Cost, with or without passengers, of a flight that takes off in `period` and lands at `arrival_s`, dollars:
-    /// charging after it, and its own cost.
+    /// Cost of a flight that takes off in `period` and lands at `arrival_s`, with or without passengers, dollars: charging
+    /// after it, and its own cost.
     #[inline]
     pub(super) fn flying_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
+        self.energy_cost_usd(hop, period, arrival_s) + hop.flight_cost_usd
+    }
+
+    /// Cost of charging after a flight that takes off in `period` and lands at `arrival_s`, dollars.
+    #[inline]
+    pub(super) fn energy_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
         hop.energy_kwh * self.energy_price_usd[self.period_from(period, arrival_s)]
-            + hop.flight_cost_usd
     }
 }
 

@@ -132,7 +132,7 @@ fn plan_one_by_one(
         schedule: Schedule::unplanned(problem),
         left: problem.day.fleet().collect(),
         planned: Vec::new(),
-        search: ItinerarySearch::default(),
+        search: ItinerarySearch::thorough(),
         flights: Vec::new(),
     };
     let mut may_take_back = diver.left.len();

@@ -18,7 +18,8 @@ const MINUTE_S: u32 = 60;
 pub(super) struct GuidingPrices {
     origin_s: u32,
     minutes: usize,
-    /// By vertiport, then minute: the price of a stand from the first minute until then, dollars.
+    vertiports: usize,
+    /// By minute, then vertiport: the price of a stand from the first minute until then, dollars.
     until_usd: Vec<f64>,
     /// By type, then before or after those have left who waited, then cell: what a flight sells for, dollars. Empty if it is
     /// not known.
@@ -54,13 +55,17 @@ impl GuidingPrices {
         rents_usd: impl Fn(VertiportIx, &mut dyn Iterator<Item = u32>) -> Vec<f64>,
     ) -> Self {
         let minutes = ((day.end_s - day.first_s) / MINUTE_S + 1) as usize;
-        let mut until_usd = Vec::with_capacity(day.vertiports * (minutes + 1));
-        for vertiport in VertiportIx::all(day.vertiports) {
+        let vertiports = day.vertiports;
+        let mut until_usd = vec![0.0; vertiports * (minutes + 1)];
+        for vertiport in VertiportIx::all(vertiports) {
             let mut times_s = (day.first_s..).step_by(MINUTE_S as usize).take(minutes + 1);
-            until_usd.extend(rents_usd(vertiport, &mut times_s));
+            let of_vertiport = until_usd.iter_mut().skip(vertiport.at()).step_by(vertiports);
+            for (until_usd, rent_usd) in of_vertiport.zip(rents_usd(vertiport, &mut times_s)) {
+                *until_usd = rent_usd;
+            }
         }
         let cells = flights_usd.len() / (2 * day.types().len());
-        Self { origin_s: day.first_s, minutes, until_usd, flights_usd, cells }
+        Self { origin_s: day.first_s, minutes, vertiports, until_usd, flights_usd, cells }
     }
 
     /// Whether it is known what flights sell for.
@@ -78,8 +83,8 @@ impl GuidingPrices {
     /// Price of a stand between two minutes, dollars.
     #[inline]
     pub(super) fn rent_usd(&self, vertiport: VertiportIx, from: usize, until: usize) -> f64 {
-        let row = &self.until_usd[vertiport.at() * (self.minutes + 1)..][..=self.minutes];
-        row[until] - row[from]
+        let until_usd = |minute| self.until_usd[minute * self.vertiports + vertiport.at()];
+        until_usd(until) - until_usd(from)
     }
 
     /// How much more a flight brings than it sells for, at least 0 dollars; 0 too if it is not known what flights sell for.

@@ -2,12 +2,13 @@
 //!
 //! This is a longest path over labels (vertiport, second at which the aircraft is ready). From each label the aircraft
 //! flies to any vertiport that has a stand for it from take-off until it is ready again, or holds. Labels are settled
-//! forwards in time. Of the labels of one vertiport within one minute only the best is kept, which bounds the work.
+//! forwards in time. Of the labels of one vertiport within one slot of time only the best is kept, which bounds the work.
 //! Each is exact to the second, so the result is feasible, but for vertiports with chargers beside stands
 //! (`chargers.rs`).
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 
+use super::day::Day;
 use super::guiding_prices::GuidingPrices;
 use super::hop::Hop;
 use super::passengers::Departure;
@@ -15,14 +16,11 @@ use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 use super::stand_times::{Moment, Window};
 
-/// Length of a slot, in which only the best label of a vertiport is kept, seconds. No flight and no hold is shorter, so
-/// every label leads to a later slot.
-pub(super) const SLOT_S: u32 = 60;
-
 /// Variation of a search, so that an itinerary is not always completed in the same way.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Bias {
-    /// Seconds, below [`SLOT_S`], by which slots begin earlier, so that another one of several close labels is kept.
+    /// Seconds, below [`slot_s`](ItinerarySearch::slot_s), by which slots begin earlier, so that another one of several close
+    /// labels is kept.
     pub(super) shift_s: u32,
     /// Share of the stand prices that the aircraft has to pay, so that it leaves scarce stands to others.
     pub(super) rent_share: f64,
@@ -66,8 +64,11 @@ struct Finish {
 }
 
 /// The memory of the search, kept from one itinerary to the next.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct ItinerarySearch {
+    /// The length of a slot, in which only the best label of a vertiport is kept, is 2 to this power in seconds. No flight and no
+    /// hold is shorter, so every label leads to a later slot.
+    slot_bits: u32,
     /// The best label by slot, then vertiport.
     labels: Vec<Label>,
     /// The windows in which each vertiport has a stand for one more aircraft, vertiport by vertiport. Each list ends
@@ -77,6 +78,10 @@ pub(super) struct ItinerarySearch {
     beside_chargers: Vec<Vec<Window>>,
     /// Whether the aircraft is on a stand beside chargers at each label. Empty on a day without such stands.
     has_stand: Vec<bool>,
+    /// What a flight brings, but for its energy, dollars: by period, and whether passengers of the period before still wait, then
+    /// vertiport and number of the hop. A table is filled when the first flight of its time is looked at.
+    offers_usd: Vec<f64>,
+    has_offers: Vec<bool>,
     /// Position in `windows` of the first window of each vertiport that has not closed yet.
     current: Vec<usize>,
     best: Option<Finish>,
@@ -132,6 +137,36 @@ struct Place {
 }
 
 impl ItinerarySearch {
+    /// A search in short slots.
+    pub(super) fn thorough() -> Self {
+        // No hold is shorter than a minute.
+        Self::in_slots(5)
+    }
+
+    /// A search in slots of about four minutes, or of the shortest flight or hold of a day.
+    pub(super) fn quick(day: &Day) -> Self {
+        Self::in_slots(day.shortest_s().ilog2().min(8))
+    }
+
+    fn in_slots(slot_bits: u32) -> Self {
+        Self {
+            slot_bits,
+            labels: Vec::new(),
+            windows: Vec::new(),
+            beside_chargers: Vec::new(),
+            has_stand: Vec::new(),
+            offers_usd: Vec::new(),
+            has_offers: Vec::new(),
+            current: Vec::new(),
+            best: None,
+        }
+    }
+
+    /// The length of a slot, seconds.
+    pub(super) fn slot_s(&self) -> u32 {
+        1 << self.slot_bits
+    }
+
     /// Writes the flights that complete the itinerary of `aircraft` best to `flights`. Returns `false` if the itinerary
     /// cannot be completed, because others have taken every stand that the aircraft could stay at.
     pub(super) fn complete(
@@ -175,7 +210,11 @@ impl ItinerarySearch {
             task.schedule.stands.append_windows(vertiport, &mut self.windows);
             self.windows.push(Window { opens: Moment::NEVER, closes: Moment::NEVER });
         }
-        let slots = (day.end_s - task.origin_s) / SLOT_S + 1;
+        let pairs = day.vertiports * day.vertiports;
+        self.has_offers.clear();
+        self.has_offers.resize(2 * day.period_starts_s.len(), false);
+        self.offers_usd.resize(self.has_offers.len() * pairs, 0.0);
+        let slots = ((day.end_s - task.origin_s) >> self.slot_bits) + 1;
         self.labels.clear();
         self.labels.resize(slots as usize * day.vertiports, UNREACHED);
         self.has_stand.clear();
@@ -193,7 +232,7 @@ impl ItinerarySearch {
 
     #[inline]
     fn enter(&mut self, task: &Task<'_>, place: VertiportIx, label: Label, has_stand: bool) {
-        let slot = ((label.ready_s - task.origin_s) / SLOT_S) as usize;
+        let slot = ((label.ready_s - task.origin_s) >> self.slot_bits) as usize;
         let at = slot * task.problem.day.vertiports + place.at();
         if label.value_usd > self.labels[at].value_usd {
             self.labels[at] = label;
@@ -233,15 +272,46 @@ impl ItinerarySearch {
                     },
                 );
             }
-            slot_s += SLOT_S;
+            slot_s += self.slot_s();
         }
     }
 
     #[inline]
     fn decide(&mut self, task: &Task<'_>, choice: &Choice) {
         self.hold(task, choice);
-        for hop in task.problem.day.hops(task.kind, choice.place) {
-            self.fly(task, choice, hop);
+        let day = &task.problem.day;
+        let first = self.offers(task, choice) + choice.place.at() * day.vertiports;
+        for (offer, hop) in (first..).zip(day.hops(task.kind, choice.place)) {
+            self.fly(task, choice, hop, offer);
+        }
+    }
+
+    /// Where the table of what flights bring at the time of a choice begins in `offers_usd`.
+    #[inline]
+    fn offers(&mut self, task: &Task<'_>, choice: &Choice) -> usize {
+        let day = &task.problem.day;
+        let departure = Departure { cell: 0, period: choice.period, take_off_s: choice.time_s };
+        let table = 2 * choice.period + usize::from(departure.is_early(day));
+        let first = table * day.vertiports * day.vertiports;
+        if !self.has_offers[table] {
+            self.has_offers[table] = true;
+            self.fill_offers(task, departure, first);
+        }
+        first
+    }
+
+    /// Fills the table of a time, which is that of any departure in it.
+    fn fill_offers(&mut self, task: &Task<'_>, any: Departure, first: usize) {
+        let day = &task.problem.day;
+        let rows = self.offers_usd[first..].chunks_mut(day.vertiports);
+        for (place, row) in VertiportIx::all(day.vertiports).zip(rows) {
+            for (offer_usd, hop) in row.iter_mut().zip(day.hops(task.kind, place)) {
+                let departure = Departure { cell: day.cell(any.period, place, hop.to), ..any };
+                let margin_usd = task.schedule.passengers.margin_usd(day, departure, task.seats);
+                let above_usd = task.prices.above_price_usd(day, task.kind, departure, margin_usd);
+                *offer_usd = margin_usd - hop.flight_cost_usd + task.noise_usd(departure.cell)
+                    - task.bias.flight_share * above_usd;
+            }
         }
     }
 
@@ -270,22 +340,16 @@ impl ItinerarySearch {
     }
 
     #[inline]
-    fn fly(&mut self, task: &Task<'_>, choice: &Choice, hop: &Hop) {
+    fn fly(&mut self, task: &Task<'_>, choice: &Choice, hop: &Hop, offer: usize) {
         let Some(window) = self.window(hop.to, choice.moment) else { return };
         let day = &task.problem.day;
         if day.is_closed(choice.place, hop.to, choice.time_s) {
             return;
         }
         let landing = day.landing(task.aircraft, choice.place, hop, choice.time_s);
-        let cell = day.cell(choice.period, choice.place, hop.to);
-        let departure = Departure { cell, period: choice.period, take_off_s: choice.time_s };
-        let margin_usd = task.schedule.passengers.margin_usd(day, departure, task.seats);
-        let cost_usd = day.flying_cost_usd(hop, choice.period, landing.arrival_s);
-        let above_usd = task.prices.above_price_usd(day, task.kind, departure, margin_usd);
-        let profit_usd =
-            margin_usd - cost_usd + task.noise_usd(cell) - task.bias.flight_share * above_usd;
+        let energy_usd = day.energy_cost_usd(hop, choice.period, landing.arrival_s);
         let place = Place { at: hop.to, window, has_stand: false };
-        self.reach(task, choice, place, landing.ready_s, profit_usd);
+        self.reach(task, choice, place, landing.ready_s, self.offers_usd[offer] - energy_usd);
     }
 
     /// The window of a vertiport that contains a moment, which must not be before the slot that is being settled.

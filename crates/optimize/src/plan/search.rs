@@ -11,7 +11,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use vertifleet_core::AircraftIx;
 
 use super::guiding_prices::GuidingPrices;
-use super::itinerary_search::{Bias, Guided, ItinerarySearch, SLOT_S};
+use super::itinerary_search::{Bias, Guided, ItinerarySearch};
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
 
@@ -56,12 +56,12 @@ struct TakenOut {
 
 impl Search {
     /// A search that starts from a schedule whose itineraries are all whole.
-    pub(super) fn new(schedule: Schedule, seed: u64) -> Self {
+    pub(super) fn new(problem: &Problem, schedule: Schedule, seed: u64) -> Self {
         Self {
             best: schedule.clone(),
             current: schedule,
             random: Xoshiro256PlusPlus::seed_from_u64(seed),
-            itineraries: ItinerarySearch::default(),
+            itineraries: ItinerarySearch::quick(&problem.day),
             taken_out: TakenOut::default(),
             way_on: Vec::new(),
             others: Vec::new(),
@@ -143,7 +143,7 @@ impl Search {
                 continue;
             }
             let bias = Bias {
-                shift_s: self.random.random_range(0..SLOT_S),
+                shift_s: self.random.random_range(0..self.itineraries.slot_s()),
                 rent_share,
                 flight_share,
                 noise_usd,
@@ -231,7 +231,7 @@ mod tests {
         let problem = Problem::of(day);
         let prices = GuidingPrices::of_policies(day, &problem.day);
         let start = start::best_policy(day, Vec::new(), &mut |_, _| true);
-        let mut search = Search::new(start::schedule_of(&problem, &start.trace), 3);
+        let mut search = Search::new(&problem, start::schedule_of(&problem, &start.trace), 3);
         for step in 0..300 {
             // The temperature alternates between hot and cold, so that steps are kept as well as undone.
             search.step(&problem, &prices, f64::from(step % 5) * 20.0 + 0.1);

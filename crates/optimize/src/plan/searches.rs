@@ -57,7 +57,7 @@ impl<'a> Searches<'a> {
     fn add(&mut self, schedule: Schedule) {
         let number = u32::try_from(self.all.len()).expect("as many searches as threads");
         let seed = draw(self.settings.seed, self.scenario.seed, number);
-        self.all.push(Search::new(schedule, seed));
+        self.all.push(Search::new(self.problem, schedule, seed));
     }
 
     /// Improves a plan until the budget is used up or `watch` stops it.

@@ -28,7 +28,10 @@ impl Tempo {
     /// Whether prices should be found again now that so many aircraft are left: after each if there is time for that, and
     /// otherwise after every few.
     pub(super) fn is_time_to_price(&mut self, left: usize) -> bool {
-        let Some(until) = self.until else { return left > 0 };
+        if left == 0 {
+            return false;
+        }
+        let Some(until) = self.until else { return true };
         let left = left as f64;
         let spare_s = seconds_until(until) - left * self.planning.mean_s();
         self.due += (spare_s / (left * self.pricing.mean_s())).clamp(0.0, 1.0);
@@ -56,4 +59,42 @@ impl Spent {
 /// Seconds until a time, 0 if it has passed.
 pub(super) fn seconds_until(time: Instant) -> f64 {
     time.saturating_duration_since(Instant::now()).as_secs_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, Instant};
+
+    use super::{Spent, Tempo};
+
+    /// After how many of 12 aircraft prices are found again, if there are so many seconds, planning an aircraft takes one and
+    /// finding prices takes 10. They are so many that the time of the test itself makes no difference.
+    fn times_priced(seconds: u64) -> usize {
+        let spent = |s: u64| Spent { times: 1, took: Duration::from_secs(1_000 * s) };
+        let until = |left_s: u64| Some(Instant::now() + Duration::from_secs(1_000 * left_s));
+        let mut tempo = Tempo { planning: spent(1), pricing: spent(10), ..Tempo::default() };
+        let mut left_s = seconds;
+        let priced = (0..12_usize).rev().filter(|&left| {
+            left_s = left_s.saturating_sub(1);
+            tempo.until = until(left_s);
+            let is_time = tempo.is_time_to_price(left);
+            left_s = left_s.saturating_sub(if is_time { 10 } else { 0 });
+            is_time
+        });
+        priced.count()
+    }
+
+    #[test]
+    fn prices_are_found_as_often_as_there_is_time() {
+        assert_eq!(times_priced(1_000), 11, "after each aircraft but the last");
+        assert!((4..=6).contains(&times_priced(70)), "{}", times_priced(70));
+        assert_eq!(times_priced(5), 0, "there is time to plan only");
+    }
+
+    #[test]
+    fn without_a_limit_prices_are_found_after_each_aircraft_but_the_last() {
+        let mut tempo = Tempo::default();
+        let priced = (0..5).rev().filter(|&left| tempo.is_time_to_price(left));
+        assert_eq!(priced.count(), 4);
+    }
 }
