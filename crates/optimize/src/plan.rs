@@ -92,7 +92,8 @@ pub struct Plan {
 }
 
 /// The number of search steps on this day that take about as much work as `paper_steps` on a day of `paper`; at least
-/// one. A step looks at every flight from every vertiport in every minute.
+/// one. A step looks at every flight from every vertiport in every slot
+/// of time.
 pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
     const PAPER_LOOKS: u64 = 8 * 8 * 720;
     (paper_steps * PAPER_LOOKS / looks_a_step(scenario).max(PAPER_LOOKS)).max(1)

@@ -64,7 +64,7 @@ struct Finish {
 }
 
 /// The memory of the search, kept from one itinerary to the next.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct ItinerarySearch {
     /// The length of a slot, in which only the best label of a vertiport is kept, is 2 to this power in seconds. No flight and no
     /// hold is shorter, so every label leads to a later slot.
@@ -139,7 +139,7 @@ struct Place {
 impl ItinerarySearch {
     /// A search in short slots.
     pub(super) fn thorough() -> Self {
-        // No hold is shorter than a minute.
+        // No flight and no hold is shorter than a minute.
         Self::in_slots(5)
     }
 
@@ -149,17 +149,7 @@ impl ItinerarySearch {
     }
 
     fn in_slots(slot_bits: u32) -> Self {
-        Self {
-            slot_bits,
-            labels: Vec::new(),
-            windows: Vec::new(),
-            beside_chargers: Vec::new(),
-            has_stand: Vec::new(),
-            offers_usd: Vec::new(),
-            has_offers: Vec::new(),
-            current: Vec::new(),
-            best: None,
-        }
+        Self { slot_bits, ..Self::default() }
     }
 
     /// The length of a slot, seconds.
