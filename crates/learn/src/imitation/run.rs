@@ -41,6 +41,8 @@ pub(crate) struct ImitationRun {
     /// The header of the run's models, except for the number of steps.
     header: Header,
     world: World,
+    /// The weights that the run began with.
+    first: Vec<f32>,
     learner: Learner,
     dataset: Dataset,
     curve: Vec<ImitationRow>,
@@ -68,19 +70,23 @@ impl ImitationRun {
             let rule = format!("must be 0 for {}, whose logits are in no unit", plan.policy.name());
             return Err(Error::BadSetting { name: "own_rounds".to_owned(), rule });
         }
+        if settings.kept > 0.0 && plan.begin_with.is_none() {
+            let rule = "must be 0 for a run that begins with fresh weights".to_owned();
+            return Err(Error::BadSetting { name: "kept".to_owned(), rule });
+        }
         let Begin { net, vertiports, header } = Begin::of(plan, settings.random_share)?;
+        let first = plan.first_params(&net);
         let (params, adam, dataset, curve) = if let Some(path) = from {
             read_checkpoint(path, &identity, &settings, net.layout().len())?
         } else {
-            let params = plan.first_params(&net);
-            let adam = Adam::new(params.len());
-            (params, adam, Dataset::default(), Vec::new())
+            (first.clone(), Adam::new(first.len()), Dataset::default(), Vec::new())
         };
         let validation =
             ValidationDays::of(&plan.world, settings.validation_days, plan.policy.fits_any_size())?;
         Ok(Self {
             header,
             world: plan.world.clone(),
+            first,
             learner: Learner::new(plan.policy.clone(), vertiports, params, adam),
             identity,
             settings,
@@ -228,7 +234,13 @@ impl TrainingRun for ImitationRun {
 
     fn model(&self) -> Model {
         let header = self.header.after(self.dataset.len() as u64);
-        let params = self.learner.weights.params().to_vec();
+        let mut params = self.learner.weights.params().to_vec();
+        if self.settings.kept > 0.0 {
+            let kept = self.settings.kept as f32;
+            for (param, first) in params.iter_mut().zip(&self.first) {
+                *param += kept * (first - *param);
+            }
+        }
         Model::new(header, params).expect("a run has checked all of this")
     }
 

@@ -24,6 +24,10 @@ pub struct ImitationSettings {
     pub own_rounds: u32,
     /// Number of passes over all samples so far in a round.
     pub passes: u32,
+    /// The share that the weights which the run began with have in those that it gives, so that what they were good at is not
+    /// forgotten (M. Wortsman and others, *Robust fine-tuning of zero-shot models*, 2022).
+    #[serde(default)]
+    pub kept: f64,
     /// Adam's step size; it falls in a straight line to a tenth over the run.
     pub learning_rate: f32,
     /// Weight of the entropy in the loss.
@@ -52,6 +56,7 @@ impl Default for ImitationSettings {
             samples: usual_samples(),
             own_rounds: 0,
             passes: 12,
+            kept: 0.0,
             learning_rate: 1e-3,
             entropy_weight: 1.0,
             exploration: 0.05,
@@ -69,6 +74,7 @@ impl ImitationSettings {
         within("own_rounds", f64::from(self.own_rounds), 0.0, 10_000.0)?;
         within("samples", f64::from(self.samples), 1.0, 1_000_000.0)?;
         within("passes", f64::from(self.passes), 1.0, 10_000.0)?;
+        within("kept", self.kept, 0.0, 1.0)?;
         within("learning_rate", f64::from(self.learning_rate), 0.0, 1.0)?;
         within("entropy_weight", f64::from(self.entropy_weight), 0.0, 100.0)?;
         within("exploration", self.exploration, 0.0, 1.0)?;

@@ -296,11 +296,26 @@ fn another_seed_gives_other_weights() {
 }
 
 #[test]
+fn a_run_may_keep_a_share_of_the_weights_it_began_with() {
+    let first = plan(small_gcaps_x()).start().expect("a plan").model();
+    let from = |kept: &str| {
+        let asked = plan_with(small_gcaps_x(), &[("kept", kept)]);
+        let asked = TrainingRequest { begin_with: Some(first.clone()), ..on_mornings(asked) };
+        finished(asked.start().expect("a plan")).model()
+    };
+    let (learned, mixed) = (from("0"), from("0.25"));
+    assert_ne!(learned.params(), first.params());
+    let expected = learned.params().iter().zip(first.params()).map(|(l, f)| 0.75 * l + 0.25 * f);
+    assert!(mixed.params().iter().zip(expected).all(|(mixed, mean)| (mixed - mean).abs() < 1e-6));
+}
+
+#[test]
 fn settings_of_another_way_to_learn_are_refused() {
     let by_ppo = TrainingRequest { settings: plan(small_mlp()).settings, ..plan(small_gcaps_x()) };
     // The logits of the paper's policies are in no unit of money, so they cannot perturb roll-outs.
     let by_itself = short(small_gcaps(), "imitation", &[("own_rounds", "1")]);
-    for run in [by_ppo, by_itself] {
+    let keeps_nothing = plan_with(small_gcaps_x(), &[("kept", "0.5")]);
+    for run in [by_ppo, by_itself, keeps_nothing] {
         let error = run.start().err().expect("no such run");
         assert_eq!(error.code().to_string(), "V303");
     }
