@@ -86,6 +86,7 @@ def collect(folder: Path) -> None:
             if is_greedy and (name, seed) != (REFERENCES[0], "1"):
                 continue
             run_of = (world, "greedy" if is_greedy else name, seed)
+            # Aircraft and sites cost nothing on these days, so their profit is operating profit.
             shares = ((day["day"], 100 * day["profit_usd"] / day["upper_bound_usd"]) for day in result["days"])
             runs[run_of] = [[*run_of, day, f"{share:.4f}"] for day, share in shares]
     DATA.parent.mkdir(exist_ok=True)
