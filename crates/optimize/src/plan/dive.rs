@@ -79,8 +79,8 @@ impl Drop for Dive {
 
 /// About how many steps of a search take as long as thorough dives.
 pub(super) fn search_steps(scenario: &Scenario) -> f64 {
-    /// Steps of a search that take as long as a step for prices with aircraft of one type: 2 to 3 on cities, 8 on `paper`.
-    const EACH: f64 = 3.0;
+    /// Steps of a search that take as long as a step for prices with aircraft of one type: 6 to 9 on cities, 13 on `paper`.
+    const EACH: f64 = 8.0;
     let fleet = scenario.aircraft.len() as f64;
     let steps = f64::from(Rest::most_steps()) + SHARES.len() as f64 * f64::from(STEPS) * fleet;
     EACH * scenario.aircraft_types.len() as f64 * steps
