@@ -99,7 +99,8 @@ bench: prepare
 	cargo bench --workspace --locked
 
 # How the shipped weights were made; they are then copied from out/train to models/paper, those of gcaps-x to models/any, with
-# their curves. Beside gcaps-x lie the curves of --seed 2 and --seed 3.
+# their curves. Beside gcaps-x lie the curves of --seed 2 and --seed 3. The shipped gcaps-x began with the weights that this
+# makes, at commit 8699f1b2c3a7: docs/src/benchmarks.md, "gcaps-x", has its command.
 train: program
 	./target/release/vertifleet train --network paper --policy gcaps --seed 1 --out out/train
 	./target/release/vertifleet train --network paper --policy mlp --seed 1 --out out/train

@@ -5,7 +5,7 @@ From the root of the project, after `cargo build --release -p vertifleet-cli`, o
     python3 benches/plans.py --days 10 > plans.md
 
 Days are those of comparison, from --seed on, as they are and calm: without delays, closures and outages, and with demand as
-forecast. A gap is a share of the bound's operating profit, as `vertifleet plan` says it. `policy` is the gap of the best
+forecast. Days of `random` are the first ones of its networks from `random:0` on, as in the suite `random-50`. A gap is a share of the bound's operating profit, as `vertifleet plan` says it. `policy` is the gap of the best
 shipped policy that was played in time.
 """
 
@@ -17,13 +17,15 @@ from pathlib import Path
 
 from suite import BAY, PROGRAM, run
 
-NETWORKS = ["new-york", "paris", "san-francisco", "dallas", "los-angeles", BAY, "paper"]
+NETWORKS = ["new-york", "paris", "san-francisco", "dallas", "los-angeles", BAY, "paper", "random", "large"]
 DISTURBANCES = ["forecast", "takeoff_delays", "closures", "outages"]
 
 
 def gaps(network: str, seed: int, calm: bool, limit_s: int, folder: Path) -> tuple[float, float]:
     """The gap of the plan of a day, and that of the best policy."""
     day = folder / "day.json"
+    if network == "random":
+        network, seed = f"random:{seed - 1}", seed - 1
     drawn = [PROGRAM, "scenario", network, "--seed", str(seed), "-o", str(day), "--force"]
     subprocess.run(drawn, check=True, capture_output=True)
     if calm:

@@ -370,10 +370,11 @@ def test_the_twin_of_gcaps_x_chooses_as_the_program_does(network, tmp_path):
     for _ in range(150):
         expected = policy.choose(env.view.decision, env.view)
         assert act(twin, observation) == expected
-        choices += int((observation["priced_nodes"][:, 0] == 1).sum()) > 1
+        if (observation["priced_nodes"][:, 0] == 1).sum() > 1:
+            choices += 1
+            batch = {name: torch.as_tensor(array)[None] for name, array in observation.items()}
         observation, *_ = env.step(expected)
     assert choices > 20, "there was something to choose"
-    batch = {name: torch.as_tensor(array)[None] for name, array in observation.items()}
     found = scores(twin, batch)
     (-found[found > -torch.inf].log_softmax(0)[0]).backward()
     assert any(parameter.grad is not None and parameter.grad.any() for parameter in twin.parameters())
