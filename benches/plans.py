@@ -5,8 +5,8 @@ From the root of the project, after `cargo build --release -p vertifleet-cli`, o
     python3 benches/plans.py --days 10 > plans.md
 
 Days are those of comparison, from --seed on, as they are and calm: without delays, closures and outages, and with demand as
-forecast. Days of `random` are the first ones of its networks from `random:0` on, as in the suite `random-50`. A gap is a share of the bound's operating profit, as `vertifleet plan` says it. `policy` is the gap of the best
-shipped policy that was played in time.
+forecast. Days of `random` are those of the suite `random-50`, from `random:0` on. A gap is a share of the bound's operating profit,
+as `vertifleet plan` says it. `policy` is the gap of the best shipped policy that was played in time.
 """
 
 import argparse

@@ -24,8 +24,8 @@ pub struct ImitationSettings {
     pub own_rounds: u32,
     /// Number of passes over all samples so far in a round.
     pub passes: u32,
-    /// The share that the weights which the run began with have in those that it gives, so that what they were good at is not
-    /// forgotten (M. Wortsman and others, *Robust fine-tuning of zero-shot models*, 2022).
+    /// The run gives the mean of the weights that it began with and those that it learned; this is the weight of the former in
+    /// it, which keeps what they were good at (M. Wortsman and others, *Robust fine-tuning of zero-shot models*, 2022).
     #[serde(default)]
     pub kept: f64,
     /// Adam's step size; it falls in a straight line to a tenth over the run.
