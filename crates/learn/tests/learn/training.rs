@@ -314,8 +314,8 @@ fn settings_of_another_way_to_learn_are_refused() {
     let by_ppo = TrainingRequest { settings: plan(small_mlp()).settings, ..plan(small_gcaps_x()) };
     // The logits of the paper's policies are in no unit of money, so they cannot perturb roll-outs.
     let by_itself = short(small_gcaps(), "imitation", &[("own_rounds", "1")]);
-    let keeps_nothing = plan_with(small_gcaps_x(), &[("kept", "0.5")]);
-    for run in [by_ppo, by_itself, keeps_nothing] {
+    let keeps_fresh_weights = plan_with(small_gcaps_x(), &[("kept", "0.5")]);
+    for run in [by_ppo, by_itself, keeps_fresh_weights] {
         let error = run.start().err().expect("no such run");
         assert_eq!(error.code().to_string(), "V303");
     }
