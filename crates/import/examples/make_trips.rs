@@ -1,7 +1,7 @@
-//! Writes invented trip records for measurements: `make_trips COUNT FILE [SEED [NETWORK]]`.
+//! Writes invented trip records for measurements: `make_trips COUNT FILE [SEED [NETWORK [ROWS]]]`.
 //!
 //! The records are around the vertiports of a network that places them by latitude and longitude, `new-york` if none is
-//! named. FILE ends with `.csv` or `.parquet`. The vertiports go to a file `vertiports.csv` beside it.
+//! named. FILE ends with `.csv` or `.parquet`, whose row groups have ROWS rows. The vertiports go to a file `vertiports.csv` beside it.
 
 #[path = "../tests/imports/made.rs"]
 mod made;
@@ -19,10 +19,11 @@ const ROWS_OF_GROUP: usize = 1 << 20;
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let [count, path, rest @ ..] = words.as_slice() else {
-        return Err("make_trips COUNT FILE [SEED [NETWORK]]".into());
+        return Err("make_trips COUNT FILE [SEED [NETWORK [ROWS]]]".into());
     };
     let seed = rest.first().map_or(Ok(1), |seed| seed.parse())?;
     let network = Network::find(rest.get(1).map_or("new-york", String::as_str))?;
+    let rows = rest.get(2).map_or(Ok(ROWS_OF_GROUP), |rows| rows.parse())?;
     let path = Path::new(path);
     let mut table = "id,latitude,longitude,stands\n".to_owned();
     let mut around = Vec::new();
@@ -36,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let trips = made::trips(&around, count.parse()?, seed);
     let file = BufWriter::with_capacity(1 << 20, File::create(path)?);
     if path.extension().is_some_and(|extension| extension == "parquet") {
-        made::write_parquet(file, trips, ROWS_OF_GROUP)?;
+        made::write_parquet(file, trips, rows)?;
     } else {
         made::write_csv(file, trips)?;
     }

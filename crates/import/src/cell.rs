@@ -5,7 +5,11 @@
 
 use std::borrow::Cow;
 
-use crate::date_time::Moment;
+use unicode_normalization::{UnicodeNormalization, is_nfc};
+
+use vertifleet_core::Time;
+
+use crate::date_time::{Moment, Stamp};
 
 /// A value of one column in one row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +20,9 @@ pub(crate) enum Cell<'a> {
     Text(&'a [u8]),
     Whole(i64),
     Number(f64),
-    Moment(Moment),
+    /// A time of day without a date, seconds since midnight.
+    TimeOfDay(u32),
+    Stamp(Stamp),
 }
 
 impl<'a> Cell<'a> {
@@ -34,7 +40,7 @@ impl<'a> Cell<'a> {
             Self::Text(text) => number(text),
             Self::Whole(whole) => Some(whole as f64),
             Self::Number(number) => Some(number).filter(|number| number.is_finite()),
-            Self::Missing | Self::Moment(_) => None,
+            Self::Missing | Self::TimeOfDay(_) | Self::Stamp(_) => None,
         }
     }
 
@@ -53,11 +59,11 @@ impl<'a> Cell<'a> {
 
     /// The date and time of day that the cell holds.
     #[inline]
-    pub(crate) fn moment(self) -> Option<Moment> {
+    pub(crate) fn stamp(self) -> Option<Stamp> {
         match self {
             Self::Text(text) => Moment::read(text),
-            Self::Moment(moment) => Some(moment),
-            Self::Missing | Self::Whole(_) | Self::Number(_) => None,
+            Self::Stamp(stamp) => Some(stamp),
+            Self::Missing | Self::Whole(_) | Self::Number(_) | Self::TimeOfDay(_) => None,
         }
     }
 
@@ -68,9 +74,16 @@ impl<'a> Cell<'a> {
             Self::Text(text) => String::from_utf8_lossy(text),
             Self::Whole(whole) => Cow::Owned(whole.to_string()),
             Self::Number(number) => Cow::Owned(number.to_string()),
-            Self::Moment(moment) => Cow::Owned(moment.to_string()),
+            Self::TimeOfDay(second) => Cow::Owned(Time::from_seconds(second).to_string()),
+            Self::Stamp(stamp) => Cow::Owned(stamp.moment.to_string()),
         }
     }
+}
+
+/// A text with composed accents. Some systems write a letter and its accent as one character, and others as two, so that ids
+/// that look the same would differ.
+pub(crate) fn composed(text: Cow<'_, str>) -> Cow<'_, str> {
+    if is_nfc(&text) { text } else { Cow::Owned(text.nfc().collect()) }
 }
 
 /// Reads a finite decimal number.

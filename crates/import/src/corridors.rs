@@ -6,11 +6,11 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use crate::Error;
 use crate::features::{self, Shape};
 use crate::globe::{Place, length_mi};
 use crate::row::{Column, optional, required};
 use crate::vertiports::Vertiports;
+use crate::{Error, Warning};
 
 /// How far from its vertiports a line may begin and end, miles.
 const NEAR_MI: f64 = 1.0;
@@ -30,10 +30,14 @@ pub(crate) struct Corridor {
 }
 
 /// Reads a GeoJSON file of lines.
-pub(crate) fn read(path: &Path, vertiports: &Vertiports) -> Result<Vec<Corridor>, Error> {
+pub(crate) fn read(
+    path: &Path,
+    vertiports: &Vertiports,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Corridor>, Error> {
     let mut corridors = Vec::new();
     let mut known: HashMap<(usize, usize), usize> = HashMap::new();
-    features::shapes(path, &COLUMNS, |shape| {
+    features::shapes(path, &COLUMNS, warnings, |shape| {
         let corridor = corridor(shape, vertiports)?;
         let (from, to) = corridor.ends;
         let routes = [(from, to), (to, from)];

@@ -27,6 +27,14 @@ pub(crate) struct Moment {
     pub(crate) second: u32,
 }
 
+/// A date and a time of day as a file writes it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Stamp {
+    pub(crate) moment: Moment,
+    /// By how much its clock is ahead of UTC, seconds, if the file says that.
+    pub(crate) offset_s: Option<i32>,
+}
+
 /// A day of the week.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -68,6 +76,11 @@ impl Date {
         Self { days: self.days.saturating_sub(1) }
     }
 
+    /// The dates from this one to another.
+    pub(crate) fn to(self, last: Self) -> impl Iterator<Item = Self> + Clone {
+        (self.days..=last.days).map(|days| Self { days })
+    }
+
     /// The day of the week.
     #[inline]
     pub fn weekday(self) -> Weekday {
@@ -105,25 +118,37 @@ impl Date {
 
 impl Moment {
     /// Reads `YYYY-MM-DD HH:MM`, with a `T` in place of the space if need be, and with or without seconds and a
-    /// fraction of a second. A `Z` at the end is read over, because times are taken as wall-clock times.
+    /// fraction of a second. At its end may stand `Z`, `UTC`, `GMT` or an offset as `-04:00`, `-0400` or `-04`.
     #[inline]
-    pub(crate) fn read(text: &[u8]) -> Option<Self> {
+    pub(crate) fn read(text: &[u8]) -> Option<Stamp> {
         let (date, time) = text.split_at_checked(10)?;
         let date = Date::read(date)?;
         let [b' ' | b'T', h1, h2, b':', m1, m2, rest @ ..] = time else { return None };
         let (hour, minute) = (two_digits(*h1, *h2)?, two_digits(*m1, *m2)?);
-        let second = match rest.strip_suffix(b"Z").unwrap_or(rest) {
-            [] => 0,
-            [b':', s1, s2] => two_digits(*s1, *s2)?,
-            [b':', s1, s2, b'.', fraction @ ..] if fraction.iter().all(u8::is_ascii_digit) => {
-                two_digits(*s1, *s2)?
-            }
-            _ => return None,
+        let (second, rest) = match rest {
+            [b':', s1, s2, rest @ ..] => (two_digits(*s1, *s2)?, without_fraction(rest)),
+            rest => (0, rest),
         };
         if hour >= 24 || minute >= 60 || second >= 60 {
             return None;
         }
+        let offset_s = if rest.is_empty() { None } else { Some(offset_s(rest.trim_ascii())?) };
+        let moment = Self { date, second: hour * 3600 + minute * 60 + second };
+        Some(Stamp { moment, offset_s })
+    }
+
+    /// The date and time of day of the civil calendar, to the second.
+    pub(crate) fn of_civil(time: jiff::civil::DateTime) -> Option<Self> {
+        let part = |part: i8| u32::try_from(part).ok();
+        let date = Date::new(time.year().into(), part(time.month())?, part(time.day())?)?;
+        let (hour, minute, second) =
+            (part(time.hour())?, part(time.minute())?, part(time.second())?);
         Some(Self { date, second: hour * 3600 + minute * 60 + second })
+    }
+
+    /// Seconds since 1970-01-01 00:00.
+    pub(crate) fn seconds(self) -> i64 {
+        i64::from(self.date.days) * i64::from(DAY_S) + i64::from(self.second)
     }
 
     /// The moment so many seconds after 1970-01-01 00:00.
@@ -134,6 +159,42 @@ impl Moment {
         let four_digits = FIRST_DAY..=LAST_DAY;
         four_digits.contains(&days).then_some(Self { date: Date { days }, second })
     }
+}
+
+impl Stamp {
+    /// The instant so many seconds after 1970 began in UTC.
+    pub(crate) fn of_utc(seconds: i64) -> Option<Self> {
+        Some(Self { moment: Moment::from_seconds(seconds)?, offset_s: Some(0) })
+    }
+}
+
+/// What follows the fraction of a second.
+#[inline]
+fn without_fraction(text: &[u8]) -> &[u8] {
+    match text {
+        [b'.', fraction @ ..] => {
+            let digits = fraction.iter().take_while(|byte| byte.is_ascii_digit()).count();
+            &fraction[digits..]
+        }
+        text => text,
+    }
+}
+
+/// An offset from UTC, seconds.
+fn offset_s(text: &[u8]) -> Option<i32> {
+    let (sign, digits) = match text {
+        b"Z" | b"z" | b"UTC" | b"GMT" => return Some(0),
+        [b'+', digits @ ..] => (1, digits),
+        [b'-', digits @ ..] => (-1, digits),
+        _ => return None,
+    };
+    let (hours, minutes) = match *digits {
+        [h1, h2] => (two_digits(h1, h2)?, 0),
+        [h1, h2, m1, m2] | [h1, h2, b':', m1, m2] => (two_digits(h1, h2)?, two_digits(m1, m2)?),
+        _ => return None,
+    };
+    let valid = hours < 24 && minutes < 60;
+    valid.then_some(sign * i32::try_from(hours * 3600 + minutes * 60).ok()?)
 }
 
 #[inline]
@@ -260,7 +321,7 @@ impl Serialize for Date {
 
 #[cfg(test)]
 mod tests {
-    use super::{DAY_S, Date, FIRST_DAY, LAST_DAY, Moment, Weekday, Weekdays};
+    use super::{DAY_S, Date, FIRST_DAY, LAST_DAY, Moment, Stamp, Weekday, Weekdays};
 
     #[test]
     fn every_day_of_eight_centuries_follows_the_one_before() {
@@ -287,12 +348,25 @@ mod tests {
 
     #[test]
     fn moments_are_read_in_every_form_that_occurs() {
-        let moment = Moment::read(b"2015-06-01 07:08:09").expect("a moment");
+        let read = |text: &str| {
+            Moment::read(text.as_bytes()).map(|Stamp { moment, offset_s }| (moment, offset_s))
+        };
+        let (moment, _) = read("2015-06-01 07:08:09").expect("a moment");
         assert_eq!((moment.date.to_string().as_str(), moment.second), ("2015-06-01", 25_689));
-        for text in ["2015-06-01T07:08:09", "2015-06-01T07:08:09Z", "2015-06-01 07:08:09.123"] {
-            assert_eq!(Moment::read(text.as_bytes()), Some(moment), "{text}");
+        for text in ["2015-06-01T07:08:09", "2015-06-01 07:08:09.123", "2015-06-01 07:08:09."] {
+            assert_eq!(read(text), Some((moment, None)), "{text}");
         }
-        assert_eq!(Moment::read(b"2015-06-01 07:08").map(|moment| moment.second), Some(25_680));
+        for (text, offset_s) in [
+            ("2015-06-01T07:08:09Z", 0),
+            ("2015-06-01 07:08:09.5 UTC", 0),
+            ("2015-06-01 07:08:09-04:00", -14_400),
+            ("2015-06-01 07:08:09 +0530", 19_800),
+            ("2015-06-01 07:08:09+00", 0),
+        ] {
+            assert_eq!(read(text), Some((moment, Some(offset_s))), "{text}");
+        }
+        let minutes = read("2015-06-01 07:08").map(|(moment, _)| moment.second);
+        assert_eq!(minutes, Some(25_680));
         for text in [
             "",
             "2015-06-01",
@@ -300,8 +374,11 @@ mod tests {
             "2015-06-01 24:00",
             "2015-06-01 07:08:9",
             "01/06/2015 07:08",
+            "2015-06-01 07:08 PM",
+            "2015-06-01 07:08:09-4",
+            "2015-06-01 07:08:09+25:00",
         ] {
-            assert_eq!(Moment::read(text.as_bytes()), None, "{text}");
+            assert_eq!(read(text), None, "{text}");
         }
         assert_eq!(Moment::from_seconds(-1).map(|moment| moment.second), Some(86_399));
         assert_eq!(Moment::from_seconds(i64::MAX), None);

@@ -28,10 +28,10 @@ pub(crate) struct EnergyPrices {
 
 impl EnergyPrices {
     /// Reads a table.
-    pub(crate) fn read(path: &Path) -> Result<Self, Error> {
+    pub(crate) fn read(path: &Path, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
         let origin = path.display().to_string();
         let mut rows: BTreeMap<Time, (f64, usize)> = BTreeMap::new();
-        table::rows(path, &COLUMNS, |row| {
+        table::rows(path, &COLUMNS, warnings, |row| {
             let period = row.time(0)?;
             let price = row.number(1, 0.0, MOST_USD)?;
             match rows.insert(period, (price, row.position)) {

@@ -11,9 +11,9 @@ pub enum Error {
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
-    /// V701. A file is not of the kind that its name or its first bytes promise, or it is damaged, or its text is encoded
-    /// in UTF-16. Fix: look at the place in the message; write the file again as CSV, GeoJSON or Parquet, its text in
-    /// UTF-8.
+    /// V701. A file is not of the kind that its name or its first bytes promise, or it is damaged, or its text is not UTF-8, or
+    /// a row has more values than there are columns, or a map is not in longitude and latitude. Fix: look at the place in the
+    /// message; write the file again as CSV, GeoJSON or Parquet, its text in UTF-8.
     #[error("{origin}: cannot be read as {kind}: {problem}")]
     NotParsed {
         /// The file.
@@ -24,13 +24,15 @@ pub enum Error {
         problem: String,
     },
 
-    /// V702. A table has no column of a name that is needed, or none of several, or its columns are separated by something
+    /// V702. A table has no column, or a map no property, of a name that is needed, or none of several, or its columns are separated by something
     /// else than commas. Fix: rename the column, or name the one that is meant where the names of columns can be chosen;
     /// save the file with commas.
-    #[error("{origin}: has no column {column}; its columns are {found}")]
+    #[error("{origin}: has no {what} {column}; it has {found}")]
     MissingColumn {
         /// The file.
         origin: String,
+        /// "column" or "property".
+        what: &'static str,
         /// The column that is needed, or the choices.
         column: String,
         /// The columns that are there.
@@ -55,7 +57,7 @@ pub enum Error {
         found: String,
     },
 
-    /// V704. A file gives the same vertiport, zone, corridor, pair or period twice. Fix: remove one of the two, or
+    /// V704. A file gives the same vertiport, zone, corridor, pair, period, column or property twice. Fix: remove one of the two, or
     /// rename it.
     #[error("{origin}: {place}: {what} is given before, in {before}")]
     GivenTwice {
@@ -264,6 +266,9 @@ impl Coded for Error {
             Self::CorridorEnd { exchanged: true, .. } => {
                 Some("latitude and longitude are exchanged: in GeoJSON the longitude comes first")
             }
+            Self::WrongValue { member: "latitude" | "longitude", .. } => Some(
+                "positions are degrees (WGS 84), latitude and longitude each in its column, and not metres of a map",
+            ),
             Self::CorridorEnd { .. } => Some("a line is drawn from its `from` to its `to`"),
             Self::WrongGeometry { .. } => {
                 Some("coordinates are longitude and latitude in degrees (WGS 84), in this order")

@@ -5,15 +5,18 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use geojson::feature::Id;
-use geojson::{Feature, FeatureCollection, GeometryValue, JsonValue, LineStringType, Position};
-use vertifleet_core::read_at_most;
+use geojson::{
+    Feature, FeatureCollection, GeometryValue, JsonObject, JsonValue, LineStringType, Position,
+};
 
-use crate::Error;
 use crate::cell::Cell;
 use crate::error::shortened;
 use crate::globe::Place;
-use crate::row::{Column, Positions, Row};
-use crate::table::{LONGEST, text, without_mark};
+use crate::header::{Header, Named};
+use crate::row::{Column, Need, Positions, Row};
+use crate::source::read_whole;
+use crate::table::{text, without_mark};
+use crate::{Error, Warning};
 
 /// Whether a file is GeoJSON, by its name or, where the name does not say, by its first character.
 pub(crate) fn is_geojson(path: &Path) -> Result<bool, Error> {
@@ -21,10 +24,7 @@ pub(crate) fn is_geojson(path: &Path) -> Result<bool, Error> {
     match extension.as_ref().and_then(|extension| extension.to_str()) {
         Some("geojson" | "json") => Ok(true),
         Some("csv" | "parquet") => Ok(false),
-        _ => {
-            let bytes = read_at_most(path, LONGEST)?;
-            Ok(without_mark(&bytes).trim_ascii_start().starts_with(b"{"))
-        }
+        _ => Ok(without_mark(&read_whole(path)?).trim_ascii_start().starts_with(b"{")),
     }
 }
 
@@ -41,23 +41,48 @@ pub(crate) struct Ring {
 }
 
 /// Calls `each` with every feature of a file. A column named `id` is also the feature's own `id`, if no property has
-/// this name.
+/// this name. `warnings` has properties that are not read and look like one that is.
 pub(crate) fn shapes(
     path: &Path,
     columns: &[Column],
+    warnings: &mut Vec<Warning>,
     mut each: impl FnMut(&Shape<'_>) -> Result<(), Error>,
-) -> Result<usize, Error> {
+) -> Result<(), Error> {
     let origin = path.display().to_string();
-    let bytes = read_at_most(path, LONGEST)?;
+    let bytes = read_whole(path)?;
     let kind = "a GeoJSON FeatureCollection";
+    let wrong = |problem: String| Error::NotParsed { origin: origin.clone(), kind, problem };
     let collection: FeatureCollection = serde_json::from_slice(text(&bytes, kind, &origin)?)
-        .map_err(|error| {
-            let problem = shortened(&error.to_string(), 300);
-            Error::NotParsed { origin: origin.clone(), kind, problem }
-        })?;
+        .map_err(|error| wrong(shortened(&error.to_string(), 300)))?;
+    if let Some(system) = other_system(&collection) {
+        return Err(wrong(format!(
+            "its positions are in {}: export it in longitude and latitude (WGS 84, EPSG:4326)",
+            shortened(&system, 80)
+        )));
+    }
+    let names = property_names(&collection);
+    let has_ids = collection.features.iter().any(|feature| feature.id.is_some());
+    let wanted: Vec<Column> = columns
+        .iter()
+        .map(|column| {
+            let is_id = has_ids && column.names.contains(&"id");
+            Column { need: if is_id { Need::Optional } else { column.need }, ..*column }
+        })
+        .collect();
+    if !collection.features.is_empty() {
+        Header { origin: &origin, names: &names, of: Named::Properties }.find(&wanted, warnings)?;
+    }
     for (feature, position) in collection.features.iter().zip(1..) {
-        let values: Vec<Option<Cow<'_, str>>> =
-            columns.iter().map(|column| value(feature, column)).collect();
+        let mut values: Vec<Option<Cow<'_, str>>> = Vec::with_capacity(columns.len());
+        for column in columns {
+            let value = value(feature, column).map_err(|twice| Error::GivenTwice {
+                origin: origin.clone(),
+                place: format!("feature {position}"),
+                what: format!("the property {:?}", shortened(twice, 64)),
+                before: "the same feature".to_owned(),
+            })?;
+            values.push(value);
+        }
         let texts = values.iter().map(|value| value.as_ref().map(|value| value.as_bytes()));
         let cells: Vec<Cell<'_>> =
             texts.map(|text| text.map_or(Cell::Missing, Cell::text)).collect();
@@ -66,30 +91,64 @@ pub(crate) fn shapes(
         let geometry = feature.geometry.as_ref().map(|geometry| &geometry.value);
         each(&Shape { row, geometry })?;
     }
-    Ok(collection.features.len())
+    Ok(())
 }
 
-/// The value of the first of the column's names that the feature has.
-fn value<'a>(feature: &'a Feature, column: &Column) -> Option<Cow<'a, str>> {
-    let property = |name: &&str| match feature.property(name)? {
-        JsonValue::Null => None,
-        JsonValue::String(text) => Some(Cow::Borrowed(text.as_str())),
-        other => Some(Cow::Owned(other.to_string())),
+/// The reference system of a map, if it names one in which positions are not longitude and latitude.
+fn other_system(collection: &FeatureCollection) -> Option<String> {
+    let system = collection.foreign_members.as_ref()?.get("crs")?;
+    let name = match system.get("properties").and_then(|properties| properties.get("name")) {
+        Some(JsonValue::String(name)) => name.clone(),
+        _ if system.is_null() => return None,
+        _ => system.to_string(),
     };
-    column.names.iter().find_map(property).or_else(|| {
-        let id = feature.id.as_ref().filter(|_| column.names.contains(&"id"))?;
-        Some(match id {
-            Id::String(text) => Cow::Borrowed(text.as_str()),
-            Id::Number(number) => Cow::Owned(number.to_string()),
-        })
-    })
+    let plain = name.to_ascii_uppercase().replace("::", ":");
+    let degrees = ["CRS84", "EPSG:4326", "WGS84", "WGS 84"];
+    (!degrees.iter().any(|known| plain.ends_with(known))).then_some(name)
+}
+
+/// The names of the properties of all features, each once.
+fn property_names(collection: &FeatureCollection) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    let properties = collection.features.iter().filter_map(|feature| feature.properties.as_ref());
+    for name in properties.flat_map(JsonObject::keys) {
+        if !names.iter().any(|known| known.eq_ignore_ascii_case(name)) {
+            names.push(name.clone());
+        }
+    }
+    names
+}
+
+/// The value of the first of the column's names that the feature has, or a property that it has twice, once in other case.
+fn value<'a>(feature: &'a Feature, column: &Column) -> Result<Option<Cow<'a, str>>, &'a str> {
+    for name in column.names {
+        let same = |(key, _): &(&String, &JsonValue)| key.eq_ignore_ascii_case(name);
+        let mut found = feature.properties.iter().flatten().filter(same);
+        let first = found.next();
+        if let Some((twice, _)) = found.next() {
+            return Err(twice);
+        }
+        match first {
+            None | Some((_, JsonValue::Null)) => {}
+            Some((_, JsonValue::String(text))) => return Ok(Some(Cow::Borrowed(text.as_str()))),
+            Some((_, other)) => return Ok(Some(Cow::Owned(other.to_string()))),
+        }
+    }
+    let id = feature.id.as_ref().filter(|_| column.names.contains(&"id"));
+    Ok(id.map(|id| match id {
+        Id::String(text) => Cow::Borrowed(text.as_str()),
+        Id::Number(number) => Cow::Owned(number.to_string()),
+    }))
 }
 
 impl Shape<'_> {
-    /// The place of a point.
+    /// The place of a point. A point that is the only one of a set of points is also a point.
     pub(crate) fn point(&self) -> Result<Place, Error> {
         match self.geometry {
             Some(GeometryValue::Point { coordinates }) => self.place(coordinates),
+            Some(GeometryValue::MultiPoint { coordinates }) if coordinates.len() == 1 => {
+                self.place(&coordinates[0])
+            }
             _ => Err(self.wrong("a Point")),
         }
     }

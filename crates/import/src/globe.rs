@@ -36,8 +36,15 @@ pub(crate) fn length_mi(line: &[Place]) -> f64 {
 pub(crate) struct Area {
     /// Square degrees.
     size: f64,
-    /// Size times the middle's latitude and longitude.
+    /// Size times the middle's latitude, and its longitude east of `origin`.
     moment: (f64, f64),
+    /// The longitude of the first place, from which others are measured the shorter way round, also across the antimeridian.
+    origin: Option<f64>,
+}
+
+/// By how much a longitude lies east of another, the shorter way round, degrees.
+fn east_of(origin: f64, longitude: f64) -> f64 {
+    (longitude - origin + 540.0).rem_euclid(360.0) - 180.0
 }
 
 impl Area {
@@ -47,10 +54,11 @@ impl Area {
     /// but not where its middle is.
     pub(crate) fn add_ring(&mut self, ring: &[Place], hole: bool) {
         let Some(&origin) = ring.first() else { return };
+        let first = *self.origin.get_or_insert(origin.longitude);
         let (mut double, mut north, mut east) = (0.0, 0.0, 0.0);
         for ends in ring.windows(2) {
             let from_origin = |place: Place| {
-                (place.latitude - origin.latitude, place.longitude - origin.longitude)
+                (place.latitude - origin.latitude, east_of(origin.longitude, place.longitude))
             };
             let ((ay, ax), (by, bx)) = (from_origin(ends[0]), from_origin(ends[1]));
             let cross = ax * by - bx * ay;
@@ -64,7 +72,7 @@ impl Area {
         let size = double.abs() / 2.0 * if hole { -1.0 } else { 1.0 };
         self.size += size;
         self.moment.0 += size * (origin.latitude + north / (3.0 * double));
-        self.moment.1 += size * (origin.longitude + east / (3.0 * double));
+        self.moment.1 += size * (east_of(first, origin.longitude) + east / (3.0 * double));
     }
 
     /// The middle of the area, if it has a size.
@@ -72,7 +80,8 @@ impl Area {
         if self.size <= 0.0 {
             return None;
         }
-        Place::new(self.moment.0 / self.size, self.moment.1 / self.size)
+        let longitude = east_of(0.0, self.origin? + self.moment.1 / self.size);
+        Place::new(self.moment.0 / self.size, longitude)
     }
 }
 
@@ -107,6 +116,28 @@ mod tests {
         // (4 x 41 - 40.5) / 3 and (4 x -73 + 73.5) / 3.
         assert!((middle.latitude - 123.5 / 3.0).abs() < 1e-9, "{middle:?}");
         assert!((middle.longitude + 218.5 / 3.0).abs() < 1e-9, "{middle:?}");
+    }
+
+    #[test]
+    fn an_area_across_the_antimeridian_has_its_middle_there() {
+        let mut area = Area::default();
+        area.add_ring(
+            &places(&[(10.0, 179.0), (10.0, -177.0), (12.0, -177.0), (12.0, 179.0), (10.0, 179.0)]),
+            false,
+        );
+        // A second part, as maps have where they cut areas at the antimeridian.
+        area.add_ring(
+            &places(&[
+                (10.0, -177.0),
+                (10.0, -173.0),
+                (12.0, -173.0),
+                (12.0, -177.0),
+                (10.0, -177.0),
+            ]),
+            false,
+        );
+        let middle = area.middle().expect("it has a size");
+        assert!((middle.latitude - 11.0).abs() < 1e-9 && (middle.longitude + 177.0).abs() < 1e-9);
     }
 
     #[test]

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use vertifleet_core::Time;
 
-use crate::Error;
 use crate::row::{Column, required};
 use crate::table;
 use crate::vertiports::Vertiports;
+use crate::{Error, Warning};
 
 /// The most cells of demand that a network takes: pairs of vertiports times periods.
 const MOST_CELLS: usize = 4_000_000;
@@ -35,11 +35,16 @@ pub(crate) struct HourlyDemand {
 
 impl HourlyDemand {
     /// Reads a table. Operations begin at `start`; where the table begins later, an empty period comes first.
-    pub(crate) fn read(path: &Path, vertiports: &Vertiports, start: Time) -> Result<Self, Error> {
+    pub(crate) fn read(
+        path: &Path,
+        vertiports: &Vertiports,
+        start: Time,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Self, Error> {
         // The value and position of each cell that the table gives.
         let mut cells: HashMap<(Time, (usize, usize)), (f64, usize)> = HashMap::new();
         let mut starts = BTreeSet::new();
-        table::rows(path, &COLUMNS, |row| {
+        table::rows(path, &COLUMNS, warnings, |row| {
             let ends = row.pair(FROM, TO, vertiports)?;
             let period = row.time(PERIOD)?;
             let passengers = row.number(PASSENGERS, 0.0, MOST_PASSENGERS)?;

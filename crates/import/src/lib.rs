@@ -17,13 +17,17 @@ mod error;
 mod features;
 mod fleet;
 mod globe;
+mod header;
 mod hourly_demand;
 mod network_text;
 mod new_network;
 mod parquet_file;
+mod parquet_meaning;
 mod row;
+mod source;
 mod table;
 mod tariffs;
+mod trip_times;
 mod trips;
 mod vertiports;
 mod warning;
@@ -41,7 +45,8 @@ use vertiports::Vertiports;
 pub use date_time::{Date, NotADate, Weekday, Weekdays};
 pub use error::Error;
 pub use new_network::{NewNetwork, NewVertiport};
-pub use trips::{TripAccount, TripColumns, TripValue, Trips};
+pub use trip_times::{NotAFormat, TimeFormat};
+pub use trips::{DroppedRow, TripAccount, TripColumns, TripValue, Trips};
 pub use warning::Warning;
 
 /// What to import.
@@ -91,6 +96,8 @@ pub struct Imported {
     pub toml: String,
     /// What became of the trip records, if the demand comes from them.
     pub account: Option<TripAccount>,
+    /// The members of the base that the network has unchanged, by their paths.
+    pub inherited: Vec<String>,
     /// What the planner's files hardly mean, beside the warnings of the network.
     pub warnings: Vec<Warning>,
 }
@@ -105,41 +112,55 @@ pub fn import(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Imported, Error> {
     stop.check()?;
-    let vertiports = Vertiports::read(request.vertiports)?;
+    let time_zone = request.time_zone.map(trip_times::zone).transpose()?;
+    let mut warnings = Vec::new();
+    let vertiports = Vertiports::read(request.vertiports, &mut warnings)?;
     let text = NetworkText {
         base: request.base,
         name: request.name,
         vertiports: FromFile { what: &vertiports, path: request.vertiports },
-        corridors: read(request.corridors, |path| corridors::read(path, &vertiports))?,
-        pair_tariffs: read(request.tariffs, |path| tariffs::pairs(path, &vertiports))?,
+        corridors: read(request.corridors, |path| {
+            corridors::read(path, &vertiports, &mut warnings)
+        })?,
+        pair_tariffs: read(request.tariffs, |path| {
+            tariffs::pairs(path, &vertiports, &mut warnings)
+        })?,
         aircraft: request.aircraft,
         time_zone: request.time_zone,
-        energy_prices: read(request.energy_prices, EnergyPrices::read)?,
+        energy_prices: read(request.energy_prices, |path| EnergyPrices::read(path, &mut warnings))?,
     };
     let operations = request.base.operations();
     stop.check()?;
     let (demand, source, account) = match &request.demand {
         Demand::Table(path) => {
-            let demand = HourlyDemand::read(path, &vertiports, operations.start)?;
+            let demand = HourlyDemand::read(path, &vertiports, operations.start, &mut warnings)?;
             let source = demand_comments::of_table(path, &demand);
             (demand, source, None)
         }
         Demand::Trips(trips) => {
             // Trip records may take minutes to read. Whatever else is wrong is said before.
             text.network(&trips::no_demand(operations), &[])?;
-            let (demand, account) = trips::demand(trips, &vertiports, operations, stop, progress)?;
+            let (demand, account) = trips::demand(
+                trips,
+                (&vertiports, operations),
+                time_zone,
+                &mut warnings,
+                stop,
+                progress,
+            )?;
             (demand, demand_comments::of_trips(trips, &account), Some(account))
         }
     };
     stop.check()?;
     let (network, toml) = text.network(&demand, &source)?;
-    let mut warnings = vertiports.warnings(request.vertiports);
+    warnings.extend(vertiports.warnings(request.vertiports));
     warnings.extend(demand.warnings(&request.demand, request.base));
     if let Some(prices) = &text.energy_prices {
         warnings.extend(prices.what.warning(&demand.periods, operations));
     }
     progress(1.0);
-    Ok(Imported { network, toml, account, warnings })
+    let inherited = text.inherited()?;
+    Ok(Imported { network, toml, account, inherited, warnings })
 }
 
 /// Reads a file that may be absent.

@@ -52,6 +52,21 @@ const LEFT_OUT: [(&[&str], &str); 11] = [
     (&["start_stands"], "has a number for each of its vertiports"),
 ];
 
+/// The members that an import writes itself.
+const OWN: [&str; 8] = [
+    "format",
+    "name",
+    "vertiports",
+    "demand",
+    "daily_demand",
+    "hourly_demand",
+    "uniform_demand",
+    "time_zone",
+];
+
+/// The sections of a base whose members are inherited one by one.
+const SECTIONS: [&str; 3] = ["tariffs", "market", "disturbances"];
+
 /// The demand models, of which a base has one.
 const DEMAND_MODELS: [&str; 4] = ["demand", "daily_demand", "hourly_demand", "uniform_demand"];
 
@@ -67,15 +82,45 @@ impl NetworkText<'_> {
         Ok((network, text))
     }
 
-    fn text(&self, demand: &HourlyDemand, source: &[String]) -> Result<String, Error> {
-        let mut file: DocumentMut =
-            without_head(self.base.toml()).parse().map_err(|error: toml_edit::TomlError| {
-                Error::NotParsed {
-                    origin: self.base.name().to_owned(),
-                    kind: "TOML",
-                    problem: shortened(error.message(), 300),
+    /// The members that are taken from the base as they are, and what surges among them do to the demand.
+    pub(crate) fn inherited(&self) -> Result<Vec<String>, Error> {
+        let file = self.base_file()?;
+        let mut members = Vec::new();
+        for (name, item) in file.iter().filter(|(name, _)| !OWN.contains(name)) {
+            match item.as_table_like().filter(|_| SECTIONS.contains(&name)) {
+                Some(section) => {
+                    members.extend(section.iter().map(|(of, _)| format!("{name}.{of}")));
                 }
-            })?;
+                None => members.push(name.to_owned()),
+            }
+        }
+        let left_out = |member: &String| {
+            LEFT_OUT.iter().any(|(path, _)| path.join(".") == *member)
+                || self.energy_prices.is_some() && member == "tariffs.energy_price_usd_per_kwh"
+        };
+        members.retain(|member| !left_out(member));
+        let surges = surges_percent(&file);
+        for member in members.iter_mut().filter(|member| *member == "disturbances.forecast_error") {
+            if surges > 0.0 {
+                let _ = write!(member, " (its surges raise demand by {surges:.1} % in the mean)");
+            }
+        }
+        Ok(members)
+    }
+
+    /// The base's text, to be edited.
+    fn base_file(&self) -> Result<DocumentMut, Error> {
+        without_head(self.base.toml()).parse().map_err(|error: toml_edit::TomlError| {
+            Error::NotParsed {
+                origin: self.base.name().to_owned(),
+                kind: "TOML",
+                problem: shortened(error.message(), 300),
+            }
+        })
+    }
+
+    fn text(&self, demand: &HourlyDemand, source: &[String]) -> Result<String, Error> {
+        let mut file = self.base_file()?;
         let mut notes = Vec::new();
         for (path, why) in LEFT_OUT {
             if remove(file.as_table_mut(), path) {
@@ -284,6 +329,17 @@ impl NetworkText<'_> {
         table.insert("to", id(to).into());
         table
     }
+}
+
+/// By how much the surges of a network raise the demand in the mean, percent.
+fn surges_percent(file: &DocumentMut) -> f64 {
+    let error = file.get("disturbances").and_then(|section| section.get("forecast_error"));
+    let number = |name: &str| {
+        let value = error.and_then(|error| error.get(name)).and_then(Item::as_value);
+        let whole = value.and_then(Value::as_integer).map(|whole| whole as f64);
+        value.and_then(Value::as_float).or(whole).unwrap_or(0.0)
+    };
+    100.0 * number("surge_probability") * (number("surge_factor") - 1.0).max(0.0)
 }
 
 /// A text without the comment at its head, which is about the file as a whole.

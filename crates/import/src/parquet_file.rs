@@ -6,11 +6,11 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use parquet::basic::{ConvertedType, LogicalType, TimeUnit, Type};
+use parquet::basic::Compression;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{
-    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type,
-    Int96, Int96Type,
+    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FixedLenByteArray,
+    FixedLenByteArrayType, FloatType, Int32Type, Int64Type, Int96, Int96Type,
 };
 use parquet::errors::ParquetError;
 use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
@@ -18,11 +18,11 @@ use parquet::schema::types::ColumnDescriptor;
 
 use crate::Error;
 use crate::cell::Cell;
-use crate::date_time::Moment;
 use crate::error::shortened;
+use crate::parquet_meaning::{Meaning, written};
 
 /// The bytes with which a Parquet file begins.
-const MAGIC: &[u8] = b"PAR1";
+pub(crate) const MAGIC: &[u8] = b"PAR1";
 /// Rows that are decoded at once.
 const BATCH: usize = 8_192;
 
@@ -45,7 +45,7 @@ pub(crate) struct ParquetFile {
 pub(crate) struct Wanted {
     /// Its position in [`ParquetFile::columns`].
     pub(crate) column: usize,
-    /// Whether it must hold dates with times, and not numbers or texts.
+    /// Whether it must hold dates with times, and not numbers, texts or times of day.
     pub(crate) moment: bool,
 }
 
@@ -82,7 +82,7 @@ impl ParquetFile {
         u64::try_from(self.reader.metadata().row_group(group).num_rows()).unwrap_or(0)
     }
 
-    /// Refuses columns whose type cannot be read.
+    /// Refuses columns whose type or compression cannot be read.
     pub(crate) fn check(&self, wanted: &[Option<Wanted>]) -> Result<(), Error> {
         let schema = self.reader.metadata().file_metadata().schema_descr();
         guarded(&self.origin, || {
@@ -90,9 +90,25 @@ impl ParquetFile {
                 let column = schema.column(wanted.column);
                 Meaning::of(&column, wanted.moment)
                     .map_err(|error| error.in_column(&self.origin, column.name()))?;
+                self.check_compression(wanted.column, column.name())?;
             }
             Ok(())
         })
+    }
+
+    fn check_compression(&self, column: usize, name: &str) -> Result<(), Error> {
+        let groups = self.reader.metadata().row_groups();
+        let compression = groups.first().map(|group| group.column(column).compression());
+        let unknown = match compression {
+            Some(Compression::BROTLI(_)) => "Brotli",
+            Some(Compression::LZO) => "LZO",
+            _ => return Ok(()),
+        };
+        let problem = format!(
+            "its column {:?} is compressed with {unknown}: write it with Snappy, Zstandard, gzip or LZ4",
+            shortened(name, 64)
+        );
+        Err(Error::NotParsed { origin: self.origin.clone(), kind: "Parquet", problem })
     }
 
     /// Calls `each` with every row of a row group: one cell for each of the wanted columns. `pause` is called before
@@ -158,87 +174,6 @@ impl ParquetFile {
 /// The most columns that any caller asks for.
 const MOST_COLUMNS: usize = 8;
 
-/// What the values of a column mean.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Meaning {
-    /// Numbers, texts or truth values, as they are.
-    Plain,
-    /// A count of units since 1970, so many units to the second.
-    Units(i64),
-    /// Nanoseconds and a Julian day, as older programs write times.
-    JulianDay,
-}
-
-/// A type that a column must not have.
-struct WrongType {
-    expected: &'static str,
-    found: String,
-}
-
-impl WrongType {
-    fn in_column(self, origin: &str, column: &str) -> Error {
-        let Self { expected, found } = self;
-        Error::ColumnType {
-            origin: origin.to_owned(),
-            column: shortened(column, 64),
-            expected,
-            found,
-        }
-    }
-}
-
-impl Meaning {
-    /// The meaning of a column's values, if they can be used.
-    fn of(column: &ColumnDescriptor, moment: bool) -> Result<Self, WrongType> {
-        let logical = column.logical_type_ref();
-        let meaning = match (column.physical_type(), logical, column.converted_type()) {
-            (Type::INT64, Some(LogicalType::Timestamp(time)), _) => match time.unit {
-                TimeUnit::MILLIS => Some(Self::Units(1_000)),
-                TimeUnit::MICROS => Some(Self::Units(1_000_000)),
-                TimeUnit::NANOS => Some(Self::Units(1_000_000_000)),
-            },
-            (Type::INT64, None, ConvertedType::TIMESTAMP_MILLIS) => Some(Self::Units(1_000)),
-            (Type::INT64, None, ConvertedType::TIMESTAMP_MICROS) => Some(Self::Units(1_000_000)),
-            (Type::INT96, _, _) => Some(Self::JulianDay),
-            (Type::BYTE_ARRAY, None | Some(LogicalType::String | LogicalType::Enum), _)
-                if column.converted_type() != ConvertedType::DECIMAL =>
-            {
-                Some(Self::Plain)
-            }
-            (
-                Type::INT32 | Type::INT64,
-                None | Some(LogicalType::Integer(_)),
-                ConvertedType::NONE
-                | ConvertedType::INT_8
-                | ConvertedType::INT_16
-                | ConvertedType::INT_32
-                | ConvertedType::INT_64
-                | ConvertedType::UINT_8
-                | ConvertedType::UINT_16
-                | ConvertedType::UINT_32
-                | ConvertedType::UINT_64,
-            )
-            | (Type::BOOLEAN | Type::FLOAT | Type::DOUBLE, None, _)
-                if !moment =>
-            {
-                Some(Self::Plain)
-            }
-            _ => None,
-        };
-        meaning.ok_or_else(|| WrongType {
-            expected: if moment {
-                "timestamps, or texts as 2015-06-01 07:08:09"
-            } else {
-                "whole numbers, floating-point numbers or texts"
-            },
-            found: match logical {
-                Some(logical) => shortened(&format!("{logical:?}"), 80),
-                None => format!("{}", column.physical_type()),
-            },
-        })
-    }
-}
-
 /// The typed reader of a column with a batch of its values, packed without the missing ones.
 enum Values {
     Bool(ColumnReaderImpl<BoolType>, Vec<bool>),
@@ -248,8 +183,7 @@ enum Values {
     Float(ColumnReaderImpl<FloatType>, Vec<f32>),
     Double(ColumnReaderImpl<DoubleType>, Vec<f64>),
     Bytes(ColumnReaderImpl<ByteArrayType>, Vec<ByteArray>),
-    /// Fixed-length bytes, which no meaning accepts.
-    Other,
+    Fixed(ColumnReaderImpl<FixedLenByteArrayType>, Vec<FixedLenByteArray>),
 }
 
 /// A column that is read in batches.
@@ -273,7 +207,9 @@ impl BatchedColumn {
             ColumnReader::FloatColumnReader(reader) => Values::Float(reader, Vec::new()),
             ColumnReader::DoubleColumnReader(reader) => Values::Double(reader, Vec::new()),
             ColumnReader::ByteArrayColumnReader(reader) => Values::Bytes(reader, Vec::new()),
-            ColumnReader::FixedLenByteArrayColumnReader(_) => Values::Other,
+            ColumnReader::FixedLenByteArrayColumnReader(reader) => {
+                Values::Fixed(reader, Vec::new())
+            }
         };
         let present = descriptor.max_def_level();
         Self { values, meaning, present, levels: Vec::new(), next: 0 }
@@ -291,7 +227,7 @@ impl BatchedColumn {
             Values::Float(reader, values) => fill(reader, values, levels, rows),
             Values::Double(reader, values) => fill(reader, values, levels, rows),
             Values::Bytes(reader, values) => fill(reader, values, levels, rows),
-            Values::Other => Ok((0, 0)),
+            Values::Fixed(reader, values) => fill(reader, values, levels, rows),
         }?;
         let present = if self.present == 0 {
             read
@@ -314,22 +250,15 @@ impl BatchedColumn {
         self.next += 1;
         match &self.values {
             Values::Bool(_, values) => Cell::Text(if values[at] { b"true" } else { b"false" }),
-            Values::Int32(_, values) => Cell::Whole(values[at].into()),
-            Values::Int64(_, values) => match self.meaning {
-                Meaning::Units(per_second) => moment(values[at].div_euclid(per_second)),
-                Meaning::Plain | Meaning::JulianDay => Cell::Whole(values[at]),
-            },
-            Values::Int96(_, values) => moment(values[at].to_seconds()),
-            Values::Float(_, values) => Cell::Number(values[at].into()),
+            Values::Int32(_, values) => self.meaning.of_whole(values[at].into()),
+            Values::Int64(_, values) => self.meaning.of_whole(values[at]),
+            Values::Int96(_, values) => self.meaning.of_seconds(values[at].to_seconds()),
+            Values::Float(_, values) => Cell::Number(written(values[at])),
             Values::Double(_, values) => Cell::Number(values[at]),
-            Values::Bytes(_, values) => Cell::text(values[at].data()),
-            Values::Other => Cell::Missing,
+            Values::Bytes(_, values) => self.meaning.of_bytes(values[at].data()),
+            Values::Fixed(_, values) => self.meaning.of_bytes(values[at].data()),
         }
     }
-}
-
-fn moment(seconds: i64) -> Cell<'static> {
-    Moment::from_seconds(seconds).map_or(Cell::Missing, Cell::Moment)
 }
 
 /// Reads a batch and returns the number of rows and the number of values.

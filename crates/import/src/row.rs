@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use vertifleet_core::Time;
 
 use crate::Error;
-use crate::cell::Cell;
+use crate::cell::{Cell, composed};
 use crate::error::{did_you_mean, shortened};
 use crate::globe::Place;
 use crate::vertiports::Vertiports;
@@ -93,12 +93,16 @@ impl Row<'_> {
         self.cells[column] != Cell::Missing
     }
 
-    /// The text of a column, which must not be empty.
+    /// The text of a column, which must not be empty, with composed accents.
     pub(crate) fn text(&self, column: usize) -> Result<Cow<'_, str>, Error> {
-        if !self.has(column) {
-            return Err(self.wrong(column, "given".to_owned()));
+        match self.cells[column] {
+            Cell::Missing => Err(self.wrong(column, "given".to_owned())),
+            // Text files are checked as a whole; a column of a Parquet file may hold any bytes.
+            Cell::Text(text) if str::from_utf8(text).is_err() => {
+                Err(self.wrong(column, "a text in UTF-8".to_owned()))
+            }
+            cell => Ok(composed(cell.shown())),
         }
-        Ok(self.cells[column].shown())
     }
 
     /// An id: 1 to 64 characters, none of them a control character.
@@ -172,7 +176,7 @@ impl Row<'_> {
     /// The position of the vertiport that a column names.
     pub(crate) fn vertiport(&self, column: usize, vertiports: &Vertiports) -> Result<usize, Error> {
         let id = self.text(column)?;
-        vertiports.find(&id).ok_or_else(|| Error::UnknownVertiport {
+        vertiports.find(&id, self.cells[column].whole()).ok_or_else(|| Error::UnknownVertiport {
             origin: self.origin.to_owned(),
             place: self.place(),
             member: self.member(column),

@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use crate::Error;
 use crate::row::{Column, one_of, required};
 use crate::table;
 use crate::vertiports::Vertiports;
+use crate::{Error, Warning};
 
 /// The greatest amount for a passenger, dollars.
 const MOST_USD: f64 = 1e6;
@@ -32,10 +32,14 @@ pub(crate) struct PairTariff {
 }
 
 /// Reads the table of fares and passenger costs.
-pub(crate) fn pairs(path: &Path, vertiports: &Vertiports) -> Result<Vec<PairTariff>, Error> {
+pub(crate) fn pairs(
+    path: &Path,
+    vertiports: &Vertiports,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<PairTariff>, Error> {
     let mut pairs = Vec::new();
     let mut known: HashMap<(usize, usize), usize> = HashMap::new();
-    table::rows(path, &PAIR_COLUMNS, |row| {
+    table::rows(path, &PAIR_COLUMNS, warnings, |row| {
         let ends = row.pair(FROM, TO, vertiports)?;
         if let Some(before) = known.insert(ends, row.position) {
             let (from, to) = (&vertiports.list[ends.0].id, &vertiports.list[ends.1].id);

@@ -12,24 +12,29 @@ mod blocks;
 mod columns;
 mod groups;
 mod nearby;
+mod signs;
+mod suspicions;
 mod tally;
 
-use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{ErrorKind, Read};
-use std::path::{Path, PathBuf};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
+use jiff::tz::TimeZone;
 use vertifleet_core::{Operations, Stop};
 
-use crate::Error;
 use crate::date_time::{Date, Weekdays};
 use crate::hourly_demand::HourlyDemand;
 use crate::parquet_file;
+use crate::source::{cannot_read, opening};
+use crate::trip_times::{TimeFormat, TripTimes};
 use crate::vertiports::Vertiports;
 use crate::zones::Zones;
+use crate::{Error, Warning};
 
-pub use account::TripAccount;
+pub use account::{DroppedRow, TripAccount};
 use columns::{Layout, Places};
 pub use columns::{TripColumns, TripValue};
 use nearby::Nearby;
@@ -63,6 +68,8 @@ pub struct Trips<'a> {
     pub first_date: Option<Date>,
     /// The last date that counts, if not the last of the files.
     pub last_date: Option<Date>,
+    /// How times are written, if in no form that is read anyway.
+    pub time_format: Option<TimeFormat>,
 }
 
 impl<'a> Trips<'a> {
@@ -79,6 +86,7 @@ impl<'a> Trips<'a> {
             weekdays: Weekdays::ALL,
             first_date: None,
             last_date: None,
+            time_format: None,
         }
     }
 
@@ -114,32 +122,46 @@ impl<'a> Trips<'a> {
     }
 }
 
-/// Reads trip records and returns the demand and the account of all records.
+/// Reads trip records and returns the demand and the account of all records. Times that are instants are converted to a time
+/// zone, if it is given.
 pub(crate) fn demand(
     trips: &Trips<'_>,
-    vertiports: &Vertiports,
-    operations: &Operations,
+    (vertiports, operations): (&Vertiports, &Operations),
+    time_zone: Option<TimeZone>,
+    warnings: &mut Vec<Warning>,
     stop: &Stop,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<(HourlyDemand, TripAccount), Error> {
     trips.check()?;
-    let zones = trips.zones.map(Zones::read).transpose()?.unwrap_or_default();
+    let zones = match trips.zones {
+        Some(path) => Zones::read(path, warnings)?,
+        None => Zones::default(),
+    };
+    let converts = time_zone.is_some();
     let places = vertiports.list.iter().map(|vertiport| vertiport.place).collect();
     let nearby = Nearby::new(places, trips.radius_mi);
     let rules = Rules {
         near_zones: zones.middles.iter().map(|&middle| nearby.of(middle)).collect(),
         nearby,
         hours: Hours::of(operations),
+        times: TripTimes::new(trips.time_format.clone(), time_zone),
         decay_mi: trips.decay_mi,
         weekdays: trips.weekdays,
         dates: trips.first_date..=trips.last_date,
     };
     let reading = Reading::new(trips, &zones, &rules, stop, progress)?;
     let tally = reading.read()?;
-    let account = tally.account(trips);
+    let mut account = tally.account(trips);
+    account.first_dropped = first_dropped(&account, &tally, trips)?;
+    let found = suspicions::warnings(trips, &tally, &account, converts, &reading.overlooked());
     if account.kept == 0 {
-        return Err(Error::NoTrips { account: account.to_string() });
+        let mut reasons = account.to_string();
+        for warning in &found {
+            let _ = write!(reasons, "; {warning}");
+        }
+        return Err(Error::NoTrips { account: reasons });
     }
+    warnings.extend(found);
     let share = trips.mode_share / f64::from(account.days.max(1));
     let mut pairs = BTreeMap::new();
     for from in 0..vertiports.list.len() {
@@ -154,6 +176,27 @@ pub(crate) fn demand(
     let demand = HourlyDemand { periods: rules.hours.starts(), first_given: 0, pairs };
     let account = TripAccount { passengers_a_day: rounded(demand.passengers()), ..account };
     Ok((demand, account))
+}
+
+/// The first row that was dropped for each reason, with its place.
+fn first_dropped(
+    account: &TripAccount,
+    tally: &tally::Tally,
+    trips: &Trips<'_>,
+) -> Result<Vec<DroppedRow>, Error> {
+    let reasons = account.dropped().into_iter().zip(&tally.signs().first_dropped);
+    let row = |((reason, _), first): ((&'static str, u64), &Option<signs::FirstRow>)| {
+        let first = first.as_ref()?;
+        let path = trips.files[first.position.file];
+        let place = if parquet_file::is_parquet(path, &opening(path).ok()?) {
+            Ok(format!("row {}", first.position.at + 1))
+        } else {
+            blocks::line_number(path, first.position.at).map(|line| format!("line {line}"))
+        };
+        let file = crate::file_name(path);
+        Some(place.map(|place| DroppedRow { reason, file, place, row: first.text.clone() }))
+    };
+    reasons.filter_map(row).collect()
 }
 
 /// The demand periods of trip records, without any passengers.
@@ -173,6 +216,8 @@ struct Reading<'a> {
     tallies: Tallies<'a>,
     stop: &'a Stop,
     progress: Progress<'a>,
+    /// Files with a column that is not read and may hold the passengers, and this column.
+    overlooked: Mutex<BTreeSet<(String, String)>>,
 }
 
 /// The share of the files' bytes that has been read.
@@ -202,7 +247,19 @@ impl<'a> Reading<'a> {
             all += std::fs::metadata(path).map_err(|cause| cannot_read(path, cause))?.len();
         }
         let progress = Progress { done: AtomicU64::new(0), all, report };
-        Ok(Self { trips, zones, tallies: Tallies::new(rules), stop, progress })
+        let overlooked = Mutex::default();
+        Ok(Self { trips, zones, tallies: Tallies::new(rules), stop, progress, overlooked })
+    }
+
+    /// Notes that a column of a file is not read and may hold the passengers.
+    fn overlook(&self, origin: &str, column: &str) {
+        let mut overlooked = self.overlooked.lock().unwrap_or_else(PoisonError::into_inner);
+        overlooked.insert((origin.to_owned(), column.to_owned()));
+    }
+
+    fn overlooked(&self) -> Vec<(String, String)> {
+        let overlooked = self.overlooked.lock().unwrap_or_else(PoisonError::into_inner);
+        overlooked.iter().cloned().collect()
     }
 
     /// The zones that a file's places are in. A file with coordinates needs none.
@@ -217,29 +274,16 @@ impl<'a> Reading<'a> {
 
     /// Reads the CSV files one after the other, and then the row groups of all Parquet files.
     fn read(&self) -> Result<tally::Tally, Error> {
-        let mut parquet: Vec<PathBuf> = Vec::new();
-        for path in &self.trips.files {
-            if is_parquet(path)? {
-                parquet.push((*path).to_owned());
+        let mut parquet = Vec::new();
+        for (number, path) in self.trips.files.iter().enumerate() {
+            if parquet_file::is_parquet(path, &opening(path)?) {
+                parquet.push((number, *path));
             } else {
-                blocks::read(path, self)?;
+                blocks::read(path, number, self)?;
             }
         }
         groups::read(&parquet, self)?;
         self.stop.check()?;
         Ok(self.tallies.total())
     }
-}
-
-fn is_parquet(path: &Path) -> Result<bool, Error> {
-    let mut first = Vec::new();
-    let file = File::open(path).map_err(|cause| cannot_read(path, cause))?;
-    match file.take(4).read_to_end(&mut first) {
-        Err(cause) if cause.kind() != ErrorKind::UnexpectedEof => Err(cannot_read(path, cause)),
-        _ => Ok(parquet_file::is_parquet(path, &first)),
-    }
-}
-
-fn cannot_read(path: &Path, cause: std::io::Error) -> Error {
-    vertifleet_core::Error::CannotRead { origin: path.display().to_string(), cause }.into()
 }

@@ -54,16 +54,19 @@ pub(crate) struct Vertiport {
 pub(crate) struct Vertiports {
     pub(crate) list: Vec<Vertiport>,
     positions: HashMap<String, usize>,
+    /// Those whose ids are whole numbers, also where tables write them with a fraction of zero (`1.0`); `None` for a number
+    /// that several ids are.
+    by_number: HashMap<i64, Option<usize>>,
 }
 
 impl Vertiports {
     /// Reads a CSV table or a GeoJSON file of points.
-    pub(crate) fn read(path: &Path) -> Result<Self, Error> {
+    pub(crate) fn read(path: &Path, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
         let mut vertiports = Self::default();
         // Where each vertiport stands in the file.
         let mut places = Vec::new();
         if features::is_geojson(path)? {
-            features::shapes(path, &COLUMNS[..=NAME], |shape| {
+            features::shapes(path, &COLUMNS[..=NAME], warnings, |shape| {
                 let place = shape.point()?;
                 if place.latitude.abs() > MOST_LATITUDE {
                     return Err(shape.wrong("within 89 degrees of the equator"));
@@ -71,7 +74,7 @@ impl Vertiports {
                 vertiports.add(&shape.row, place, &mut places)
             })?;
         } else {
-            table::rows(path, &COLUMNS, |row| {
+            table::rows(path, &COLUMNS, warnings, |row| {
                 let place = row.degrees(LATITUDE, LONGITUDE, MOST_LATITUDE)?;
                 vertiports.add(row, place, &mut places)
             })?;
@@ -110,13 +113,20 @@ impl Vertiports {
             id: id.clone(),
         });
         self.positions.insert(id, at);
+        if let Some(number) = row.cells[ID].whole() {
+            self.by_number
+                .entry(number)
+                .and_modify(|position| *position = None)
+                .or_insert(Some(at));
+        }
         places.push(row.position);
         Ok(())
     }
 
-    /// The position of the vertiport of this id.
-    pub(crate) fn find(&self, id: &str) -> Option<usize> {
-        self.positions.get(id).copied()
+    /// The position of the vertiport of this id, or of this number if the id is one.
+    pub(crate) fn find(&self, id: &str, number: Option<i64>) -> Option<usize> {
+        let by_number = || *self.by_number.get(&number?)?;
+        self.positions.get(id).copied().or_else(by_number)
     }
 
     /// The ids in file order.
@@ -157,6 +167,10 @@ impl Vertiports {
 
 /// A text that fits on a line of comment.
 pub(crate) fn printable(text: &str) -> String {
-    let plain = |c: char| if c.is_control() { ' ' } else { c };
-    crate::error::shortened(&text.chars().map(plain).collect::<String>(), 80)
+    crate::error::shortened(&without_controls(text), 80)
+}
+
+/// A text with a space in place of each control character.
+pub(crate) fn without_controls(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

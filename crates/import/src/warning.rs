@@ -34,6 +34,25 @@ pub enum Warning {
         /// When they change.
         problem: String,
     },
+
+    /// V740. A column or property is not read, and has nearly the name of one that is read and that the file does not have.
+    /// Fix: rename it if it means that.
+    Columns {
+        /// The file.
+        origin: String,
+        /// Which one, and what it may mean.
+        problem: String,
+    },
+
+    /// V741. Trip records hardly say what is meant: times with a time zone that are not converted, times that cannot be read,
+    /// dates with hardly any records, days without any, a file given twice, exchanged coordinates, passengers that are not
+    /// read. Fix: as the message says.
+    Trips {
+        /// The files.
+        origin: String,
+        /// What is strange, and what to do.
+        problem: String,
+    },
 }
 
 impl Warning {
@@ -43,6 +62,8 @@ impl Warning {
             Self::Demand { .. } => Code(718),
             Self::Places { .. } => Code(719),
             Self::EnergyPrices { .. } => Code(720),
+            Self::Columns { .. } => Code(740),
+            Self::Trips { .. } => Code(741),
         }
     }
 }
@@ -52,7 +73,9 @@ impl fmt::Display for Warning {
         match self {
             Self::Demand { origin, problem }
             | Self::Places { origin, problem }
-            | Self::EnergyPrices { origin, problem } => {
+            | Self::EnergyPrices { origin, problem }
+            | Self::Columns { origin, problem }
+            | Self::Trips { origin, problem } => {
                 write!(f, "{origin}: {problem}")
             }
         }

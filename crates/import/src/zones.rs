@@ -3,19 +3,19 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use crate::Error;
-use crate::cell::Cell;
+use crate::cell::{Cell, composed};
 use crate::features::{self, Shape};
 use crate::globe::{Area, Place};
-use crate::row::{Column, Row, optional, required};
+use crate::row::{Column, Row, required};
 use crate::table;
 use crate::vertiports::{LATITUDES, LONGITUDES};
+use crate::{Error, Warning};
 
-/// Files of New York's taxi zones have a `zone` that is a name beside the `LocationID` that trips give, which
-/// therefore goes first.
-const ZONE: &[&str] = &["LocationID", "zone"];
+/// Files of New York's taxi zones have a `zone` that is a name beside the `LocationID` that trips give, so names of numbers
+/// come first.
+const ZONE: &[&str] = &["LocationID", "location_id", "zone_id", "zone"];
 const COLUMNS: [Column; 3] = [required(ZONE), required(LATITUDES), required(LONGITUDES)];
-const PROPERTIES: [Column; 1] = [optional(ZONE)];
+const PROPERTIES: [Column; 1] = [required(ZONE)];
 
 /// Zones with the places of their middles. Ids that are whole numbers are compared as numbers, since tables write 132
 /// also as `132.0`.
@@ -35,13 +35,15 @@ struct Draft {
 
 impl Zones {
     /// Reads a CSV table, or a GeoJSON file of areas or points.
-    pub(crate) fn read(path: &Path) -> Result<Self, Error> {
+    pub(crate) fn read(path: &Path, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
         let mut zones = Self::default();
         let mut drafts: Vec<Draft> = Vec::new();
         if features::is_geojson(path)? {
-            features::shapes(path, &PROPERTIES, |shape| zones.add_shape(shape, &mut drafts))?;
+            features::shapes(path, &PROPERTIES, warnings, |shape| {
+                zones.add_shape(shape, &mut drafts)
+            })?;
         } else {
-            table::rows(path, &COLUMNS, |row| {
+            table::rows(path, &COLUMNS, warnings, |row| {
                 zones.add_point(row, row.degrees(1, 2, 90.0)?, &mut drafts)
             })?;
         }
@@ -67,7 +69,8 @@ impl Zones {
         match cell.whole() {
             Some(number) => self.by_number.get(&number).copied(),
             None => match cell {
-                Cell::Text(text) => self.by_text.get(text).copied(),
+                Cell::Text(text) if text.is_ascii() => self.by_text.get(text).copied(),
+                Cell::Text(_) => self.by_text.get(composed(cell.shown()).as_bytes()).copied(),
                 _ => None,
             },
         }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, Subcommand};
-use vertifleet_import::{Date, NewVertiport, TripValue, Weekdays};
+use vertifleet_import::{Date, NewVertiport, TimeFormat, TripValue, Weekdays};
 
 use crate::typed::{parse_known, parse_pair, parse_vertiport};
 
@@ -84,6 +84,9 @@ pub(crate) struct ImportArguments {
     /// Last date that counts
     #[arg(long, value_name = "DATE", value_parser = parse_known::<Date>)]
     pub(crate) last_date: Option<Date>,
+    /// How the times of trip records are written, as '%d/%m/%Y %H:%M', '%m/%d/%Y %I:%M:%S %p', epoch-s or epoch-ms
+    #[arg(long, value_name = "FORMAT", value_parser = parse_known::<TimeFormat>)]
+    pub(crate) time_format: Option<TimeFormat>,
     /// Corridors that may be flown: GeoJSON lines with from and to
     #[arg(long, value_name = "FILE")]
     pub(crate) corridors: Option<PathBuf>,
@@ -106,8 +109,11 @@ pub(crate) struct ImportArguments {
     #[arg(long)]
     pub(crate) name: String,
     /// The network file
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: PathBuf,
+    #[arg(short, long, value_name = "FILE", required_unless_present = "dry_run")]
+    pub(crate) output: Option<PathBuf>,
+    /// Write no file: print what became of the trip records, with the first row that was dropped for each reason
+    #[arg(long, conflicts_with_all = ["output", "force"])]
+    pub(crate) dry_run: bool,
     /// Replace the file if it is there
     #[arg(long)]
     pub(crate) force: bool,
@@ -129,6 +135,7 @@ impl ImportArguments {
             ("--weekdays", self.weekdays.is_some()),
             ("--first-date", self.first_date.is_some()),
             ("--last-date", self.last_date.is_some()),
+            ("--time-format", self.time_format.is_some()),
         ];
         flags.into_iter().filter(|(_, used)| *used).map(|(flag, _)| flag).collect()
     }

@@ -55,7 +55,9 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     let read =
         optional.into_iter().flatten().chain([&arguments.vertiports]).chain(&arguments.trips);
     read.for_each(|path| outputs.reads(path));
-    outputs.writes(&arguments.output, &NEW_FILE)?;
+    if let Some(output) = &arguments.output {
+        outputs.writes(output, &NEW_FILE)?;
+    }
     let demand = match &arguments.demand {
         Some(table) => Demand::Table(table),
         None => Demand::Trips(trips(arguments)?),
@@ -83,7 +85,9 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     // Ctrl-C ends the program itself; the file is written whole or not at all.
     let imported = import(&request, &Stop::default(), &progress)?;
     drop(bar);
-    write_atomically(&arguments.output, imported.toml.as_bytes())?;
+    if let Some(output) = &arguments.output {
+        write_atomically(output, imported.toml.as_bytes())?;
+    }
     for warning in &imported.warnings {
         warn(warning.code(), warning);
     }
@@ -93,12 +97,23 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
         warn(warning.code(), &warning);
     }
     if arguments.json {
-        let account = json!({ "network": imported.network.name(), "trips": imported.account });
+        let account = json!({
+            "network": imported.network.name(),
+            "trips": imported.account,
+            "inherited": { "from": base.name(), "members": imported.inherited },
+        });
         print(&serde_json::to_string_pretty(&account).expect("plain data"))?;
     } else if let Some(account) = &imported.account {
         print(&account.to_string())?;
+        if arguments.dry_run {
+            print(account.dropped_rows().trim_end())?;
+        }
     }
-    eprintln!("written: {}", arguments.output.display());
+    eprintln!("inherited from {}: {}", base.name(), imported.inherited.join(", "));
+    match &arguments.output {
+        Some(output) => eprintln!("written: {}", output.display()),
+        None => eprintln!("nothing was written"),
+    }
     Ok(ExitCode::SUCCESS)
 }
 
@@ -126,6 +141,7 @@ fn trips(arguments: &ImportArguments) -> Result<Trips<'_>, Failure> {
         weekdays: arguments.weekdays.unwrap_or(start.weekdays),
         first_date: arguments.first_date,
         last_date: arguments.last_date,
+        time_format: arguments.time_format.clone(),
         ..start
     })
 }

@@ -130,6 +130,30 @@ fn trips_become_demand_with_an_account_of_every_row() {
     assert_eq!((&trips["far_pickup"], &trips["no_time"]), (&1.into(), &1.into()));
     let overview = json(here, &["network", "show", "bay.toml", "--json"]);
     assert_eq!(overview["passengers_a_day"], 2.0, "two rows of two passengers, half of whom fly");
+    assert_eq!(account["inherited"]["from"], "new-york");
+}
+
+#[test]
+fn a_dry_run_shows_the_first_row_of_each_reason_and_writes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path();
+    fs::write(here.join("vertiports.csv"), VERTIPORTS).expect("room");
+    fs::write(here.join("base.toml"), small_base()).expect("room");
+    let head =
+        "pickup_datetime,pickup_longitude,pickup_latitude,dropoff_longitude,dropoff_latitude\n";
+    let near = "01/06/2015 07:30,-122.376,37.619,-122.221,37.721\n";
+    fs::write(here.join("trips.csv"), [head, near, "2015-06-01 07:30,0,0,0,0\n"].concat())
+        .expect("room");
+    let files = fs::read_dir(here).expect("a folder").count();
+    let dry =
+        [&IMPORT[..4], &["--trips", "trips.csv"], &IMPORT[6..IMPORT.len() - 2], &["--dry-run"]];
+    let said = stdout(here, &[&dry.concat()[..], &["--time-format", "%d/%m/%Y %H:%M"]].concat());
+    assert_eq!(
+        said,
+        "of 2 rows, 1 were kept, 1 had no readable time of pick-up (first in trips.csv, line 3)\n\
+         1 had no readable time of pick-up\n  first: trips.csv, line 3: 2015-06-01 07:30,0,0,0,0\n"
+    );
+    assert_eq!(fs::read_dir(here).expect("a folder").count(), files);
 }
 
 #[test]
@@ -198,6 +222,7 @@ fn flags_of_trip_records_are_refused_without_trip_records() {
         ("--weekdays", "Mon"),
         ("--first-date", "2015-06-01"),
         ("--last-date", "2015-06-01"),
+        ("--time-format", "epoch-s"),
     ] {
         let said = refused(folder.path(), &[&IMPORT[..], &[flag, value]].concat());
         assert!(said.contains(flag) && said.contains("--trips is not given"), "{said}");

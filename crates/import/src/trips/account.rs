@@ -1,6 +1,6 @@
 //! What became of every trip record.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
 use serde::Serialize;
 
@@ -16,6 +16,8 @@ pub struct TripAccount {
     pub rows: u64,
     /// Rows that became demand.
     pub kept: u64,
+    /// Rows with more values than the header has columns.
+    pub too_many_values: u64,
     /// Rows whose pick-up time cannot be read.
     pub no_time: u64,
     /// Rows without a place or a known zone of pick-up or drop-off.
@@ -42,12 +44,40 @@ pub struct TripAccount {
     pub last_date: Option<Date>,
     /// Passengers of a day on the mean, of all pairs together.
     pub passengers_a_day: f64,
+    /// The first row that was dropped for each reason for which any was.
+    pub first_dropped: Vec<DroppedRow>,
+}
+
+/// A row that was dropped.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DroppedRow {
+    /// Why, in words.
+    pub reason: &'static str,
+    /// The name of its file, without the folder.
+    pub file: String,
+    /// Its line in a CSV file, or its row in a Parquet file, from 1.
+    pub place: String,
+    /// What it says, cut short if it is long.
+    pub row: String,
 }
 
 impl TripAccount {
+    /// The reasons for which rows were dropped and the first row of each, a line for each reason.
+    pub fn dropped_rows(&self) -> String {
+        let mut text = String::new();
+        for (reason, rows) in self.dropped().into_iter().filter(|(_, rows)| *rows > 0) {
+            let _ = writeln!(text, "{rows} had {reason}");
+            for row in self.first_dropped.iter().filter(|row| row.reason == reason) {
+                let _ = writeln!(text, "  first: {}, {}: {}", row.file, row.place, row.row);
+            }
+        }
+        text
+    }
+
     /// The reasons for which rows were dropped, in words, with the number of rows.
-    pub fn dropped(&self) -> [(&'static str, u64); 9] {
+    pub fn dropped(&self) -> [(&'static str, u64); 10] {
         [
+            ("more values than the header has columns", self.too_many_values),
             ("no readable time of pick-up", self.no_time),
             ("no readable place or known zone", self.no_place),
             ("no valid number of passengers", self.no_passengers),
@@ -66,6 +96,9 @@ impl fmt::Display for TripAccount {
         write!(f, "of {} rows, {} were kept", self.rows, self.kept)?;
         for (reason, rows) in self.dropped().into_iter().filter(|(_, rows)| *rows > 0) {
             write!(f, ", {rows} had {reason}")?;
+            if let Some(first) = self.first_dropped.iter().find(|row| row.reason == reason) {
+                write!(f, " (first in {}, {})", first.file, first.place)?;
+            }
         }
         Ok(())
     }

@@ -5,7 +5,7 @@
 //! example by a quote that is never closed, spoils no other row.
 
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::path::Path;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
@@ -14,12 +14,14 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 use vertifleet_core::Stop;
 
 use super::columns::{Layout, Places};
+use super::signs::{Position, RowText};
 use super::tally::{End, Record};
-use super::{Reading, cannot_read};
+use super::{Progress, Reading};
 use crate::Error;
 use crate::cell::Cell;
-use crate::globe::Place;
-use crate::table::{self, without_mark};
+use crate::parquet_file;
+use crate::source::{cannot_read, read_through};
+use crate::table::{self, without_mark, wrong_encoding};
 use crate::zones::Zones;
 
 /// Bytes of a block; some more at its end complete its last line.
@@ -36,46 +38,120 @@ struct Block {
     begin: u64,
 }
 
-/// Adds all records of a file.
-pub(super) fn read(path: &Path, reading: &Reading<'_>) -> Result<(), Error> {
-    let mut source = Source::open(path)?;
-    let Some(mut first) = source.next_block()? else {
-        return Err(Error::Nothing { origin: source.origin, what: "rows, as it is empty" });
-    };
-    let row = RowReader::of_header(&mut first, path, reading)?;
-    let waiting = rayon::current_num_threads().min(MOST_WAITING);
-    let origin = source.origin.clone();
-    thread::scope(|scope| {
-        let (sender, blocks) = sync_channel(waiting);
-        scope.spawn(move || source.send(first, &sender, reading.stop));
-        blocks.into_iter().par_bridge().try_for_each(|block: Result<Block, Error>| {
-            reading.stop.check()?;
-            let block = block?;
-            row.add_block(&block, &origin, reading)?;
-            reading.progress.add(block.lines.len() as u64);
-            Ok(())
+/// Adds all records of a file, which is so many files after the first.
+pub(super) fn read(path: &Path, number: usize, reading: &Reading<'_>) -> Result<(), Error> {
+    let meter = |file| Metered { file, progress: &reading.progress };
+    read_through(path, meter, |file| {
+        let origin = path.display().to_string();
+        let mut source = Source { file, origin: &origin, path, rest: Vec::new(), begin: 0 };
+        let Some(mut first) = source.next_block()? else {
+            return Err(Error::Nothing { origin, what: "rows, as it is empty" });
+        };
+        let row = RowReader::of_header(&mut first, path, number, reading)?;
+        let waiting = rayon::current_num_threads().min(MOST_WAITING);
+        thread::scope(|scope| {
+            let (sender, blocks) = sync_channel(waiting);
+            scope.spawn(move || source.send(first, &sender, reading.stop));
+            blocks.into_iter().par_bridge().try_for_each(|block: Result<Block, Error>| {
+                reading.stop.check()?;
+                row.add_block(&block?, &origin, reading)
+            })
         })
     })
 }
 
-/// A file that is read block by block.
-struct Source {
+/// The number of the line that begins at a byte of a file.
+pub(super) fn line_number(path: &Path, begin: u64) -> Result<u64, Error> {
+    read_through(
+        path,
+        |file| file,
+        |file| {
+            let mut before = file.take(begin);
+            let (mut line, mut text) = (1, vec![0; 64 << 10]);
+            loop {
+                match before.read(&mut text).map_err(|cause| cannot_read(path, cause))? {
+                    0 => return Ok(line),
+                    read => line += count(&text[..read], b'\n') as u64,
+                }
+            }
+        },
+    )
+}
+
+#[expect(
+    clippy::naive_bytecount,
+    reason = "the compiler makes it fast enough, without another crate"
+)]
+fn count(text: &[u8], wanted: u8) -> usize {
+    text.iter().filter(|&&byte| byte == wanted).count()
+}
+
+/// The error that names the first line of a file that is not UTF-8. In which line a block begins is not known where blocks are
+/// read side by side, so the file is read once more.
+fn not_text(path: &Path) -> Error {
+    let origin = path.display().to_string();
+    let mut line = 1;
+    let found = read_through(
+        path,
+        |file| file,
+        |file| {
+            let mut text = Vec::new();
+            loop {
+                let begin = text.len();
+                text.resize(begin + BLOCK, 0);
+                let read =
+                    file.read(&mut text[begin..]).map_err(|cause| cannot_read(path, cause))?;
+                text.truncate(begin + read);
+                let (valid, wrong) = match str::from_utf8(&text) {
+                    Ok(_) => (text.len(), None),
+                    Err(error) if error.error_len().is_none() && read > 0 => {
+                        (error.valid_up_to(), None)
+                    }
+                    Err(error) => (error.valid_up_to(), Some(text[error.valid_up_to()])),
+                };
+                line += count(&text[..valid], b'\n') as u64;
+                if wrong.is_some() || read == 0 {
+                    return Ok(wrong.unwrap_or_default());
+                }
+                text.drain(..valid);
+            }
+        },
+    );
+    found.map_or_else(|error| error, |byte| wrong_encoding(&origin, "CSV", line, byte))
+}
+
+/// A file that reports how far it has been read.
+struct Metered<'a> {
     file: File,
-    origin: String,
-    path: std::path::PathBuf,
+    progress: &'a Progress<'a>,
+}
+
+impl Read for Metered<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.file.read(buffer)?;
+        self.progress.add(read as u64);
+        Ok(read)
+    }
+}
+
+impl Seek for Metered<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+/// A file that is read block by block.
+struct Source<'a> {
+    file: &'a mut (dyn Read + Send),
+    origin: &'a str,
+    path: &'a Path,
     /// The begin of a line that the next block completes.
     rest: Vec<u8>,
     /// Position of the first byte of `rest` in the file.
     begin: u64,
 }
 
-impl Source {
-    fn open(path: &Path) -> Result<Self, Error> {
-        let file = File::open(path).map_err(|cause| cannot_read(path, cause))?;
-        let origin = path.display().to_string();
-        Ok(Self { file, origin, path: path.to_owned(), rest: Vec::new(), begin: 0 })
-    }
-
+impl Source<'_> {
     /// Sends all blocks, the first of which has been read already. Ends when nobody takes them any more.
     fn send(mut self, first: Block, blocks: &SyncSender<Result<Block, Error>>, stop: &Stop) {
         let mut next = Ok(Some(first));
@@ -104,7 +180,7 @@ impl Source {
         let read = loop {
             match limited.read_to_end(&mut lines) {
                 Err(cause) if cause.kind() == ErrorKind::Interrupted => {}
-                Err(cause) => return Err(cannot_read(&self.path, cause)),
+                Err(cause) => return Err(cannot_read(self.path, cause)),
                 Ok(read) => break read,
             }
         };
@@ -113,7 +189,7 @@ impl Source {
             let end =
                 lines.iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
             if lines.len() - end > LONGEST_LINE {
-                return Err(too_long(&self.origin, begin + end as u64));
+                return Err(too_long(self.origin, begin + end as u64));
             }
             self.rest = lines.split_off(end);
         }
@@ -133,49 +209,88 @@ const SLOTS: usize = 6;
 struct RowReader<'a> {
     /// For each column up to the last one that is needed, the slot of its values.
     slots: Vec<Option<usize>>,
+    /// Number of columns that the header has.
+    columns: usize,
     layout: Layout,
     zones: &'a Zones,
+    path: &'a Path,
+    /// The number of the file.
+    file: usize,
 }
 
 impl<'a> RowReader<'a> {
     /// Takes the header from the first block.
-    fn of_header(block: &mut Block, path: &Path, reading: &'a Reading<'_>) -> Result<Self, Error> {
-        let origin = path.display().to_string();
-        table::text(&block.lines, "CSV", &origin)?;
+    fn of_header(
+        block: &mut Block,
+        path: &'a Path,
+        file: usize,
+        reading: &'a Reading<'_>,
+    ) -> Result<Self, Error> {
+        let origin = &path.display().to_string();
+        if block.lines.starts_with(parquet_file::MAGIC) {
+            let problem = "it is a Parquet file within a compressed one: unpack it".to_owned();
+            return Err(Error::NotParsed { origin: origin.to_owned(), kind: "CSV", problem });
+        }
+        table::text(&block.lines, "CSV", origin)?;
         let end = block.lines.iter().position(|&byte| byte == b'\n');
         let end = end.map_or(block.lines.len(), |newline| newline + 1);
         if end > LONGEST_LINE {
-            return Err(too_long(&origin, block.begin));
+            return Err(too_long(origin, block.begin));
         }
         let names = Fields::of(without_mark(&block.lines[..end]));
         let names: Vec<String> =
             names.map(|name| String::from_utf8_lossy(name.trim_ascii()).into_owned()).collect();
-        let layout = Layout::find(&reading.trips.columns, &names, &origin)?;
-        let zones = reading.zones_for(&layout, &origin)?;
-        reading.progress.add(end as u64);
+        let layout = Layout::find(&reading.trips.columns, &names, origin)?;
+        let zones = reading.zones_for(&layout, origin)?;
+        if let Some(column) = layout.overlooked {
+            reading.overlook(origin, &names[column]);
+        }
         block.lines.drain(..end);
         block.begin += end as u64;
         let columns = slot_columns(&layout);
         let last = columns.iter().flatten().max().map_or(0, |last| last + 1);
         let slot = |at| columns.iter().position(|column| *column == Some(at));
-        Ok(Self { slots: (0..last).map(slot).collect(), layout, zones })
+        let slots = (0..last).map(slot).collect();
+        Ok(Self { slots, columns: names.len(), layout, zones, path, file })
     }
 
     /// Adds all records of a block.
     fn add_block(&self, block: &Block, origin: &str, reading: &Reading<'_>) -> Result<(), Error> {
+        if str::from_utf8(&block.lines).is_err() {
+            return Err(not_text(self.path));
+        }
         reading.tallies.with(|tally, rules| {
             let mut begin = block.begin;
             for line in block.lines.split_inclusive(|&byte| byte == b'\n') {
                 if line.len() > LONGEST_LINE {
                     return Err(too_long(origin, begin));
                 }
+                let position = Position { file: self.file, at: begin };
                 begin += line.len() as u64;
-                if !line.trim_ascii().is_empty() {
-                    tally.add(&record(&self.cells(line), &self.layout, self.zones), rules);
+                if line.trim_ascii().is_empty() {
+                    continue;
                 }
+                if self.has_too_many_values(line) {
+                    tally.add_with_too_many_values(position, line);
+                    continue;
+                }
+                let row = RowText::Line(line);
+                tally.add(
+                    &record(&self.cells(line), &self.layout, self.zones, (position, row)),
+                    rules,
+                );
             }
             Ok(())
         })
+    }
+
+    /// Whether a line has a value beyond the last column of the header, as where a decimal comma is not in quotes.
+    #[inline]
+    fn has_too_many_values(&self, line: &[u8]) -> bool {
+        // Commas in quotes make this number too large, but never too small.
+        let commas = count(line, b',');
+        let beyond = || Fields::of(line).skip(self.columns);
+        commas >= self.columns && beyond().any(|field| !field.trim_ascii().is_empty())
     }
 
     /// The values of a line by slot.
@@ -202,10 +317,18 @@ pub(super) fn slot_columns(layout: &Layout) -> [Option<usize>; SLOTS] {
 
 /// The record that a row's values make.
 #[inline]
-pub(super) fn record(cells: &[Cell<'_>], layout: &Layout, zones: &Zones) -> Record {
+pub(super) fn record<'row>(
+    cells: &[Cell<'row>],
+    layout: &Layout,
+    zones: &Zones,
+    (position, row): (Position, RowText<'row>),
+) -> Record<'row> {
     let cell = |slot: usize| cells.get(slot).copied().unwrap_or(Cell::Missing);
     let at = |latitude: usize| {
-        Some(End::At(Place::new(cell(latitude).number()?, cell(latitude + 1).number()?)?))
+        Some(End::At {
+            latitude: cell(latitude).number()?,
+            longitude: cell(latitude + 1).number()?,
+        })
     };
     let zone = |slot: usize| zones.find(cell(slot)).map(End::Zone);
     let (from, to) = match layout.places {
@@ -216,7 +339,7 @@ pub(super) fn record(cells: &[Cell<'_>], layout: &Layout, zones: &Zones) -> Reco
         Some(_) => cell(1).number(),
         None => Some(1.0),
     };
-    Record { pickup: cell(0).moment(), from, to, passengers }
+    Record { position, row, time: cell(0), from, to, passengers }
 }
 
 /// The fields of a line, split at commas that are not in quotes. The quotes around a field are left out.

@@ -1,7 +1,7 @@
 //! The columns of trip records: how planners name them, and how they are guessed.
 
 use crate::Error;
-use crate::table::Missing;
+use crate::header::{Header, Missing, Named};
 
 /// The names of the columns of trip records. A name that is absent is guessed from names that are in use, such as those
 /// of New York's taxi records and of bicycles for hire; capitals and small letters are the same.
@@ -140,7 +140,32 @@ const DROPOFF_ZONE: &[&str] = &["DOLocationID", "dropoff_zone", "dropoff_locatio
 pub(super) struct Layout {
     pub(super) time: usize,
     pub(super) passengers: Option<usize>,
+    /// A column that is not read and may hold the passengers, which no other column does.
+    pub(super) overlooked: Option<usize>,
     pub(super) places: Places,
+}
+
+/// Where no column of passengers was found, one that may hold them by a word in its name.
+fn overlooked(passengers: Option<usize>, found: &[String]) -> Option<usize> {
+    const WORDS: [&str; 12] = [
+        "passenger",
+        "passengers",
+        "passagers",
+        "pax",
+        "rider",
+        "riders",
+        "person",
+        "persons",
+        "people",
+        "occupants",
+        "occupancy",
+        "travellers",
+    ];
+    let of_passengers = |name: &String| {
+        let mut words = name.split(|c: char| !c.is_alphanumeric());
+        words.any(|word| WORDS.iter().any(|known| word.eq_ignore_ascii_case(known)))
+    };
+    passengers.map_or_else(|| found.iter().position(of_passengers), |_| None)
 }
 
 /// The columns of pick-up and drop-off.
@@ -159,7 +184,8 @@ impl Layout {
         found: &[String],
         origin: &str,
     ) -> Result<Self, Error> {
-        let finder = Finder::new(columns, found, origin);
+        let header = Header { origin, names: found, of: Named::Columns };
+        let finder = Finder::new(columns, header)?;
         let find = |value| finder.find(value);
         let time = find(TripValue::PickupTime)?;
         let passengers = find(TripValue::Passengers)?;
@@ -198,35 +224,32 @@ impl Layout {
             let what = "with the time of pick-up, such as pickup_datetime";
             finder.missing(what, "pickup_datetime", Some(NAME_THEM))
         })?;
-        Ok(Self { time, passengers, places })
+        Ok(Self { time, passengers, overlooked: overlooked(passengers, found), places })
     }
 }
 
 /// The columns of one file, among which names are looked up.
 struct Finder<'a> {
     columns: &'a TripColumns<'a>,
-    found: &'a [String],
+    header: Header<'a>,
     /// Those of the file's columns that hold one of the values, which no other value was meant to be in.
-    used: Vec<&'a str>,
-    origin: &'a str,
+    used: Vec<usize>,
 }
 
 impl<'a> Finder<'a> {
-    fn new(columns: &'a TripColumns<'_>, found: &'a [String], origin: &'a str) -> Self {
-        let mut finder = Self { columns, found, used: Vec::new(), origin };
-        let used = TripValue::ALL.into_iter().filter_map(|value| finder.position(value));
-        finder.used = used.map(|at| found[at].as_str()).collect();
-        finder
+    fn new(columns: &'a TripColumns<'_>, header: Header<'a>) -> Result<Self, Error> {
+        let mut finder = Self { columns, header, used: Vec::new() };
+        finder.used =
+            TripValue::ALL.into_iter().filter_map(|value| finder.position(value)).collect();
+        finder.used.iter().try_for_each(|&at| header.refuse_twice(at))?;
+        Ok(finder)
     }
 
     /// Where the column of a value stands: the named one, or the first of the usual names that is there.
     fn position(&self, value: TripValue) -> Option<usize> {
-        let position = |name: &str| {
-            self.found.iter().position(|found| found.eq_ignore_ascii_case(name.trim()))
-        };
         match self.columns.named(value) {
-            Some(name) => position(name),
-            None => value.usual_names().iter().find_map(|name| position(name)),
+            Some(name) => self.header.position(name),
+            None => value.usual_names().iter().find_map(|name| self.header.position(name)),
         }
     }
 
@@ -240,8 +263,7 @@ impl<'a> Finder<'a> {
 
     /// An error that says what is missing; `like` is the name to which similar ones are looked for.
     fn missing(&self, what: &str, like: &str, remedy: Option<&str>) -> Error {
-        let Self { found, ref used, origin, .. } = *self;
-        Missing { column: what, like: &[like], found, used, remedy }.error(origin)
+        self.header.missing(&Missing { column: what, like: &[like], used: &self.used, remedy })
     }
 }
 

@@ -4,7 +4,7 @@
 //! not depend on how files are cut into blocks, nor on which thread reads which block, nor on the kind of file. What is
 //! rounded off each record is below a billionth of a passenger.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -12,9 +12,12 @@ use std::sync::{Mutex, PoisonError};
 use vertifleet_core::{Operations, Time};
 
 use super::nearby::{Near, Nearby};
+use super::signs::{Position, RowText, Signs};
 use super::{TripAccount, Trips};
+use crate::cell::Cell;
 use crate::date_time::{DAY_S, Date, Moment, Weekdays};
 use crate::globe::Place;
+use crate::trip_times::TripTimes;
 
 const UNITS: f64 = (1_u64 << 30) as f64;
 /// The most passengers of a record.
@@ -23,8 +26,11 @@ const HOUR_S: u32 = 3600;
 
 /// A trip record as far as it could be read.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Record {
-    pub(super) pickup: Option<Moment>,
+pub(super) struct Record<'row> {
+    pub(super) position: Position,
+    pub(super) row: RowText<'row>,
+    /// When it began.
+    pub(super) time: Cell<'row>,
     pub(super) from: Option<End>,
     pub(super) to: Option<End>,
     pub(super) passengers: Option<f64>,
@@ -33,9 +39,21 @@ pub(super) struct Record {
 /// An end of a trip.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum End {
-    At(Place),
+    /// Numbers that should be degrees.
+    At { latitude: f64, longitude: f64 },
     /// A zone by its position.
     Zone(usize),
+}
+
+impl End {
+    /// Whether its numbers are no degrees.
+    #[inline]
+    fn is_nowhere(self) -> bool {
+        match self {
+            Self::At { latitude, longitude } => Place::new(latitude, longitude).is_none(),
+            Self::Zone(_) => false,
+        }
+    }
 }
 
 /// How records become demand.
@@ -44,6 +62,7 @@ pub(super) struct Rules {
     /// The vertiport near each zone.
     pub(super) near_zones: Vec<Option<Near>>,
     pub(super) hours: Hours,
+    pub(super) times: TripTimes,
     pub(super) decay_mi: Option<f64>,
     pub(super) weekdays: Weekdays,
     /// The first and the last date that count, where they are given.
@@ -86,6 +105,7 @@ impl Hours {
 /// Why a record is dropped.
 #[derive(Debug, Clone, Copy)]
 enum Reason {
+    TooManyValues,
     NoTime,
     NoPlace,
     NoPassengers,
@@ -97,7 +117,8 @@ enum Reason {
     SameVertiport,
 }
 
-const REASONS: usize = 9;
+/// Number of reasons.
+pub(super) const REASONS: usize = 10;
 
 /// Sums and counts of the records that were added.
 pub(super) struct Tally {
@@ -106,10 +127,12 @@ pub(super) struct Tally {
     vertiports: usize,
     kept: u64,
     dropped: [u64; REASONS],
-    /// Dates with a valid record.
-    dates: BTreeSet<Date>,
-    /// The date that was added last; most records have the date of the one before.
-    last_date: Option<Date>,
+    /// Number of valid records of each date that has any.
+    dates: BTreeMap<Date, u64>,
+    /// The date of the latest records and their number, which is not in `dates` yet; most records have the date of the one
+    /// before.
+    latest: Option<(Date, u64)>,
+    signs: Signs,
 }
 
 impl Tally {
@@ -120,27 +143,53 @@ impl Tally {
             vertiports,
             kept: 0,
             dropped: [0; REASONS],
-            dates: BTreeSet::new(),
-            last_date: None,
+            dates: BTreeMap::new(),
+            latest: None,
+            signs: Signs::default(),
         }
+    }
+
+    /// Counts a record with more values than there are columns.
+    pub(super) fn add_with_too_many_values(&mut self, position: Position, line: &[u8]) {
+        self.drop_row(Reason::TooManyValues, position, RowText::Line(line));
+    }
+
+    #[inline]
+    fn drop_row(&mut self, reason: Reason, position: Position, row: RowText<'_>) {
+        let reason = reason as usize;
+        self.dropped[reason] += 1;
+        self.signs.drop_row(reason, position, row);
     }
 
     /// Adds a record, or counts why it is dropped.
     #[inline]
-    pub(super) fn add(&mut self, record: &Record, rules: &Rules) {
+    pub(super) fn add(&mut self, record: &Record<'_>, rules: &Rules) {
         match self.cell_and_units(record, rules) {
             Ok((cell, units)) => {
                 // The largest sum is 17 billion passengers, more than there are people.
                 self.units[cell] = self.units[cell].saturating_add(units);
                 self.kept += 1;
             }
-            Err(reason) => self.dropped[reason as usize] += 1,
+            Err(reason) => self.drop_row(reason, record.position, record.row),
         }
     }
 
-    fn cell_and_units(&mut self, record: &Record, rules: &Rules) -> Result<(usize, u64), Reason> {
-        let pickup = record.pickup.ok_or(Reason::NoTime)?;
+    fn cell_and_units(
+        &mut self,
+        record: &Record<'_>,
+        rules: &Rules,
+    ) -> Result<(usize, u64), Reason> {
+        let Some((pickup, is_instant)) = rules.times.read(record.time) else {
+            self.signs.cannot_read(record);
+            return Err(Reason::NoTime);
+        };
+        self.signs.instants += u64::from(is_instant);
         let (Some(from), Some(to)) = (record.from, record.to) else { return Err(Reason::NoPlace) };
+        if from.is_nowhere() || to.is_nowhere() {
+            self.signs.no_degrees += 1;
+            self.signs.exchanged += u64::from(rules.are_exchanged(from, to));
+            return Err(Reason::NoPlace);
+        }
         let passengers = record
             .passengers
             .filter(|&passengers| passengers > 0.0 && passengers <= MOST_PASSENGERS)
@@ -150,8 +199,12 @@ impl Tally {
             return Err(Reason::OtherWeekday);
         }
         let period = period.ok_or(Reason::OutsideOperations)?;
-        let access = rules.near(from).ok_or(Reason::FarPickup)?;
-        let egress = rules.near(to).ok_or(Reason::FarDropoff)?;
+        let (access, egress) = (rules.near(from), rules.near(to));
+        if access.or(egress).is_none() {
+            self.signs.exchanged += u64::from(rules.are_exchanged(from, to));
+        }
+        let access = access.ok_or(Reason::FarPickup)?;
+        let egress = egress.ok_or(Reason::FarDropoff)?;
         if access.vertiport == egress.vertiport {
             return Err(Reason::SameVertiport);
         }
@@ -184,11 +237,23 @@ impl Tally {
             return Err(Reason::OtherDate);
         }
         let counts = night.is_none() && rules.weekdays.contains(date.weekday());
-        if counts && self.last_date != Some(date) {
-            self.dates.insert(date);
-            self.last_date = Some(date);
+        if counts {
+            match &mut self.latest {
+                Some((latest, records)) if *latest == date => *records += 1,
+                _ => {
+                    self.add_latest();
+                    self.latest = Some((date, 1));
+                }
+            }
         }
         Ok((date, today.or(night)))
+    }
+
+    /// Adds the records of the latest date to those of the dates.
+    fn add_latest(&mut self) {
+        if let Some((date, records)) = self.latest.take() {
+            *self.dates.entry(date).or_default() += records;
+        }
     }
 
     /// Adds the sums and counts of another tally.
@@ -200,7 +265,21 @@ impl Tally {
             *rows += more;
         }
         self.kept += other.kept;
-        self.dates.extend(&other.dates);
+        for (date, records) in
+            other.dates.iter().map(|(date, records)| (*date, *records)).chain(other.latest)
+        {
+            *self.dates.entry(date).or_default() += records;
+        }
+        self.signs.merge(&other.signs);
+    }
+
+    /// Number of valid records of each date that has any.
+    pub(super) fn dates(&self) -> &BTreeMap<Date, u64> {
+        &self.dates
+    }
+
+    pub(super) fn signs(&self) -> &Signs {
+        &self.signs
     }
 
     /// Passengers of all days in a period from one vertiport to another, before the mode share.
@@ -216,6 +295,7 @@ impl Tally {
             files: trips.files.iter().map(name).collect(),
             rows: self.kept + self.dropped.iter().sum::<u64>(),
             kept: self.kept,
+            too_many_values: dropped(Reason::TooManyValues),
             no_time: dropped(Reason::NoTime),
             no_place: dropped(Reason::NoPlace),
             no_passengers: dropped(Reason::NoPassengers),
@@ -226,9 +306,10 @@ impl Tally {
             far_dropoff: dropped(Reason::FarDropoff),
             same_vertiport: dropped(Reason::SameVertiport),
             days: u32::try_from(self.dates.len()).unwrap_or(u32::MAX),
-            first_date: self.dates.first().copied(),
-            last_date: self.dates.last().copied(),
+            first_date: self.dates.first_key_value().map(|(date, _)| *date),
+            last_date: self.dates.last_key_value().map(|(date, _)| *date),
             passengers_a_day: 0.0,
+            first_dropped: Vec::new(),
         }
     }
 }
@@ -237,9 +318,20 @@ impl Rules {
     #[inline]
     fn near(&self, end: End) -> Option<Near> {
         match end {
-            End::At(place) => self.nearby.of(place),
+            End::At { latitude, longitude } => self.nearby.of(Place::new(latitude, longitude)?),
             End::Zone(zone) => self.near_zones[zone],
         }
+    }
+
+    /// Whether both ends would be near a vertiport if their latitudes and longitudes were exchanged.
+    #[cold]
+    fn are_exchanged(&self, from: End, to: End) -> bool {
+        [from, to].into_iter().all(|end| match end {
+            End::At { latitude, longitude } => {
+                self.near(End::At { latitude: longitude, longitude: latitude }).is_some()
+            }
+            End::Zone(_) => false,
+        })
     }
 
     /// The share of passengers that is left after so many miles to and from vertiports.

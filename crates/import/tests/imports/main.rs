@@ -6,5 +6,6 @@ mod made;
 mod network_file;
 mod parquet_types;
 mod planner;
+mod real_files;
 mod trips;
 mod warnings;

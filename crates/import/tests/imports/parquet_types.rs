@@ -113,6 +113,10 @@ fn times_and_zones_may_have_any_type_that_says_them() {
         whole("TIMESTAMP_MICROS", 1_000_000),
         whole("TIMESTAMP(NANOS,false)", 1_000_000_000),
         whole("TIMESTAMP(MILLIS,true)", 1_000),
+        two_trips(&time("TIMESTAMP_MILLIS"), "int32 PULocationID (DECIMAL(9,2))", |group| {
+            column::<Int64Type>(group, &times(1_000), None);
+            column::<Int32Type>(group, &[1200, 1200], None);
+        }),
         written(" (UTF8)"),
         written(""),
         julian,
@@ -134,10 +138,10 @@ fn types_that_say_no_time_or_number_are_refused() {
         }),
         two_trips(
             "int64 pickup_datetime (TIMESTAMP_MILLIS)",
-            "int32 PULocationID (DECIMAL(9,2))",
+            "int32 PULocationID (DATE)",
             |group| {
                 column::<Int64Type>(group, &times(1_000), None);
-                column::<Int32Type>(group, &[1200, 1200], None);
+                column::<Int32Type>(group, &[12, 12], None);
             },
         ),
     ];
@@ -161,4 +165,30 @@ fn a_table_of_demand_in_parquet_is_the_one_in_csv() {
     let (base, vertiports) = (new_york(), folder.path("vertiports.csv"));
     let parquet = run(&request(&base, &vertiports, Demand::Table(&path))).expect("a network");
     assert_eq!(parquet.toml.replace("demand.parquet", "demand.csv"), csv.toml);
+}
+
+#[test]
+fn times_of_day_decimals_and_single_precision_are_read_as_they_are_written() {
+    let folder = Folder::new();
+    let csv =
+        run_table(&folder, "period,from,to,passengers\n07:30,JRB,JFK,1.4\n").expect("a network");
+    let ends = "required binary to (UTF8); required binary from (UTF8);";
+    let (base, vertiports) = (new_york(), folder.path("vertiports.csv"));
+    for (passengers, single) in
+        [("int64 passengers (DECIMAL(12,1))", false), ("float passengers", true)]
+    {
+        let schema = format!("required {passengers}; required int32 period (TIME_MILLIS); {ends}");
+        let path = file(&folder, "demand.parquet", &schema, |group| {
+            if single {
+                column::<FloatType>(group, &[1.4], None);
+            } else {
+                column::<Int64Type>(group, &[14], None);
+            }
+            column::<Int32Type>(group, &[27_000_000], None);
+            column::<ByteArrayType>(group, &texts(&["JFK"]), None);
+            column::<ByteArrayType>(group, &texts(&["JRB"]), None);
+        });
+        let parquet = run(&request(&base, &vertiports, Demand::Table(&path))).expect("a network");
+        assert_eq!(parquet.toml.replace("demand.parquet", "demand.csv"), csv.toml);
+    }
 }

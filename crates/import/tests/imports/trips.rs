@@ -125,13 +125,14 @@ fn both_kinds_of_file_give_the_same_network_on_any_number_of_threads() {
         let imported = pool.install(|| run_trips(&folder, trips)).expect("a network");
         let account = account(&imported).clone();
         let text = imported.toml.replace("trips.csv", "TRIPS").replace("trips.parquet", "TRIPS");
-        (text, TripAccount { files: Vec::new(), ..account })
+        let rows = account.first_dropped.clone();
+        (text, TripAccount { files: Vec::new(), first_dropped: Vec::new(), ..account }, rows)
     };
-    let once = network(&csv, 1);
-    assert!(once.1.kept > 1000);
+    let (once, groups) = (network(&csv, 1), network(&parquet, 1));
+    assert!(once.1.kept > 1000 && once.2.len() == 5, "{:?}", once.2);
+    assert_eq!((&once.0, &once.1), (&groups.0, &groups.1));
     assert_eq!(once, network(&csv, 4));
-    assert_eq!(once, network(&parquet, 1));
-    assert_eq!(once, network(&parquet, 4));
+    assert_eq!(groups, network(&parquet, 4));
 }
 
 #[test]
@@ -184,6 +185,7 @@ pickup_datetime,pickup_latitude,pickup_longitude,dropoff_latitude,dropoff_longit
         files: vec!["records.csv".to_owned()],
         rows: 17,
         kept: 2,
+        too_many_values: 0,
         no_time: 2,
         no_place: 3,
         no_passengers: 3,
@@ -197,8 +199,10 @@ pickup_datetime,pickup_latitude,pickup_longitude,dropoff_latitude,dropoff_longit
         first_date: Some("2015-06-01".parse().expect("a date")),
         last_date: Some("2015-06-01".parse().expect("a date")),
         passengers_a_day: 3.0,
+        first_dropped: found.first_dropped.clone(),
     };
     assert_eq!(*found, expected);
+    insta::assert_snapshot!("dropped_rows", found.dropped_rows());
     let json = serde_json::to_value(found).expect("JSON");
     assert_eq!((&json["other_weekday"], &json["first_date"]), (&1.into(), &"2015-06-01".into()));
     insta::assert_snapshot!(
