@@ -259,8 +259,8 @@ pub(crate) struct CompareArguments {
     /// Number of days
     #[arg(long, required_unless_present = "days_from", allow_hyphen_values = true, value_parser = parse_count)]
     pub(crate) days: Option<u32>,
-    /// Seed of the first day; also the seed of the random policy, which is 0 with --days-from
-    #[arg(long, required_unless_present = "days_from", allow_hyphen_values = true, value_parser = parse_seed)]
+    /// Seed of the first day, and of the random policy [default: 1, and 0 with --days-from]
+    #[arg(long, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: Option<u64>,
     /// Whose days: comparison, for results; validation, to choose settings and weights; or training. With the latter two, the
     /// seed is the number of the first day

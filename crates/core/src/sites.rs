@@ -81,11 +81,12 @@ impl Sites {
             Position::Plane(x_mi, y_mi) => (y_mi, x_mi),
             Position::Globe(degrees) => (degrees.latitude, degrees.longitude),
         };
-        let places: Vec<(f64, f64)> =
+        let mut places: Vec<(f64, f64)> =
             sites.iter().map(|&(_, position)| degrees(position)).collect();
         let distance_mi = Matrix::from_fn(places.len(), |from, to| {
             great_circle_mi(places[from.at()], places[to.at()])
         });
+        count_past_antimeridian(&mut places);
         let count = places.len() as f64;
         let middle = (
             places.iter().map(|place| place.0).sum::<f64>() / count,
@@ -96,6 +97,19 @@ impl Sites {
             Vertiport { x_mi, y_mi, ..vertiport }
         });
         Self { vertiports: vertiports.collect(), distance_mi }
+    }
+}
+
+/// Where places lie on both sides of the antimeridian, counts longitudes in the east on past 180 degrees, so that the plane
+/// shows neighbours beside each other. Others are left as they are, to the bit.
+fn count_past_antimeridian(places: &mut [(f64, f64)]) {
+    let longitudes = || places.iter().map(|place| place.1);
+    let west = longitudes().fold(f64::INFINITY, f64::min);
+    let east = longitudes().fold(f64::NEG_INFINITY, f64::max);
+    if east - west > 180.0 {
+        for (_, longitude) in places.iter_mut().filter(|place| place.1 < 0.0) {
+            *longitude += 360.0;
+        }
     }
 }
 
@@ -182,7 +196,7 @@ fn projected_mi(middle: (f64, f64), place: (f64, f64)) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::{great_circle_mi, projected_mi};
+    use super::{count_past_antimeridian, great_circle_mi, projected_mi};
 
     #[test]
     fn a_degree_of_latitude_is_sixty_nine_miles_and_a_quarter_of_the_globe_ninety_times_that() {
@@ -191,6 +205,20 @@ mod tests {
         let quarter = great_circle_mi((0.0, 0.0), (0.0, 90.0));
         assert!((quarter - 90.0 * degree).abs() < 1e-6, "{quarter}");
         assert_eq!(great_circle_mi((40.7, -74.0), (40.7, -74.0)), 0.0);
+    }
+
+    #[test]
+    fn places_on_both_sides_of_the_antimeridian_are_neighbours_in_the_plane() {
+        let mut places = [(-17.0, 179.5), (-16.5, -179.5)];
+        let apart_mi = great_circle_mi(places[0], places[1]);
+        count_past_antimeridian(&mut places);
+        let middle = (-16.75, 180.0);
+        let (a, b) = (projected_mi(middle, places[0]), projected_mi(middle, places[1]));
+        assert!(a.0 < 0.0 && b.0 > 0.0, "the second lies east of the first");
+        assert!(((a.0 - b.0).hypot(a.1 - b.1) - apart_mi).abs() < 0.1);
+        let mut others = [(40.0, -74.0), (48.0, 2.0)];
+        count_past_antimeridian(&mut others);
+        assert_eq!(others, [(40.0, -74.0), (48.0, 2.0)]);
     }
 
     #[test]

@@ -15,6 +15,8 @@ use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::warn;
 
+/// The seed of the first of the drawn days, where none is given.
+const FIRST_SEED: u64 = 1;
 /// The seed of the random policy and of the planner's search on the user's own days.
 const SEED_ON_OWN_DAYS: u64 = 0;
 
@@ -42,7 +44,8 @@ fn comparison(
 ) -> Result<Comparison, Failure> {
     let bound_step = arguments.bound.then(|| Step::from_minutes(arguments.step)).transpose()?;
     let (policies, models) = (&arguments.policies, &arguments.models);
-    let seed = arguments.seed.unwrap_or(SEED_ON_OWN_DAYS);
+    let usual = if arguments.days_from.is_empty() { FIRST_SEED } else { SEED_ON_OWN_DAYS };
+    let seed = arguments.seed.unwrap_or(usual);
     let selection = Selection { policies, models, seed };
     if !arguments.days_from.is_empty() {
         let days = OwnDays::read(&arguments.days_from)?;
