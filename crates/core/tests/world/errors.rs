@@ -125,6 +125,7 @@ const NETWORK_CHANGES: &[Change] = &[
     ("type = \"cityairbus\"", "type = \"volocity\""),
     ("evening_peak = \"08:00:00\"", "evening_peak = \"08:30:00\""),
     ("name = \"small\"", "name = \"../small\""),
+    ("name = \"small\"", "name = \"small\"\ntime_zone = \"UTC-5\""),
     ("id = \"B\"", "id = \"A\""),
     ("count = 2", "count = 4"),
     ("start = \"06:00:00\"", "start = \"05:59:59\""),

@@ -26,6 +26,14 @@ fn passengers(day: &Scenario) -> u64 {
 }
 
 #[test]
+fn every_time_zone_of_the_database_may_be_given() {
+    for zone in ["UTC", "America/New_York", "Etc/GMT+5", "Asia/Kathmandu"] {
+        let text = format!("time_zone = \"{zone}\"\n{PAPER}");
+        assert_eq!(network(&text).time_zone(), Some(zone));
+    }
+}
+
+#[test]
 fn a_market_without_response_changes_no_day() {
     for text in [PAPER, NEW_YORK] {
         let plain = network(text);
