@@ -7,6 +7,7 @@
 //! | `routes.txt` | every ordered pair of vertiports that is flown; `route_type` is 1100, an air service |
 //! | `trips.txt` | every flight; `block_id` is the aircraft |
 //! | `stop_times.txt` | departure and arrival of every flight |
+//! | `transfers.txt` | that passengers leave an aircraft between two trips of its block |
 //! | `calendar_dates.txt` | the one date of the day |
 //! | `shapes.txt` | the great circle of every route |
 //! | `feed_info.txt` | the same name, and the date |
@@ -64,6 +65,7 @@ pub fn gtfs(flown: &Flown<'_>, calendar: &Calendar) -> Result<Vec<u8>, Error> {
     archive.add("routes.txt", feed.routes());
     archive.add("trips.txt", feed.trips());
     archive.add("stop_times.txt", feed.stop_times());
+    archive.add("transfers.txt", feed.transfers());
     archive.add("calendar_dates.txt", feed.calendar_dates());
     archive.add("shapes.txt", feed.shapes());
     archive.add("feed_info.txt", feed.feed_info());
@@ -108,10 +110,17 @@ impl Feed<'_> {
     }
 
     fn routes(&self) -> Table {
-        let mut table = Table::new(["route_id", "agency_id", "route_long_name", "route_type"]);
+        let mut table = Table::new([
+            "route_id",
+            "agency_id",
+            "route_short_name",
+            "route_long_name",
+            "route_type",
+        ]);
         for pair in self.pairs() {
             let [from, to] = pair.map(|at| &self.flown.day().vertiports[at.at()].id);
-            table.row([&self.route(pair), AGENCY, &format!("{from} to {to}"), AIR_SERVICE]);
+            let (short, long) = (format!("{from}-{to}"), format!("{from} to {to}"));
+            table.row([&self.route(pair), AGENCY, &short, &long, AIR_SERVICE]);
         }
         table
     }
@@ -153,6 +162,28 @@ impl Feed<'_> {
             let to = &self.stops[flight.row.to.at()];
             table.row([&trip, &departure, &departure, from, "1", open, closed, "1"]);
             table.row([&trip, &arrival, &arrival, to, "2", closed, open, "1"]);
+        }
+        table
+    }
+
+    /// Passengers leave an aircraft where it lands. Without these rows, a planner of journeys would let them stay in their seats
+    /// from one trip of a block to the next.
+    fn transfers(&self) -> Table {
+        const MUST_LEAVE: &str = "5";
+        let mut table = Table::new([
+            "from_stop_id",
+            "to_stop_id",
+            "from_trip_id",
+            "to_trip_id",
+            "transfer_type",
+        ]);
+        let mut latest: Vec<Option<String>> = vec![None; self.blocks.len()];
+        for (flight, trip) in self.flights() {
+            let stop = &self.stops[flight.row.from.at()];
+            let before = latest[flight.row.aircraft.at()].replace(trip.clone());
+            if let Some(before) = before {
+                table.row([stop, stop, &before, &trip, MUST_LEAVE]);
+            }
         }
         table
     }

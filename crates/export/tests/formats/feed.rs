@@ -126,6 +126,25 @@ proptest! {
     }
 
     #[test]
+    fn passengers_leave_an_aircraft_between_the_trips_of_its_block(played in any_played()) {
+        let bytes = gtfs(&played.flown(), &calendar()).expect("a feed");
+        let mut archive = ZipArchive::new(Cursor::new(&bytes)).expect("an archive");
+        let transfers = csv::Reader::from_reader(archive.by_name("transfers.txt").expect("a file"))
+            .records()
+            .map(|row| row.expect("a row").iter().map(str::to_owned).collect::<Vec<String>>())
+            .collect::<Vec<_>>();
+        let feed = feed(&played);
+        let blocks = blocks(&feed);
+        let pairs = || blocks.values().flat_map(|trips| trips.windows(2));
+        prop_assert_eq!(transfers.len(), pairs().count());
+        for pair in pairs() {
+            let stop = &pair[1].stop_times[0].stop.id;
+            let row = [stop, stop, &pair[0].id, &pair[1].id, "5"];
+            prop_assert!(transfers.iter().any(|transfer| transfer == &row), "{:?}", row);
+        }
+    }
+
+    #[test]
     fn the_same_day_gives_the_same_feed(played in any_played()) {
         let again = played.clone();
         prop_assert_eq!(
