@@ -8,11 +8,11 @@ use toml_edit::ser::ValueSerializer;
 
 use crate::edit::set;
 use crate::parse::shortened;
-use crate::{Error, Network, kept};
+use crate::{Error, Network, kept, member_path};
 
 impl Network {
     /// Returns the network whose file differs from this one's in some members. A path names members from the outside
-    /// in, separated by dots. An entry of a list is named by its `id` (in the fleet by its `type`) or by its position from
+    /// in, separated by dots; a name with a dot in it stands in double quotes. An entry of a list is named by its `id` (in the fleet by its `type`) or by its position from
     /// 0, and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`, `vertiports.*.stands`.
     /// Changes are made in order, so that later ones win. Where stands change, the changed file says with `start_stands` that
     /// aircraft start as they do on this network; where fares change and passengers respond, it says with `market.reference`
@@ -38,7 +38,8 @@ impl Network {
                     column: 1,
                     problem: format!("{path}: {error}"),
                 })?;
-            let parts: Vec<&str> = path.split('.').collect();
+            let names = member_path::names(path);
+            let parts: Vec<&str> = names.iter().map(String::as_str).collect();
             set(file.as_table_mut(), &parts, &value).map_err(|part| nowhere(&part))?;
         }
         kept::keep_start_stands(self, file.as_table_mut());
@@ -53,7 +54,8 @@ impl Network {
     /// [`Error::NoSuchMember`] if the path leads nowhere.
     pub fn members(&self, path: &str) -> Result<Vec<(String, Value)>, Error> {
         let file: toml::Value = toml::from_str(self.toml()).expect("the text has been read before");
-        let parts: Vec<&str> = path.split('.').collect();
+        let names = member_path::names(path);
+        let parts: Vec<&str> = names.iter().map(String::as_str).collect();
         let mut found = Vec::new();
         let outcome = find(&file, &parts, &mut Vec::new(), &mut found);
         outcome.map_err(|part| Error::NoSuchMember {
@@ -91,7 +93,7 @@ fn find(
         _ => return Err(lost()),
     };
     for (name, member) in members {
-        passed.push(name);
+        passed.push(member_path::quoted(&name).into_owned());
         find(member, rest, passed, found)?;
         passed.pop();
     }
@@ -153,6 +155,20 @@ mod tests {
             let error = york.members(path).expect_err(path);
             assert_eq!(error.code().to_string(), "V123", "{path}");
         }
+    }
+
+    #[test]
+    fn an_id_with_a_dot_stands_in_quotes() {
+        let paper = Network::shipped("paper").expect("a shipped network");
+        let text = paper.toml().replace("id = \"V1\"", "id = \"St. V1\"");
+        let network = Network::from_toml(&text, "dotted").expect("a network");
+        let path = r#"vertiports."St. V1".stands"#.to_owned();
+        assert_eq!(network.members("vertiports.0.stands").expect("a vertiport")[0].0, path);
+        let more = network.changed([(&path, &json!(9))]).expect("a network");
+        let differences = network.differences(&more);
+        assert!(
+            differences.iter().any(|one| one.path == path && one.after == Some("9".to_owned()))
+        );
     }
 
     #[test]

@@ -4,6 +4,7 @@ use serde::Serialize;
 use toml::Value;
 
 use crate::Network;
+use crate::member_path::quoted;
 
 /// A member that two network files say differently.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -35,8 +36,10 @@ fn compare(
     after: Option<&Value>,
     found: &mut Vec<Difference>,
 ) {
-    let inside =
-        |part: &str| if path.is_empty() { part.to_owned() } else { format!("{path}.{part}") };
+    let inside = |name: &str| {
+        let name = quoted(name);
+        if path.is_empty() { name.into_owned() } else { format!("{path}.{name}") }
+    };
     match (before, after) {
         (Some(before), Some(after)) if before == after => {}
         (Some(Value::Table(before)), Some(Value::Table(after))) => {

@@ -310,8 +310,10 @@ fn dimension(network: &Network, path: String, value: &Value) -> Result<Dimension
         rule: format!("{path:?} is no number of aircraft, stands or chargers"),
         hint: "vary fleet.NAME.count, vertiports.NAME.stands or vertiports.NAME.chargers; other settings may have one value",
     };
-    let parts: Vec<&str> = path.split('.').collect();
-    let [section, entry, member] = parts[..] else { return Err(asked()) };
+    // The entry may be in quotes, with dots in them.
+    let ends =
+        path.split_once('.').and_then(|(section, rest)| Some((section, rest.rsplit_once('.')?)));
+    let Some((section, (entry, member))) = ends else { return Err(asked()) };
     let id = |member: &str| {
         let found = network.members(&format!("{section}.{entry}.{member}")).ok()?;
         found.into_iter().next()?.1.as_str().map(str::to_owned)

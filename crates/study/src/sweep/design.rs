@@ -8,6 +8,7 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_xoshiro::SplitMix64;
 use serde_json::Value;
+use vertifleet_core::split_path;
 
 use crate::error::Error;
 
@@ -57,8 +58,7 @@ impl Factor {
             rule,
             hint: "a factor is PATH=VALUE,VALUE or PATH=LOW..HIGH/STEP, for example fleet.0.count=30..50/5; a list is in brackets, as JSON",
         };
-        let (path, values) = text
-            .split_once('=')
+        let (path, values) = split_path(text)
             .filter(|(path, values)| !path.is_empty() && !values.is_empty())
             .ok_or_else(|| asked(format!("{text:?} is no factor")))?;
         let dots = values.split_once("..").filter(|(low, _)| !is_json(low) && !low.contains(','));
