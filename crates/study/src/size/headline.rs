@@ -3,11 +3,26 @@
 use vertifleet_picture::numbers::{counted, dollars, grouped, signed};
 
 use super::{Certificate, DesignSummary, SizeReport};
+use crate::statistics::Estimate;
 
 /// Says what was found, what it brings on days that the search has not seen, and how far from the best it can be.
 pub(super) fn text(report: &SizeReport) -> String {
-    let parts = [found(report), again(report), certificate(report), doubts(report)];
+    let parts = [better(report), found(report), again(report), certificate(report), doubts(report)];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+/// That the network file as it is, which was not searched, is better than what was found.
+fn better(report: &SizeReport) -> String {
+    let better = report.left_out.as_ref().filter(|file| file.is_better);
+    better.map_or_else(String::new, |file| {
+        format!(
+            "The network as it is is better than every design that was played, and these numbers leave it out: {} earns {} a day \
+             with it and carries {:.1} %.",
+            report.policy,
+            estimate(&file.profit_usd),
+            100.0 * file.served_share
+        )
+    })
 }
 
 fn found(report: &SizeReport) -> String {
@@ -121,6 +136,13 @@ fn doubts(report: &SizeReport) -> String {
             report.policy
         ));
     }
+    if let Some(file) = report.left_out.as_ref().filter(|file| !file.is_better) {
+        doubts.push(format!(
+            "These numbers leave the network as it is out, with which {} earns {} a day.",
+            report.policy,
+            estimate(&file.profit_usd)
+        ));
+    }
     let at_limit = report.dimensions.iter().filter(|one| one.is_at_limit()).count();
     if at_limit > 0 {
         doubts.push(format!(
@@ -135,7 +157,10 @@ fn doubts(report: &SizeReport) -> String {
 }
 
 fn earns(design: &DesignSummary) -> String {
-    let profit = design.profit_usd;
+    estimate(&design.profit_usd)
+}
+
+fn estimate(profit: &Estimate) -> String {
     let half =
         profit.half_width_95.map_or_else(String::new, |half| format!(" ± {}", grouped(half, 0)));
     format!("{}{half}", dollars(profit.mean))

@@ -69,6 +69,17 @@ impl<'a> KnownDesigns<'a> {
         &self.days[design]
     }
 
+    /// The numbers of the days of the search with the network file as it is, whether or not a design is the same.
+    pub(super) fn days_as_it_is(&mut self) -> Result<&[DayTotals], Error> {
+        // A design of no numbers changes nothing in the file.
+        let as_it_is = Design::new();
+        if !self.days.contains_key(&as_it_is) {
+            let days = self.play_days(&as_it_is, self.sizing.drawn)?;
+            self.keep(&as_it_is, Finding::Days(days))?;
+        }
+        Ok(&self.days[&as_it_is])
+    }
+
     /// The numbers of the days that follow.
     pub(super) fn again(&mut self, design: &Design) -> Result<&[DayTotals], Error> {
         if !self.again.contains_key(design) {

@@ -143,6 +143,12 @@ impl Space {
         self.dimensions.iter().map(|one| one.nearest(one.now)).collect()
     }
 
+    /// Whether no design is the network file as it is.
+    pub(super) fn leaves_file_out(&self) -> bool {
+        let start = self.start();
+        self.dimensions.iter().zip(start).any(|(one, steps)| one.number(steps) != one.now)
+    }
+
     /// The design with the highest number of everything.
     pub(super) fn largest(&self) -> Design {
         self.dimensions.iter().map(|one| one.steps).collect()

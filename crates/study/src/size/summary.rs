@@ -53,6 +53,8 @@ pub struct SizeReport {
     pub best: usize,
     /// Position in `designs` of the one that is nearest to the network file.
     pub now: usize,
+    /// The network file as it is, where no design is the same.
+    pub left_out: Option<LeftOut>,
     /// The designs that were played, in this order.
     pub designs: Vec<DesignSummary>,
     /// The design that was found, on days that the search has not seen.
@@ -63,6 +65,17 @@ pub struct SizeReport {
     pub again_minus_now_usd: Option<Estimate>,
     /// How far the design that was found can be from the best.
     pub certificate: Certificate,
+}
+
+/// The network file as it is, on the days of the search: means a day.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LeftOut {
+    /// Profit, dollars.
+    pub profit_usd: Estimate,
+    /// Passengers carried as a share of those who wanted to fly; 1 if none did.
+    pub served_share: f64,
+    /// Whether it is better than the design that was found, by the goal.
+    pub is_better: bool,
 }
 
 /// Something that designs have different numbers of.
@@ -157,6 +170,19 @@ impl SizeReport {
         let designs = found.order.iter().map(|one| summary(one, solver.days(one)));
         let designs = designs.collect::<Result<Vec<_>, Error>>()?;
         let best = found.order.iter().position(|one| *one == found.best).expect("it was played");
+        let left_out = if sizing.space.leaves_file_out() {
+            let network = sizing.space.network(&[])?;
+            let days = solver.days_as_it_is()?;
+            let file =
+                DesignSummary::of(sizing, &Design::new(), Size::of(&network), days, f64::NAN);
+            Some(LeftOut {
+                is_better: is_better(sizing, aim, &file, &designs[best], found.reaches),
+                profit_usd: file.profit_usd,
+                served_share: file.served_share,
+            })
+        } else {
+            None
+        };
         let now_again = solver.again(start)?.to_vec();
         let best_again = solver.again(&found.best)?.to_vec();
         let differences: Vec<f64> = best_again
@@ -182,6 +208,7 @@ impl SizeReport {
             dimensions: dimensions(sizing, found),
             best,
             now: 0,
+            left_out,
             certificate: certificate(sizing, aim, found, &designs[best]),
             best_again: summary(&found.best, &best_again)?,
             now_again: summary(start, &now_again)?,
@@ -245,6 +272,27 @@ impl DesignSummary {
             served_share: if wanted > 0.0 { passengers / wanted } else { 1.0 },
             ceiling,
         }
+    }
+}
+
+/// Whether the network file as it is is better than the design that was found, by the goal.
+fn is_better(
+    sizing: &Sizing,
+    aim: &Aim,
+    file: &DesignSummary,
+    found: &DesignSummary,
+    reaches: bool,
+) -> bool {
+    match sizing.goal {
+        Goal::MostProfit => file.profit_usd.mean > found.profit_usd.mean,
+        Goal::LeastSpill => file.passengers > found.passengers,
+        Goal::Served(_) if file.passengers < aim.need => {
+            !reaches && file.passengers > found.passengers
+        }
+        Goal::Served(_) if sizing.has_costs() => {
+            !reaches || file.size.fixed_cost_usd < found.size.fixed_cost_usd
+        }
+        Goal::Served(_) => !reaches || file.size.aircraft < found.size.aircraft,
     }
 }
 

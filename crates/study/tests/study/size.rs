@@ -9,6 +9,7 @@ use vertifleet_core::{Coded, Network, Stop};
 use vertifleet_optimize::Step;
 use vertifleet_study::comparison::{Comparison, DrawnDays};
 use vertifleet_study::competitor::Selection;
+use vertifleet_study::report::Records;
 use vertifleet_study::size::{Certificate, Goal, JOURNAL, SizeRecords, SizeRequest, Sizing};
 use vertifleet_study::sweep::Factor;
 use vertifleet_study::{Error, Unwatched};
@@ -157,4 +158,27 @@ fn the_spill_of_a_given_fleet_keeps_the_fleet() {
     };
     assert!(report.designs.iter().all(|design| design.passengers <= most));
     assert!(report.found().passengers >= report.as_it_is().passengers);
+}
+
+#[test]
+fn a_grid_without_the_network_as_it_is_says_whether_that_is_better() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // The fleet has 40 aircraft.
+    let few = sizing(Goal::MostProfit, &["fleet.0.count=2..6/2"]).expect("a search");
+    let (records, _) = run(&few, folder.path());
+    let report = records.report();
+    let file = report.left_out.as_ref().expect("no design has 40 aircraft");
+    let (profit_usd, _) = played(&paper(), &["prices"])[0];
+    assert_eq!((file.profit_usd.mean, file.is_better), (profit_usd, true));
+    let text = records.text().expect("a text");
+    assert!(text.contains("The network as it is is better than every design"), "{text}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let with_it = sizing(Goal::MostProfit, &["fleet.0.count=30..40/10"]).expect("a search");
+    let (records, _) = run(&with_it, folder.path());
+    assert_eq!(records.report().left_out, None);
+    let folder = tempfile::tempdir().expect("a folder");
+    let near = sizing(Goal::MostProfit, &["fleet.0.count=29..39/10"]).expect("a search");
+    let (records, _) = run(&near, folder.path());
+    let file = records.report().left_out.as_ref().expect("no design has 40 aircraft");
+    assert_eq!(file.is_better, file.profit_usd.mean > records.report().found().profit_usd.mean);
 }
