@@ -293,10 +293,9 @@ impl Days {
         }
         loop {
             let known = day.state().seq();
-            let events = self.store.events(day.id(), known, PAGE).await?;
-            let is_whole = events.len() < PAGE as usize;
+            let page = self.store.events(day.id(), known, PAGE).await?;
             let mut state = day.state();
-            for event in events {
+            for event in page.events {
                 if event.seq == state.seq() + 1 {
                     if state.replay(&event).is_err() {
                         return Ok(false);
@@ -304,7 +303,7 @@ impl Days {
                     day.publish(vec![event]);
                 }
             }
-            if is_whole {
+            if page.is_last {
                 return Ok(true);
             }
         }

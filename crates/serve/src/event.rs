@@ -69,6 +69,19 @@ impl<'de> Deserialize<'de> for Members {
     }
 }
 
+/// The most characters of a reason.
+const LONGEST_REASON: usize = 1_000;
+
+/// Reads a reason, which people write and everybody who reads the day keeps in memory.
+pub(crate) fn reason<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
+    let reason = Option::<String>::deserialize(from)?;
+    if reason.as_ref().is_some_and(|reason| reason.chars().count() > LONGEST_REASON) {
+        let rule = format!("`reason` has at most {LONGEST_REASON} characters");
+        return Err(de::Error::custom(rule));
+    }
+    Ok(reason)
+}
+
 /// What happened.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
@@ -88,7 +101,8 @@ pub(crate) enum What {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         instead_of: Option<String>,
         /// Why a person chose.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(default, deserialize_with = "reason", skip_serializing_if = "Option::is_none")]
+        #[schema(max_length = 1_000)]
         reason: Option<String>,
     },
     /// The latest decision of an aircraft is taken back. It must not have departed.
@@ -96,7 +110,8 @@ pub(crate) enum What {
         /// The aircraft.
         aircraft: String,
         /// Why.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(default, deserialize_with = "reason", skip_serializing_if = "Option::is_none")]
+        #[schema(max_length = 1_000)]
         reason: Option<String>,
     },
     /// An aircraft has left its stand.
@@ -147,7 +162,8 @@ pub(crate) enum What {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         until: Option<Moment>,
         /// Why.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(default, deserialize_with = "reason", skip_serializing_if = "Option::is_none")]
+        #[schema(max_length = 1_000)]
         reason: Option<String>,
     },
     /// An aircraft can fly again.
@@ -163,7 +179,8 @@ pub(crate) enum What {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         until: Option<Moment>,
         /// Why.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(default, deserialize_with = "reason", skip_serializing_if = "Option::is_none")]
+        #[schema(max_length = 1_000)]
         reason: Option<String>,
     },
     /// Routes are open again.

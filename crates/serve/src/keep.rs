@@ -176,9 +176,8 @@ impl Keeper {
             loop {
                 let after = events.last().map_or(0, |event| event.seq);
                 let page = self.store.events(id, after, PAGE).await?;
-                let is_last = page.len() < PAGE as usize;
-                events.extend(page);
-                if is_last {
+                events.extend(page.events);
+                if page.is_last {
                     return written_out(day, scenario, events);
                 }
             }

@@ -97,8 +97,8 @@ impl Service {
             let rule = format!("Idempotency-Key must have 1 to {LONGEST_KEY} characters");
             return Err(Error::BadRequest { rule });
         }
-        // Each token has keys of its own.
-        let own = if actor.is_empty() { key.to_owned() } else { format!("{key} of {actor}") };
+        // Each token has keys of its own. With its length before it, no name can be taken for a part of a key.
+        let own = format!("{}:{actor}:{key}", actor.len());
         let (busy, may_be_known) = self.keys.take(&own)?;
         let request = sum(path, body);
         if may_be_known && let Some(known) = self.days.store().answer(&own).await? {

@@ -11,6 +11,7 @@ mod tokens;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use futures_util::TryStreamExt as _;
 use serde::{Deserialize, Serialize};
 use sqlx::any::AnyRow;
 use sqlx::{AnyPool, Row as _, query, query_scalar};
@@ -30,6 +31,16 @@ pub(crate) const DATABASE: &str = "vertifleet.db";
 const PATIENCE: Duration = Duration::from_secs(5);
 /// Rows that are read at once.
 pub(crate) const PAGE: u32 = 10_000;
+/// About so many bytes of events are read at once, so that neither long events nor many readers fill the memory.
+const PAGE_BYTES: usize = 4 << 20;
+
+/// Events of a day that follow each other.
+#[derive(Debug)]
+pub(crate) struct Page {
+    pub(crate) events: Vec<StoredEvent>,
+    /// Whether no event follows them.
+    pub(crate) is_last: bool,
+}
 /// The version of the tables. A store of a newer version is refused.
 const VERSION: &str = "4";
 
@@ -259,23 +270,27 @@ impl Store {
         Ok(found != Some(0))
     }
 
-    /// The events of a day after number `after`, at most `limit`.
-    pub(crate) async fn events(
-        &self,
-        day: &str,
-        after: u64,
-        limit: u32,
-    ) -> Result<Vec<StoredEvent>, Error> {
-        let rows = query(
+    /// The events of a day after number `after`, at most `limit`, and fewer where they are long.
+    pub(crate) async fn events(&self, day: &str, after: u64, limit: u32) -> Result<Page, Error> {
+        let mut rows = query(
             "SELECT seq, at_ms, actor, body, notices, chain FROM events
              WHERE day = $1 AND seq > $2 ORDER BY seq LIMIT $3",
         )
         .bind(day)
         .bind(as_i64(after))
         .bind(i64::from(limit))
-        .fetch_all(&self.pool)
-        .await?;
-        rows.iter().map(stored_event).collect()
+        .fetch(&self.pool);
+        let (mut events, mut bytes) = (Vec::new(), 0);
+        while let Some(row) = rows.try_next().await? {
+            let event = stored_event(&row)?;
+            bytes += event.body.len() + event.notices.len();
+            events.push(event);
+            if bytes >= PAGE_BYTES {
+                return Ok(Page { events, is_last: false });
+            }
+        }
+        let is_last = events.len() < limit as usize;
+        Ok(Page { events, is_last })
     }
 
     /// Replays the events of a day that follow those of a state, up to a number or to the last one that is stored.
@@ -290,11 +305,11 @@ impl Store {
     ) -> Result<(), Error> {
         while state.seq() < until {
             let most = u32::try_from(until - state.seq()).unwrap_or(PAGE).min(PAGE);
-            let events = self.events(day, state.seq(), most).await?;
-            for event in &events {
+            let page = self.events(day, state.seq(), most).await?;
+            for event in &page.events {
                 state.replay(event)?;
             }
-            if events.len() < most as usize {
+            if page.is_last {
                 break;
             }
         }

@@ -937,7 +937,7 @@ export interface components {
             events: components["schemas"]["TakenEvent"][];
             /**
              * Format: int64
-             * @description The number to read on after, if there may be more.
+             * @description The number to read on after, if there may be more: a page ends at `limit`, or at about 4 MiB.
              */
             next?: number | null;
         };
@@ -2118,7 +2118,7 @@ export interface operations {
             query?: {
                 /** @description Events after this number. If the day has no event of this number, that is answered by 404 (V602). */
                 after?: number;
-                /** @description Their number, at most 10,000; without it, 1,000. */
+                /** @description Their number, at most 10,000; without it, 1,000. There are fewer where they are long. */
                 limit?: number;
                 /** @description How times are written in the answer. */
                 times?: components["schemas"]["Times"];

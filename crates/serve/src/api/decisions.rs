@@ -14,7 +14,7 @@ use super::extract::{Asked, Body, Named, Sender};
 use crate::days::{DayCell, Writer};
 use crate::decide::Proposal;
 use crate::error::Error;
-use crate::event::{Event, What};
+use crate::event::{Event, What, reason};
 use crate::moment::{Moment, by_calendar};
 use crate::service::{Service, Write, in_turn, parse};
 
@@ -60,6 +60,8 @@ pub(crate) struct NewDecision {
     /// The vertiport, if a person chooses; without it, the policy does.
     to: Option<String>,
     /// Why a person chose.
+    #[serde(default, deserialize_with = "reason")]
+    #[schema(max_length = 1_000)]
     reason: Option<String>,
     /// The policy; without it, the day's.
     policy: Option<String>,

@@ -144,7 +144,7 @@ impl TakenEvent {
 pub(crate) struct EventList {
     /// The events, in order.
     events: Vec<TakenEvent>,
-    /// The number to read on after, if there may be more.
+    /// The number to read on after, if there may be more: a page ends at `limit`, or at about 4 MiB.
     next: Option<u64>,
 }
 
@@ -157,7 +157,7 @@ pub(crate) struct Page {
     #[serde(default)]
     #[param(inline)]
     after: EventNumber,
-    /// Their number, at most 10,000; without it, 1,000.
+    /// Their number, at most 10,000; without it, 1,000. There are fewer where they are long.
     #[param(inline)]
     limit: Option<PageSize<10_000>>,
     /// How times are written in the answer.
@@ -203,10 +203,10 @@ pub(super) async fn list(
     let PageSize(limit) = limit.unwrap_or(PageSize(1_000));
     let day = service.days.get(&day).await?;
     day.check_begun(after)?;
-    let stored = service.days.store().events(day.id(), after, limit).await?;
-    let next = (stored.len() == limit as usize).then(|| stored[stored.len() - 1].seq);
+    let page = service.days.store().events(day.id(), after, limit).await?;
+    let next = page.events.last().filter(|_| !page.is_last).map(|event| event.seq);
     times.of(&day, || {
-        let events = stored.iter().map(|event| TakenEvent::of(event, times)).collect();
+        let events = page.events.iter().map(|event| TakenEvent::of(event, times)).collect();
         Ok(json(StatusCode::OK, &EventList { events, next }))
     })
 }

@@ -80,5 +80,5 @@ pub(super) async fn delete(
 #[utoipa::path(operation_id = "validate_network", post, path = "/v1/networks/validate", tag = "networks", request_body = NewNetwork, responses((status = 200, body = NetworkInfo)))]
 pub(super) async fn validate(Upload(body): Upload) -> Result<Response, Error> {
     let NewNetwork { toml } = parse(&body)?;
-    Ok(json(StatusCode::OK, &NetworkInfo::of(&networks::check(&toml)?, false)))
+    Ok(json(StatusCode::OK, &NetworkInfo::of(&networks::read(&toml)?, false)))
 }

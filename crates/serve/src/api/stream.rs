@@ -135,9 +135,9 @@ impl Reader {
             }
             let mut text = BytesMut::new();
             if self.is_behind {
-                let events = self.store.events(self.day.id(), self.after, PAGE).await.ok()?;
-                self.is_behind = events.len() == PAGE as usize;
-                for event in &events {
+                let page = self.store.events(self.day.id(), self.after, PAGE).await.ok()?;
+                self.is_behind = !page.is_last;
+                for event in &page.events {
                     self.after = event.seq;
                     text.extend_from_slice(&self.message(event));
                 }

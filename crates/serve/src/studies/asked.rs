@@ -97,7 +97,7 @@ impl NewStudy {
         }
         let network = match (network, toml) {
             (Some(name), None) => networks::find(service.days.store(), &name).await?.0,
-            (None, Some(toml)) => networks::check(&toml)?,
+            (None, Some(toml)) => networks::read(&toml)?,
             _ => {
                 let rule = "a study needs either network or toml".to_owned();
                 return Err(Error::BadRequest { rule });

@@ -1,5 +1,6 @@
 //! Requests that make no sense: each gets an answer with a code, and the day stays as it is.
 
+use serde_json::{Value, json};
 use vertifleet_testkit::{draw, spoilt};
 
 use crate::api::service;
@@ -46,6 +47,65 @@ fn malformed_requests_are_refused_with_a_code() {
     }
     assert!(refused > REQUESTS / 2, "{refused} were refused");
     assert_eq!(service.get(&format!("{day}/state")).status, 200);
+}
+
+#[test]
+fn a_reason_is_no_longer_than_people_write() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let place = service.get(&format!("{day}/state")).json["aircraft"][0]["place"].clone();
+    let long = "\u{e9}".repeat(1_001);
+    let event = |reason: &str| json!({"type": "undone", "aircraft": "A01", "reason": reason});
+    let decision = |reason: &str| json!({"aircraft": "A01", "to": place, "reason": reason});
+    for (path, body) in [("events", event(&long)), ("decisions", decision(&long))] {
+        let answer = service.post(&format!("{day}/{path}"), &body);
+        assert_eq!(answer.status, 400, "{path}");
+        assert!(
+            answer.json["detail"].to_string().contains("at most 1000 characters"),
+            "{answer:?}"
+        );
+    }
+    let most = &long[..2_000];
+    assert_eq!(service.post(&format!("{day}/decisions"), &decision(most)).status, 201);
+    assert_eq!(service.post(&format!("{day}/events"), &event(most)).status, 201);
+}
+
+#[test]
+fn a_page_of_long_events_ends_before_it_fills_the_memory() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let ids = ["V1", "V2", "V3", "V4", "V5", "V6", "V7", "V8"];
+    let pairs: Vec<Value> = ids
+        .iter()
+        .flat_map(|from| ids.iter().map(move |to| json!({"from": from, "to": to, "passengers": 3})))
+        .filter(|pair| pair["from"] != pair["to"])
+        .collect();
+    let pairs: Vec<Value> = pairs.iter().cycle().take(20_000).cloned().collect();
+    let event = json!({"type": "demand", "period": "07:00:00", "pairs": pairs});
+    for _ in 0..6 {
+        assert_eq!(service.post(&format!("{day}/events"), &event).status, 201);
+    }
+    let (mut after, mut pages, mut seen) = (0, 0, 0);
+    loop {
+        let answer = service.get(&format!("{day}/events?after={after}&limit=10000"));
+        assert!(answer.json.to_string().len() < 6 << 20);
+        seen += answer.json["events"].as_array().expect("a list").len();
+        pages += 1;
+        let Some(next) = answer.json["next"].as_u64() else { break };
+        after = next;
+    }
+    assert_eq!((seen, pages > 1), (6, true), "{pages} pages");
+}
+
+#[test]
+fn a_clock_that_ends_the_day_for_ever_is_refused() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let clock = |time: &str| {
+        service.post(&format!("{day}/events"), &json!({"type": "clock", "time": time})).status
+    };
+    assert_eq!([clock("99:59:59"), clock("22:00:01")], [422, 422], "the day ends at 18:00");
+    assert_eq!([clock("17:00:00"), clock("21:59:59"), clock("25:00:00")], [201, 201, 201]);
 }
 
 #[test]

@@ -244,6 +244,14 @@ pub enum Unfit {
         /// The latest time that was reported.
         now: Time,
     },
+    /// A clock that shows a time at which the day has long been over.
+    #[error("{time} is more than 4 h after {latest}, when the day is over at the latest")]
+    AfterTheDay {
+        /// The time of the clock.
+        time: Time,
+        /// The end of operations, or the latest time that was reported if it is later.
+        latest: Time,
+    },
     /// Something that was over before it became known.
     #[error("what ends at {until} cannot be reported for {time}, when it is over")]
     Backwards {

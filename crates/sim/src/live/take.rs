@@ -18,10 +18,17 @@ impl LiveDay {
     /// its place any more. Since the clock never runs back, the first does harm that cannot be undone.
     ///
     /// # Errors
-    /// Returns [`Unfit::TooFarAhead`], [`Unfit::Backwards`], [`Unfit::BeforeDeparture`] or [`Unfit::Over`].
+    /// Returns [`Unfit::TooFarAhead`], [`Unfit::AfterTheDay`], [`Unfit::Backwards`], [`Unfit::BeforeDeparture`] or [`Unfit::Over`].
     pub fn check_times(&self, time: Time, report: &Report) -> Result<(), Unfit> {
         match *report {
-            Report::Clock => Ok(()),
+            // The clock itself may jump, but not to where no aircraft of the day is any more.
+            Report::Clock => {
+                let latest = self.now.max(self.scenario().operations.end);
+                if time > latest + LONGEST_STEP_S {
+                    return Err(Unfit::AfterTheDay { time, latest });
+                }
+                Ok(())
+            }
             _ if time > self.now + LONGEST_STEP_S => {
                 Err(Unfit::TooFarAhead { time, now: self.now })
             }
