@@ -32,6 +32,7 @@ mod service;
 mod spans;
 mod store;
 mod studies;
+mod turns;
 
 pub use access::{Role, StoredToken, Tokens};
 pub use api::openapi;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -26,6 +27,9 @@ pub(crate) struct Outlook {
     pub(crate) now: Moment,
     /// The policy.
     pub(crate) policy: String,
+    /// The policy that was asked, if it could not play the rest of the day in time. The one that is named then did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) too_late: Option<String>,
     /// Profit so far, dollars: of the flights that have been sent off, less what the fleet costs all day.
     pub(crate) profit_so_far_usd: f64,
     /// The numbers of the whole day as it is expected to end.
@@ -122,12 +126,48 @@ pub(crate) struct NamedPolicy {
     pub(crate) resolved: ResolvedPolicy,
 }
 
+/// How long a policy may take.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Patience<'a> {
+    /// Requested when nobody waits for the outlook any more.
+    pub(crate) stop: &'a Stop,
+    /// When a faster policy has to take its place.
+    pub(crate) until: Instant,
+}
+
+impl Patience<'_> {
+    fn is_over(self) -> bool {
+        self.stop.is_requested() || Instant::now() >= self.until
+    }
+}
+
 impl Outlook {
-    /// Plays the rest of a day out.
+    /// Plays the rest of a day out, with `quick` in place of a policy that takes too long.
     ///
     /// # Errors
-    /// Returns an error if there is no such policy, or if it cannot play the day.
-    pub(crate) fn of(day: &mut DispatchDay, policy: &NamedPolicy) -> Result<Self, Error> {
+    /// Returns an error if a policy cannot play the day, or if nobody waits for it any more.
+    pub(crate) fn in_time(
+        day: &mut DispatchDay,
+        policy: &NamedPolicy,
+        quick: &NamedPolicy,
+        patience: Patience<'_>,
+    ) -> Result<Self, Error> {
+        if let Some(outlook) = Self::of(day, policy, || patience.is_over())? {
+            return Ok(outlook);
+        }
+        let outlook = Self::of(day, quick, || patience.stop.is_requested())?;
+        // Then nobody reads this answer.
+        let gone = || Error::Internal { cause: "the client has gone".to_owned() };
+        let outlook = outlook.ok_or_else(gone)?;
+        Ok(Self { too_late: Some(policy.name.clone()), ..outlook })
+    }
+
+    /// Plays the rest of a day out; `None` if it is given up before.
+    fn of(
+        day: &mut DispatchDay,
+        policy: &NamedPolicy,
+        gives_up: impl Fn() -> bool,
+    ) -> Result<Option<Self>, Error> {
         let seq = day.seq();
         let live = day.live_mut();
         let scenario = Arc::clone(live.scenario());
@@ -138,20 +178,24 @@ impl Outlook {
         let upper_bound_usd = upper_bound_usd(live)?;
         let mut rest = live.rest();
         while let Some(decision) = rest.next_decision() {
+            if gives_up() {
+                return Ok(None);
+            }
             let choice = decider.choose(&decision, &rest.view());
             let choice = choice.map_err(|error| Error::of_policy(&policy.name, &error))?;
             let row = rest.apply(choice).expect("policies choose from the mask");
             legs.push(Leg::of(&row, &scenario, false));
         }
-        Ok(Self {
+        Ok(Some(Self {
             seq,
             now: live.now().into(),
             policy: policy.name.clone(),
+            too_late: None,
             profit_so_far_usd,
             totals: rest.totals(),
             upper_bound_usd,
             legs,
-        })
+        }))
     }
 }
 
@@ -225,15 +269,17 @@ impl WhatIf {
     }
 
     /// Compares a day as it is with what it might be. `otherwise` is the day with another beginning, if it has one. The
-    /// first policy decides as things are, the second as they might be.
+    /// first policy decides as things are, the second as they might be; if either takes too long, the third decides both.
     ///
     /// # Errors
-    /// Returns an error if an event cannot be taken, or if a policy cannot play the day.
+    /// Returns an error if an event cannot be taken, if a policy cannot play the day, or if nobody waits for the comparison any
+    /// more.
     pub(crate) fn compare(
         self,
         day: &mut DispatchDay,
         otherwise: Option<DispatchDay>,
-        policies: [&NamedPolicy; 2],
+        [ours, theirs, quick]: [&NamedPolicy; 3],
+        patience: Patience<'_>,
     ) -> Result<Comparison, Error> {
         let mut changed = otherwise.unwrap_or_else(|| day.clone());
         let before = changed.notices().filter(|(seq, _)| seq.is_some()).count();
@@ -242,9 +288,13 @@ impl WhatIf {
         }
         let told = changed.notices().filter(|(seq, _)| seq.is_some()).skip(before);
         let notices = told.map(|(_, text)| text).collect();
-        let [ours, theirs] = policies;
-        let as_it_is = Outlook::of(day, ours)?;
-        let what_if = Outlook::of(&mut changed, theirs)?;
+        let mut as_it_is = Outlook::in_time(day, ours, quick, patience)?;
+        let what_if = Outlook::in_time(&mut changed, theirs, quick, patience)?;
+        // What different policies would make of the two is not what the change would lead to.
+        if what_if.too_late.is_some() && as_it_is.too_late.is_none() {
+            let over = Patience { until: Instant::now(), ..patience };
+            as_it_is = Outlook::in_time(day, ours, quick, over)?;
+        }
         let difference_usd = what_if.totals.profit_usd - as_it_is.totals.profit_usd;
         Ok(Comparison { as_it_is, what_if, difference_usd, notices })
     }

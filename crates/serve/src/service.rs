@@ -15,6 +15,7 @@ use crate::limits::Limits;
 use crate::policies::Policies;
 use crate::spans::Spans;
 use crate::studies::Studies;
+use crate::turns::Turns;
 
 /// The longest message about a body that cannot be read.
 const LONGEST_RULE: usize = 400;
@@ -44,18 +45,18 @@ pub(crate) struct Service {
     /// What is played in the background.
     pub(crate) studies: Studies,
     /// Turns for computations.
-    pub(crate) turns: Turns,
+    pub(crate) turns: AllTurns,
 }
 
 /// Turns for computations, of each kind as many as there are cores: more at once would only make all of them late.
 #[derive(Debug)]
-pub(crate) struct Turns {
+pub(crate) struct AllTurns {
     /// For outlooks and what-ifs, which take long.
-    pub(crate) outlooks: Arc<Semaphore>,
+    pub(crate) outlooks: Turns,
     /// For decisions.
-    pub(crate) decisions: Arc<Semaphore>,
+    pub(crate) decisions: Turns,
     /// For the policy that answers when others are late, so that it never waits for them.
-    pub(crate) quick_decisions: Arc<Semaphore>,
+    pub(crate) quick_decisions: Turns,
 }
 
 /// A write as its headers describe it.
@@ -78,8 +79,8 @@ impl Service {
         let policies = Policies::new(days.store().clone());
         let used = days.store().keys().await?;
         let keys = Keys::new(used.as_deref());
-        let turns = || Arc::new(Semaphore::new(cores));
-        let turns = Turns { outlooks: turns(), decisions: turns(), quick_decisions: turns() };
+        let turns = || Turns::new(cores);
+        let turns = AllTurns { outlooks: turns(), decisions: turns(), quick_decisions: turns() };
         let uploads = Semaphore::new(UPLOADS);
         let studies = Studies::default();
         let spans = None;
@@ -111,22 +112,6 @@ impl Service {
         writer.busy = Some(Arc::new(busy));
         Ok(Write::New(writer))
     }
-}
-
-/// Works on a thread of its own when its turn has come.
-pub(crate) async fn in_turn<T: Send + 'static>(
-    turns: &Arc<Semaphore>,
-    work: impl FnOnce() -> Result<T, Error> + Send + 'static,
-) -> Result<T, Error> {
-    let turn = Arc::clone(turns).acquire_owned().await.expect("it is never closed");
-    let died = |error| Error::Internal { cause: format!("{error}") };
-    // The turn lasts as long as the work, even if the client goes away before.
-    let work = move || {
-        let outcome = work();
-        drop(turn);
-        outcome
-    };
-    tokio::task::spawn_blocking(work).await.map_err(died)?
 }
 
 impl Sender {

@@ -1175,6 +1175,8 @@ export interface components {
              * @description The number of the latest event that it takes into account.
              */
             seq: number;
+            /** @description The policy that was asked, if it could not play the rest of the day in time. The one that is named then did. */
+            too_late?: string | null;
             /** @description The numbers of the whole day as it is expected to end. */
             totals: components["schemas"]["Totals"];
             /**

@@ -8,6 +8,7 @@ use axum::http::StatusCode;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
+use vertifleet_core::Stop;
 
 use super::answer::{Times, again, at_event};
 use super::extract::{Asked, Body, Named, Sender};
@@ -16,14 +17,14 @@ use crate::decide::Proposal;
 use crate::error::Error;
 use crate::event::{Event, What, reason};
 use crate::moment::{Moment, by_calendar};
-use crate::service::{Service, Write, in_turn, parse};
+use crate::service::{Service, Write, parse};
 
 /// A policy is asked so often when events come in between.
 const TRIES: u32 = 5;
 /// The policy that a person overrules has so long to say what it would have done.
 const PATIENCE_WITH_OVERRULED: Duration = Duration::from_millis(100);
 /// Decides when the policy that was asked is late.
-const QUICK_POLICY: &str = "greedy";
+pub(super) const QUICK_POLICY: &str = "greedy";
 
 /// How a decision is asked for.
 #[derive(Debug, Clone, Default, Deserialize, IntoParams)]
@@ -45,6 +46,8 @@ pub(crate) struct HowAsked {
 /// How a policy is asked.
 #[derive(Debug, Clone)]
 struct Question {
+    /// The name of the token of whoever asks.
+    actor: String,
     aircraft: String,
     policy: Option<String>,
     time: Option<Moment>,
@@ -92,13 +95,14 @@ pub(crate) struct TakenDecision {
 pub(super) async fn propose(
     State(service): State<Arc<Service>>,
     Named((day, aircraft)): Named<(String, String)>,
+    sender: Sender,
     Asked(asked): Asked<HowAsked>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let HowAsked { policy, time, deadline_ms, times } = asked;
     let time = time.map(|text| by_calendar(day.calendar(), || Moment::parse(&text))).transpose();
     let time = time.map_err(|rule| Error::BadRequest { rule })?;
-    let question = Question { aircraft, policy, time, deadline_ms };
+    let question = Question { actor: sender.actor, aircraft, policy, time, deadline_ms };
     let proposal = proposed(&service, &day, question).await?;
     day.stored_up_to(proposal.seq).await?;
     times.of(&day, || Ok(at_event(StatusCode::OK, proposal.seq, &proposal)))
@@ -146,7 +150,7 @@ async fn by_hand(
     // For the record only, so it must not hold a person up, and whatever goes wrong shows when the event is taken.
     let deadline =
         deadline_ms.map_or(PATIENCE_WITH_OVERRULED, |ms| Duration::from_millis(ms.into()));
-    let overruled = ask(service, day, aircraft.clone(), policy, time);
+    let overruled = ask(service, day, (&writer.actor, &aircraft), policy, time);
     let overruled = tokio::time::timeout(deadline, overruled).await;
     let instead_of = overruled.ok().and_then(Result::ok).map(|proposal| proposal.to);
     let instead_of = instead_of.filter(|proposed| *proposed != to);
@@ -164,7 +168,8 @@ async fn by_policy(
     writer: Writer,
     NewDecision { aircraft, reason, policy, time, deadline_ms, .. }: NewDecision,
 ) -> Result<TakenDecision, Error> {
-    let question = Question { aircraft: aircraft.clone(), policy, time, deadline_ms };
+    let actor = writer.actor.clone();
+    let question = Question { actor, aircraft: aircraft.clone(), policy, time, deadline_ms };
     let mut tries = 0;
     loop {
         tries += 1;
@@ -209,10 +214,11 @@ async fn take(
 async fn proposed(
     service: &Service,
     day: &Arc<DayCell>,
-    Question { aircraft, policy, time, deadline_ms }: Question,
+    Question { actor, aircraft, policy, time, deadline_ms }: Question,
 ) -> Result<Proposal, Error> {
+    let whom = (actor.as_str(), aircraft.as_str());
     let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
-    let answer = ask(service, day, aircraft.clone(), policy.clone(), time);
+    let answer = ask(service, day, whom, policy.clone(), time);
     let in_time = match deadline_ms {
         None => Some(answer.await?),
         Some(deadline_ms) => {
@@ -223,7 +229,7 @@ async fn proposed(
     let proposal = if let Some(proposal) = in_time {
         proposal
     } else {
-        let quick = ask(service, day, aircraft, QUICK_POLICY.to_owned(), time);
+        let quick = ask(service, day, whom, QUICK_POLICY.to_owned(), time);
         Proposal { too_late: Some(policy), ..quick.await? }
     };
     let seconds = Duration::from_micros(proposal.took_us).as_secs_f64();
@@ -236,7 +242,7 @@ async fn proposed(
 async fn ask(
     service: &Service,
     day: &Arc<DayCell>,
-    aircraft: String,
+    (actor, aircraft): (&str, &str),
     policy: String,
     time: Option<Moment>,
 ) -> Result<Proposal, Error> {
@@ -246,6 +252,7 @@ async fn ask(
     let is_quick = policy == QUICK_POLICY;
     let turns = if is_quick { &service.turns.quick_decisions } else { &service.turns.decisions };
     let day = Arc::clone(day);
-    let ask = move || decider.propose(&day, &aircraft, time.map(Moment::time), &policy);
-    in_turn(turns, ask).await
+    let aircraft = aircraft.to_owned();
+    let ask = move |_: &Stop| decider.propose(&day, &aircraft, time.map(Moment::time), &policy);
+    turns.work(actor, ask).await
 }

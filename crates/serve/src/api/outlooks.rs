@@ -1,21 +1,24 @@
 //! Outlooks: how the day is expected to go on, and what it would be if things were otherwise.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::Response;
 use serde::Deserialize;
 use utoipa::IntoParams;
+use vertifleet_core::Stop;
 
 use super::answer::{Times, Written, at_event, json};
+use super::decisions::QUICK_POLICY;
 use super::events::MOST_EVENTS;
-use super::extract::{Asked, Body, EventNumber, Named};
+use super::extract::{Asked, Body, EventNumber, Named, Sender};
 use crate::days::DayCell;
 use crate::error::Error;
 use crate::moment::by_calendar;
-use crate::outlook::{Comparison, NamedPolicy, Outlook, WhatIf};
-use crate::service::{Service, in_turn, parse};
+use crate::outlook::{Comparison, NamedPolicy, Outlook, Patience, WhatIf};
+use crate::service::{Service, parse};
 
 /// Which outlook is asked for.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -41,18 +44,27 @@ pub(crate) struct By {
 pub(super) async fn outlook(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
+    sender: Sender,
     Asked(By { policy, seq, times }): Asked<By>,
 ) -> Result<Response, Error> {
+    let until = patience(&service);
     let day = service.days.get(&day).await?;
     let mut state = match seq {
         None => day.state().clone(),
         Some(EventNumber(seq)) => service.days.at(&day, seq).await?,
     };
     let policy = named(&service, &day, policy).await?;
-    let outlook =
-        in_turn(&service.turns.outlooks, move || Outlook::of(&mut state, &policy)).await?;
+    let quick = named(&service, &day, Some(QUICK_POLICY.to_owned())).await?;
+    let work =
+        move |stop: &Stop| Outlook::in_time(&mut state, &policy, &quick, Patience { stop, until });
+    let outlook = service.turns.outlooks.work(&sender.actor, work).await?;
     day.stored_up_to(outlook.seq).await?;
     times.of(&day, || Ok(at_event(StatusCode::OK, outlook.seq, &outlook)))
+}
+
+/// When a policy that has not played the rest of a day is too late: a quick one then has as much time again.
+fn patience(service: &Service) -> Instant {
+    Instant::now() + service.limits.request / 2
 }
 
 /// The policy with a name, or the day's.
@@ -77,9 +89,11 @@ async fn named(
 pub(super) async fn what_if(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
+    sender: Sender,
     Asked(Written { times }): Asked<Written>,
     Body(body): Body,
 ) -> Result<Response, Error> {
+    let until = patience(&service);
     let day = service.days.get(&day).await?;
     let asked: Option<WhatIf> = by_calendar(day.calendar(), || parse(&body))?;
     let asked = asked.unwrap_or_default();
@@ -97,7 +111,11 @@ pub(super) async fn what_if(
     };
     let ours = named(&service, &day, None).await?;
     let theirs = named(&service, &day, asked.policy.clone()).await?;
-    let compare = move || asked.compare(&mut state, otherwise, [&ours, &theirs]);
-    let compared = in_turn(&service.turns.outlooks, compare).await?;
+    let quick = named(&service, &day, Some(QUICK_POLICY.to_owned())).await?;
+    let compare = move |stop: &Stop| {
+        let patience = Patience { stop, until };
+        asked.compare(&mut state, otherwise, [&ours, &theirs, &quick], patience)
+    };
+    let compared = service.turns.outlooks.work(&sender.actor, compare).await?;
     times.of(&day, || Ok(json(StatusCode::OK, &compared)))
 }

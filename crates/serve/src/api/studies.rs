@@ -16,7 +16,7 @@ use super::answer::{again, json};
 use super::days::new_id;
 use super::extract::{Named, Sender, Upload};
 use crate::error::Error;
-use crate::service::{Service, Write, in_turn, parse};
+use crate::service::{Service, Write, parse};
 use crate::studies::{NewStudy, StudyInfo};
 
 /// All studies.
@@ -48,7 +48,7 @@ pub(super) async fn create(
     if let Some(known) = service.studies.asked_before(writer.idempotency.as_ref())? {
         return Ok(json(StatusCode::CREATED, &known));
     }
-    let asked = parse::<NewStudy>(&body)?.check(&service).await?;
+    let asked = parse::<NewStudy>(&body)?.check(&service, &sender.actor).await?;
     let study = service.studies.add(new_id(), writer.idempotency, asked)?;
     Ok(json(StatusCode::CREATED, &study))
 }
@@ -67,9 +67,10 @@ pub(super) async fn read(
 pub(super) async fn report(
     State(service): State<Arc<Service>>,
     Named(study): Named<String>,
+    sender: Sender,
 ) -> Result<Response, Error> {
-    let turns = Arc::clone(&service.turns.outlooks);
-    let page = in_turn(&turns, move || service.studies.page(&study)).await?;
+    let turns = service.turns.outlooks.clone();
+    let page = turns.work(&sender.actor, move |_| service.studies.page(&study)).await?;
     let headers = [
         (header::CONTENT_TYPE, HeaderValue::from_static("text/html; charset=utf-8")),
         (header::CONTENT_SECURITY_POLICY, policy_of(&page)),
@@ -83,9 +84,10 @@ pub(super) async fn report(
 pub(super) async fn replay(
     State(service): State<Arc<Service>>,
     Named(study): Named<String>,
+    sender: Sender,
 ) -> Result<Response, Error> {
-    let turns = Arc::clone(&service.turns.outlooks);
-    let replay = in_turn(&turns, move || service.studies.replay(&study)).await?;
+    let turns = service.turns.outlooks.clone();
+    let replay = turns.work(&sender.actor, move |_| service.studies.replay(&study)).await?;
     Ok(([(header::CONTENT_TYPE, "application/json")], replay).into_response())
 }
 

@@ -10,7 +10,7 @@ use vertifleet_study::{NetworkOrigin, PolicySource, PolicySpec};
 
 use crate::error::Error;
 use crate::networks;
-use crate::service::{Service, in_turn};
+use crate::service::Service;
 
 /// Policies of a study.
 const MOST_POLICIES: usize = 10;
@@ -86,7 +86,7 @@ impl NewStudy {
     /// # Errors
     /// Returns [`Error::BadRequest`], [`Error::TooMuch`], [`Error::NotFound`], or what is wrong with the network or the
     /// policies.
-    pub(crate) async fn check(self, service: &Service) -> Result<Asked, Error> {
+    pub(crate) async fn check(self, service: &Service, actor: &str) -> Result<Asked, Error> {
         let Self { network, toml, policies, days, seed, split, bounds } = self;
         let most = |what, most| Err(Error::TooMuch { what, most });
         if policies.len() > MOST_POLICIES {
@@ -117,7 +117,7 @@ impl NewStudy {
         let bound_step = bounds.then(Step::default);
         let (origin, warnings) = (NetworkOrigin::Own, Vec::new());
         let asked = Asked { network, origin, policies, models, drawn, split, bound_step, warnings };
-        in_turn(&service.turns.outlooks, move || asked.tried()).await
+        service.turns.outlooks.work(actor, move |_| asked.tried()).await
     }
 }
 

@@ -1,8 +1,14 @@
 //! How days are expected to go on, from now and from moments that have passed.
 
+use std::io::Write as _;
+use std::net::TcpStream;
+use std::time::Duration;
+
 use serde_json::json;
+use vertifleet_serve::{Limits, Location};
 
 use crate::api::service;
+use crate::running::Running;
 
 #[test]
 fn an_outlook_is_the_simulated_day_and_what_if_leaves_the_day_alone() {
@@ -56,4 +62,47 @@ fn an_outlook_from_a_moment_that_has_passed_is_the_one_of_then() {
             .is_some_and(|legs| legs.iter().all(|leg| leg["is_taken"] == false))
     );
     assert_eq!(asked("seq=3").status, 404);
+}
+
+/// The path of a day of `large`, whose outlook by the rolling horizon takes minutes.
+fn large_day(service: &Running) -> String {
+    let made = service.post("/v1/days", &json!({"network": "large", "policy": "greedy"}));
+    assert_eq!(made.status, 201, "{made:?}");
+    format!("/v1/days/{}", made.json["id"].as_str().expect("an id"))
+}
+
+#[test]
+fn an_outlook_that_takes_too_long_is_played_by_a_quick_policy_which_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let limits = Limits { request: Duration::from_secs(20), ..Limits::default() };
+    let service = Running::start_with(Location::Folder(folder.path().to_owned()), limits);
+    let day = large_day(&service);
+    let outlook = service.get(&format!("{day}/outlook?policy=rolling"));
+    assert_eq!(outlook.status, 200, "{outlook:?}");
+    assert_eq!(
+        (&outlook.json["policy"], &outlook.json["too_late"]),
+        (&json!("greedy"), &json!("rolling"))
+    );
+    let quick = service.get(&format!("{day}/outlook"));
+    assert_eq!(quick.json["totals"], outlook.json["totals"]);
+    assert!(quick.json.get("too_late").is_none());
+    let compared = service.post(&format!("{day}/what-if"), &json!({"policy": "rolling"}));
+    assert_eq!((compared.status, &compared.json["difference_usd"]), (200, &json!(0.0)));
+    assert_eq!(compared.json["what_if"]["too_late"], "rolling");
+}
+
+#[test]
+fn outlooks_whose_clients_have_gone_keep_no_turn() {
+    let (_folder, service) = service();
+    let (large, day) = (large_day(&service), service.new_day("greedy"));
+    let address = service.url.trim_start_matches("http://");
+    for _ in 0..8 {
+        let mut abandoned = TcpStream::connect(address).expect("it listens");
+        let head =
+            format!("GET {large}/outlook?policy=rolling HTTP/1.1\r\nHost: {address}\r\n\r\n");
+        abandoned.write_all(head.as_bytes()).expect("sent");
+        std::thread::sleep(Duration::from_millis(200));
+    }
+    // With the turns kept, this would wait for minutes, and be refused.
+    assert_eq!(service.get(&format!("{day}/outlook")).status, 200);
 }

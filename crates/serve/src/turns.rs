@@ -1,0 +1,183 @@
+//! Turns for computations that take long. A few run at once, and those that wait come on fairly: first the token with the fewest
+//! that run, and of equal ones the request that came first. So a token that asks for much waits for itself, and not others for it.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use tokio::sync::oneshot;
+use vertifleet_core::Stop;
+
+use crate::error::Error;
+
+/// Turns of one kind.
+#[derive(Debug, Clone)]
+pub(crate) struct Turns(Arc<Mutex<State>>);
+
+#[derive(Debug)]
+struct State {
+    /// Turns that nobody has.
+    free: usize,
+    /// How many each token has.
+    running: HashMap<String, usize>,
+    /// In the order in which they came.
+    waiting: Vec<Waiting>,
+}
+
+#[derive(Debug)]
+struct Waiting {
+    actor: String,
+    turn: oneshot::Sender<Turn>,
+}
+
+/// A turn, which ends when this is dropped.
+#[derive(Debug)]
+struct Turn {
+    turns: Turns,
+    actor: String,
+}
+
+impl Turns {
+    /// So many turns.
+    pub(crate) fn new(turns: usize) -> Self {
+        let state = State { free: turns, running: HashMap::new(), waiting: Vec::new() };
+        Self(Arc::new(Mutex::new(state)))
+    }
+
+    /// Works on a thread of its own when the turn of a token has come. The work is asked to stop when nobody waits for it any
+    /// more, because the client has gone or the time for the answer has passed.
+    pub(crate) async fn work<T: Send + 'static>(
+        &self,
+        actor: &str,
+        work: impl FnOnce(&Stop) -> Result<T, Error> + Send + 'static,
+    ) -> Result<T, Error> {
+        let turn = self.take(actor).await;
+        let stop = Stop::default();
+        let waits = StopWhenDropped(stop.clone());
+        // The turn lasts as long as the work, even if nobody waits for it.
+        let work = move || {
+            let outcome = work(&stop);
+            drop(turn);
+            outcome
+        };
+        let died = |error| Error::Internal { cause: format!("{error}") };
+        let outcome = tokio::task::spawn_blocking(work).await.map_err(died)?;
+        drop(waits);
+        outcome
+    }
+
+    /// Waits for a turn.
+    async fn take(&self, actor: &str) -> Turn {
+        let wait = {
+            let mut state = self.state();
+            if state.free > 0 {
+                state.free -= 1;
+                return self.turn(&mut state, actor);
+            }
+            let (turn, wait) = oneshot::channel();
+            state.waiting.push(Waiting { actor: actor.to_owned(), turn });
+            wait
+        };
+        wait.await.expect("whoever has a turn passes it on")
+    }
+
+    fn turn(&self, state: &mut State, actor: &str) -> Turn {
+        *state.running.entry(actor.to_owned()).or_default() += 1;
+        Turn { turns: self.clone(), actor: actor.to_owned() }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl State {
+    /// Takes out the one whose turn it is, of those that still wait.
+    fn next(&mut self) -> Option<Waiting> {
+        self.waiting.retain(|waiting| !waiting.turn.is_closed());
+        let running = |waiting: &Waiting| self.running.get(&waiting.actor).copied();
+        let next = self.waiting.iter().enumerate().min_by_key(|(_, waiting)| running(waiting));
+        next.map(|(at, _)| at).map(|at| self.waiting.remove(at))
+    }
+}
+
+impl Drop for Turn {
+    fn drop(&mut self) {
+        let mut state = self.turns.state();
+        if let Some(running) = state.running.get_mut(&self.actor) {
+            *running -= 1;
+            if *running == 0 {
+                state.running.remove(&self.actor);
+            }
+        }
+        let Some(next) = state.next() else {
+            state.free += 1;
+            return;
+        };
+        let turn = self.turns.turn(&mut state, &next.actor);
+        drop(state);
+        // A turn that is not taken is dropped here, and passed on.
+        drop(next.turn.send(turn));
+    }
+}
+
+struct StopWhenDropped(Stop);
+
+impl Drop for StopWhenDropped {
+    fn drop(&mut self) {
+        self.0.request();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::pin::pin;
+    use std::sync::mpsc;
+    use std::time::Duration;
+
+    use futures_util::poll;
+
+    use super::Turns;
+
+    #[tokio::test]
+    async fn the_token_with_fewer_turns_comes_first() {
+        let turns = Turns::new(2);
+        let (first, second) = (turns.take("greedy").await, turns.take("greedy").await);
+        let mut more = pin!(turns.take("greedy"));
+        let mut other = pin!(turns.take("modest"));
+        assert!(poll!(&mut more).is_pending() && poll!(&mut other).is_pending());
+        drop(first);
+        assert!(poll!(&mut more).is_pending(), "it came first, but has a turn already");
+        let modest = other.await;
+        drop(second);
+        let third = more.await;
+        drop((modest, third));
+        let state = turns.state();
+        assert!(state.free == 2 && state.running.is_empty() && state.waiting.is_empty());
+    }
+
+    #[tokio::test]
+    async fn whoever_goes_away_gives_the_turn_up_and_the_work_stops() {
+        let turns = Turns::new(1);
+        let (begun, has_begun) = mpsc::channel();
+        let (ended, has_ended) = mpsc::channel();
+        let work = turns.work("one", move |stop| {
+            begun.send(()).expect("the test waits");
+            while !stop.is_requested() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            ended.send(()).expect("the test waits");
+            Ok(())
+        });
+        {
+            let mut work = pin!(work);
+            assert!(poll!(&mut work).is_pending());
+            has_begun.recv().expect("it begins");
+            let mut gone = pin!(turns.take("two"));
+            assert!(poll!(&mut gone).is_pending());
+        }
+        has_ended.recv().expect("it is asked to stop");
+        let turn = turns.take("three").await;
+        drop(turn);
+        assert_eq!(turns.state().free, 1);
+    }
+}
