@@ -37,7 +37,7 @@ PLACES = 10 + len(READY_H)
 
 def onward(seen: dict[str, Tensor]) -> list[Tensor]:
     """The most that a flight from each vertiport earns an hour, before energy, now and next: [B, N] each."""
-    seats = torch.einsum("bt,bt->b", seen["type"], seen["types"][:, :, 0]).view(-1, 1, 1)
+    seats = torch.einsum("bt,bt->b", seen["aircraft_type"], seen["types"][:, :, 0]).view(-1, 1, 1)
     hours = seen["block_time"].clamp(min=0.25) / seen["reachable"].clamp(min=1e-6)
     margins = [(seen[fare] - seen["passenger_cost"]).clamp(min=0) for _, fare in DEMAND]
     loads = [torch.minimum(seen[table], seats) for table, _ in DEMAND]

@@ -140,7 +140,7 @@ const INFOS: [Info; 47] = [
         "share of the day that is left, share of the demand period that is left, time of day as a share of 24 hours"),
     info(Part::Place, ("place", None), V, NONE, SHARE,
         "the deciding aircraft's vertiport, one-hot"),
-    info(Part::Type, ("type", None), &[Axis::Types], NONE, SHARE,
+    info(Part::Type, ("aircraft_type", None), &[Axis::Types], NONE, SHARE,
         "the deciding aircraft's type, one-hot"),
     info(Part::Types, ("types", None), &[Axis::Types, Axis::Of(6)], NONE, POSITIVE,
         "of each type: seats / 10, speed / 100 mph, battery / 100 kWh, energy a mile / 10 kWh, charging power / 100 kW, self-discharge an hour"),

@@ -26,7 +26,7 @@ from stable_baselines3.common.utils import LinearSchedule  # noqa: E402
 from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor, VecNormalize  # noqa: E402
 
 from vertifleet import Error, Network  # noqa: E402
-from vertifleet.envs import FleetEnv  # noqa: E402
+from vertifleet.envs import VARIANTS, FleetEnv  # noqa: E402
 from vertifleet.sb3 import FleetVecEnv, GcapsPolicy, MlpPolicy, export, ppo_settings  # noqa: E402
 from vertifleet.torch import Gcaps, Mlp, act, load, masked  # noqa: E402
 
@@ -67,6 +67,37 @@ def test_days_side_by_side_are_an_environment_with_masks():
         assert not any(info["invalid_action"] for info in infos)
         for name, column in observations.items():
             assert column.shape == (3, *days.observation_space[name].shape)
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_the_default_policy_learns_from_every_registered_observation(variant):
+    agent = MaskablePPO("MultiInputPolicy", gymnasium.make(variant), n_steps=8, batch_size=8, device="cpu")
+    agent.learn(8)
+    choice, _ = agent.predict(agent.observation_space.sample())
+    assert agent.action_space.contains(choice)
+
+
+def test_days_side_by_side_show_the_parts_and_days_that_are_asked_for():
+    days = FleetVecEnv(NETWORK, 2, observation=["time", "place"], split="validation")
+    observations = days.reset()
+    assert set(observations) == {"time", "place", "action_mask"}
+    # Days of validation have seeds from 2^40 on, and days of training from 2^41 on.
+    seeds = [int(day.name.removeprefix("paper-")) for day in days.days.scenarios()]
+    assert all(2**40 <= seed < 2**41 for seed in seeds)
+    agent = MaskablePPO("MultiInputPolicy", days, n_steps=8, batch_size=8, device="cpu")
+    agent.learn(16)
+
+
+def test_a_mask_that_a_wrapper_has_changed_is_refused():
+    days = VecNormalize(FleetVecEnv(NETWORK, 2))
+    agent = learner("mlp", days)
+    with pytest.raises(Error, match="action_mask must be 0 or 1") as error:
+        agent.learn(64)
+    assert "norm_obs_keys" in str(error.value) or "norm_obs_keys" in (error.value.hint or "")
+    twin = Mlp(8, width=16, layers=1, value_width=16)
+    shown, _ = FleetEnv(NETWORK).reset(seed=1)
+    with pytest.raises(Error, match="action_mask must be 0 or 1"):
+        act(twin, shown | {"action_mask": shown["action_mask"] * 0.5})
 
 
 def test_the_same_seed_gives_the_same_days():

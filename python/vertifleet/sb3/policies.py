@@ -19,7 +19,7 @@ from torch import Tensor, nn
 from vertifleet import Error
 from vertifleet.envs.observing import paper_space
 from vertifleet.torch import Gcaps, Mlp, Twin
-from vertifleet.torch.acting import READ
+from vertifleet.torch.acting import READ, check_mask
 from vertifleet.torch.twin import of_sizes
 
 if TYPE_CHECKING:
@@ -67,6 +67,7 @@ class TwinExtractor(BaseFeaturesExtractor):
         The observed mask is applied here, so that a call without a mask of its own, such as plain `predict`
         or `evaluate_policy`, decides as the program does. MaskablePPO asks the environment for the same mask.
         """
+        check_mask(observations["action_mask"])
         logits, values = self.twin(observations["nodes"], observations["aircraft"], observations["clock"])
         logits = logits.masked_fill(observations["action_mask"] == 0, INFEASIBLE)
         return torch.cat([logits, values.unsqueeze(-1)], dim=-1)

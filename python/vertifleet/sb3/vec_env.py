@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvObs, VecEnvStepReturn
 
     from vertifleet import Network
+    from vertifleet._compare import Split
+    from vertifleet.envs.observing import ObservationChoice
 
 
 class FleetVecEnv(VecEnv):
@@ -31,6 +33,8 @@ class FleetVecEnv(VecEnv):
         reward: "terminal", all of it at the end of the day, or "dense", each flight's share when decided.
         reward_scale: factor of the rewards that are learned from; logs show the reward itself.
         threads: number of threads that advance the days; all cores by default.
+        observation: what is shown, as in `FleetEnv`. `GcapsPolicy` and `MlpPolicy` read "paper".
+        split: whose days are played.
     """
 
     def __init__(
@@ -40,8 +44,19 @@ class FleetVecEnv(VecEnv):
         reward: Literal["terminal", "dense"] = "terminal",
         reward_scale: float = 1.0,
         threads: int | None = None,
+        observation: ObservationChoice = "paper",
+        split: Split = "training",
     ) -> None:
-        self.days = FleetVectorEnv(num_envs, network, reward, AutoresetMode.SAME_STEP, threads, copy=False)
+        self.days = FleetVectorEnv(
+            num_envs,
+            network,
+            reward,
+            AutoresetMode.SAME_STEP,
+            threads,
+            observation=observation,
+            split=split,
+            copy=False,
+        )
         self.reward = reward
         self.reward_scale = reward_scale
         self.render_mode = None
@@ -82,8 +97,8 @@ class FleetVecEnv(VecEnv):
         self._decisions[over] = 0
         return self._show(observations), (self.reward_scale * rewards).astype(np.float32), over, infos
 
-    def _show(self, observations: dict[str, NDArray[np.float32]]) -> dict[str, NDArray[np.float32]]:
-        self._masks = observations["action_mask"] > 0
+    def _show(self, observations: VecEnvObs) -> VecEnvObs:
+        self._masks = self.days.action_masks()
         return observations
 
     def close(self) -> None:

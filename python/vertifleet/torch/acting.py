@@ -32,6 +32,20 @@ def masked(logits: Tensor, mask: Tensor) -> Tensor:
     return logits.masked_fill(mask == 0, -torch.inf)
 
 
+def check_mask(mask: Tensor) -> None:
+    """Refuses a mask with other numbers than 0 and 1, as a wrapper makes it: it would allow infeasible choices.
+
+    Raises:
+        Error: V451.
+    """
+    if not bool(((mask == 0) | (mask == 1)).all()):
+        raise Error(
+            "V451",
+            "action_mask must be 0 or 1, and a wrapper such as VecNormalize has changed it",
+            "leave it out: VecNormalize takes norm_obs_keys with the other parts",
+        )
+
+
 def scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
     """What a network chooses by, [B, N]: minus infinity for what it does not choose. Its softmax is a policy.
 
@@ -82,6 +96,7 @@ def _scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
         _check(WORTH, observation[WORTH], logits.shape)
         return masked(logits + observation[WORTH], nodes[..., 0])
     _check("action_mask", observation["action_mask"], logits.shape)
+    check_mask(observation["action_mask"])
     return masked(logits, observation["action_mask"])
 
 

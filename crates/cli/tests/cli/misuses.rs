@@ -197,7 +197,6 @@ const TRAIN: &[Misuse] = &[
 const COMPARE: &[Misuse] = &[
     ("compare --network small.toml --days 1 --seed 1", 2, "--policies"),
     ("compare --network small.toml --policies greedy --seed 1", 2, "--days"),
-    ("compare --network small.toml --policies greedy --days 1", 2, "--seed"),
     ("compare --policies greedy --days 1 --seed 1", 2, "--network"),
     ("compare --network small.toml --policies , --days 1 --seed 1", 2, "policy's name"),
     ("compare --network small.toml --policies greedy,,prices --days 1 --seed 1", 2, "comma"),

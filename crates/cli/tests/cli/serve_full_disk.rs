@@ -84,7 +84,7 @@ impl SmallDisk {
     /// Writes events with marks. Returns the marks that were acknowledged.
     fn write(&self, day: &str, when: &str) -> Vec<String> {
         let send = |number: usize| {
-            let mark = format!("{when} {number} {}", "x".repeat(2_000));
+            let mark = format!("{when} {number} {}", "x".repeat(900));
             let body = json!({"type": "out_of_service", "aircraft": "A01", "reason": mark});
             let (status, answer) = self.post(&format!("{day}/events"), &mark[..16], &body);
             assert!(matches!(status, 201 | 503), "{status} {answer}");
