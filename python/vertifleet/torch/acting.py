@@ -33,7 +33,7 @@ def masked(logits: Tensor, mask: Tensor) -> Tensor:
 
 
 def check_mask(mask: Tensor) -> None:
-    """Refuses a mask with other numbers than 0 and 1, as a wrapper makes it: it would allow infeasible choices.
+    """Refuses a mask with other numbers than 0 and 1, as a wrapper makes it: all would seem feasible.
 
     Raises:
         Error: V451.

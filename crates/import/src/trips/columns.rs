@@ -147,10 +147,9 @@ pub(super) struct Layout {
 
 /// Where no column of passengers was found, one that may hold them by a word in its name.
 fn overlooked(passengers: Option<usize>, found: &[String]) -> Option<usize> {
-    const WORDS: [&str; 12] = [
+    const WORDS: [&str; 11] = [
         "passenger",
         "passengers",
-        "passagers",
         "pax",
         "rider",
         "riders",
