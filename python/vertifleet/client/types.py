@@ -569,7 +569,7 @@ class EventList(TypedDict):
     events: list[TakenEvent]
     """The events, in order."""
     next: NotRequired[int | None]
-    """The number to read on after, if there may be more."""
+    """The number to read on after, if there may be more: a page ends at `limit`, or at about 4 MiB."""
 
 
 OneOrMore: TypeAlias = list[Event] | Event
@@ -694,6 +694,10 @@ class Outlook(TypedDict):
     legs: list[Leg]
     """Every flight and hold of the day, in the order of decisions: those that were taken, then those that are
     expected.
+    """
+    too_late: NotRequired[str | None]
+    """The policy that was asked, if it could not play the rest of the day in time. The one that is named then
+    did.
     """
     upper_bound_usd: NotRequired[float | None]
     """No way to go on lets the whole day earn more than this, as far as it is known what will happen;
