@@ -12,8 +12,8 @@ use crate::{Error, Network, kept, member_path};
 
 impl Network {
     /// Returns the network whose file differs from this one's in some members. A path names members from the outside
-    /// in, separated by dots; a name with a dot in it stands in double quotes. An entry of a list is named by its `id` (in the fleet by its `type`) or by its position from
-    /// 0, and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`, `vertiports.*.stands`.
+    /// in, separated by dots; a name with a dot in it stands in double quotes. An entry of a list is named by its `id` (in the
+    /// fleet by its `type`) or by its position from 0, and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`, `vertiports.*.stands`.
     /// Changes are made in order, so that later ones win. Where stands change, the changed file says with `start_stands` that
     /// aircraft start as they do on this network; where fares change and passengers respond, it says with `market.reference`
     /// that the demand is the one at this network's fares. Everything else stays as it was written, comments too. The changed

@@ -6,7 +6,6 @@
 use std::borrow::Cow;
 
 use unicode_normalization::{UnicodeNormalization, is_nfc};
-
 use vertifleet_core::Time;
 
 use crate::date_time::{Moment, Stamp};

@@ -24,8 +24,8 @@ pub enum Error {
         problem: String,
     },
 
-    /// V702. A table has no column, or a map no property, of a name that is needed, or none of several, or its columns are separated by something
-    /// else than commas. Fix: rename the column, or name the one that is meant where the names of columns can be chosen;
+    /// V702. A table has no column, or a map no property, of a name that is needed, or none of several, or the columns of a table
+    /// are separated by something else than commas. Fix: rename the column, or name the one that is meant where the names of columns can be chosen;
     /// save the file with commas.
     #[error("{origin}: has no {what} {column}; it has {found}")]
     MissingColumn {
@@ -57,8 +57,8 @@ pub enum Error {
         found: String,
     },
 
-    /// V704. A file gives the same vertiport, zone, corridor, pair, period, column or property twice. Fix: remove one of the two, or
-    /// rename it.
+    /// V704. A file gives the same vertiport, zone, corridor, pair, period, column or property twice. Fix: remove one of the two,
+    /// or rename it.
     #[error("{origin}: {place}: {what} is given before, in {before}")]
     GivenTwice {
         /// The file.

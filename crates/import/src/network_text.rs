@@ -52,17 +52,8 @@ const LEFT_OUT: [(&[&str], &str); 11] = [
     (&["start_stands"], "has a number for each of its vertiports"),
 ];
 
-/// The members that an import writes itself.
-const OWN: [&str; 8] = [
-    "format",
-    "name",
-    "vertiports",
-    "demand",
-    "daily_demand",
-    "hourly_demand",
-    "uniform_demand",
-    "time_zone",
-];
+/// The members that an import writes itself, besides the demand.
+const OWN: [&str; 3] = ["format", "name", "vertiports"];
 
 /// The sections of a base whose members are inherited one by one.
 const SECTIONS: [&str; 3] = ["tariffs", "market", "disturbances"];
@@ -86,7 +77,8 @@ impl NetworkText<'_> {
     pub(crate) fn inherited(&self) -> Result<Vec<String>, Error> {
         let file = self.base_file()?;
         let mut members = Vec::new();
-        for (name, item) in file.iter().filter(|(name, _)| !OWN.contains(name)) {
+        let is_own = |name: &str| OWN.contains(&name) || DEMAND_MODELS.contains(&name);
+        for (name, item) in file.iter().filter(|(name, _)| !is_own(name)) {
             match item.as_table_like().filter(|_| SECTIONS.contains(&name)) {
                 Some(section) => {
                     members.extend(section.iter().map(|(of, _)| format!("{name}.{of}")));

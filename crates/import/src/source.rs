@@ -44,7 +44,7 @@ enum Packing {
 }
 
 impl Packing {
-    /// The packing of a file with these first bytes. Refuses files that hold neither a table nor a map.
+    /// The packing of a file that begins with these bytes. Refuses files that hold neither a table nor a map.
     fn of(opening: &[u8], origin: &str) -> Result<Self, Error> {
         if opening.starts_with(b"\x1f\x8b") {
             return Ok(Self::Gzip);
@@ -63,7 +63,7 @@ impl Packing {
 pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, Error> {
     let origin = path.display().to_string();
     let bytes = read_at_most(path, LONGEST)?;
-    let packing = Packing::of(&bytes[..bytes.len().min(OPENING)], &origin)?;
+    let packing = Packing::of(&bytes, &origin)?;
     if matches!(packing, Packing::None) {
         return Ok(bytes);
     }
@@ -74,7 +74,7 @@ pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, Error> {
         if bytes.len() as u64 > LONGEST {
             return Err(CoreError::FileTooLarge { origin: origin.clone(), limit: LONGEST }.into());
         }
-        Packing::of(&bytes[..bytes.len().min(OPENING)], &origin)?;
+        Packing::of(&bytes, &origin)?;
         Ok(bytes)
     })
 }
@@ -140,7 +140,7 @@ fn only_file<R: Read + Seek>(archive: &ZipArchive<R>, origin: &str) -> Result<us
     if has("content.xml") {
         return refuse("it is an OpenDocument file: save its sheet as CSV".to_owned());
     }
-    // The packer of macOS adds a folder of its own.
+    // macOS adds a folder `__MACOSX` to the archives that it makes.
     let plain = |name: &str| !name.ends_with('/') && !name.starts_with("__MACOSX/");
     let files: Vec<(usize, &str)> = names().filter(|(_, name)| plain(name)).collect();
     let of_map = |(_, name): &(usize, &str)| name.to_ascii_lowercase().ends_with(".shp");

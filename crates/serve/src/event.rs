@@ -72,7 +72,7 @@ impl<'de> Deserialize<'de> for Members {
 /// The most characters of a reason.
 const LONGEST_REASON: usize = 1_000;
 
-/// Reads a reason, which people write and everybody who reads the day keeps in memory.
+/// Reads a reason. The service sends it to every reader of the day, so its length is limited.
 pub(crate) fn reason<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
     let reason = Option::<String>::deserialize(from)?;
     if reason.as_ref().is_some_and(|reason| reason.chars().count() > LONGEST_REASON) {

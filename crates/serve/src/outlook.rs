@@ -129,7 +129,7 @@ pub(crate) struct NamedPolicy {
 /// How long a policy may take.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Patience<'a> {
-    /// Requested when nobody waits for the outlook any more.
+    /// Requested when the client has gone, or the request has timed out.
     pub(crate) stop: &'a Stop,
     /// When a faster policy has to take its place.
     pub(crate) until: Instant,
@@ -145,7 +145,7 @@ impl Outlook {
     /// Plays the rest of a day out, with `quick` in place of a policy that takes too long.
     ///
     /// # Errors
-    /// Returns an error if a policy cannot play the day, or if nobody waits for it any more.
+    /// Returns an error if a policy cannot play the day, or if the client has gone.
     pub(crate) fn in_time(
         day: &mut DispatchDay,
         policy: &NamedPolicy,
@@ -156,7 +156,7 @@ impl Outlook {
             return Ok(outlook);
         }
         let outlook = Self::of(day, quick, || patience.stop.is_requested())?;
-        // Then nobody reads this answer.
+        // The client has gone, so this answer is discarded.
         let gone = || Error::Internal { cause: "the client has gone".to_owned() };
         let outlook = outlook.ok_or_else(gone)?;
         Ok(Self { too_late: Some(policy.name.clone()), ..outlook })
@@ -272,8 +272,7 @@ impl WhatIf {
     /// first policy decides as things are, the second as they might be; if either takes too long, the third decides both.
     ///
     /// # Errors
-    /// Returns an error if an event cannot be taken, if a policy cannot play the day, or if nobody waits for the comparison any
-    /// more.
+    /// Returns an error if an event cannot be taken, if a policy cannot play the day, or if the client has gone.
     pub(crate) fn compare(
         self,
         day: &mut DispatchDay,

@@ -98,7 +98,7 @@ impl Service {
             let rule = format!("Idempotency-Key must have 1 to {LONGEST_KEY} characters");
             return Err(Error::BadRequest { rule });
         }
-        // Each token has keys of its own. With its length before it, no name can be taken for a part of a key.
+        // Keys are separate for each token. The length keeps a name from being read as a part of a key.
         let own = format!("{}:{actor}:{key}", actor.len());
         let (busy, may_be_known) = self.keys.take(&own)?;
         let request = sum(path, body);

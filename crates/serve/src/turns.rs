@@ -15,9 +15,9 @@ pub(crate) struct Turns(Arc<Mutex<State>>);
 
 #[derive(Debug)]
 struct State {
-    /// Turns that nobody has.
+    /// Free turns.
     free: usize,
-    /// How many each token has.
+    /// The number of turns that each token has.
     running: HashMap<String, usize>,
     /// In the order in which they came.
     waiting: Vec<Waiting>,
@@ -43,8 +43,8 @@ impl Turns {
         Self(Arc::new(Mutex::new(state)))
     }
 
-    /// Works on a thread of its own when the turn of a token has come. The work is asked to stop when nobody waits for it any
-    /// more, because the client has gone or the time for the answer has passed.
+    /// Runs work on a blocking thread when it is the token's turn. The work is asked to stop when the caller drops this future,
+    /// because the client has gone or the request has timed out.
     pub(crate) async fn work<T: Send + 'static>(
         &self,
         actor: &str,
@@ -53,7 +53,7 @@ impl Turns {
         let turn = self.take(actor).await;
         let stop = Stop::default();
         let waits = StopWhenDropped(stop.clone());
-        // The turn lasts as long as the work, even if nobody waits for it.
+        // The turn lasts as long as the work, also after the future is dropped.
         let work = move || {
             let outcome = work(&stop);
             drop(turn);
@@ -91,7 +91,7 @@ impl Turns {
 }
 
 impl State {
-    /// Takes out the one whose turn it is, of those that still wait.
+    /// Removes the request that is next, of those whose caller still waits.
     fn next(&mut self) -> Option<Waiting> {
         self.waiting.retain(|waiting| !waiting.turn.is_closed());
         let running = |waiting: &Waiting| self.running.get(&waiting.actor).copied();

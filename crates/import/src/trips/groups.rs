@@ -18,8 +18,8 @@ use crate::zones::Zones;
 /// Rows after which a reader reports how far it has come.
 const STRETCH: u64 = 100_000;
 
-/// The most parts into which a file is cut. Each part opens it anew and reads the description of all row groups, of which there
-/// may be thousands.
+/// The most parts into which a file is cut. Each part opens the file again and reads the description of all its row groups, of
+/// which there may be thousands.
 const MOST_PARTS: usize = 64;
 
 /// Consecutive row groups of a file.

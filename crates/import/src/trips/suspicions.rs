@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::Read;
 use std::path::Path;
 
 use super::signs::Signs;
@@ -65,13 +65,13 @@ fn are_same(one: &Path, other: &Path) -> std::io::Result<bool> {
     if std::fs::metadata(one)?.len() != std::fs::metadata(other)?.len() {
         return Ok(false);
     }
-    let open = |path| File::open(path).map(|file| BufReader::with_capacity(BLOCK, file));
-    let (mut one, mut other) = (open(one)?.bytes(), open(other)?.bytes());
+    let (mut one, mut other) = (File::open(one)?, File::open(other)?);
+    let (mut block, mut beside) = (vec![0; BLOCK], vec![0; BLOCK]);
     loop {
-        match (one.next().transpose()?, other.next().transpose()?) {
-            (None, None) => return Ok(true),
-            (byte, beside) if byte != beside => return Ok(false),
-            _ => {}
+        let read = one.read(&mut block)?;
+        other.read_exact(&mut beside[..read])?;
+        if read == 0 || block[..read] != beside[..read] {
+            return Ok(read == 0);
         }
     }
 }

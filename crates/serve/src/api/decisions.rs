@@ -46,7 +46,7 @@ pub(crate) struct HowAsked {
 /// How a policy is asked.
 #[derive(Debug, Clone)]
 struct Question {
-    /// The name of the token of whoever asks.
+    /// The name of the caller's token.
     actor: String,
     aircraft: String,
     policy: Option<String>,

@@ -68,7 +68,7 @@ impl Aim {
         self.costs.iter().zip(above).map(|(cost, &above)| cost * f64::from(above)).sum()
     }
 
-    fn reaches(&self, value: f64) -> bool {
+    pub(super) fn reaches(&self, value: f64) -> bool {
         !matches!(self.goal, Goal::Served(_)) || value >= self.need
     }
 }

@@ -286,7 +286,7 @@ fn is_better(
     match sizing.goal {
         Goal::MostProfit => file.profit_usd.mean > found.profit_usd.mean,
         Goal::LeastSpill => file.passengers > found.passengers,
-        Goal::Served(_) if file.passengers < aim.need => {
+        Goal::Served(_) if !aim.reaches(file.passengers) => {
             !reaches && file.passengers > found.passengers
         }
         Goal::Served(_) if sizing.has_costs() => {
