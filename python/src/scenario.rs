@@ -71,6 +71,13 @@ impl Scenario {
         self.scenario.seed
     }
 
+    /// The split that the seed belongs to: "training", "validation" or "comparison".
+    #[getter]
+    fn split(&self) -> &'static str {
+        let is_of = |purpose: &core::Purpose| purpose.seeds().contains(&self.scenario.seed);
+        core::Purpose::ALL.into_iter().find(is_of).unwrap_or_default().name()
+    }
+
     /// Ids of the vertiports, in the order that all arrays use.
     #[getter]
     fn vertiports(&self) -> Vec<&str> {

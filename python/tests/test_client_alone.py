@@ -32,7 +32,8 @@ def test_messages_are_put_together_from_any_pieces() -> None:
 
 
 def test_a_stream_reads_on_after_it_was_behind() -> None:
-    streams = iter(["event: behind\ndata: 2\n\n", 'id: 5\ndata: {"seq": 5}\n\n', ": \n\n" * 20])
+    fifth = 'id: 5\ndata: {"seq": 5, "mark": "5-0a0b0c0d"}\n\n'
+    streams = iter(["event: behind\ndata: 2\n\n", fifth, ": \n\n" * 20])
     asked = []
 
     def answer(request: httpx.Request) -> httpx.Response:
@@ -47,7 +48,7 @@ def test_a_stream_reads_on_after_it_was_behind() -> None:
         assert next(stream)["seq"] == 5
         with pytest.raises(ServiceError, match="404"):
             next(stream)
-    assert asked == [("4", None), ("4", None), ("4", "5"), ("4", "5")]
+    assert asked == [("4", None), ("4", None), ("4", "5-0a0b0c0d"), ("4", "5-0a0b0c0d")]
 
 
 def test_a_request_is_sent_again_as_it_was_and_not_for_ever() -> None:

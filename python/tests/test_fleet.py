@@ -296,3 +296,43 @@ def test_a_copy_in_the_middle_of_a_day_goes_on_as_the_day_would(how: str) -> Non
             assert np.array_equal(array, expected[0][key])
     assert info["summary"] == expected[4]["summary"]
     assert np.array_equal(env.reset()[0]["nodes"], other.reset()[0]["nodes"]), "the same next day follows"
+
+
+def test_a_day_says_whose_it_is() -> None:
+    env = gymnasium.make("vertifleet/Fleet-v0", split="validation")
+    assert env.reset(seed=1)[1]["split"] == "validation"
+    day = vertifleet.Network("paper").draw(1)
+    assert env.reset(options={"scenario": day})[1]["split"] == day.split == "comparison"
+    assert vertifleet.Network("paper").draw(1, "training").split == "training"
+
+
+def test_texts_in_infos_survive_a_conversion_to_tensors() -> None:
+    pytest.importorskip("torch")
+    pytest.importorskip("array_api_compat")
+    from gymnasium.wrappers import NumpyToTorch
+
+    env = NumpyToTorch(gymnasium.make("vertifleet/Fleet-v0"))
+    _, info = env.reset(seed=1)
+    assert info["day"] == env.unwrapped.scenario.name
+    over = False
+    while not over:
+        _, _, over, _, info = env.step(int(np.asarray(info["action_mask"]).argmax()))
+    profit_usd = env.unwrapped._environment.summary["profit_usd"]
+    assert float(info["summary"]["profit_usd"]) == pytest.approx(profit_usd, rel=1e-6)
+
+
+def test_a_view_names_what_it_shows() -> None:
+    env = FleetEnv("paper")
+    env.reset(seed=1)
+    assert {"action_mask", "choice_profit_usd", "decision"} <= set(dir(env.view))
+    assert repr(env.view).startswith("<View of decision 0 at 06:00:00: aircraft 0 at vertiport ")
+
+
+@pytest.mark.parametrize("returned", [None, "V1", 1.5, [1]])
+def test_what_a_policy_may_not_return_is_named_with_it(returned: object) -> None:
+    def mine(_observation: object) -> object:
+        return returned
+
+    with pytest.raises(vertifleet.Error, match=r"V451.*cannot use the choice of policy .*mine") as error:
+        vertifleet.compare("paper", ["mine"], days=1, models={"mine": mine})
+    assert repr(returned) in str(error.value)

@@ -6,6 +6,7 @@ import copy
 import os
 import select
 import signal
+import threading
 from collections.abc import Iterator
 from typing import Any
 
@@ -306,3 +307,43 @@ def test_what_is_wrong_is_named() -> None:
         env.step([0, 0])
     with pytest.raises(vertifleet.Error, match="num_envs"):
         FleetVectorEnv(0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "rule"),
+    [
+        ({"num_envs": 0}, "num_envs must be from 1 to"),
+        ({"num_envs": "four"}, "num_envs must be a whole number"),
+        ({"autoreset_mode": "Sometimes"}, "there is no autoreset_mode 'Sometimes'"),
+        ({"render_mode": "rgb_array"}, "a batch has no render_mode"),
+    ],
+)
+def test_arguments_that_a_batch_does_not_take_are_named(arguments: dict[str, Any], rule: str) -> None:
+    with pytest.raises(vertifleet.Error, match=rule) as error:
+        FleetVectorEnv(**{"num_envs": 2, **arguments})
+    assert error.value.code == "V451"
+
+
+def test_a_batch_names_the_environment_that_renders() -> None:
+    with pytest.raises(vertifleet.Error, match=r"gymnasium\.make"):
+        FleetVectorEnv(2).render()
+
+
+def test_a_batch_is_used_by_one_thread_at_a_time() -> None:
+    envs = FleetVectorEnv(2)
+    envs.reset(seed=1)
+    found: list[BaseException] = []
+
+    def play() -> None:
+        try:
+            envs.step(np.zeros(2, np.int64))
+        except BaseException as error:
+            found.append(error)
+
+    with envs._alone:
+        other = threading.Thread(target=play)
+        other.start()
+        other.join()
+    assert ["two threads at once" in str(error) for error in found] == [True]
+    play()
+    assert len(found) == 1

@@ -14,7 +14,7 @@ from vertifleet.envs import FleetEnv
 
 pytest.importorskip("pettingzoo")
 
-from pettingzoo.test import api_test, seed_test
+from pettingzoo.test import api_test, parallel_api_test, seed_test
 
 from vertifleet import pettingzoo
 
@@ -59,24 +59,25 @@ def test_agents_are_paid_what_the_day_pays(reward: str) -> None:
     assert sum(value != 0 for value in paid.values()) > 35, "every agent is paid for its own flights"
 
 
-def test_the_end_tells_the_days_numbers_to_all() -> None:
+def first_feasible(env: Any) -> int:
+    """The feasible choice with the lowest position."""
+    return int(env.observe(env.agent_selection)["action_mask"].argmax())
+
+
+def test_the_end_has_the_days_numbers() -> None:
     agents, single = pettingzoo.env(SMALL), FleetEnv(SMALL)
     agents.reset(seed=3)
     single.reset(seed=3)
     assert agents.scenario.name == single.scenario.name
     over = False
     while not over:
-        assert [agent for agent in agents.agents if "action_mask" in agents.infos[agent]] == [
-            agents.agent_selection
-        ], "no info has a mask that was used already"
-        action = int(agents.infos[agents.agent_selection]["action_mask"].argmax())
+        assert all(list(info) == ["invalid_action"] for info in agents.infos.values()), "they stay alike"
+        action = first_feasible(agents)
         agents.step(action)
         _, _, over, _, info = single.step(action)
+    assert agents.unwrapped.summary == info["summary"]
     for agent in agents.possible_agents:
-        assert agents.infos[agent]["summary"] == info["summary"]
-        mask = agents.infos[agent]["action_mask"]
-        assert np.array_equal(mask, agents.observe(agent)["action_mask"])
-        assert mask.sum() == 1, "only hold is feasible"
+        assert agents.observe(agent)["action_mask"].sum() == 1, "only hold is feasible"
 
 
 @pytest.mark.parametrize("how", [copy.copy, copy.deepcopy])
@@ -84,21 +85,21 @@ def test_copies_play_on_by_themselves_and_share_what_never_changes(how: Any) -> 
     env = pettingzoo.FleetAEC(SMALL, "dense")
     env.reset(seed=3)
     for _ in range(20):
-        env.step(int(env.infos[env.agent_selection]["action_mask"].argmax()))
+        env.step(first_feasible(env))
     other = how(env)
     assert other.network is env.network
     assert other.action_spaces is env.action_spaces
     before = copy.deepcopy((env.agent_selection, env.rewards, env.terminations, env._cumulative_rewards))
     actions = []
     while not other.terminations[other.agent_selection]:
-        actions.append(int(other.infos[other.agent_selection]["action_mask"].argmax()))
+        actions.append(first_feasible(other))
         other.step(actions[-1])
     after = (env.agent_selection, env.rewards, env.terminations, env._cumulative_rewards)
     assert after == before, "the copy plays a day of its own"
     for action in actions:
         env.step(action)
     assert env._cumulative_rewards == other._cumulative_rewards
-    assert env.infos[env.agent_selection]["summary"] == other.infos[env.agent_selection]["summary"]
+    assert env.summary == other.summary
 
 
 def test_a_wrapped_environment_is_copied_deep() -> None:
@@ -144,14 +145,8 @@ def test_an_aircraft_that_does_not_decide_can_only_hold() -> None:
         assert np.array_equal(shown["action_mask"], place)
 
 
-def test_masks_are_told_and_a_day_of_another_fleet_is_refused() -> None:
+def test_a_day_of_another_fleet_is_refused() -> None:
     env = pettingzoo.env("paper", render_mode=None)
-    env.reset(seed=2)
-    for _ in range(50):
-        observation, _, _, _, info = env.last()
-        assert info["action_mask"].dtype == np.int8
-        assert np.array_equal(info["action_mask"], observation["action_mask"])
-        env.step(int(observation["action_mask"].argmax()))
     with pytest.raises(vertifleet.Error, match="aircraft") as error:
         env.reset(options={"scenario": SMALL.draw(1)})
     assert error.value.code == "V451"
@@ -164,3 +159,60 @@ def test_the_state_is_all_that_may_be_seen() -> None:
     state = agents.state()
     assert agents.unwrapped.state_space.contains(state)
     assert np.array_equal(state, np.concatenate([array.ravel() for array in full.values()]))
+
+
+def test_agents_have_what_single_agents_have() -> None:
+    agents = pettingzoo.FleetAEC("paper", observation="full", split="validation")
+    single = FleetEnv("paper", observation="full", split="validation")
+    agents.reset(options={"number": 7})
+    expected, info = single.reset(options={"number": 7})
+    assert agents.scenario.name == info["day"]
+    shown = agents.observe(agents.agent_selection)
+    assert np.array_equal(shown["action_mask"], expected.pop("action_mask"))
+    assert shown["observation"].keys() == expected.keys()
+    for name, array in expected.items():
+        assert np.array_equal(shown["observation"][name], array), name
+    for agent in agents.agents:
+        assert agents.observation_space(agent).contains(agents.observe(agent))
+
+
+def test_days_of_drawn_networks_have_as_many_agents_as_aircraft() -> None:
+    env = pettingzoo.FleetAEC("random", observation="full")
+    found = set()
+    for seed in range(4):
+        env.reset(seed=seed)
+        assert env.agents == env.possible_agents[: len(env.scenario.aircraft)]
+        found.add(len(env.agents))
+        assert env.observation_space(env.agent_selection).contains(env.observe(env.agent_selection))
+        env.step(first_feasible(env))
+    assert len(found) > 1
+    own = vertifleet.OwnObservation(lambda view: view.decision.time_s, env.observation_space("aircraft_0"))
+    with pytest.raises(vertifleet.Error, match="each aircraft observes"):
+        pettingzoo.env(observation=own)
+
+
+def test_the_api_holds_without_a_wrapper() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        api_test(pettingzoo.FleetAEC(SMALL), num_cycles=100)
+        parallel_api_test(pettingzoo.parallel_env(SMALL), num_cycles=100)
+
+
+def test_the_parallel_view_plays_the_same_day() -> None:
+    turns, parallel = pettingzoo.FleetAEC(SMALL, "dense"), pettingzoo.parallel_env(SMALL, "dense")
+    turns.reset(seed=5)
+    observations, _ = parallel.reset(seed=5)
+    while parallel.agents:
+        assert parallel.deciding == turns.agent_selection
+        mask = observations[parallel.deciding]["action_mask"]
+        assert np.array_equal(mask, turns.observe(turns.agent_selection)["action_mask"])
+        choice = first_feasible(turns)
+        turns.step(choice)
+        observations, rewards, *_ = parallel.step(dict.fromkeys(parallel.agents, choice))
+        assert rewards == turns.rewards
+    assert parallel.turns.summary == turns.summary
+    with pytest.raises(vertifleet.Error, match="call reset first"):
+        parallel.step({})
+    parallel.reset(seed=5)
+    with pytest.raises(vertifleet.Error, match="aircraft_0, which decides, is missing"):
+        parallel.step({"aircraft_1": 0})

@@ -28,7 +28,7 @@ OBSERVATION = "observation."
 """What the names of the observations' columns begin with in a file."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Dataset:
     """Decisions in the order in which they were taken, day after day. All arrays have one entry for each."""
 
@@ -50,6 +50,10 @@ class Dataset:
 
     def __len__(self) -> int:
         return len(self.action)
+
+    def __repr__(self) -> str:
+        parts = ", ".join(self.observation)
+        return f"<Dataset: {len(self)} decisions of {int(self.over.sum())} days; observation: {parts}>"
 
     def days(self) -> Iterator[slice]:
         """The decisions of each day."""

@@ -134,7 +134,7 @@ def verify(result: str | os.PathLike[str]) -> Verification:
     )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Suite:
     """A frozen set of days with certified upper bounds."""
 
@@ -147,6 +147,9 @@ class Suite:
     """The certified upper bound of the profit of each day, dollars [days]."""
     step: int
     """Length of the slices of the bounds, minutes."""
+
+    def __repr__(self) -> str:
+        return f"<Suite {self.name}: {len(self.days)} days; {self.description}>"
 
 
 def suite(name: str) -> Suite:

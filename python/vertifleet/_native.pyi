@@ -151,6 +151,9 @@ class Scenario:
         separate ranges.
         """
     @property
+    def split(self) -> Literal["training", "validation", "comparison"]:
+        """The split that the seed belongs to: "training", "validation" or "comparison"."""
+    @property
     def vertiports(self) -> list[str]:
         """Ids of the vertiports, in the order that all arrays use."""
     @property

@@ -112,7 +112,7 @@ def _chooser(policy: OwnPolicy) -> Chooser:
         if begins and hasattr(policy, "reset"):
             policy.reset(view)
         begins = False
-        return index(policy.choose(view.decision, view))
+        return _choice(policy.choose(view.decision, view), policy)
 
     return choose
 
@@ -120,16 +120,34 @@ def _chooser(policy: OwnPolicy) -> Chooser:
 def _batch_chooser(policy: BatchPolicy) -> BatchChooser:
     def choose(natives: Sequence[_native.View]) -> list[int]:
         views = [View(native) for native in natives]
-        return _actions(policy.choose_batch([view.decision for view in views], views), len(natives))
+        chosen = policy.choose_batch([view.decision for view in views], views)
+        return _actions(chosen, len(natives), policy)
 
     return choose
 
 
-def _actions(actions: Any, asked: int) -> list[int]:
-    found = [index(action) for action in actions]
+def _choice(returned: Any, policy: Any) -> int:
+    """The position of a vertiport that a policy returned."""
+    try:
+        return index(returned)
+    except TypeError:
+        raise _wrong(policy, f"a choice is the position of a vertiport, found {returned!r}") from None
+
+
+def _actions(returned: Any, asked: int, policy: Any) -> list[int]:
+    """The positions of vertiports that a policy returned, one for each decision."""
+    try:
+        found = list(returned)
+    except TypeError:
+        raise _wrong(policy, f"{asked} actions were asked for, found {returned!r}") from None
     if len(found) != asked:
-        raise Error("V451", f"{asked} actions were asked for, {len(found)} were returned")
-    return found
+        raise _wrong(policy, f"{asked} actions were asked for, {len(found)} were returned")
+    return [_choice(action, policy) for action in found]
+
+
+def _wrong(policy: Any, rule: str) -> Error:
+    name = getattr(policy, "__qualname__", None) or type(policy).__qualname__
+    return Error("V451", f"cannot use the choice of policy {name}: {rule}")
 
 
 def _of_function(policy: FunctionPolicy, network: Network | None) -> Adapted:
@@ -150,7 +168,7 @@ def _of_function(policy: FunctionPolicy, network: Network | None) -> Adapted:
         return observing.of_row(native.observe(observing.layout)[0])
 
     def choose(native: _native.View) -> int:
-        return index(policy.function(shown(native)))
+        return _choice(policy.function(shown(native)), policy.function)
 
     def choose_batch(natives: Sequence[_native.View]) -> list[int]:
         if observing.own is None:
@@ -159,7 +177,7 @@ def _of_function(policy: FunctionPolicy, network: Network | None) -> Adapted:
             )
         else:
             seen = [shown(native) for native in natives]
-        return _actions(policy.function(seen), len(natives))
+        return _actions(policy.function(seen), len(natives), policy.function)
 
     present_only = observing.own is None and observing.layout.shows_present_only
     return Adapted(lambda: choose_batch if policy.batch else choose, present_only, days, policy.batch)

@@ -117,6 +117,18 @@ class View:
         self.__dict__[name] = array
         return array
 
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *type(self).__annotations__})
+
+    def __repr__(self) -> str:
+        time_s, aircraft, place, step = self.decision
+        time = f"{time_s // 3600:02}:{time_s // 60 % 60:02}:{time_s % 60:02}"
+        feasible = int(self.action_mask.sum())
+        return (
+            f"<View of decision {step} at {time}: aircraft {aircraft} at vertiport {place}, "
+            f"{feasible} of {self.vertiports} choices feasible>"
+        )
+
     @property
     def decision(self) -> Decision:
         """The decision that is to be taken; when the day is over, the one that was taken last."""

@@ -155,7 +155,7 @@ test('what is selected on a timeline is selected on the map', async ({ page }) =
   await page.getByRole('application', { name: /Timeline of the fleet/ }).focus()
   await page.keyboard.press('ArrowRight')
   const map = page.getByRole('region', { name: 'Map' })
-  await expect(map.getByText('A01 · air-taxi')).toBeVisible()
+  await expect(map.getByText('A01, aircraft of type “air-taxi”')).toBeVisible()
   await expect(map.getByText('South → East')).toBeVisible()
 })
 

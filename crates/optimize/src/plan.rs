@@ -39,6 +39,9 @@ const JUDGED_FROM: f64 = 0.25;
 const DIVE_SHARE: f64 = 0.5;
 /// With less time than this, no dive is begun.
 const LEAST_TO_DIVE: Duration = Duration::from_secs(5);
+/// With less time than this, no dive is begun beside the days of the policies, of which the rolling horizon needs all threads on
+/// networks of 20 vertiports and more.
+const LEAST_TO_DIVE_EARLY: Duration = Duration::from_secs(20);
 /// Steps of each search in a round, after which the best schedule of all searches is kept.
 const STEPS_A_ROUND: u64 = 50;
 /// Seconds that a round takes at most where time is limited, so that `watch` is called many times a second on days of
@@ -121,9 +124,9 @@ pub fn plan(
     // Where no passenger pays for a seat, no flight earns anything.
     let can_earn = Simulation::new(Arc::clone(scenario)).potential_usd() > 0.0;
     let dives = can_earn && clock.leaves_time_to_dive(scenario);
-    let begin_dive = || Dive::begin(scenario, &problem, clock.at_share(DIVE_SHARE));
+    let begin_dive = || Dive::begin(scenario, &problem, clock.end_of_dive());
     // A plan without a limit of time is one of several, perhaps, and takes one thread.
-    let early = (dives && !clock.waits_for_dive()).then(begin_dive);
+    let early = (dives && clock.leaves_time_to_dive_early()).then(begin_dive);
     let mut stopped = false;
     // The time that the prices of a day take at its start. The search needs them too.
     let mut first = Duration::ZERO;
@@ -144,7 +147,7 @@ pub fn plan(
     let mut plan =
         Plan { trace, profit_usd, best_policy: policy, best_policy_usd: profit_usd, steps: 0 };
     // Until the dives have ended, another day to begin with is worth more than improving the best one so far.
-    if dives && !stopped {
+    if dives && !stopped && (early.is_some() || clock.waits_for_dive()) {
         let day = start::rolled_thoroughly(scenario, &mut || {
             let (share, profit_usd) = (clock.share(0), plan.profit_usd);
             stopped |= !watch(&SearchProgress { share, steps: 0, profit_usd });
@@ -198,10 +201,15 @@ impl Clock {
         }
     }
 
-    /// When a share of the time will have passed, if time is limited.
-    fn at_share(&self, share: f64) -> Option<Instant> {
+    /// Whether to begin dives before policies play their days.
+    fn leaves_time_to_dive_early(&self) -> bool {
+        matches!(self.budget, Budget::Time(limit) if limit >= LEAST_TO_DIVE_EARLY)
+    }
+
+    /// When dives that begin now have to end, if time is limited.
+    fn end_of_dive(&self) -> Option<Instant> {
         match self.budget {
-            Budget::Time(limit) => Some(self.begun + limit.mul_f64(share)),
+            Budget::Time(_) => Some(Instant::now() + self.left().mul_f64(DIVE_SHARE)),
             Budget::Steps(_) => None,
         }
     }

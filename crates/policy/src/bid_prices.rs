@@ -38,4 +38,8 @@ impl Policy for BidPricePolicy {
     fn prices(&mut self, decision: &Decision, view: &View<'_>) -> Option<&DayPrices> {
         Some(self.prices.at(*view, decision))
     }
+
+    fn price_memory(&mut self) -> Option<&mut PriceMemory> {
+        Some(&mut self.prices)
+    }
 }

@@ -3,7 +3,7 @@
 use vertifleet_core::{Time, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
-use crate::DayPrices;
+use crate::{DayPrices, PriceMemory};
 
 /// Decides where an aircraft flies next.
 ///
@@ -58,6 +58,12 @@ pub trait Policy: Send {
 
     /// The bid prices that it decides by, refreshed for this decision; `None` for a policy that has none, as by default.
     fn prices(&mut self, _decision: &Decision, _view: &View<'_>) -> Option<&DayPrices> {
+        None
+    }
+
+    /// Its memory of bid prices, so that a service can recompute them in the background; `None` for a policy that has none, as by
+    /// default.
+    fn price_memory(&mut self) -> Option<&mut PriceMemory> {
         None
     }
 

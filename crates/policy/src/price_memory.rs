@@ -9,6 +9,8 @@ use crate::DayPrices;
 #[derive(Debug, Clone, Default)]
 pub struct PriceMemory {
     kept: Option<Kept>,
+    /// Whether prices older than a quarter of an hour stay in use.
+    keeps_old: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -23,18 +25,83 @@ impl PriceMemory {
     /// The prices for a decision, refreshed where they are due to be. They are found anew if the day is not the one
     /// before, or starts again.
     pub fn at(&mut self, view: View<'_>, decision: &Decision) -> &mut DayPrices {
-        let day = view.day();
-        // A proposal may have been asked for a later time; its prices say nothing about the time before it.
-        let goes_on = |kept: &Kept| {
-            kept.day == day
-                && kept.decision <= decision.index
-                && kept.prices.made_at() <= decision.time
-        };
         let mut prices = match self.kept.take() {
-            Some(kept) if goes_on(&kept) => kept.prices,
+            Some(kept) if kept.goes_on(view, decision) => kept.prices,
             _ => DayPrices::of(view, decision.time),
         };
-        prices.refresh(view, decision.time);
+        if !(self.keeps_old && prices.is_merely_old(view, decision.time)) {
+            prices.refresh(view, decision.time);
+        }
+        let day = view.day();
         &mut self.kept.insert(Kept { day, decision: decision.index, prices }).prices
+    }
+
+    /// Whether [`at`](Self::at) would recompute the prices for no other reason than their age, which is less than an hour. A busy
+    /// service may [keep the old ones](Self::keep_old) and recompute them in the background, with a copy of this memory.
+    pub fn is_merely_old(&self, view: View<'_>, decision: &Decision) -> bool {
+        self.kept.as_ref().is_some_and(|kept| {
+            kept.goes_on(view, decision) && kept.prices.is_merely_old(view, decision.time)
+        })
+    }
+
+    /// Sets whether prices stay in use after a quarter of an hour. At first they do not.
+    pub fn keep_old(&mut self, keeps_old: bool) {
+        self.keeps_old = keeps_old;
+    }
+}
+
+impl Kept {
+    /// Whether a decision is a later one of the same day.
+    fn goes_on(&self, view: View<'_>, decision: &Decision) -> bool {
+        // A proposal may have been asked for a later time; its prices say nothing about the time before it.
+        self.day == view.day()
+            && self.decision <= decision.index
+            && self.prices.made_at() <= decision.time
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use vertifleet_core::{DaySeed, Network};
+    use vertifleet_sim::Simulation;
+
+    use super::PriceMemory;
+
+    #[test]
+    fn old_prices_are_kept_while_a_copy_finds_those_that_would_be_found() {
+        let network = Network::shipped("paper").expect("it is shipped");
+        let day = network.draw(DaySeed::validation(1).expect("a seed"));
+        let mut day = Simulation::new(Arc::new(day));
+        let mut memory = PriceMemory::default();
+        let mut renewals = 0;
+        while let Some(decision) = day.next_decision() {
+            let view = day.view();
+            if memory.is_merely_old(view, &decision) {
+                let mut beside = memory.clone();
+                memory.keep_old(true);
+                let old = memory.at(view, &decision).made_at();
+                assert!(old < decision.time);
+                memory.keep_old(false);
+                let choice = memory.at(view, &decision).best_choice(view, &decision);
+                let prices = beside.at(view, &decision);
+                assert_eq!(prices.made_at(), decision.time);
+                assert_eq!(prices.best_choice(view, &decision), choice);
+                for to in view.feasible(&decision).iter() {
+                    let worth = |memory: &mut PriceMemory| {
+                        memory.at(view, &decision).choice_usd(view, &decision, to).to_bits()
+                    };
+                    assert_eq!(worth(&mut memory), worth(&mut beside));
+                }
+                renewals += 1;
+            }
+            let choice = memory.at(view, &decision).best_choice(view, &decision);
+            day.apply(choice).expect("it is feasible");
+            if renewals == 3 {
+                return;
+            }
+        }
+        panic!("the day has fewer than three quarters of an hour");
     }
 }

@@ -42,6 +42,8 @@ const FIRST: Effort = Effort { passes: 500, hops: 480_000_000, step: 1.0 };
 const AGAIN: Effort = Effort { passes: 150, hops: 37_000_000, step: 0.1 };
 /// Seconds after which prices are found anew. On days of `paper`, 5 minutes earned no more.
 const RENEWAL_S: u32 = 900;
+/// Older prices are not used, not even for a moment.
+const OLDEST_S: u32 = 3_600;
 /// Seconds after which the base rule is chosen anew.
 const BASE_RULE_RENEWAL_S: u32 = 3_600;
 
@@ -112,7 +114,7 @@ impl DayPrices {
     /// view's time, later on the same day.
     pub fn refresh(&mut self, view: View<'_>, now: Time) {
         let changes = view.route_changes();
-        if now >= self.made_at + RENEWAL_S || changes != self.route_changes {
+        if self.is_old(now) || changes != self.route_changes {
             self.route_changes = changes;
             self.search(view, AGAIN);
             self.made_at = now;
@@ -120,6 +122,19 @@ impl DayPrices {
                 self.choose_base_rule(view, now);
             }
         }
+    }
+
+    /// Whether the prices are a quarter of an hour old.
+    fn is_old(&self, now: Time) -> bool {
+        now >= self.made_at + RENEWAL_S
+    }
+
+    /// Whether age is the only reason for which [`refresh`](Self::refresh) would find the prices anew, and they are young enough to
+    /// be used a little longer.
+    pub(crate) fn is_merely_old(&self, view: View<'_>, now: Time) -> bool {
+        self.is_old(now)
+            && now < self.made_at + OLDEST_S
+            && view.route_changes() == self.route_changes
     }
 
     /// The time from which on the prices are valid.

@@ -239,6 +239,9 @@ pub(crate) async fn admit(
     mut request: Request,
     next: Next,
 ) -> Result<Response, Error> {
+    if request.headers().get_all(header::HOST).iter().nth(1).is_some() {
+        return Err(Error::BadRequest { rule: "it has more than one Host header".to_owned() });
+    }
     let path = request.uri().path();
     if !matches!(path, "/healthz" | "/readyz") && !console::is_open(path) {
         let needed = Role::needed(request.method(), path);
@@ -309,9 +312,6 @@ impl Tokens {
     /// # Errors
     /// Returns [`Error::NameTaken`] if another one with this name is in force, and [`Error::Store`] if it cannot be stored.
     pub fn make(&self, name: &str, role: Role) -> Result<String, Error> {
-        if self.list()?.iter().any(|token| token.name == name && token.revoked_ms == 0) {
-            return Err(Error::NameTaken { name: name.to_owned() });
-        }
         let (id, secret) = (random_digits(4)?, random_digits(32)?);
         let token = StoredToken {
             id: id.clone(),
@@ -321,8 +321,12 @@ impl Tokens {
             created_ms: now_ms(),
             revoked_ms: 0,
         };
+        let refused = |error| match error {
+            Error::Conflict => Error::NameTaken { name: name.to_owned() },
+            other => other,
+        };
         self.runtime.block_on(async {
-            self.store.add_token(&token).await?;
+            self.store.add_token(&token).await.map_err(refused)?;
             self.store.record("", "token made", &token.id, token.created_ms).await
         })?;
         Ok(format!("{PREFIX}{id}_{secret}"))

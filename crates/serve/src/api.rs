@@ -24,12 +24,13 @@ use std::task::{Context, Poll};
 use axum::Router;
 use axum::body::{Body, Bytes, HttpBody};
 use axum::extract::{Request, State};
-use axum::http::{HeaderValue, header};
+use axum::http::{HeaderValue, Method, header};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use hyper::body::{Frame, SizeHint};
 use tower_http::catch_panic::CatchPanicLayer;
+use vertifleet_core::Coded as _;
 
 pub(crate) use self::answer::Totals;
 pub use self::describe::openapi;
@@ -39,6 +40,9 @@ use crate::console::Console;
 use crate::error::Error;
 use crate::metrics::measure;
 use crate::service::Service;
+
+/// A read that meets a write of another service is carried out this often.
+const READS: u32 = 5;
 
 /// All paths.
 pub(crate) fn router(service: Arc<Service>, console: Console) -> Router {
@@ -84,6 +88,7 @@ pub(crate) fn router(service: Arc<Service>, console: Console) -> Router {
         .method_not_allowed_fallback(|method: axum::http::Method| async move {
             Error::NotAllowed { method: method.to_string() }
         })
+        .layer(from_fn(again_after_conflict))
         .layer(from_fn_with_state(Arc::clone(&service), admit))
         .layer(CatchPanicLayer::custom(panicked))
         .layer(from_fn_with_state(Arc::clone(&service), in_time))
@@ -101,6 +106,24 @@ fn panicked(panic: Box<dyn std::any::Any + Send>) -> Response {
     let id = crate::days::now_ms();
     tracing::error!(id, said, "a request failed inside");
     Error::Internal { cause: format!("the log has more under {id}") }.into_response()
+}
+
+/// Carries a read out again if another service wrote to the day at that moment, so that the day has to be read again.
+async fn again_after_conflict(request: Request, next: Next) -> Response {
+    if request.method() != Method::GET {
+        return next.run(request).await;
+    }
+    let (parts, _) = request.into_parts();
+    let mut tries = 0;
+    loop {
+        tries += 1;
+        let request = Request::from_parts(parts.clone(), Body::empty());
+        let answer = next.clone().run(request).await;
+        let is_conflict = answer.extensions().get() == Some(&Error::Conflict.code());
+        if !is_conflict || tries == READS {
+            return answer;
+        }
+    }
 }
 
 /// Ends a request that takes too long to be read or answered. Streams are answered at once, and go on.

@@ -98,8 +98,15 @@ async fn write(store: &Store, metrics: &Metrics, failed_ms: &AtomicI64, batch: &
                 append.day.publish(append.events);
             }
             Err(error) => {
-                tracing::error!(day = append.day.id(), %error, "events could not be stored");
-                append.day.has_failed.store(true, Ordering::Release);
+                let day = append.day.id();
+                match error {
+                    // Another service was quicker, or has archived or deleted the day; the client is told.
+                    Error::Conflict | Error::Archived { .. } | Error::NotFound { .. } => {
+                        tracing::debug!(day, %error, "events were not stored");
+                    }
+                    _ => tracing::error!(day, %error, "events could not be stored"),
+                }
+                append.day.fail();
                 if matches!(error, Error::Store { .. }) {
                     failed_ms.store(now_ms(), Ordering::Relaxed);
                 }

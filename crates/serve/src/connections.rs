@@ -1,5 +1,8 @@
 //! Takes connections, with or without TLS, and lets each speak HTTP.
 
+mod addresses;
+mod strict_lines;
+
 use std::net::SocketAddr;
 use std::path::Path;
 use std::sync::Arc;
@@ -19,6 +22,8 @@ use tokio_rustls::rustls::crypto::ring;
 use tokio_rustls::rustls::pki_types::pem::PemObject as _;
 use tokio_rustls::rustls::pki_types::{CertificateDer, PrivateKeyDer};
 
+use self::addresses::Addresses;
+use self::strict_lines::StrictLines;
 use crate::error::Error;
 use crate::limits::Limits;
 
@@ -26,6 +31,8 @@ use crate::limits::Limits;
 const HANDSHAKE: Duration = Duration::from_secs(10);
 /// Connections that wait to be taken. A client whose connection finds no room tries again only after a second.
 const BACKLOG: u32 = 4_096;
+/// The longest head of a request, which is kept in memory before anything is known of who sent it.
+const LONGEST_HEAD: usize = 64 << 10;
 /// When no connection can be taken, because there are too many files for example, the next try comes after this time.
 const PAUSE: Duration = Duration::from_millis(100);
 
@@ -51,7 +58,8 @@ pub(crate) fn listen(address: SocketAddr) -> std::io::Result<TcpListener> {
     socket.listen(BACKLOG)
 }
 
-/// Takes connections until the service stops, and returns when the last of them has ended.
+/// Takes connections until the service stops, and returns when the last of them has ended. A connection of an address that has
+/// `limits.connections_per_address` already is closed.
 pub(crate) async fn take(
     listener: TcpListener,
     router: Router,
@@ -60,6 +68,7 @@ pub(crate) async fn take(
     stopping: watch::Receiver<bool>,
 ) {
     let most = limits.connections_here();
+    let addresses = Addresses::new(limits.connections_per_address);
     let turns = Arc::new(Semaphore::new(most));
     let mut heard = stopping.clone();
     let way = Way { router, tls, head: limits.head, stopping };
@@ -67,11 +76,15 @@ pub(crate) async fn take(
         loop {
             let turn = Arc::clone(&turns).acquire_owned().await.expect("it is never closed");
             match listener.accept().await {
-                Ok((socket, _)) => {
+                Ok((socket, from)) => {
+                    let Some(place) = addresses.take(from.ip()) else {
+                        tracing::debug!(%from, "an address has too many connections");
+                        continue;
+                    };
                     let way = way.clone();
                     tokio::spawn(async move {
                         way.open(socket).await;
-                        drop(turn);
+                        drop((turn, place));
                     });
                 }
                 Err(error) => {
@@ -110,7 +123,8 @@ impl Way {
         let connection = http1::Builder::new()
             .timer(TokioTimer::new())
             .header_read_timeout(self.head)
-            .serve_connection(TokioIo::new(stream), service);
+            .max_buf_size(LONGEST_HEAD)
+            .serve_connection(TokioIo::new(StrictLines::new(stream)), service);
         tokio::pin!(connection);
         let mut stopping = self.stopping.clone();
         let ended = tokio::select! {

@@ -1,6 +1,7 @@
 //! The days that the service holds in memory, each with its lock, its readers and its policies.
 
 mod archived;
+mod shared;
 
 use std::collections::HashMap;
 use std::fmt;
@@ -20,8 +21,10 @@ use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::event::Event;
 use crate::keys::Busy;
+use crate::mark::EventMark;
 use crate::metrics::Metrics;
-use crate::store::{AppendId, PAGE, Store, StoredAnswer, StoredDay, StoredEvent};
+use crate::store::{AppendId, Store, StoredAnswer, StoredDay, StoredEvent};
+use crate::turns::Turns;
 
 /// Events that a slow reader may be behind before it has to read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
@@ -179,15 +182,24 @@ impl DayCell {
         }
     }
 
+    /// Has the day read again by all who use it: an event could not be stored, or the day has changed in the store.
+    pub(crate) fn fail(&self) {
+        self.has_failed.store(true, Ordering::Release);
+        // Those who wait for an event need not wait any longer.
+        self.durable.send_modify(|_| ());
+    }
+
     /// Waits until an event is stored, so that nothing is shown that a crash could take back.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] if it cannot be stored.
+    /// Returns [`Error::Conflict`] if the day has to be read again, and [`Error::Store`] if the event cannot be stored.
     pub(crate) async fn stored_up_to(&self, seq: u64) -> Result<(), Error> {
         let mut durable = self.durable.subscribe();
-        let is_stored = durable.wait_for(|&stored| stored >= seq);
+        let has_failed = || self.has_failed.load(Ordering::Acquire);
+        let is_stored = durable.wait_for(|&stored| stored >= seq || has_failed());
         match tokio::time::timeout(std::time::Duration::from_secs(10), is_stored).await {
-            Ok(Ok(_)) => Ok(()),
+            Ok(Ok(stored)) if *stored >= seq => Ok(()),
+            Ok(Ok(_)) => Err(Error::Conflict),
             _ => Err(Error::Store { cause: "events are not stored in time".to_owned() }),
         }
     }
@@ -200,15 +212,20 @@ pub(crate) struct Days {
     most_events: u64,
     metrics: Arc<Metrics>,
     committer: Committer,
-    cells: Mutex<HashMap<String, Arc<OnceCell<Arc<DayCell>>>>>,
+    /// Turns for reading days from the store.
+    turns: Turns,
+    cells: Mutex<Cells>,
 }
+
+/// Days by their ids. One that is about to be read is empty.
+type Cells = HashMap<String, Arc<OnceCell<Arc<DayCell>>>>;
 
 impl Days {
     /// The days of a store, each with at most so many events. Each is read when it is first asked for.
-    pub(crate) fn new(store: Store, most_events: u64) -> Self {
+    pub(crate) fn new(store: Store, most_events: u64, turns: Turns) -> Self {
         let metrics = Arc::new(Metrics::default());
         let committer = Committer::start(store.clone(), Arc::clone(&metrics));
-        Self { store, most_events, metrics, committer, cells: Mutex::new(HashMap::new()) }
+        Self { store, most_events, metrics, committer, turns, cells: Mutex::default() }
     }
 
     /// Checks that the store takes what it is given.
@@ -234,7 +251,7 @@ impl Days {
     }
 
     fn cell(&self, id: &str) -> Arc<OnceCell<Arc<DayCell>>> {
-        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut cells = self.cells();
         if cells.len() >= MOST_IN_MEMORY && !cells.contains_key(id) {
             // Days that nobody is using are read again when they are asked for.
             cells.retain(|_, cell| {
@@ -251,8 +268,8 @@ impl Days {
         cell
     }
 
-    fn forget(&self, id: &str) {
-        self.cells.lock().unwrap_or_else(PoisonError::into_inner).remove(id);
+    fn cells(&self) -> MutexGuard<'_, Cells> {
+        self.cells.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// A day; it is read from the store if it is not in memory.
@@ -264,7 +281,7 @@ impl Days {
         if !self.store.is_shared() || self.catch_up(&day).await? {
             return Ok(day);
         }
-        day.has_failed.store(true, Ordering::Release);
+        self.drop_from_memory(&day);
         self.in_memory(id).await
     }
 
@@ -273,7 +290,7 @@ impl Days {
         let day = cell.get_or_try_init(|| self.read(id)).await;
         if day.is_err() {
             // Only if nobody else is reading it.
-            let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut cells = self.cells();
             if cells
                 .get(id)
                 .is_some_and(|kept| Arc::ptr_eq(kept, &cell) && Arc::strong_count(kept) == 2)
@@ -285,48 +302,47 @@ impl Days {
         day.cloned()
     }
 
-    /// Takes in what other services have added to a day. Returns false if memory does not go on as the store does,
-    /// because an event of ours waits to be stored under a number that has been taken, or the day is not archived any more.
-    async fn catch_up(&self, day: &DayCell) -> Result<bool, Error> {
-        if day.stored.archived && !self.store.is_archived(day.id()).await? {
-            return Ok(false);
-        }
-        loop {
-            let known = day.state().seq();
-            let page = self.store.events(day.id(), known, PAGE).await?;
-            let mut state = day.state();
-            for event in page.events {
-                if event.seq == state.seq() + 1 {
-                    if state.replay(&event).is_err() {
-                        return Ok(false);
-                    }
-                    day.publish(vec![event]);
-                }
-            }
-            if page.is_last {
-                return Ok(true);
-            }
-        }
+    async fn read(&self, id: &str) -> Result<Arc<DayCell>, Error> {
+        let (store, id) = (self.store.clone(), id.to_owned());
+        // The first caller reads the day for all, so no token is charged.
+        self.turns.run("", async move { read(&store, &id).await }).await
     }
 
-    async fn read(&self, id: &str) -> Result<Arc<DayCell>, Error> {
-        let found = self.store.day(id).await?;
-        let (stored, scenario) = found.ok_or_else(|| Error::not_found("day", id))?;
-        let scenario = Scenario::from_json(scenario.as_bytes(), id)?;
-        let mut state = DispatchDay::new(Arc::new(scenario));
-        let replayed = self.store.replay(id, &mut state, u64::MAX).await;
-        replayed.map_err(|error| error.of_day(id))?;
-        Ok(Arc::new(DayCell::new(stored, state)?))
+    /// Checks that an event has happened after which somebody wants to read on, in this very log if the mark says so.
+    ///
+    /// # Errors
+    /// Returns [`Error::NoSuchEvent`] or [`Error::OtherLog`] if it has not: the day was put back from a copy.
+    pub(crate) async fn check_mark(&self, day: &DayCell, mark: EventMark) -> Result<(), Error> {
+        let EventMark { seq, chain: Some(chain) } = mark else { return day.check_begun(mark.seq) };
+        let latest = {
+            let state = day.state();
+            (state.seq(), state.chain())
+        };
+        let found = if latest.0 == seq {
+            Some(latest.1)
+        } else {
+            self.store.chain_at(day.id(), seq).await?
+        };
+        if seq == 0 || found == Some(chain) {
+            Ok(())
+        } else {
+            Err(Error::OtherLog { mark: mark.to_string() })
+        }
     }
 
     /// A day as it was after an event.
     ///
     /// # Errors
     /// Returns [`Error::NoSuchEvent`] if the day has no such event, and the errors of [`get`](Self::get).
-    pub(crate) async fn at(&self, day: &DayCell, seq: u64) -> Result<DispatchDay, Error> {
+    pub(crate) async fn at(
+        &self,
+        actor: &str,
+        day: &DayCell,
+        seq: u64,
+    ) -> Result<DispatchDay, Error> {
         day.check_begun(seq)?;
         let scenario = Arc::clone(day.state().live().scenario());
-        self.replayed(day, scenario, seq).await
+        self.replayed(actor, day, scenario, seq).await
     }
 
     /// A day as it would be after its events up to a number if it had begun otherwise.
@@ -335,16 +351,21 @@ impl Days {
     /// Returns [`Error::BadData`] if an event could not have happened then.
     pub(crate) async fn replayed(
         &self,
+        actor: &str,
         day: &DayCell,
         scenario: Arc<Scenario>,
         seq: u64,
     ) -> Result<DispatchDay, Error> {
-        let mut state = DispatchDay::new(scenario);
-        self.store.replay(day.id(), &mut state, seq).await?;
-        if state.seq() < seq {
-            return Err(Error::NoSuchEvent { asked: seq, last: state.seq() });
-        }
-        Ok(state)
+        let (store, id) = (self.store.clone(), day.id().to_owned());
+        let replay = async move {
+            let mut state = DispatchDay::new(scenario);
+            store.replay(&id, &mut state, seq).await?;
+            if state.seq() < seq {
+                return Err(Error::NoSuchEvent { asked: seq, last: state.seq() });
+            }
+            Ok(state)
+        };
+        self.turns.run(actor, replay).await
     }
 
     /// Makes a day.
@@ -381,14 +402,28 @@ impl Days {
         let mut day = Arc::clone(day);
         for _ in 0..TRIES {
             match self.append_once(&day, writer.clone(), events.clone(), &answer).await {
-                // Somebody else was quicker: the day is read again, and the events are taken in after theirs.
-                Err(Error::Conflict) if writer.if_match.is_none() => {
+                // Another service was quicker. The day is read again, and the events are taken in after those of the other,
+                // unless the writer expects the day to be where it was.
+                Err(Error::Conflict) => {
+                    self.check_key(&writer).await?;
                     day = self.get(day.id()).await?;
                 }
                 outcome => return outcome,
             }
         }
         Err(Error::Conflict)
+    }
+
+    /// Checks that no other service has carried the request out.
+    ///
+    /// # Errors
+    /// Returns [`Error::KeyInUse`] if one has. Sent again, the request gets the answer that it got there.
+    async fn check_key(&self, writer: &Writer) -> Result<(), Error> {
+        let Some(Idempotency { key, .. }) = &writer.idempotency else { return Ok(()) };
+        match self.store.answer(key).await? {
+            Some(_) => Err(Error::KeyInUse { key: key.clone() }),
+            None => Ok(()),
+        }
     }
 
     async fn append_once<T: Serialize>(
@@ -422,6 +457,22 @@ impl Days {
         outcome.await.map_err(|_| stopped())??;
         Ok(answer)
     }
+}
+
+/// Reads a day from the store.
+async fn read(store: &Store, id: &str) -> Result<Arc<DayCell>, Error> {
+    let found = store.day(id).await?;
+    let (stored, scenario) = found.ok_or_else(|| Error::not_found("day", id))?;
+    let head = store.head(id).await?.ok_or_else(|| Error::not_found("day", id))?;
+    let scenario = Scenario::from_json(scenario.as_bytes(), id)?;
+    let mut state = DispatchDay::new(Arc::new(scenario));
+    let replayed = store.replay(id, &mut state, u64::MAX).await;
+    if let Err(damaged) = replayed.and_then(|()| state.check_head(head)) {
+        // A day that was deleted meanwhile is not damaged.
+        store.head(id).await?.ok_or_else(|| Error::not_found("day", id))?;
+        return Err(damaged.of_day(id));
+    }
+    Ok(Arc::new(DayCell::new(stored, state)?))
 }
 
 /// Takes events in, all or none.

@@ -15,6 +15,7 @@ use crate::days::DayCell;
 use crate::error::Error;
 use crate::moment::Moment;
 use crate::policies::Policies;
+use crate::renewals::{Renewals, Renewing};
 
 /// What a policy proposes for an aircraft.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -114,6 +115,7 @@ pub(crate) struct Decider {
     weights_sha256: Option<String>,
     room: Option<Simulation>,
     values: Vec<f64>,
+    renewing: Renewing,
 }
 
 impl std::fmt::Debug for Decider {
@@ -152,6 +154,7 @@ impl Deciders {
             weights_sha256: resolved.weights_sha256(),
             room: None,
             values: vec![f64::NAN; day.vertiports.len()],
+            renewing: Renewing::default(),
         };
         // Somebody else may have asked for it at the same time.
         let decider =
@@ -165,7 +168,8 @@ impl Deciders {
 }
 
 impl Decider {
-    /// Proposes a decision for an aircraft that is ready.
+    /// Proposes a decision for an aircraft that is ready. If the service is `busy`, prices that are a quarter of an hour old are
+    /// recomputed in the background.
     ///
     /// # Errors
     /// Returns [`Error::UnknownId`] if there is no such aircraft, and [`Error::Unfit`] if it cannot decide now.
@@ -175,6 +179,7 @@ impl Decider {
         aircraft: &str,
         time: Option<Time>,
         policy: &str,
+        busy: Option<&Renewals>,
     ) -> Result<Proposal, Error> {
         let begun = Instant::now();
         let (decision, seq, refusals) = {
@@ -188,6 +193,7 @@ impl Decider {
             (decision, seq, refusals)
         };
         let day = self.room.as_ref().expect("the view was written into it");
+        self.renewing.before(&mut *self.policy, day, &decision, busy);
         let (view, scenario) = (day.view(), Arc::clone(day.scenario()));
         let to = self.policy.choose_with_values(&decision, &view, &mut self.values);
         let to = to.map_err(|error| Error::of_policy(policy, &error))?;

@@ -8,7 +8,7 @@ use vertifleet_sim::live::{LiveDay, Notice, Report};
 use crate::error::Error;
 use crate::event::{Event, Ids};
 use crate::moment::Moment;
-use crate::store::StoredEvent;
+use crate::store::{Head, StoredEvent};
 
 /// What is known of a day after its events so far.
 #[derive(Debug, Clone)]
@@ -47,6 +47,11 @@ impl DispatchDay {
     /// The number of its events.
     pub(crate) fn seq(&self) -> u64 {
         self.seq
+    }
+
+    /// The sum over its events.
+    pub(crate) fn chain(&self) -> u32 {
+        self.chain
     }
 
     /// What people should look at: what came with events, with their numbers, and what holds now.
@@ -113,6 +118,24 @@ impl DispatchDay {
     fn enter(&mut self, seq: u64, chain: u32, notices: Vec<String>) {
         (self.seq, self.chain) = (seq, chain);
         self.notices.extend(notices.into_iter().map(|text| (seq, text)));
+    }
+
+    /// Checks that all events are there that the row of the day counts.
+    ///
+    /// # Errors
+    /// Returns [`Error::BadData`] if one is.
+    pub(crate) fn check_head(&self, head: Head) -> Result<(), Error> {
+        if self.seq < head.seq {
+            let (next, last) = (self.seq + 1, head.seq);
+            let rule = format!("event {next} is missing; the last event is {last}");
+            return Err(Error::BadData { rule });
+        }
+        // Events may have been added since the row was read.
+        if self.seq == head.seq && self.chain != head.chain {
+            let rule = "the checksum of its events differs from the day's".to_owned();
+            return Err(Error::BadData { rule });
+        }
+        Ok(())
     }
 
     /// Takes an event in that is stored already.

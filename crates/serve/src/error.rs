@@ -47,6 +47,14 @@ pub enum Error {
         last: u64,
     },
 
+    /// V631. The log of the day is another one than the client has read. Cause: the day was put back from a copy, and may have
+    /// gone on since. Fix: read the day again from its first event.
+    #[error("event {mark} is not in the log of the day")]
+    OtherLog {
+        /// The mark of the event that the client has read.
+        mark: String,
+    },
+
     /// V603. The day has no such aircraft or vertiport. Cause: a wrong id. Fix: use the ids of the day's scenario.
     #[error("the day has no {what} {id:?}")]
     UnknownId {
@@ -354,7 +362,9 @@ impl Error {
         match self {
             Self::Core(_) | Self::Study(_) | Self::BadRequest { .. } => StatusCode::BAD_REQUEST,
             Self::InList { cause, .. } => cause.status(),
-            Self::NotFound { .. } | Self::NoSuchEvent { .. } => StatusCode::NOT_FOUND,
+            Self::NotFound { .. } | Self::NoSuchEvent { .. } | Self::OtherLog { .. } => {
+                StatusCode::NOT_FOUND
+            }
             Self::UnknownId { .. }
             | Self::Unfit(_)
             | Self::Contradiction { .. }
@@ -437,6 +447,7 @@ impl Coded for Error {
             Self::BadDatabase => 628,
             Self::NameTaken { .. } => 629,
             Self::PolicyInUse { .. } => 630,
+            Self::OtherLog { .. } => 631,
         })
     }
 
@@ -447,6 +458,9 @@ impl Coded for Error {
             Self::InList { cause, .. } => cause.hint(),
             Self::Moved { .. } => Some("read the day again, and decide anew"),
             Self::Unfit(_) => Some("if it is so in reality, report first what led there"),
+            Self::OtherLog { .. } => {
+                Some("the day was put back from a copy: read it again from its first event")
+            }
             Self::NoSuchEvent { .. } => {
                 Some("the day may have been put back from a copy: read its state again")
             }

@@ -19,7 +19,6 @@ use tokio::runtime::Runtime;
 use crate::access::{Role, Tokens};
 use crate::api::router;
 use crate::console::Console;
-use crate::days::Days;
 use crate::limits::Limits;
 use crate::service::Service;
 use crate::store::{Location, Store};
@@ -66,7 +65,7 @@ impl AnyRequest {
             let store = Store::open(&location).await.expect("a folder of ours");
             // Requests come as fast as they are answered.
             let limits = Limits { requests_per_s: 1_000_000, ..Limits::default() };
-            let service = Service::new(Days::new(store, limits.events), limits).await;
+            let service = Service::new(store, limits).await;
             let service = Arc::new(service.expect("it is new"));
             let console = Console::new(None).expect("without a base map nothing is wrong");
             let router = TowerToHyperService::new(router(service, console));

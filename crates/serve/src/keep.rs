@@ -87,7 +87,7 @@ impl Keeper {
         Ok(Self { runtime, store })
     }
 
-    /// Reads every event of every day, checks its sum, and plays it.
+    /// Reads every event of every day, checks its sum, and plays it. Days that are gone although they were not deleted come last.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if the data cannot be read at all.
@@ -95,27 +95,40 @@ impl Keeper {
         let mut after = String::new();
         loop {
             let days = self.runtime.block_on(self.store.days(&after, PAGE))?;
-            let Some(last) = days.last() else { return Ok(()) };
+            let Some(last) = days.last() else { break };
             after.clone_from(&last.id);
             for day in &days {
-                found(self.runtime.block_on(self.check(&day.id))?);
+                if let Some(check) = self.runtime.block_on(self.check(&day.id))? {
+                    found(check);
+                }
             }
         }
+        for day in self.runtime.block_on(self.store.lost_days())? {
+            let finding = Some("the day is missing, and no deletion is recorded".to_owned());
+            found(DayCheck { day, events: 0, finding });
+        }
+        Ok(())
     }
 
-    async fn check(&self, id: &str) -> Result<DayCheck, Error> {
-        let check = |events, finding| DayCheck { day: id.to_owned(), events, finding };
+    /// Checks a day; `None` if it has been deleted meanwhile.
+    async fn check(&self, id: &str) -> Result<Option<DayCheck>, Error> {
+        let check = |events, finding| Some(DayCheck { day: id.to_owned(), events, finding });
         let (_, scenario) = match self.store.day(id).await {
-            Ok(found) => found.ok_or_else(|| Error::not_found("day", id))?,
+            Ok(Some(found)) => found,
+            Ok(None) => return Ok(None),
             Err(Error::BadData { rule }) => return Ok(check(0, Some(rule))),
             Err(error) => return Err(error),
         };
+        // The head first: the service may add events meanwhile.
+        let Some(head) = self.store.head(id).await? else { return Ok(None) };
         let mut state = match Scenario::from_json(scenario.as_bytes(), id) {
             Ok(scenario) => DispatchDay::new(Arc::new(scenario)),
             Err(error) => return Ok(check(0, Some(error.to_string()))),
         };
-        match self.store.replay(id, &mut state, u64::MAX).await {
+        let replayed = self.store.replay(id, &mut state, u64::MAX).await;
+        match replayed.and_then(|()| state.check_head(head)) {
             Ok(()) => Ok(check(state.seq(), None)),
+            Err(_) if self.store.head(id).await?.is_none() => Ok(None),
             Err(Error::BadData { rule }) => Ok(check(state.seq(), Some(rule))),
             Err(failure) => Ok(check(state.seq(), Some(failure.to_string()))),
         }

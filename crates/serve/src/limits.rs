@@ -7,6 +7,8 @@ use std::time::Duration;
 pub struct Limits {
     /// Connections at once. Further ones wait until one of them ends; fewer if the operating system permits fewer files.
     pub connections: usize,
+    /// Connections of one address of another machine at once. Further ones are closed.
+    pub connections_per_address: usize,
     /// Streams of events at once.
     pub streams: usize,
     /// Requests of one token in a second, on the mean; twice as many at once.
@@ -25,6 +27,7 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             connections: 16_384,
+            connections_per_address: 4_096,
             streams: 4_096,
             requests_per_s: 2_000,
             days: 100_000,

@@ -12,7 +12,6 @@ use vertifleet_core::Stop;
 use crate::api::router;
 use crate::connections::{acceptor, listen, take};
 use crate::console::Console;
-use crate::days::Days;
 use crate::error::Error;
 use crate::limits::Limits;
 use crate::service::Service;
@@ -85,8 +84,7 @@ pub fn serve(
         let closing = store.clone();
         // Held until the service stops. The operating system lets go of it even if the service is killed.
         let _lock = lock(&settings.location)?;
-        let days = Days::new(store, settings.limits.events);
-        let mut service = Service::new(days, settings.limits).await?;
+        let mut service = Service::new(store, settings.limits).await?;
         service.spans.clone_from(&spans);
         let service = Arc::new(service);
         check_protection(settings, &service).await?;
@@ -95,8 +93,14 @@ pub fn serve(
         ready(listener.local_addr().map_err(cannot)?);
         let stopping = service.stopping.clone();
         tokio::spawn(pass_on(stop.clone(), stopping.clone()));
+        tokio::spawn(follow_others(Arc::clone(&service)));
         let router = router(service, console);
-        let serving = take(listener, router, tls, settings.limits, stopping.subscribe());
+        let mut limits = settings.limits;
+        if settings.protection == Protection::Proxy {
+            // All connections come from the proxy.
+            limits.connections_per_address = limits.connections;
+        }
+        let serving = take(listener, router, tls, limits, stopping.subscribe());
         let mut heard = stopping.subscribe();
         tokio::select! {
             () = serving => {}
@@ -144,6 +148,15 @@ async fn check_protection(settings: &Settings, service: &Service) -> Result<(), 
         return Err(unprotected("there is no token in force"));
     }
     Ok(())
+}
+
+/// Follows what other services do to the same days until this one stops.
+async fn follow_others(service: Arc<Service>) {
+    let mut stopping = service.stopping.subscribe();
+    tokio::select! {
+        () = service.days.follow_others() => {}
+        _ = stopping.wait_for(|&stops| stops) => {}
+    }
 }
 
 /// Passes the request to stop on to everything that waits.

@@ -13,7 +13,9 @@ use crate::error::Error;
 use crate::keys::Keys;
 use crate::limits::Limits;
 use crate::policies::Policies;
+use crate::renewals::Renewals;
 use crate::spans::Spans;
+use crate::store::Store;
 use crate::studies::Studies;
 use crate::turns::Turns;
 
@@ -46,6 +48,8 @@ pub(crate) struct Service {
     pub(crate) studies: Studies,
     /// Turns for computations.
     pub(crate) turns: AllTurns,
+    /// Recomputes prices in the background.
+    pub(crate) renewals: Arc<Renewals>,
 }
 
 /// Turns for computations, of each kind as many as there are cores: more at once would only make all of them late.
@@ -53,6 +57,8 @@ pub(crate) struct Service {
 pub(crate) struct AllTurns {
     /// For outlooks and what-ifs, which take long.
     pub(crate) outlooks: Turns,
+    /// For long lists, states of earlier events, and uploads.
+    pub(crate) readings: Turns,
     /// For decisions.
     pub(crate) decisions: Turns,
     /// For the policy that answers when others are late, so that it never waits for them.
@@ -68,23 +74,37 @@ pub(crate) enum Write {
 }
 
 impl Service {
-    /// A service of these days.
+    /// A service of the days in a store.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if the store cannot be read.
-    pub(crate) async fn new(days: Days, limits: Limits) -> Result<Self, Error> {
+    pub(crate) async fn new(store: Store, limits: Limits) -> Result<Self, Error> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let turns = || Turns::new(cores);
+        let (outlooks, readings, decisions) = (turns(), turns(), turns());
+        let days = Days::new(store, limits.events, readings.clone());
         let stopping = watch::Sender::new(false);
         let access = Access::new(days.store().clone(), limits.requests_per_s);
         let policies = Policies::new(days.store().clone());
         let used = days.store().keys().await?;
         let keys = Keys::new(used.as_deref());
-        let turns = || Turns::new(cores);
-        let turns = AllTurns { outlooks: turns(), decisions: turns(), quick_decisions: turns() };
+        let turns = AllTurns { outlooks, readings, decisions, quick_decisions: turns() };
         let uploads = Semaphore::new(UPLOADS);
         let studies = Studies::default();
-        let spans = None;
-        Ok(Self { days, policies, access, stopping, limits, uploads, spans, keys, studies, turns })
+        let renewals = Arc::new(Renewals::start());
+        Ok(Self {
+            days,
+            policies,
+            access,
+            stopping,
+            limits,
+            uploads,
+            spans: None,
+            keys,
+            studies,
+            turns,
+            renewals,
+        })
     }
 
     /// Reads the headers of a write: `If-Match`, and `Idempotency-Key` with what was asked for.

@@ -4,26 +4,33 @@
 //! missing, changed or torn is found when a day is read.
 
 mod append;
+mod heads;
 mod library;
+mod notices;
 mod open;
 mod tokens;
 
+use std::fmt;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use futures_util::TryStreamExt as _;
 use serde::{Deserialize, Serialize};
 use sqlx::any::AnyRow;
-use sqlx::{AnyPool, Row as _, query, query_scalar};
+use sqlx::{Any, AnyPool, Row as _, Transaction, query, query_scalar};
 
 use self::append::insert_answers;
 pub(crate) use self::append::{AppendId, NewEvent};
+pub(crate) use self::heads::Head;
 pub(crate) use self::library::{Kind, StoredNetwork, StoredPolicy, Uploaded};
+pub(crate) use self::notices::DayNotice;
 pub(crate) use self::open::make_folder;
 pub use self::tokens::AuditRecord;
 use crate::days::now_ms;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
+use crate::mark::EventMark;
 
 /// The name of the database in the folder of the data.
 pub(crate) const DATABASE: &str = "vertifleet.db";
@@ -42,7 +49,7 @@ pub(crate) struct Page {
     pub(crate) is_last: bool,
 }
 /// The version of the tables. A store of a newer version is refused.
-const VERSION: &str = "4";
+const VERSION: &str = "5";
 
 /// Where the data lies.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -57,8 +64,18 @@ pub enum Location {
 #[derive(Debug, Clone)]
 pub(crate) struct Store {
     pool: AnyPool,
-    /// Whether other processes may use it too.
-    is_shared: bool,
+    /// The address of the database, if other processes may use it too.
+    shared: Option<SharedUrl>,
+}
+
+/// The address of a database, which may have a password in it.
+#[derive(Clone)]
+struct SharedUrl(Arc<str>);
+
+impl fmt::Debug for SharedUrl {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("SharedUrl")
+    }
 }
 
 /// A day as it is stored, without its scenario.
@@ -126,6 +143,11 @@ impl StoredDay {
 }
 
 impl StoredEvent {
+    /// Its mark.
+    pub(crate) fn mark(&self) -> EventMark {
+        EventMark { seq: self.seq, chain: Some(self.chain) }
+    }
+
     /// The sum of an event after one with the sum `before`.
     pub(crate) fn chain_after(&self, before: u32) -> u32 {
         let mut sum = crc32c::crc32c_append(before, &self.seq.to_le_bytes());
@@ -146,7 +168,7 @@ impl Store {
 
     /// Whether other processes may use it too.
     pub(crate) fn is_shared(&self) -> bool {
-        self.is_shared
+        self.shared.is_some()
     }
 
     fn pool(&self) -> &AnyPool {
@@ -161,16 +183,20 @@ impl Store {
         answer: Option<&StoredAnswer>,
     ) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
+        query("INSERT INTO scenarios (day, scenario) VALUES ($1, $2)")
+            .bind(&day.id)
+            .bind(scenario)
+            .execute(&mut *transaction)
+            .await?;
         query(
-            "INSERT INTO days (id, name, created_ms, archived, policy, scenario, date, time_zone, sum)
-             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9)",
+            "INSERT INTO days (id, name, created_ms, archived, policy, date, time_zone, sum)
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",
         )
         .bind(&day.id)
         .bind(&day.name)
         .bind(day.created_ms)
         .bind(i64::from(day.archived))
         .bind(&day.policy)
-        .bind(scenario)
         .bind(&day.date)
         .bind(&day.time_zone)
         .bind(day.sum(scenario))
@@ -202,7 +228,7 @@ impl Store {
     pub(crate) async fn day(&self, id: &str) -> Result<Option<(StoredDay, String)>, Error> {
         let row = query(
             "SELECT id, name, created_ms, archived, policy, date, time_zone, scenario, sum FROM days
-             WHERE id = $1",
+             JOIN scenarios ON scenarios.day = days.id WHERE id = $1",
         )
         .bind(id)
         .fetch_optional(&self.pool)
@@ -220,7 +246,7 @@ impl Store {
     /// The number of days.
     pub(crate) async fn number_of_days(&self) -> Result<u64, Error> {
         let count: i64 = query_scalar("SELECT COUNT(*) FROM days").fetch_one(&self.pool).await?;
-        Ok(u64::try_from(count).unwrap_or_default())
+        Ok(as_u64(count))
     }
 
     /// Closes a day to writes or opens it again, if it is at the event that is expected.
@@ -234,14 +260,12 @@ impl Store {
         expected: Option<u64>,
         actor: &str,
     ) -> Result<(), Error> {
-        let update = "UPDATE days SET archived = $2 WHERE id = $1";
         let mut transaction = self.pool.begin().await?;
-        let update = query(update).bind(id).bind(i64::from(archived));
-        let updated = update.execute(&mut *transaction).await?;
-        check_at(&mut transaction, id, updated.rows_affected(), expected).await?;
+        let update = "UPDATE days SET archived = $2 WHERE id = $1 RETURNING seq";
+        let update = query_scalar(update).bind(id).bind(i64::from(archived));
+        check_at(id, update.fetch_optional(&mut *transaction).await?, expected)?;
         let done = if archived { "day archived" } else { "day unarchived" };
-        tokens::record(&mut transaction, actor, done, id, now_ms()).await?;
-        Ok(transaction.commit().await?)
+        self.commit_change(transaction, id, (actor, done)).await
     }
 
     /// Removes a day with its events, if it is at the event that is expected.
@@ -255,19 +279,25 @@ impl Store {
         actor: &str,
     ) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
-        let delete = query("DELETE FROM days WHERE id = $1").bind(id);
-        let deleted = delete.execute(&mut *transaction).await?;
-        check_at(&mut transaction, id, deleted.rows_affected(), expected).await?;
-        query("DELETE FROM events WHERE day = $1").bind(id).execute(&mut *transaction).await?;
-        tokens::record(&mut transaction, actor, "day deleted", id, now_ms()).await?;
-        Ok(transaction.commit().await?)
+        let delete = query_scalar("DELETE FROM days WHERE id = $1 RETURNING seq").bind(id);
+        check_at(id, delete.fetch_optional(&mut *transaction).await?, expected)?;
+        for delete in ["DELETE FROM scenarios WHERE day = $1", "DELETE FROM events WHERE day = $1"]
+        {
+            query(delete).bind(id).execute(&mut *transaction).await?;
+        }
+        self.commit_change(transaction, id, (actor, "day deleted")).await
     }
 
-    /// Whether a day is closed to writes, or is not there any more.
-    pub(crate) async fn is_archived(&self, id: &str) -> Result<bool, Error> {
-        let select = query_scalar("SELECT archived FROM days WHERE id = $1").bind(id);
-        let found: Option<i64> = select.fetch_optional(&self.pool).await?;
-        Ok(found != Some(0))
+    /// Records who changed a day, and commits the change.
+    async fn commit_change(
+        &self,
+        mut transaction: Transaction<'_, Any>,
+        id: &str,
+        (actor, done): (&str, &str),
+    ) -> Result<(), Error> {
+        tokens::record(&mut transaction, actor, done, id, now_ms()).await?;
+        self.notify(&mut transaction, &[DayNotice::changed(id)]).await?;
+        Ok(transaction.commit().await?)
     }
 
     /// The events of a day after number `after`, at most `limit`, and fewer where they are long.
@@ -334,7 +364,7 @@ impl Store {
 
     /// All keys that requests have used; `None` if other processes may use keys too.
     pub(crate) async fn keys(&self) -> Result<Option<Vec<String>>, Error> {
-        if self.is_shared {
+        if self.is_shared() {
             return Ok(None);
         }
         let keys = query_scalar("SELECT idempotency_key FROM answers").fetch_all(&self.pool);
@@ -358,26 +388,22 @@ impl Store {
     }
 }
 
-/// Checks that a day was there, in a transaction that has just changed it, and that it is at the event that is expected.
-/// The change came first, so nobody can add an event until the transaction ends.
-async fn check_at(
-    transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
-    day: &str,
-    changed: u64,
-    expected: Option<u64>,
-) -> Result<(), Error> {
-    if changed == 0 {
-        return Err(Error::not_found("day", day));
+/// Checks that a day was there, which a transaction has just changed, and that its latest event is the one that is expected. No
+/// event can be added until the transaction ends.
+fn check_at(id: &str, latest: Option<i64>, expected: Option<u64>) -> Result<(), Error> {
+    let found = as_u64(latest.ok_or_else(|| Error::not_found("day", id))?);
+    match expected {
+        Some(expected) if expected != found => Err(Error::Moved { expected, found }),
+        _ => Ok(()),
     }
-    let Some(expected) = expected else { return Ok(()) };
-    let latest = query_scalar("SELECT COALESCE(MAX(seq), 0) FROM events WHERE day = $1").bind(day);
-    let latest: i64 = latest.fetch_one(&mut **transaction).await?;
-    let found = u64::try_from(latest).unwrap_or_default();
-    if expected == found { Ok(()) } else { Err(Error::Moved { expected, found }) }
 }
 
 fn as_i64(seq: u64) -> i64 {
     i64::try_from(seq).unwrap_or(i64::MAX)
+}
+
+fn as_u64(seq: i64) -> u64 {
+    u64::try_from(seq).unwrap_or_default()
 }
 
 fn stored_day(row: &AnyRow) -> Result<StoredDay, Error> {

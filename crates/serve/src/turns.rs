@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use tokio::runtime::Handle;
 use tokio::sync::oneshot;
 use vertifleet_core::Stop;
 
@@ -43,6 +44,11 @@ impl Turns {
         Self(Arc::new(Mutex::new(state)))
     }
 
+    /// Whether a request waits for a turn.
+    pub(crate) fn are_awaited(&self) -> bool {
+        self.state().waiting.iter().any(|waiting| !waiting.turn.is_closed())
+    }
+
     /// Runs work on a blocking thread when it is the token's turn. The work is asked to stop when the caller drops this future,
     /// because the client has gone or the request has timed out.
     pub(crate) async fn work<T: Send + 'static>(
@@ -61,6 +67,26 @@ impl Turns {
         };
         let died = |error| Error::Internal { cause: format!("{error}") };
         let outcome = tokio::task::spawn_blocking(work).await.map_err(died)?;
+        drop(waits);
+        outcome
+    }
+
+    /// Runs a future that computes for long on a blocking thread when it is the token's turn, so that other requests go on. It ends
+    /// when the caller drops this future.
+    pub(crate) async fn run<T: Send + 'static>(
+        &self,
+        actor: &str,
+        future: impl Future<Output = Result<T, Error>> + Send + 'static,
+    ) -> Result<T, Error> {
+        let runtime = Handle::current();
+        let (waits, gone) = oneshot::channel::<()>();
+        let until_gone = async {
+            tokio::select! {
+                outcome = future => outcome,
+                _ = gone => Err(Error::Internal { cause: "the client has gone".to_owned() }),
+            }
+        };
+        let outcome = self.work(actor, move |_| runtime.block_on(until_gone)).await;
         drop(waits);
         outcome
     }

@@ -46,6 +46,7 @@ pub(crate) fn bound_share(totals: &DayTotals, bound_usd: f64) -> f64 {
 
 /// Time that one decision takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LatencySummary {
     /// Half of the decisions take at most this long, in nanoseconds.
     pub median_ns: u64,

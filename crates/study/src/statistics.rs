@@ -19,8 +19,10 @@ pub struct Estimate {
     /// Arithmetic mean; 0 if there are no values.
     pub mean: f64,
     /// Sample standard deviation (n - 1 in the denominator); `None` with fewer than two values.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub standard_deviation: Option<f64>,
     /// Half the width of the 95 % confidence interval of the mean (Student's t); `None` with fewer than two values.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub half_width_95: Option<f64>,
 }
 

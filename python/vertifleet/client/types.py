@@ -553,6 +553,10 @@ class TakenEvent(TypedDict):
 
     seq: int
     """Its number."""
+    mark: str
+    """Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a stream goes
+    on in the same log.
+    """
     at_ms: int
     """When it was taken, milliseconds of the Unix clock."""
     actor: str

@@ -22,6 +22,7 @@ VARIANTS = {
 
 def register() -> None:
     """Makes the environments known to `gymnasium.make` and `gymnasium.make_vec`."""
+    _keep_texts()
     for variant, observation in VARIANTS.items():
         if variant not in gymnasium.registry:
             gymnasium.register(
@@ -30,3 +31,20 @@ def register() -> None:
                 vector_entry_point="vertifleet.envs.fleet_vector:FleetVectorEnv",
                 kwargs={"observation": observation},
             )
+
+
+def _keep_texts() -> None:
+    """Lets Gymnasium's wrappers for PyTorch and other arrays leave texts in infos as they are.
+
+    They convert whatever can be iterated over, element by element, and the elements of a text are texts. The
+    wrappers of Gymnasium 1.1 have no function that could be told so.
+    """
+    try:
+        from gymnasium.wrappers.array_conversion import array_conversion
+    except (ImportError, gymnasium.error.DependencyNotInstalled):
+        return  # Without what they need, these wrappers cannot be used.
+    array_conversion.register(str, _kept)
+
+
+def _kept(text: str, xp: object, device: object = None) -> str:  # noqa: ARG001
+    return text

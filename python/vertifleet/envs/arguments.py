@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
+from gymnasium.vector import AutoresetMode
 from numpy.typing import ArrayLike, NDArray
 
 from vertifleet._errors import Error
@@ -46,6 +47,23 @@ def whole(name: str, number: Any) -> int:
     except TypeError:
         pass
     raise Error("V451", f"{name} must be a whole number, found {number!r}")
+
+
+def count_of(name: str, number: Any) -> int:
+    """A whole number from 1 to 2**20."""
+    count = whole(name, number)
+    if not 1 <= count <= 2**20:
+        raise Error("V451", f"{name} must be from 1 to {2**20}, found {count}")
+    return count
+
+
+def autoreset_of(mode: Any) -> AutoresetMode:
+    """How the day after a finished day begins."""
+    try:
+        return AutoresetMode(mode)
+    except ValueError:
+        known = ", ".join(f'"{one.value}"' for one in AutoresetMode)
+        raise Error("V451", f"there is no autoreset_mode {mode!r}", f"there are {known}") from None
 
 
 def action_of(action: Any) -> int:

@@ -1,9 +1,12 @@
-"""Copies of environments in the middle of a day, which tree search makes at every node."""
+"""Environments that are used in several places: copies in the middle of a day, and threads."""
 
 from __future__ import annotations
 
 import copy
+import threading
 from typing import Any, ClassVar, TypeVar
+
+from vertifleet._errors import Error
 
 Playing = TypeVar("Playing", bound="Copied")
 
@@ -29,3 +32,18 @@ class Copied:
         memo[id(self)] = other
         vars(other).update(copy.deepcopy(members, memo))
         return other
+
+
+class Alone:
+    """Refuses a second thread that uses a batch while a first one does."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+
+    def __enter__(self) -> None:
+        if not self._lock.acquire(blocking=False):
+            rule = "the environments are used by two threads at once"
+            raise Error("V451", rule, "give each thread environments, or let the threads take turns")
+
+    def __exit__(self, *_: object) -> None:
+        self._lock.release()

@@ -38,8 +38,8 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
     ``vertiport_mask`` and ``fleet_mask`` tell.
 
     `reset` draws a day of the `split` from ``np_random``, or plays ``options={"scenario": scenario}`` or the
-    day with the number ``options={"number": 7}``; the name of the day is ``info["day"]``. The last step's
-    info has the day's numbers as ``summary``. An environment can be copied and pickled in the middle of a
+    day with the number ``options={"number": 7}``; the name of the day is ``info["day"]``, and its split is
+    ``info["split"]``. The last step's info has the day's numbers as ``summary``. An environment can be copied and pickled in the middle of a
     day; copies share its network and spaces.
     """
 
@@ -87,7 +87,8 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
             row, mask = self._environment.begin(scenario)
         day = self._environment.scenario
         assert day is not None, "a day has begun"
-        return self._shown(row), {"action_mask": mask, "invalid_action": False, "day": day.name}
+        info = {"action_mask": mask, "invalid_action": False, "day": day.name, "split": day.split}
+        return self._shown(row), info
 
     def step(self, action: np.int64 | int) -> tuple[Any, float, bool, bool, Info]:
         """Carries the decision out and goes on to the next.

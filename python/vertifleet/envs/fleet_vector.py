@@ -19,14 +19,19 @@ from vertifleet._view import View
 from vertifleet.envs.arguments import (
     Reward,
     actions_of,
+    autoreset_of,
+    count_of,
     mask_of,
     options_of,
     reward_of,
     scenarios_of,
     seeds_of,
 )
+from vertifleet.envs.copies import Alone
 from vertifleet.envs.days import NetworksChoice, days_of
 from vertifleet.envs.observing import Info, ObservationChoice, Observing
+
+RENDER_ONE = 'render a single environment: gymnasium.make("vertifleet/Fleet-v0", render_mode="rgb_array")'
 
 
 class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
@@ -51,10 +56,13 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         copy: bool = True,
     ) -> None:
         super().__init__()
+        if render_mode is not None:
+            raise Error("V451", f"a batch has no render_mode, found {render_mode!r}", RENDER_ONE)
+        num_envs = count_of("num_envs", num_envs)
         self._days, self.network = days_of(network, split)
         self._observing = Observing(observation, self._days)
         self.num_envs = num_envs
-        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        self.autoreset_mode = autoreset_of(autoreset_mode)
         self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
         self.render_mode = render_mode
         self.copy = copy
@@ -70,6 +78,7 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         self._masks = [masks for _, masks in sets]
         self._parts = [self._observing.of_rows(rows) for rows in self._rows]
         self._final, self._final_mask = final
+        self._alone = Alone()
         self._latest = 0
         self._generators: list[np.random.Generator] = []
         # Numbers of the next days, drawn early so that a day can begin in the step in which one ends.
@@ -92,6 +101,12 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
             Error: V451 for a seed that is not a whole number, other options, a mask that is not valid or
                 selects no environment, or a day with another number of vertiports than the network.
         """
+        with self._alone:
+            return self._reset(seed, options)
+
+    def _reset(
+        self, seed: int | Sequence[int | None] | None, options: dict[str, Any] | None
+    ) -> tuple[Any, Info]:
         self._check_open()
         asked = options_of(options, "reset_mask", many=True)
         scenarios = scenarios_of(asked, self.num_envs)
@@ -112,6 +127,12 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         Raises:
             Error: V451 for actions of another type or shape, and if a day is not in progress.
         """
+        with self._alone:
+            return self._step(actions)
+
+    def _step(
+        self, actions: ArrayLike
+    ) -> tuple[Any, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], Info]:
         self._check_open()
         actions = actions_of(actions, self.num_envs)
         before = [self.view(at) for at in range(self.num_envs)] if self._reward else []
@@ -125,6 +146,14 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
             self._add_days(info, begun)
             self._draw(begun)
         return self._observation(), rewards, over, np.zeros(self.num_envs, np.bool_), info
+
+    def render(self) -> tuple[Any, ...] | None:
+        """A batch renders nothing.
+
+        Raises:
+            Error: V451, with the single environment that does.
+        """
+        raise Error("V451", "a batch of environments renders nothing", RENDER_ONE)
 
     def action_masks(self) -> NDArray[np.bool_]:
         """Which actions are feasible [num_envs, N]."""
@@ -180,17 +209,17 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         }
 
     def _add_days(self, info: Info, begun: NDArray[np.bool_]) -> None:
-        """Adds the names of the days that have begun, if any have."""
+        """Adds the names and splits of the days that have begun, if any have."""
         places = _where(begun)
         if not places:
             return
         # `np.empty` fills an array of objects with None.
-        names = np.empty(self.num_envs, np.object_)
+        names, splits = np.empty(self.num_envs, np.object_), np.empty(self.num_envs, np.object_)
         for at in places:
             day = self._batch.scenario(at)
             assert day is not None, "a day has begun"
-            names[at] = day.name
-        info |= {"day": names, "_day": begun.copy()}
+            names[at], splits[at] = day.name, day.split
+        info |= {"day": names, "_day": begun.copy(), "split": splits, "_split": begun.copy()}
 
     def _add_ends(self, info: Info, over: NDArray[np.bool_], begun: NDArray[np.bool_]) -> None:
         """Adds the numbers of the days that this step ended, and their final infos if new days have begun."""

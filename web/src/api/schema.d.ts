@@ -1550,6 +1550,8 @@ export interface components {
             at_ms: number;
             /** @description The event. */
             event: components["schemas"]["Event"];
+            /** @description Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a stream goes on in the same log. */
+            mark: string;
             /** @description What people should look at. */
             notices: string[];
             /**
@@ -2350,7 +2352,7 @@ export interface operations {
         parameters: {
             query?: {
                 /**
-                 * @description Events after this number; `Last-Event-ID` goes before it. If the day has no event of this number, that is answered by
+                 * @description Events after this number; `Last-Event-ID` takes precedence over it. If the day has no event of this number, the answer is
                  *     404 (V602).
                  */
                 after?: number;
@@ -2358,8 +2360,8 @@ export interface operations {
                 times?: components["schemas"]["Times"];
             };
             header?: {
-                /** @description The number of the event that the reader saw last; it goes before `after`. */
-                "Last-Event-ID"?: number;
+                /** @description The number of the event that the reader saw last, or its `mark`; it takes precedence over `after`. If the log has no event with this mark, the answer is 404 (V631). */
+                "Last-Event-ID"?: string;
             };
             path: {
                 day: string;

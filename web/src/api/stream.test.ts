@@ -51,7 +51,7 @@ class FakeService {
     this.#answers = answers
   }
 
-  async followToTheEnd(after: number): Promise<void> {
+  async followToTheEnd(after: string | undefined): Promise<void> {
     await new Promise<void>((end) => {
       const stop = follow({
         url: 'http://service/stream',
@@ -84,7 +84,12 @@ class FakeService {
 }
 
 function events(...numbers: number[]): () => Response {
-  return () => new Response(numbers.map((seq) => `id: ${seq}\ndata: ${JSON.stringify({ seq })}\n\n`).join(''))
+  const message = (seq: number) => `id: ${seq}\ndata: ${JSON.stringify({ seq, mark: markOf(seq) })}\n\n`
+  return () => new Response(numbers.map(message).join(''))
+}
+
+function markOf(seq: number): string {
+  return `${seq}-0000000${seq}`
 }
 
 function refusal(status: number, code: string): () => Response {
@@ -98,9 +103,9 @@ function nothing(): Response {
 describe('a stream', () => {
   it('is taken up again after the last event that came', async () => {
     const service = new FakeService([events(4, 5), nothing, events(6)])
-    await service.followToTheEnd(3)
+    await service.followToTheEnd(markOf(3))
     expect(service.seen).toEqual([4, 5, 6])
-    expect(service.askedAfter).toEqual(['3', '5', '5', '6'])
+    expect(service.askedAfter).toEqual([3, 5, 5, 6].map(markOf))
     expect(service.connections.slice(0, 5)).toEqual([
       'connecting',
       'connected',
@@ -112,7 +117,7 @@ describe('a stream', () => {
 
   it('is said to be lost after a while, and still heals', async () => {
     const service = new FakeService([events(1), ...Array.from({ length: 8 }, () => nothing), events(2)])
-    await service.followToTheEnd(0)
+    await service.followToTheEnd(undefined)
     expect(service.connections).toContain('lost')
     expect(service.connections.lastIndexOf('connected')).toBeGreaterThan(service.connections.indexOf('lost'))
     expect(service.seen).toEqual([1, 2])
@@ -120,15 +125,15 @@ describe('a stream', () => {
 
   it('ends when the service refuses who asks', async () => {
     const service = new FakeService([refusal(401, 'V620'), events(1)])
-    void service.followToTheEnd(0)
+    void service.followToTheEnd(undefined)
     await new Promise((resume) => setTimeout(resume, 20))
     expect(service.connections).toEqual(['connecting', 'lost'])
     expect(service.askedAfter).toEqual(['0'])
   })
 
-  it('says when the day has gone back to before what was seen', async () => {
-    const service = new FakeService([refusal(404, 'V601')])
-    await service.followToTheEnd(9)
+  it('says when the log is another one than was seen', async () => {
+    const service = new FakeService([refusal(404, 'V631')])
+    await service.followToTheEnd(markOf(9))
     expect(service.rewound).toBe(1)
   })
 })

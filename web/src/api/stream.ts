@@ -7,24 +7,26 @@ import type { TakenEvent } from './types'
 /** How the stream is: `healing` while it is taken up again, `lost` if that has failed for a while or never can succeed. */
 export type Connection = 'connecting' | 'connected' | 'healing' | 'lost'
 
-/** The service sends a sign of life every 15 s; a connection that is silent for longer than this is dead. */
-const SILENCE_MS = 40_000
+/** The service sends a sign of life every 2 s; a connection that is silent for longer than this is dead. */
+const SILENCE_MS = 15_000
 /** After so long without a connection a person should know that it is lost. The stream keeps trying. */
 const LOST_AFTER_MS = 10_000
 const FIRST_PAUSE_MS = 250
 const LONGEST_PAUSE_MS = 5_000
 
-/** The day does not have the number that was asked for: it was restored from a copy. */
-const NUMBER_UNKNOWN = 'V601'
+/** The log of the day differs from what the client has read: the day was put back from a copy. */
+const OTHER_LOG = 'V631'
 
 export interface StreamOptions {
   url: string
   headers: () => Record<string, string>
-  /** The number of the last event that is known. */
-  after: number
+  /** The mark of the last event that is known; undefined before the first. */
+  after: string | undefined
   onEvents: (events: TakenEvent[]) => void
   onConnection: (connection: Connection, problem?: ProblemError) => void
-  /** The day has gone back in time: everything about it has to be read again. */
+  /** The service has sent something, be it only a sign of life. */
+  onSign?: () => void
+  /** The log of the day differs from what was read: everything about it has to be read again. */
   onRewound: () => void
   fetch?: typeof fetch
   pause?: (ms: number) => Promise<void>
@@ -48,7 +50,7 @@ async function keepFollowing(options: StreamOptions, stop: AbortSignal): Promise
   while (!stop.aborted) {
     const ended = await followOnce(options, after, stop, (events) => {
       attempts = 0
-      after = events.at(-1)?.seq ?? after
+      after = events.at(-1)?.mark ?? after
       lostAt = now()
       options.onEvents(events)
     })
@@ -58,7 +60,7 @@ async function keepFollowing(options: StreamOptions, stop: AbortSignal): Promise
       attempts = 0
       lostAt = now()
     }
-    if (ended.problem?.code === NUMBER_UNKNOWN) {
+    if (ended.problem?.code === OTHER_LOG) {
       options.onRewound()
       return
     }
@@ -80,14 +82,14 @@ function isFinal(problem: ProblemError): boolean {
 /** One connection, from its beginning to its end, whatever ends it. */
 async function followOnce(
   options: StreamOptions,
-  after: number,
+  after: string | undefined,
   stop: AbortSignal,
   onEvents: (events: TakenEvent[]) => void,
 ): Promise<{ wasConnected: boolean; problem?: ProblemError }> {
   const silence = new Silence(stop)
   let wasConnected = false
   try {
-    const headers = { ...options.headers(), Accept: 'text/event-stream', 'Last-Event-ID': String(after) }
+    const headers = { ...options.headers(), Accept: 'text/event-stream', 'Last-Event-ID': after ?? '0' }
     const response = await (options.fetch ?? fetch)(options.url, {
       headers,
       signal: silence.signal,
@@ -103,6 +105,7 @@ async function followOnce(
       const { done, value } = await chunks.read()
       if (done) return { wasConnected }
       silence.isBroken()
+      options.onSign?.()
       const events = reader
         .push(value)
         .filter(isEvent)

@@ -31,7 +31,7 @@ function describeAircraft({ record, frame }: Scene, aircraft: number): string[] 
   const leg = record.legs[at(frame.legs, aircraft)]
   const stands = at(frame.stands, aircraft)
   const place = stands === NONE ? '' : ` ${text.map.at(at(record.vertiports, stands).id)}`
-  const lines = [`${id} · ${type}`, `${text.map.phases[phaseNames[phase]]}${place}`]
+  const lines = [text.map.aircraftOfType(id, type), `${text.map.phases[phaseNames[phase]]}${place}`]
   if (leg !== undefined)
     lines.push(
       ...describeLeg(

@@ -6,10 +6,10 @@ import {
   decidedSince,
   expectedNext,
   isSameAdvice,
+  kindOfNumber,
   nextOf,
   ranked,
   Steady,
-  unitOfValues,
   waitingOf,
   worthOf,
 } from './decisions'
@@ -116,21 +116,34 @@ it('a list keeps its order while it is held', () => {
 })
 
 describe('a proposal', () => {
-  it('ranks what is possible by its value, the advice first, what the policy did not consider last', () => {
+  it('ranks what is possible by its worth, what has none last', () => {
     const { possible, impossible } = ranked(proposal)
     expect(possible.map((one) => one.to)).toEqual(['V2', 'V1', 'V4', 'V5'])
     expect(impossible.map((one) => one.to)).toEqual(['V3'])
   })
 
-  it('has values in dollars where the policy has prices, and in what it says otherwise', () => {
+  it('has worths where the policy has prices, and what it compares by otherwise', () => {
     const unpriced = {
       ...proposal,
       policy: 'mlp-paper',
       alternatives: [{ to: 'V2', value: 1.5, flight_profit_usd: 5, passengers: 4, ...there('07:00:00') }],
     }
-    expect(unitOfValues(proposal)).toBe('dollars')
-    expect(unitOfValues(unpriced)).toBe('none')
-    expect(unitOfValues({ ...unpriced, policy: 'greedy' })).toBe('dollars_per_hour')
+    expect(kindOfNumber(proposal)).toBe('worth')
+    expect(kindOfNumber(unpriced)).toBe('none')
+    expect(kindOfNumber({ ...unpriced, policy: 'greedy' })).toBe('dollars_per_hour')
+  })
+
+  it('ranks every choice by its worth where the policy considered few, and keeps what it made of them', () => {
+    const considered = new Set(['V4', 'V1'])
+    const alternatives = proposal.alternatives.map((one) => ({
+      ...one,
+      value: considered.has(one.to) ? (one.worth_usd ?? 0) + 20 : null,
+    }))
+    const learned = { ...proposal, policy: 'gcaps-x', to: 'V4', alternatives }
+    expect(ranked(learned).possible.map((one) => one.to)).toEqual(['V2', 'V1', 'V4', 'V5'])
+    const [first, , third] = ranked(learned).possible
+    expect(first && worthOf(first)?.value_usd).toBeUndefined()
+    expect(third && worthOf(third)?.value_usd).toBeCloseTo(857.61)
   })
 
   it('advises the same as long as the choice, its rank and the rules are the same', () => {
@@ -139,7 +152,7 @@ describe('a proposal', () => {
       alternatives: proposal.alternatives.map((one) => (one.to === to ? { ...one, ...more } : one)),
     })
     expect(isSameAdvice(proposal, changed('V2', { value: 850, worth_usd: 850 }))).toBe(true)
-    expect(isSameAdvice(proposal, changed('V4', { value: 846 }))).toBe(false)
+    expect(isSameAdvice(proposal, changed('V4', { worth_usd: 846 }))).toBe(false)
     expect(isSameAdvice(proposal, changed('V3', { impossible: undefined }))).toBe(false)
     expect(isSameAdvice(proposal, { ...proposal, to: 'V4' })).toBe(false)
   })

@@ -78,18 +78,32 @@ export class Steady<T extends { id: string }> {
   }
 }
 
-/** The choices that are possible, the best by the policy first, and those that are not. */
+/** The choices that are possible, by the number that is shown of each, the highest first, and those that are not. */
 export function ranked(proposal: Proposal): { possible: Alternative[]; impossible: Alternative[] } {
   const possible = proposal.alternatives.filter((one) => one.impossible == null)
-  const rank = (one: Alternative) => (one.to === proposal.to ? Infinity : (one.value ?? -Infinity))
-  possible.sort((one, other) => rank(other) - rank(one) || one.to.localeCompare(other.to))
+  const rank = (one: Alternative) => numberOf(one) ?? -Infinity
+  const isAdvised = (one: Alternative) => Number(one.to === proposal.to)
+  possible.sort(
+    (one, other) =>
+      compare(rank(other), rank(one)) || isAdvised(other) - isAdvised(one) || one.to.localeCompare(other.to),
+  )
   return { possible, impossible: proposal.alternatives.filter((one) => one.impossible != null) }
 }
 
-/** What the values of a proposal are: dollars for policies that price the rest of the day, and nothing that has a unit for networks. */
-export function unitOfValues({ policy, alternatives }: Proposal): 'dollars' | 'dollars_per_hour' | 'none' {
+function compare(one: number, other: number): number {
+  return one === other ? 0 : one - other
+}
+
+/** The number that is shown of a choice: its worth at the bid prices, which policies with prices have for every choice, and else what
+ *  the policy compares by, which others have for every choice that they consider. */
+export function numberOf({ worth_usd, value }: Alternative): number | undefined {
+  return worth_usd ?? value ?? undefined
+}
+
+/** What the number is that is shown of each choice; `none` is the score of a neural network, which has no unit. */
+export function kindOfNumber({ policy, alternatives }: Proposal): 'worth' | 'dollars_per_hour' | 'none' {
   if (policy === 'greedy') return 'dollars_per_hour'
-  return alternatives.some(({ worth_usd }) => worth_usd != null) ? 'dollars' : 'none'
+  return alternatives.some(({ worth_usd }) => worth_usd != null) ? 'worth' : 'none'
 }
 
 /** Whether two proposals advise the same: the same choice, and the same order of what else is possible. */
@@ -111,15 +125,18 @@ export interface Worth {
   onward_usd: number
   stand_usd: number
   worth_usd: number
+  /** What the policy makes of the worth, where it compares by more than prices. */
+  value_usd: number | undefined
 }
 
 /** The parts of a worth; undefined if the policy has no prices. */
 export function worthOf(alternative: Alternative): Worth | undefined {
-  const { worth_usd, stand_price_usd, flight_profit_usd } = alternative
+  const { worth_usd, stand_price_usd, flight_profit_usd, value } = alternative
   if (worth_usd == null) return undefined
   const stand_usd = -(stand_price_usd ?? 0)
   const onward_usd = worth_usd - flight_profit_usd - stand_usd
-  return { flight_usd: flight_profit_usd, onward_usd, stand_usd, worth_usd }
+  const value_usd = value == null || Math.abs(value - worth_usd) < 0.01 ? undefined : value
+  return { flight_usd: flight_profit_usd, onward_usd, stand_usd, worth_usd, value_usd }
 }
 
 /** A decision that was taken, and whether it still can be taken back. */

@@ -19,7 +19,18 @@ export interface LiveSources {
 export function liveRecord({ scenario, reports, state, outlook, flown }: LiveSources): DayRecord {
   const known = outlook === undefined ? flown : legsOf(outlook, scenario)
   const legs = new Legs(scenario, reports, known).broughtUpTo(state)
-  return { ...frameOf(scenario), legs, ...whatIsKnown(scenario, reports, legs) }
+  const frame = frameOf(scenario)
+  const vertiports = frame.vertiports.map((one, at) => withStandsOf(one, state.vertiports[at]))
+  return { ...frame, vertiports, legs, ...whatIsKnown(scenario, reports, legs) }
+}
+
+/** A vertiport with the stands that it has by now, which a report may have changed. */
+function withStandsOf(
+  one: VertiportRecord,
+  now: DayState['vertiports'][number] | undefined,
+): VertiportRecord {
+  if (now === undefined) return one
+  return one.chargers === undefined ? { ...one, stands: now.stands } : { ...one, chargers: now.stands }
 }
 
 /** What a record has from its scenario alone. */

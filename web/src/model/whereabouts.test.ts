@@ -6,6 +6,7 @@ function placesOf(...events: Event[]): (string | undefined)[] {
   const whereabouts = new Whereabouts()
   const taken = events.map((event, at): TakenEvent => ({
     seq: at + 1,
+    mark: `${at + 1}-00000000`,
     at_ms: 0,
     actor: '',
     event,

@@ -14,6 +14,8 @@ const TRIES = 6
 const PACE = { soon_ms: 80, least_ms: 700, share: 3 }
 /** Advice can be taken once it has been seen: a key that is pressed twice must not decide for the next aircraft too. */
 const SEEN_MS = 350
+/** A decision that has no answer after this time is said to have none. */
+const ANSWER_MS = 2_000
 
 /** What came of taking a decision. */
 export type Outcome = { kind: 'taken'; taken: TakenDecision } | { kind: 'changed' } | { kind: 'none' }
@@ -29,6 +31,8 @@ export class Advisor {
   /** Why there is no advice. */
   problem = $state.raw<ProblemError>()
   isBusy = $state(false)
+  /** Whether a decision was sent a while ago and has no answer yet. */
+  isUnanswered = $state(false)
   /** Whether somebody points at the advice or has the focus in it. */
   isEngaged = $state(false)
   /** Whether the advice has been shown for long enough to be meant by whoever takes it. */
@@ -118,10 +122,13 @@ export class Advisor {
 
   async #busy(work: () => Promise<Outcome>): Promise<Outcome> {
     this.isBusy = true
+    const waiting = setTimeout(() => (this.isUnanswered = true), ANSWER_MS)
     try {
       return await work()
     } finally {
+      clearTimeout(waiting)
       this.isBusy = false
+      this.isUnanswered = false
     }
   }
 

@@ -5,6 +5,7 @@ import type { Service } from '../api/client'
 import { ProblemError } from '../api/problem'
 import { follow, type Connection } from '../api/stream'
 import type { AircraftState, DayInfo, DayState, Outlook, TakenEvent } from '../api/types'
+import { alertsOf, type Alert } from '../model/alerts'
 import { aircraftAt, endOfMinute, recordAt } from '../model/awaited'
 import { canBeTakenBack, decidedSince } from '../model/decisions'
 import { liveRecord } from '../model/live'
@@ -13,9 +14,11 @@ import { LOOK_BACK_MS } from '../model/pace'
 import type { DayRecord, LegRecord, Seconds } from '../model/record'
 import { Reports } from '../model/reports'
 import type { Scenario } from '../model/scenario'
+import type { Target } from '../model/target'
 import { timeOf } from '../model/time'
 import { recordOf } from '../model/traces'
 import { Whereabouts } from '../model/whereabouts'
+import { Alerts, type ListedAlert } from './alerts.svelte'
 import { Clock } from './clock.svelte'
 import { OwnDecisions } from './ownDecisions.svelte'
 import { Refresher } from './refresher'
@@ -28,6 +31,8 @@ const STATE_PACE = { soon_ms: 60, least_ms: 500, share: 3 }
 /** An outlook is work for the service, so it is asked for more rarely, and for no more than a quarter of its time. */
 const OUTLOOK_PACE = { soon_ms: 250, least_ms: 1_500, share: 4 }
 
+const SECOND_MS = 1_000
+
 const UNAUTHORIZED = 401
 
 export class LiveDay {
@@ -36,6 +41,8 @@ export class LiveDay {
   outlook = $state.raw<Outlook>()
   events = $state.raw<TakenEvent[]>([])
   connection = $state<Connection>('connecting')
+  /** Seconds since the service sent anything on the stream. */
+  silent_s = $state(0)
   /** Why the day cannot be read or followed, if it cannot. */
   problem = $state.raw<ProblemError>()
   /** Why there is no outlook, if there is none. */
@@ -49,6 +56,9 @@ export class LiveDay {
   readonly #service: Service
   readonly #stateRefresher = new Refresher(STATE_PACE, () => this.#readState())
   readonly #outlookRefresher = new Refresher(OUTLOOK_PACE, () => this.#readOutlook())
+  readonly #alertList: Alerts
+  #heardAt = performance.now()
+  readonly #listening = setInterval(() => this.#listen(), SECOND_MS)
   #stopFollowing: (() => void) | undefined
   #stopClock: (() => void) | undefined
   #isClosed = false
@@ -59,6 +69,7 @@ export class LiveDay {
   ) {
     this.#service = service
     this.ownDecisions = new OwnDecisions(id)
+    this.#alertList = new Alerts(id)
   }
 
   get scenario(): Scenario | undefined {
@@ -85,6 +96,22 @@ export class LiveDay {
   readonly aircraft: readonly AircraftState[] = $derived(
     this.state === undefined || this.record === undefined ? [] : aircraftAt(this.state, this.record),
   )
+
+  readonly #alertsNow: readonly Alert[] = $derived.by(() => {
+    const { state, record } = this
+    if (state === undefined || record === undefined || this.#scenario === undefined) return []
+    return alertsOf({ scenario: this.#scenario, state, record, events: this.events, time: this.#minute })
+  })
+
+  /** What should be looked at, alerts that are not acknowledged first. */
+  readonly alerts: readonly ListedAlert[] = $derived.by(() =>
+    this.#alertList.listed(this.#alertsNow, this.#minute),
+  )
+
+  /** Acknowledges alerts, which stay in the list. */
+  acknowledge(keys: readonly string[]): void {
+    this.#alertList.acknowledge(keys)
+  }
 
   /** What was reported, without what is only expected: what pictures of a moment show. */
   readonly happened: DayRecord | undefined = $derived.by(() => {
@@ -131,6 +158,7 @@ export class LiveDay {
 
   close(): void {
     this.#isClosed = true
+    clearInterval(this.#listening)
     this.#stopFollowing?.()
     this.#stopClock?.()
     this.#stateRefresher.stop()
@@ -147,7 +175,7 @@ export class LiveDay {
   resume(): void {
     if (this.state === undefined) void this.open()
     else {
-      this.#follow(this.events.at(-1)?.seq ?? 0)
+      this.#follow(this.events.at(-1)?.mark)
       this.refresh()
     }
   }
@@ -187,6 +215,12 @@ export class LiveDay {
     )
   }
 
+  /** An aircraft as something to be selected. */
+  targetOf(aircraft: string): Target | undefined {
+    const index = this.#scenario?.aircraft.findIndex((one) => one.id === aircraft) ?? -1
+    return index < 0 ? undefined : { kind: 'aircraft', aircraft: index }
+  }
+
   /** When an aircraft is or was ready. */
   readyOf(aircraft: string): Seconds {
     return timeOf(this.aircraft.find((one) => one.id === aircraft)?.ready ?? 0)
@@ -208,10 +242,10 @@ export class LiveDay {
     this.#takeState(state)
     this.#outlookRefresher.want()
     this.#stopClock ??= this.clock.run()
-    this.#follow(events.at(-1)?.seq ?? 0)
+    this.#follow(events.at(-1)?.mark)
   }
 
-  #follow(after: number): void {
+  #follow(after: string | undefined): void {
     this.#stopFollowing?.()
     this.#stopFollowing = follow({
       url: this.#service.streamUrl(this.id),
@@ -222,14 +256,29 @@ export class LiveDay {
         this.refresh()
       },
       onConnection: (connection, problem) => this.#connect(connection, problem),
-      onRewound: () => void this.#readAll().catch((problem: unknown) => this.#fail(problem)),
+      onSign: () => this.#hearSign(),
+      onRewound: () => {
+        // Numbers of events mean others now.
+        this.ownDecisions.forgetAfter(0)
+        this.#readAll().catch((problem: unknown) => this.#fail(problem))
+      },
     })
+  }
+
+  #hearSign(): void {
+    this.#heardAt = performance.now()
+    this.silent_s = 0
+  }
+
+  #listen(): void {
+    this.silent_s = Math.floor((performance.now() - this.#heardAt) / SECOND_MS)
   }
 
   #connect(connection: Connection, problem: ProblemError | undefined): void {
     const heals =
       this.connection !== 'connecting' && this.connection !== 'connected' && connection === 'connected'
     this.connection = connection
+    if (connection === 'connected') this.#hearSign()
     this.clock.hold(connection !== 'connected')
     this.problem = connection === 'connected' ? undefined : problem
     // A request that is refused for want of a token asks for one.

@@ -45,6 +45,7 @@ export const map = {
   kilometres: (number: string) => `${number} km`,
   attribution: 'Natural Earth',
   failedBasemap: 'The base map could not be loaded; the bundled one is shown.',
+  aircraftOfType: (id: string, type: string) => `${id}, aircraft of type “${type}”`,
   phases: {
     waiting: 'ready, waits for a decision',
     charging: 'charging',

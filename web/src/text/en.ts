@@ -44,6 +44,9 @@ export const en = {
   connection: {
     connecting: 'Connecting',
     connected: 'Live',
+    silent: (duration: string) => `No sign for ${duration}`,
+    isSilent: 'The service is silent',
+    silentHint: 'The service sends a sign of life every two seconds. What you see may be out of date.',
     healing: 'Reconnecting',
     lost: 'Connection lost',
     lostHint:
@@ -195,6 +198,8 @@ export const en = {
     flyTo: 'Fly to',
     hold: 'Hold at',
     accept: 'Accept',
+    sending: 'Sending…',
+    unanswered: 'Sent; the service has not answered yet.',
     override: 'Override…',
     overrideCommand: 'Override the recommendation',
     by: (policy: string) => `${policy} recommends this`,
@@ -214,40 +219,32 @@ export const en = {
     alternatives: 'Alternatives',
     columns: {
       to: 'To',
-      values: { dollars: 'Value, $', dollars_per_hour: 'Value, $/h', none: 'Score' },
-      worth: 'Worth',
+      numbers: { worth: 'Worth, $', dollars_per_hour: 'Value, $/h', none: 'Score' },
       profit: 'Profit',
       passengers: 'Pass.',
       arrival: 'Lands',
       stands: 'Stands',
     },
     columnHints: {
-      values: {
-        dollars:
-          'What the policy compares its choices by: what each is worth until the end of the day, dollars.',
+      numbers: {
+        worth: 'What the choice is worth until the end of the day, at the day’s bid prices, dollars.',
         dollars_per_hour:
           'What the policy compares its choices by: the profit of the flight, dollars an hour.',
         none: 'What the policy compares its choices by: a number without a unit, the higher the better.',
       },
-      worth: 'What the choice is worth at the day’s bid prices.',
       profit: 'What the flight itself earns.',
       stands: 'Stands that are taken or promised, of all.',
     },
     notConsidered: 'not considered',
     holdHere: 'hold',
     impossible: 'Not possible',
-    rules: {
-      out_of_range: 'Out of range',
-      no_corridor: 'No corridor',
-      closed: 'Closed',
-      no_stand_free: 'No stand free',
-    },
     ruleReasons: {
-      out_of_range: (to: string) => `The flight to ${to} takes more energy than the battery holds.`,
+      out_of_range: (to: string, numbers: string) =>
+        `The flight to ${to} takes more energy than the battery holds${numbers}.`,
       no_corridor: (to: string) => `No corridor leads from here to ${to}.`,
       closed: (to: string) => `The route to ${to} is closed.`,
-      no_stand_free: (to: string) =>
-        `Every stand or charger at ${to} is taken, or kept for an aircraft that is on its way there.`,
+      no_stand_free: (to: string, numbers: string) =>
+        `Every stand or charger at ${to} is taken, or kept for an aircraft that is on its way there${numbers}.`,
     },
     why: 'What it is worth',
     worthParts: {
@@ -255,6 +252,7 @@ export const en = {
       onward: 'What it can earn from there on',
       stand: 'Price of its stand',
       sum: 'Worth',
+      corrected: (policy: string) => `What ${policy} makes of it`,
     },
     reason: 'Reason',
     reasonHint: (to: string) => `Why ${to}? The log keeps it.`,
@@ -300,10 +298,41 @@ export const en = {
     free: 'free',
   },
 
-  notices: {
-    title: 'Notices',
-    more: (number: number) => `${number} more`,
-    fewer: 'Fewer',
+  alerts: {
+    title: 'Alerts',
+    none: 'No alerts',
+    allAcknowledged: 'Every alert is acknowledged',
+    show: 'Show the alerts',
+    acknowledge: 'Acknowledge',
+    acknowledgeAll: 'Acknowledge all',
+    acknowledged: 'acknowledged',
+    age: 'For how long it has been so',
+    severities: { critical: 'Critical', warning: 'Warning', notice: 'Notice' },
+    counts: {
+      critical: (number: number) => plural(number, 'critical alert', 'critical alerts'),
+      warning: (number: number) => plural(number, 'warning', 'warnings'),
+      notice: (number: number) => plural(number, 'notice', 'notices'),
+    },
+    said: {
+      overdue: {
+        departure: (aircraft: string, to: string, due: string) =>
+          `${aircraft} was to leave for ${to} at ${due}, and no departure is reported`,
+        landing: (aircraft: string, to: string, due: string) =>
+          `${aircraft} was to land at ${to} at ${due}, and no landing is reported`,
+      },
+      over_full: (vertiport: string, taken: number, stands: number) =>
+        `${vertiport} has ${taken} aircraft, there or on the way, for ${plural(stands, 'stand', 'stands')}`,
+      full: (vertiport: string, stands: number) =>
+        `${vertiport} is full: ${stands === 1 ? 'its stand' : `each of its ${stands} stands`} is taken or promised`,
+      closed: (what: string, until: string | undefined, underWay: number) =>
+        `${what} is closed ${until === undefined ? 'until further notice' : `until ${until}`}${
+          underWay === 0 ? '' : `, and ${plural(underWay, 'aircraft is', 'aircraft are')} on the way there`
+        }`,
+      out_of_service: (aircraft: string, until: string | undefined) =>
+        `${aircraft} is out of service ${until === undefined ? 'until further notice' : `until ${until}`}`,
+      low_charge: (aircraft: string, to: string, percent: number) =>
+        `${aircraft} lands at ${to} with ${percent} % of its battery`,
+    },
   },
 
   report: {
@@ -391,8 +420,21 @@ export const en = {
     flies: (aircraft: string, to: string, time: string, passengers: number) =>
       `${aircraft} flies to ${to} at ${time} with ${plural(passengers, 'passenger', 'passengers')}`,
     showFirst: 'Show the first difference',
+    hit: {
+      title: (until: string) => `Affected until ${until}`,
+      none: 'Nothing differs in the next two hours.',
+      aircraft: (number: number) => `${plural(number, 'aircraft is', 'aircraft are')} sent elsewhere`,
+      passengers: (number: number, difference: string) =>
+        `${plural(number, 'passenger', 'passengers')} fly (${difference})`,
+      places: 'Landings, by vertiport',
+      flies: (to: string, time: string, passengers: number) =>
+        `to ${to} at ${time} with ${plural(passengers, 'passenger', 'passengers')}`,
+      holds: (at: string) => `holds at ${at}`,
+      insteadOf: (other: string) => `instead of: ${other}`,
+      more: (number: number) => `and ${number} more`,
+    },
     elsewhere: (differing: number, all: number, time: string) =>
-      `something else: ${differing.toLocaleString('en-US')} of ${plural(all, 'flight or hold', 'flights and holds')} from ${time} on`,
+      `something else: ${differing.toLocaleString('en-US')} of ${plural(all, 'flight or hold', 'flights and holds')} until ${time}`,
     alike: (differing: number) => `other time or passengers: ${differing.toLocaleString('en-US')}`,
   },
 

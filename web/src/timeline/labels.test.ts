@@ -26,11 +26,18 @@ function fleetRow(aircraft: number): GanttRow {
 }
 
 describe('labels of the fleet', () => {
-  it('say where flights go, and nothing of holds', () => {
+  it('say where flights come from and go, and nothing of holds', () => {
     const texts = labelsOf(fleetRow(0), 1).map((label) => label?.text)
     const legs = record.legs.filter((leg) => leg.aircraft === 0)
-    const names = legs.map((leg) => (leg.from === leg.to ? undefined : record.vertiports[leg.to]?.id))
+    const id = (vertiport: number) => record.vertiports[vertiport]?.id
+    const names = legs.map(({ from, to }) => (from === to ? undefined : `${id(from)} → ${id(to)}`))
     expect(texts).toEqual(names)
+  })
+
+  it('leave the origin out where there is less room', () => {
+    // The first flight takes 661 s, which is 53 pixels here: room for eight letters.
+    const [first] = labelsOf(fleetRow(0), 0.08)
+    expect(first).toMatchObject({ text: '→ East', isLonger: false })
   })
 
   it('stay on their bars where there is room', () => {

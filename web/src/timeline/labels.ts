@@ -1,4 +1,5 @@
-// What is written on the bars of a row: where a flight goes, or who holds a stand. Bars of one leg follow each other, and a name
+// The text on the bars of a row: the origin and destination of a flight (the destination alone where there is less room), or the
+// aircraft that holds a stand. Bars of one leg follow each other, and a name
 // that its bar has no room for runs on over those that follow, which are the same aircraft's. A name that does not fit even there
 // is cut off, though never so short that it could be that of another; else the bar says who it is only when it is pointed at.
 
@@ -56,9 +57,12 @@ export class Labels {
     const named: readonly Bar[] = isFleet ? run.filter((bar) => bar.kind === 'flight') : run
     const [first] = named
     if (first === undefined) return undefined
-    const text = isFleet ? this.#destinationOf(first) : at(this.record.aircraft, first.aircraft).id
-    const own = named.find((bar) => this.#fits(text, ...this.place(bar)))
-    if (own !== undefined) return { text, ...this.#room(...this.place(own)), bar: own, isLonger: false }
+    const texts = isFleet ? this.#routeOf(first) : [at(this.record.aircraft, first.aircraft).id]
+    for (const text of texts) {
+      const own = named.find((bar) => this.#fits(text, ...this.place(bar)))
+      if (own !== undefined) return { text, ...this.#room(...this.place(own)), bar: own, isLonger: false }
+    }
+    const text = texts.at(-1) ?? ''
     const [left] = this.place(first)
     const [, right] = this.place(run.at(-1) ?? first)
     const fitting = this.#shortened(text, right - left - 2 * MARGIN_PX, isFleet)
@@ -74,8 +78,11 @@ export class Labels {
     return width
   }
 
-  #destinationOf({ leg }: Bar): string {
-    return at(this.record.vertiports, at(this.record.legs, leg).to).id
+  /** The longest text first. */
+  #routeOf({ leg }: Bar): string[] {
+    const { from, to } = at(this.record.legs, leg)
+    const [origin, destination] = [at(this.record.vertiports, from).id, at(this.record.vertiports, to).id]
+    return [`${origin} → ${destination}`, `→ ${destination}`, destination]
   }
 
   #fits(text: string, left: number, right: number): boolean {

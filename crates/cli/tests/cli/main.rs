@@ -12,6 +12,7 @@ mod evaluate;
 mod full_disk;
 mod generalise;
 mod guide;
+mod guide_figures;
 #[cfg(unix)]
 mod interrupt;
 #[cfg(unix)]

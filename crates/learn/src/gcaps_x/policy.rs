@@ -126,6 +126,10 @@ impl Policy for GcapsX {
     fn prices(&mut self, decision: &Decision, view: &View<'_>) -> Option<&DayPrices> {
         Some(self.prices.at(*view, decision))
     }
+
+    fn price_memory(&mut self) -> Option<&mut PriceMemory> {
+        Some(&mut self.prices)
+    }
 }
 
 /// The scorer for this number of vertiports.

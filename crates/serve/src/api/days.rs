@@ -254,9 +254,14 @@ pub(super) async fn create(
         Write::Done(answer) => return Ok(again(answer)),
         Write::New(writer) => writer,
     };
-    let asked: NewDay = parse(&body)?;
+    let made_by = Arc::clone(&service);
+    let read = async move {
+        let asked: NewDay = parse(&body)?;
+        let (scenario, zone) = asked.scenario(&made_by).await?;
+        Ok((asked, scenario, zone))
+    };
+    let (asked, scenario, zone) = service.turns.readings.run(&sender.actor, read).await?;
     let policy = asked.policy.clone().unwrap_or_else(|| DEFAULT_POLICY.to_owned());
-    let (scenario, zone) = asked.scenario(&service).await?;
     service.policies.resolve(&policy, &scenario).await?;
     let (date, time_zone) = asked.calendar(zone)?;
     let stored = StoredDay {
@@ -354,12 +359,15 @@ pub(crate) struct At {
 pub(super) async fn state(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
+    sender: Sender,
     Asked(at): Asked<At>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let state = match at.seq {
         None => DayState::of(&mut day.state()),
-        Some(EventNumber(seq)) => DayState::of(&mut service.days.at(&day, seq).await?),
+        Some(EventNumber(seq)) => {
+            DayState::of(&mut service.days.at(&sender.actor, &day, seq).await?)
+        }
     };
     day.stored_up_to(state.seq).await?;
     at.times.of(&day, || Ok(at_event(StatusCode::OK, state.seq, &state)))

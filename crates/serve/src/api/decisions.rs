@@ -253,6 +253,10 @@ async fn ask(
     let turns = if is_quick { &service.turns.quick_decisions } else { &service.turns.decisions };
     let day = Arc::clone(day);
     let aircraft = aircraft.to_owned();
-    let ask = move |_: &Stop| decider.propose(&day, &aircraft, time.map(Moment::time), &policy);
+    let (others, renewals) = (turns.clone(), Arc::clone(&service.renewals));
+    let ask = move |_: &Stop| {
+        let busy = others.are_awaited().then_some(&*renewals);
+        decider.propose(&day, &aircraft, time.map(Moment::time), &policy, busy)
+    };
     turns.work(actor, ask).await
 }

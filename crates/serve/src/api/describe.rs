@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 
 use utoipa::openapi::header::HeaderBuilder;
 use utoipa::openapi::path::{Operation, ParameterBuilder, ParameterIn};
-use utoipa::openapi::schema::{
-    AdditionalProperties, KnownFormat, Object, ObjectBuilder, OneOf, SchemaFormat, Type,
-};
+use utoipa::openapi::schema::{AdditionalProperties, Object, ObjectBuilder, OneOf, Type};
 use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme};
 use utoipa::openapi::{ContentBuilder, Ref, RefOr, ResponseBuilder, Schema};
 use utoipa::{Modify, OpenApi, openapi as description};
@@ -171,12 +169,9 @@ fn complete(operation: &mut Operation) {
         add_header(operation, "If-Match", about, text().pattern(Some(TAG)));
     }
     if id == "stream_events" {
-        let about = "The number of the event that the reader saw last; it goes before `after`.";
-        let number = ObjectBuilder::new()
-            .schema_type(Type::Integer)
-            .format(Some(SchemaFormat::KnownFormat(KnownFormat::Int64)))
-            .minimum(Some(0));
-        add_header(operation, "Last-Event-ID", about, number);
+        let about = "The number of the event that the reader saw last, or its `mark`; it takes precedence over `after`. If the \
+             log has no event with this mark, the answer is 404 (V631).";
+        add_header(operation, "Last-Event-ID", about, text().pattern(Some(MARK)));
     }
     if is(&TAGGED) {
         for (status, response) in &mut operation.responses.responses {
@@ -193,6 +188,8 @@ fn complete(operation: &mut Operation) {
 
 /// What numbers of events look like in headers.
 const TAG: &str = "^\"?[0-9]{1,19}\"?$";
+/// What the number or the mark of an event looks like.
+const MARK: &str = "^[0-9]{1,19}(-[0-9a-f]{8})?$";
 
 fn add_header(operation: &mut Operation, name: &str, about: &str, schema: ObjectBuilder) {
     let parameter = ParameterBuilder::new()

@@ -21,6 +21,9 @@ use crate::store::StoredEvent;
 /// The number of events that a request may bring.
 pub(super) const MOST_EVENTS: usize = 1_000;
 
+/// Pages of at most this many events are read at once, without waiting for a turn.
+const SHORT_PAGE: u32 = 250;
+
 /// One event, or several that are taken all or none.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(untagged)]
@@ -111,6 +114,9 @@ fn rewritten(body: &str) -> Box<RawValue> {
 pub(crate) struct TakenEvent {
     /// Its number.
     seq: u64,
+    /// Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a stream goes on in the same log.
+    #[schema(pattern = "^[0-9]{1,19}-[0-9a-f]{8}$")]
+    mark: String,
     /// When it was taken, milliseconds of the Unix clock.
     at_ms: i64,
     /// Who sent it.
@@ -131,6 +137,7 @@ impl TakenEvent {
         };
         Self {
             seq: stored.seq,
+            mark: stored.mark().to_string(),
             at_ms: stored.at_ms,
             actor: stored.actor.clone(),
             event,
@@ -198,15 +205,23 @@ pub(super) async fn append(
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
+    sender: Sender,
     Asked(Page { after: EventNumber(after), limit, times }): Asked<Page>,
 ) -> Result<Response, Error> {
     let PageSize(limit) = limit.unwrap_or(PageSize(1_000));
     let day = service.days.get(&day).await?;
     day.check_begun(after)?;
-    let page = service.days.store().events(day.id(), after, limit).await?;
-    let next = page.events.last().filter(|_| !page.is_last).map(|event| event.seq);
-    times.of(&day, || {
-        let events = page.events.iter().map(|event| TakenEvent::of(event, times)).collect();
-        Ok(json(StatusCode::OK, &EventList { events, next }))
-    })
+    let store = service.days.store().clone();
+    let page = async move {
+        let page = store.events(day.id(), after, limit).await?;
+        let next = page.events.last().filter(|_| !page.is_last).map(|event| event.seq);
+        times.of(&day, || {
+            let events = page.events.iter().map(|event| TakenEvent::of(event, times)).collect();
+            Ok(json(StatusCode::OK, &EventList { events, next }))
+        })
+    };
+    if limit <= SHORT_PAGE {
+        return page.await;
+    }
+    service.turns.readings.run(&sender.actor, page).await
 }

@@ -8,9 +8,11 @@ use axum::extract::rejection::{PathRejection, QueryRejection};
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
 use axum::http::HeaderMap;
 use axum::http::request::Parts;
-use http_body_util::{BodyExt as _, LengthLimitError, Limited};
+use bytes::BytesMut;
+use http_body_util::BodyExt as _;
 use serde::de::{self, DeserializeOwned};
 use serde::{Deserialize, Deserializer};
+use tokio::sync::Semaphore;
 use utoipa::openapi::schema::{KnownFormat, ObjectBuilder, SchemaFormat, Type};
 use utoipa::openapi::{RefOr, Schema};
 use utoipa::{PartialSchema, ToSchema};
@@ -41,11 +43,6 @@ impl<S: Send + Sync, T: DeserializeOwned> FromRequestParts<S> for Asked<T> {
 pub(super) struct EventNumber(pub(super) u64);
 
 impl EventNumber {
-    /// Reads what stands in a header.
-    pub(super) fn parse(text: &str) -> Option<Self> {
-        Self::checked(text.parse().ok()?)
-    }
-
     fn checked(number: u64) -> Option<Self> {
         i64::try_from(number).is_ok().then_some(Self(number))
     }
@@ -129,14 +126,14 @@ const LONGEST_UPLOAD: usize = 64 << 20;
 /// The body.
 pub(super) struct Body(pub(super) Bytes);
 
-/// A body that may be large: a scenario, a network or weights. Few of them are read at once.
+/// A body that may be large: a scenario, a network or weights. Few large ones are read at once.
 pub(super) struct Upload(pub(super) Bytes);
 
 impl<S: Send + Sync> FromRequest<S> for Body {
     type Rejection = Error;
 
     async fn from_request(request: Request, _: &S) -> Result<Self, Error> {
-        read(request, LONGEST_BODY).await.map(Self)
+        read(request, LONGEST_BODY, None).await.map(Self)
     }
 }
 
@@ -144,26 +141,31 @@ impl FromRequest<Arc<Service>> for Upload {
     type Rejection = Error;
 
     async fn from_request(request: Request, service: &Arc<Service>) -> Result<Self, Error> {
-        let _turn = match request.body().size_hint().upper() {
-            Some(bytes) if bytes <= LONGEST_BODY as u64 => None,
-            _ => Some(service.uploads.acquire().await.expect("it is never closed")),
-        };
-        read(request, LONGEST_UPLOAD).await.map(Self)
+        read(request, LONGEST_UPLOAD, Some(&service.uploads)).await.map(Self)
     }
 }
 
-async fn read(request: Request, most: usize) -> Result<Bytes, Error> {
+/// Reads a body of at most `most` bytes. Once it is longer than most bodies may be, it takes a turn until it is read.
+async fn read(request: Request, most: usize, turns: Option<&Semaphore>) -> Result<Bytes, Error> {
     let too_long = || Error::TooMuch { what: "bytes in such a body", most: most as u64 };
-    if request.body().size_hint().lower() > most as u64 {
+    let unreadable =
+        |error| Error::BadRequest { rule: format!("its body cannot be read: {error}") };
+    let mut body = request.into_body();
+    if body.size_hint().lower() > most as u64 {
         return Err(too_long());
     }
-    let body = Limited::new(request.into_body(), most).collect().await;
-    let wrong = |error: Box<dyn std::error::Error + Send + Sync>| {
-        if error.is::<LengthLimitError>() {
-            too_long()
-        } else {
-            Error::BadRequest { rule: format!("its body cannot be read: {error}") }
+    let (mut bytes, mut turn) = (BytesMut::new(), None);
+    while let Some(frame) = body.frame().await {
+        // A body may end with trailers, which mean nothing here.
+        let Ok(piece) = frame.map_err(unreadable)?.into_data() else { continue };
+        if bytes.len() + piece.len() > most {
+            return Err(too_long());
         }
-    };
-    Ok(body.map_err(wrong)?.to_bytes())
+        bytes.extend_from_slice(&piece);
+        if let Some(turns) = turns.filter(|_| bytes.len() > LONGEST_BODY && turn.is_none()) {
+            turn = Some(turns.acquire().await.expect("it is never closed"));
+        }
+    }
+    drop(turn);
+    Ok(bytes.freeze())
 }

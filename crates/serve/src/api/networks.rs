@@ -7,6 +7,7 @@ use axum::http::StatusCode;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
+use vertifleet_core::Stop;
 
 use super::answer::json;
 use super::extract::{Named, Sender, Upload};
@@ -56,8 +57,12 @@ pub(super) async fn put(
     sender: Sender,
     Upload(body): Upload,
 ) -> Result<Response, Error> {
-    let NewNetwork { toml } = parse(&body)?;
-    let info = networks::put(service.days.store(), &name, toml, now_ms()).await?;
+    let (store, named) = (service.days.store().clone(), name.clone());
+    let put = async move {
+        let NewNetwork { toml } = parse(&body)?;
+        networks::put(&store, &named, toml, now_ms()).await
+    };
+    let info = service.turns.readings.run(&sender.actor, put).await?;
     service.days.store().record(&sender.actor, "network uploaded", &name, now_ms()).await?;
     Ok(json(StatusCode::OK, &info))
 }
@@ -78,7 +83,14 @@ pub(super) async fn delete(
 
 /// Checks a network without keeping it.
 #[utoipa::path(operation_id = "validate_network", post, path = "/v1/networks/validate", tag = "networks", request_body = NewNetwork, responses((status = 200, body = NetworkInfo)))]
-pub(super) async fn validate(Upload(body): Upload) -> Result<Response, Error> {
-    let NewNetwork { toml } = parse(&body)?;
-    Ok(json(StatusCode::OK, &NetworkInfo::of(&networks::read(&toml)?, false)))
+pub(super) async fn validate(
+    State(service): State<Arc<Service>>,
+    sender: Sender,
+    Upload(body): Upload,
+) -> Result<Response, Error> {
+    let validate = move |_: &Stop| {
+        let NewNetwork { toml } = parse(&body)?;
+        Ok(json(StatusCode::OK, &NetworkInfo::of(&networks::read(&toml)?, false)))
+    };
+    service.turns.readings.work(&sender.actor, validate).await
 }

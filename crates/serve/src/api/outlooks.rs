@@ -51,7 +51,7 @@ pub(super) async fn outlook(
     let day = service.days.get(&day).await?;
     let mut state = match seq {
         None => day.state().clone(),
-        Some(EventNumber(seq)) => service.days.at(&day, seq).await?,
+        Some(EventNumber(seq)) => service.days.at(&sender.actor, &day, seq).await?,
     };
     let policy = named(&service, &day, policy).await?;
     let quick = named(&service, &day, Some(QUICK_POLICY.to_owned())).await?;
@@ -104,7 +104,8 @@ pub(super) async fn what_if(
     day.stored_up_to(state.seq()).await?;
     let otherwise = if asked.begins_otherwise() {
         let scenario = asked.scenario(state.live().scenario())?;
-        let again = service.days.replayed(&day, Arc::new(scenario), state.seq()).await;
+        let days = &service.days;
+        let again = days.replayed(&sender.actor, &day, Arc::new(scenario), state.seq()).await;
         Some(again.map_err(Error::of_what_if)?)
     } else {
         None

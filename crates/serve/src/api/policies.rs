@@ -7,6 +7,7 @@ use axum::http::StatusCode;
 use axum::response::Response;
 use serde::Serialize;
 use utoipa::ToSchema;
+use vertifleet_core::Stop;
 
 use super::answer::json;
 use super::extract::{Named, Sender, Upload};
@@ -51,7 +52,9 @@ pub(super) async fn put(
     sender: Sender,
     Upload(weights): Upload,
 ) -> Result<Response, Error> {
-    let info = service.policies.put(&name, &weights, now_ms()).await?;
+    let (keeper, named) = (Arc::clone(&service), name.clone());
+    let put = async move { keeper.policies.put(&named, &weights, now_ms()).await };
+    let info = service.turns.readings.run(&sender.actor, put).await?;
     service.days.store().record(&sender.actor, "policy uploaded", &name, now_ms()).await?;
     Ok(json(StatusCode::OK, &info))
 }
@@ -72,6 +75,11 @@ pub(super) async fn delete(
 
 /// Checks a weight file without keeping it, and says what it is.
 #[utoipa::path(operation_id = "validate_policy", post, path = "/v1/policies/validate", tag = "policies", request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = WeightsInfo)))]
-pub(super) async fn validate(Upload(weights): Upload) -> Result<Response, Error> {
-    Ok(json(StatusCode::OK, &policies::validate(&weights)?))
+pub(super) async fn validate(
+    State(service): State<Arc<Service>>,
+    sender: Sender,
+    Upload(weights): Upload,
+) -> Result<Response, Error> {
+    let validate = move |_: &Stop| Ok(json(StatusCode::OK, &policies::validate(&weights)?));
+    service.turns.readings.work(&sender.actor, validate).await
 }

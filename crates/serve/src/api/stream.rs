@@ -21,24 +21,26 @@ use super::extract::{Asked, EventNumber, Named};
 use crate::access::Role;
 use crate::days::{DayCell, Told};
 use crate::error::Error;
+use crate::mark::EventMark;
 use crate::service::Service;
 use crate::store::{Store, StoredEvent};
 
-/// Events that are read from the store at once.
-const PAGE: u32 = 1_000;
+/// Events that are read from the store at once. They are written out between other requests, so they are few.
+const PAGE: u32 = 250;
 
-/// How often a reader looks for what nobody tells it.
+/// How often a reader looks whether its token is still in force and its day is still in memory.
 const LOOK: Duration = Duration::from_millis(250);
 
-/// After so long without an event a reader is sent an empty line, which keeps proxies from ending the stream.
-const SIGN_OF_LIFE: Duration = Duration::from_secs(15);
+/// After so long without an event a reader is sent an empty line, by which it knows that the service lives, and proxies do not end
+/// the stream.
+const SIGN_OF_LIFE: Duration = Duration::from_secs(2);
 
 /// Where the stream begins.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct From {
-    /// Events after this number; `Last-Event-ID` goes before it. If the day has no event of this number, that is answered by
+    /// Events after this number; `Last-Event-ID` takes precedence over it. If the day has no event of this number, the answer is
     /// 404 (V602).
     #[param(inline)]
     after: Option<EventNumber>,
@@ -53,7 +55,8 @@ struct Reader {
     day: Arc<DayCell>,
     store: Store,
     fresh: Receiver<Arc<Told>>,
-    after: u64,
+    /// The last event that was sent, or the one that the reader came with.
+    after: EventMark,
     is_behind: bool,
     stopping: watch::Receiver<bool>,
     service: Arc<Service>,
@@ -65,13 +68,13 @@ struct Reader {
     times: Times,
 }
 
-/// The number of the event that a reader saw last.
-fn last_event(headers: &HeaderMap) -> Result<Option<EventNumber>, Error> {
+/// The event that a reader saw last.
+fn last_event(headers: &HeaderMap) -> Result<Option<EventMark>, Error> {
     let Some(id) = headers.get("last-event-id") else { return Ok(None) };
-    let number = id.to_str().ok().and_then(EventNumber::parse);
-    let wrong =
-        || Error::BadRequest { rule: "Last-Event-ID must be the number of an event".to_owned() };
-    number.map(Some).ok_or_else(wrong)
+    let wrong = || Error::BadRequest {
+        rule: "Last-Event-ID must be the number of an event, or its mark".to_owned(),
+    };
+    id.to_str().ok().and_then(EventMark::parse).map(Some).ok_or_else(wrong)
 }
 
 impl Drop for Reader {
@@ -98,8 +101,9 @@ pub(super) async fn stream(
     }
     let day = service.days.get(&day).await?;
     let fresh = day.subscribe();
-    let EventNumber(after) = last_event(&headers)?.or(after).unwrap_or_default();
-    day.check_begun(after)?;
+    let EventNumber(seq) = after.unwrap_or_default();
+    let after = last_event(&headers)?.unwrap_or(EventMark { seq, chain: None });
+    service.days.check_mark(&day, after).await?;
     times.check(&day)?;
     let store = service.days.store().clone();
     let stopping = service.stopping.subscribe();
@@ -135,10 +139,10 @@ impl Reader {
             }
             let mut text = BytesMut::new();
             if self.is_behind {
-                let page = self.store.events(self.day.id(), self.after, PAGE).await.ok()?;
+                let page = self.store.events(self.day.id(), self.after.seq, PAGE).await.ok()?;
                 self.is_behind = !page.is_last;
                 for event in &page.events {
-                    self.after = event.seq;
+                    self.after = event.mark();
                     text.extend_from_slice(&self.message(event));
                 }
             } else {
@@ -170,9 +174,9 @@ impl Reader {
     /// Takes what the day tells its readers; `None` if it tells them nothing any more.
     fn take(&mut self, fresh: Result<Arc<Told>, RecvError>, text: &mut BytesMut) -> Option<()> {
         match fresh {
-            Ok(told) if told.event.seq <= self.after => {}
-            Ok(told) if told.event.seq == self.after + 1 => {
-                self.after += 1;
+            Ok(told) if told.event.seq <= self.after.seq => {}
+            Ok(told) if told.event.seq == self.after.seq + 1 => {
+                self.after = told.event.mark();
                 match self.times {
                     Times::Clock => {
                         let shown = told.shown.get_or_init(|| self.message(&told.event));
@@ -194,17 +198,17 @@ impl Reader {
         Some(())
     }
 
-    /// Sees whether the reader may still read, and whether other services wrote. If the day in memory was thrown away,
-    /// goes on with the one that took its place; `None` if there is none.
+    /// Sees whether the reader may still read. If the day in memory was thrown away, goes on with the one that took its place;
+    /// `None` if there is none, or if its log is another one.
     async fn look_around(&mut self) -> Option<()> {
         self.looked = Instant::now();
         self.service.access.may(&self.headers, Role::Read).await.ok()?;
         if self.day.is_spoilt() {
             self.day = self.service.days.get(self.day.id()).await.ok()?;
+            self.service.days.check_mark(&self.day, self.after).await.ok()?;
             self.fresh = self.day.subscribe();
             self.is_behind = true;
         }
-        self.is_behind |= self.store.is_shared();
         Some(())
     }
 

@@ -1,9 +1,10 @@
 //! Days that are closed to writes, opened again, and removed, each only where the writer expects it to be.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
-use super::{DayCell, Days, Writer};
+use tokio::sync::OnceCell;
+
+use super::{DayCell, Days, TRIES, Writer};
 use crate::error::Error;
 
 impl Days {
@@ -45,16 +46,28 @@ impl Days {
     /// A day that is where the writer expects it to be, when all its events so far are stored. The store has the last word on
     /// where it is, since events may come until then.
     async fn settled(&self, id: &str, writer: &Writer) -> Result<Arc<DayCell>, Error> {
-        let day = self.get(id).await?;
-        let seq = day.state().seq();
-        writer.check(seq)?;
-        day.stored_up_to(seq).await?;
-        Ok(day)
+        for _ in 0..TRIES {
+            let day = self.get(id).await?;
+            let seq = day.state().seq();
+            writer.check(seq)?;
+            match day.stored_up_to(seq).await {
+                Err(Error::Conflict) => {}
+                stored => return stored.map(|()| day),
+            }
+        }
+        Err(Error::Conflict)
     }
 
     /// Has everybody read a day again, those who read its stream or are about to write to it among them.
-    fn drop_from_memory(&self, day: &DayCell) {
-        day.has_failed.store(true, Ordering::Release);
-        self.forget(day.id());
+    pub(super) fn drop_from_memory(&self, day: &DayCell) {
+        day.fail();
+        let mut cells = self.cells();
+        // A day that has been read again since stays. One that is being read may have been read too early.
+        let is_dropped = |cell: &Arc<OnceCell<Arc<DayCell>>>| {
+            cell.get().is_none_or(|kept| std::ptr::eq(&raw const **kept, day))
+        };
+        if cells.get(day.id()).is_some_and(is_dropped) {
+            cells.remove(day.id());
+        }
     }
 }

@@ -1,10 +1,10 @@
 //! Events are stored: those of one append all or none, several appends together, and never on a day that is archived.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeMap;
 
-use sqlx::{AssertSqlSafe, Row as _, query, query_scalar};
+use sqlx::{AssertSqlSafe, query, query_scalar};
 
-use super::{Store, StoredAnswer, StoredEvent, as_i64};
+use super::{DayNotice, Store, StoredAnswer, StoredEvent, as_i64};
 use crate::error::Error;
 
 /// An event that is to be stored.
@@ -44,6 +44,7 @@ impl Store {
         answers: &[&StoredAnswer],
     ) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
+        self.move_heads(&mut transaction, events).await?;
         // A statement has at most 32,766 parameters in SQLite.
         for events in events.chunks(4_000) {
             let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain, append_id) VALUES ";
@@ -62,42 +63,14 @@ impl Store {
             }
             insert.execute(&mut *transaction).await?;
         }
-        self.check_days(&mut transaction, events).await?;
         let at_ms = events.first().map_or(0, |new| new.event.at_ms);
         insert_answers(&mut transaction, answers, at_ms).await?;
+        let latest: BTreeMap<&str, u64> =
+            events.iter().map(|new| (new.day, new.event.seq)).collect();
+        let notice = |(day, seq): (&str, u64)| DayNotice { day: day.to_owned(), seq: Some(seq) };
+        let notices: Vec<DayNotice> = latest.into_iter().map(notice).collect();
+        self.notify(&mut transaction, &notices).await?;
         Ok(transaction.commit().await?)
-    }
-
-    /// Checks that the days of events that have just been added are there and not archived, and locks them until the
-    /// transaction ends. `SQLite` has one writer at a time, so it needs no lock.
-    async fn check_days(
-        &self,
-        transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
-        events: &[NewEvent<'_>],
-    ) -> Result<(), Error> {
-        let days: BTreeSet<&str> = events.iter().map(|new| new.day).collect();
-        let places: Vec<String> = (1..=days.len()).map(|place| format!("${place}")).collect();
-        let lock = if self.is_shared { " FOR SHARE" } else { "" };
-        // One question for all of them, because each has to be handed to the thread of the database and back.
-        let places = places.join(", ");
-        let select =
-            format!("SELECT id, archived FROM days WHERE id IN ({places}) ORDER BY id{lock}");
-        let mut select = query(AssertSqlSafe(select));
-        for day in &days {
-            select = select.bind(*day);
-        }
-        let mut found = HashMap::new();
-        for row in select.fetch_all(&mut **transaction).await? {
-            found.insert(row.try_get::<String, _>("id")?, row.try_get::<i64, _>("archived")?);
-        }
-        for day in days {
-            match found.get(day) {
-                Some(0) => {}
-                Some(_) => return Err(Error::Archived { id: day.to_owned() }),
-                None => return Err(Error::not_found("day", day)),
-            }
-        }
-        Ok(())
     }
 
     /// Whether the event with a number was stored by this append. An equal event may be there that another service stored,
@@ -136,7 +109,7 @@ pub(super) async fn insert_answers(
 }
 
 /// The places of the values of some rows, `($1, $2), ($3, $4)`, as both databases read them.
-fn rows(rows: usize, columns: usize) -> String {
+pub(super) fn rows(rows: usize, columns: usize) -> String {
     let row = |row: usize| {
         let places: Vec<String> =
             (1..=columns).map(|column| format!("${}", row * columns + column)).collect();

@@ -7,18 +7,21 @@ use sqlx::any::{AnyPoolOptions, install_default_drivers};
 use sqlx::{AnyConnection, Connection as _, Executor as _, query, query_scalar};
 use tokio::time::sleep;
 
-use super::{DATABASE, Location, PATIENCE, Store, VERSION};
+use super::{DATABASE, Location, PATIENCE, SharedUrl, Store, VERSION};
 use crate::error::Error;
 
 /// Between two tries to reach a server.
 const PAUSE: Duration = Duration::from_millis(100);
 /// The statements that make the tables.
-const TABLES: [&str; 9] = [
+const TABLES: [&str; 10] = [
     "CREATE TABLE IF NOT EXISTS meta (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS days (
         id TEXT PRIMARY KEY, name TEXT NOT NULL, created_ms BIGINT NOT NULL, archived BIGINT NOT NULL,
-        policy TEXT NOT NULL, scenario TEXT NOT NULL, date TEXT NOT NULL DEFAULT '',
-        time_zone TEXT NOT NULL DEFAULT '', sum BIGINT NOT NULL DEFAULT -1)",
+        policy TEXT NOT NULL, date TEXT NOT NULL DEFAULT '',
+        time_zone TEXT NOT NULL DEFAULT '', sum BIGINT NOT NULL DEFAULT -1,
+        seq BIGINT NOT NULL DEFAULT 0, chain BIGINT NOT NULL DEFAULT 0)",
+    // Beside the rows of days, which change with every event.
+    "CREATE TABLE IF NOT EXISTS scenarios (day TEXT PRIMARY KEY, scenario TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS events (
         day TEXT NOT NULL, seq BIGINT NOT NULL, at_ms BIGINT NOT NULL, actor TEXT NOT NULL,
         body TEXT NOT NULL, notices TEXT NOT NULL, chain BIGINT NOT NULL,
@@ -41,15 +44,34 @@ const TABLES: [&str; 9] = [
         description TEXT NOT NULL, PRIMARY KEY (kind, name, program))",
 ];
 
+/// Of two tokens that are made with one name at the same moment, one is refused.
+const ONE_NAME: &str =
+    "CREATE UNIQUE INDEX IF NOT EXISTS tokens_in_force ON tokens (name) WHERE revoked_ms = 0";
+
 /// The lock of PostgreSQL under which tables are made: the letters of `fleet`.
 const LOCK: i64 = 0x66_6c65_6574;
 
 /// What stores of earlier versions lack, each with the version that lacked it last.
-const ADDED_AFTER: [(&str, &str); 4] = [
+const ADDED_AFTER: [(&str, &str); 10] = [
     ("1", "ALTER TABLE days ADD COLUMN date TEXT NOT NULL DEFAULT ''"),
     ("1", "ALTER TABLE days ADD COLUMN time_zone TEXT NOT NULL DEFAULT ''"),
     ("2", "ALTER TABLE days ADD COLUMN sum BIGINT NOT NULL DEFAULT -1"),
     ("3", "ALTER TABLE events ADD COLUMN append_id BIGINT NOT NULL DEFAULT 0"),
+    ("4", "ALTER TABLE days ADD COLUMN seq BIGINT NOT NULL DEFAULT 0"),
+    ("4", "ALTER TABLE days ADD COLUMN chain BIGINT NOT NULL DEFAULT 0"),
+    (
+        "4",
+        "UPDATE days SET seq = last.seq, chain = last.chain FROM events AS last WHERE last.day = days.id
+         AND last.seq = (SELECT MAX(seq) FROM events WHERE day = days.id)",
+    ),
+    ("4", "INSERT INTO scenarios (day, scenario) SELECT id, scenario FROM days"),
+    ("4", "ALTER TABLE days DROP COLUMN scenario"),
+    (
+        "4",
+        "UPDATE tokens SET name = name || '-' || id WHERE revoked_ms = 0 AND EXISTS (
+         SELECT 1 FROM tokens AS other WHERE other.name = tokens.name AND other.revoked_ms = 0
+         AND other.id < tokens.id)",
+    ),
 ];
 
 /// The settings of each connection to `SQLite`: a log that readers do not wait for, written to the disk before a commit
@@ -119,15 +141,20 @@ impl Store {
             }
             Location::Postgres(url) => url.clone(),
         };
-        let is_shared = matches!(location, Location::Postgres(_));
+        let shared = match location {
+            Location::Folder(_) => None,
+            Location::Postgres(url) => Some(SharedUrl(url.as_str().into())),
+        };
+        let is_shared = shared.is_some();
         let mut first = connect(&url, is_shared).await.map_err(Error::of_opening)?;
         if !is_shared {
             first.execute(SQLITE).await.map_err(Error::of_opening)?;
         }
         make_tables(&mut first, is_shared).await.map_err(Error::of_opening)?;
         first.close().await?;
-        let store = Self { pool: options.connect(&url).await?, is_shared };
+        let store = Self { pool: options.connect(&url).await?, shared };
         store.check_version().await?;
+        query(ONE_NAME).execute(&store.pool).await?;
         Ok(store)
     }
 
@@ -241,6 +268,11 @@ mod tests {
             "ALTER TABLE days DROP COLUMN time_zone",
             "ALTER TABLE days DROP COLUMN sum",
             "ALTER TABLE events DROP COLUMN append_id",
+            "ALTER TABLE days DROP COLUMN seq",
+            "ALTER TABLE days DROP COLUMN chain",
+            "ALTER TABLE days ADD COLUMN scenario TEXT NOT NULL DEFAULT '{}'",
+            "DROP TABLE scenarios",
+            "DROP INDEX tokens_in_force",
             "DROP TABLE networks",
             "DROP TABLE policies",
             "DROP TABLE descriptions",
@@ -252,6 +284,8 @@ mod tests {
         for _ in 0..2 {
             let store = Store::open(&location).await.expect("it is brought up to date");
             assert_eq!(store.days("", 10).await.expect("days"), std::slice::from_ref(&day));
+            let found = store.day("1").await.expect("it is there");
+            assert_eq!(found, Some((day.clone(), "{}".to_owned())));
             let networks = store.uploaded::<()>(Kind::Network).await;
             assert_eq!(networks.expect("a table"), []);
         }

@@ -8,6 +8,7 @@ mod collected_spans;
 mod console;
 mod days_of_ones_own;
 mod described_requests;
+mod logs;
 mod malformed;
 mod openapi;
 mod operated_days;

@@ -1,6 +1,7 @@
 //! Two services that share a `PostgreSQL` database.
 
 use std::collections::BTreeSet;
+use std::io::{BufRead as _, BufReader};
 use std::sync::Barrier;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -125,6 +126,90 @@ fn equal_events_that_reach_two_services_at_once_are_all_stored() {
         }
         assert_eq!(service.get(&path).json["seq"], stored, "nothing is stored again");
     }
+}
+
+#[test]
+fn a_new_day_that_is_asked_for_at_two_services_with_one_key_is_made_once() {
+    let database = Postgres::start();
+    let services = [(); 2].map(|()| Running::start_at(location(&database)));
+    let (start, body) =
+        (Barrier::new(2), json!({"network": "paper", "policy": "greedy"}).to_string());
+    for number in 0..10 {
+        let key = format!("key-{number}");
+        let make = |service: &Running| {
+            service.send("POST", "/v1/days", &[("idempotency-key", &key)], body.as_bytes())
+        };
+        let together = |service: &Running| {
+            start.wait();
+            make(service)
+        };
+        let answers = thread::scope(|scope| {
+            let others = scope.spawn(|| together(&services[1]));
+            [together(&services[0]), others.join().expect("it is answered")]
+        });
+        assert!(answers.iter().all(|answer| matches!(answer.status, 201 | 409)), "{answers:?}");
+        // Sent again, the request has the answer of the day that was made.
+        let [one, other] = services.each_ref().map(|service| make(service).json["id"].clone());
+        assert!(one.is_string() && one == other, "{one} {other}");
+        let days = services[0].get("/v1/days").json["days"].as_array().expect("a list").len();
+        assert_eq!(days, number + 1);
+    }
+}
+
+#[test]
+fn of_two_writers_who_expect_the_same_event_one_is_told_that_the_day_has_moved() {
+    let database = Postgres::start();
+    let services = [(); 2].map(|()| Running::start_at(location(&database)));
+    let path = services[0].new_day("greedy");
+    let start = Barrier::new(2);
+    for seq in 0..40_u64 {
+        let write = |service: &Running| {
+            let expected = seq.to_string();
+            start.wait();
+            service.send("POST", &format!("{path}/events"), &[("if-match", &expected)], BOOKED)
+        };
+        let answers = thread::scope(|scope| {
+            let others = scope.spawn(|| write(&services[1]));
+            [write(&services[0]), others.join().expect("it is answered")]
+        });
+        let mut statuses = answers.each_ref().map(|answer| answer.status);
+        statuses.sort_unstable();
+        assert_eq!(statuses, [201, 412], "{answers:?}");
+        let refused = answers.iter().find(|answer| answer.status == 412).expect("one of them");
+        assert_eq!(refused.json["code"], "V605");
+    }
+}
+
+#[test]
+fn what_one_service_does_to_a_day_the_other_one_knows() {
+    let database = Postgres::start();
+    let [one, two] = [(); 2].map(|()| Running::start_at(location(&database)));
+    let path = one.new_day("greedy");
+    // The other service has the day in memory, and readers of its stream.
+    let answer = ureq::get(format!("{}{path}/stream", two.url)).call().expect("a stream");
+    let mut lines = BufReader::new(answer.into_body().into_reader()).lines();
+    let mut next = || loop {
+        let line = lines.next()?.ok()?;
+        if line.starts_with("id: ") {
+            return Some(line);
+        }
+    };
+    let begun = Instant::now();
+    assert_eq!(one.send("POST", &format!("{path}/events"), &[], BOOKED).status, 201);
+    assert_eq!(next().as_deref(), Some("id: 1"));
+    assert!(begun.elapsed() < Duration::from_secs(1), "it was told, and did not have to look");
+    assert_eq!(one.send("POST", &format!("{path}/archive"), &[], b"").status, 204);
+    assert_eq!(two.get(&path).json["archived"], true);
+    let refused = two.send("POST", &format!("{path}/events"), &[], BOOKED);
+    assert_eq!((refused.status, &refused.json["code"]), (409, &json!("V608")));
+    assert_eq!(one.send("POST", &format!("{path}/unarchive"), &[], b"").status, 204);
+    assert_eq!(two.send("POST", &format!("{path}/events"), &[], BOOKED).status, 201);
+    assert_eq!(next().as_deref(), Some("id: 2"));
+    assert_eq!(one.send("DELETE", &path, &[], b"").status, 204);
+    for what in ["", "/state", "/events", "/outlook", "/trace.csv"] {
+        assert_eq!(two.get(&format!("{path}{what}")).status, 404, "{what}");
+    }
+    assert_eq!(next(), None, "its stream ends");
 }
 
 #[test]

@@ -110,6 +110,66 @@ fn connections_that_say_nothing_are_closed() {
     assert_eq!(service.get("/healthz").status, 200);
 }
 
+/// The first bytes of the answer to bytes.
+fn answered(service: &Running, bytes: &[u8]) -> String {
+    let mut socket = connect(service);
+    socket.write_all(bytes).expect("it is sent");
+    let mut said = [0; 12];
+    socket.read_exact(&mut said).expect("an answer");
+    String::from_utf8_lossy(&said).into_owned()
+}
+
+#[test]
+fn heads_are_short_and_mean_one_thing() {
+    let (_folder, service) = limited(Limits::default());
+    let head = |rest: &str| format!("GET /v1 HTTP/1.1\r\nhost: localhost\r\n{rest}\r\n");
+    assert_eq!(answered(&service, head("").as_bytes()), "HTTP/1.1 200");
+    let long = head(&format!("x: {}\r\n", "a".repeat(60 << 10)));
+    assert_eq!(answered(&service, long.as_bytes()), "HTTP/1.1 200");
+    // Such a head has no end yet.
+    let too_long = format!("GET /v1 HTTP/1.1\r\nhost: localhost\r\nx: {}", "a".repeat(66 << 10));
+    assert_eq!(answered(&service, too_long.as_bytes()), "HTTP/1.1 431");
+    let close = "connection: close\r\n";
+    for wrong in [
+        head("").replace("\r\n", "\n"),
+        head("x: 1\ny: 2\r\n"),
+        head(&format!("host: elsewhere\r\n{close}")),
+    ] {
+        assert_eq!(answered(&service, wrong.as_bytes()), "HTTP/1.1 400", "{wrong:?}");
+    }
+    // A head that follows a body is read just as strictly.
+    let body = r#"{"network": "paper", "policy": "greedy"}"#;
+    let post = format!(
+        "POST /v1/days HTTP/1.1\r\nhost: localhost\r\ncontent-length: {}\r\n\r\n{body}",
+        body.len()
+    );
+    let mut socket = connect(&service);
+    socket.write_all((post + &head("").replace("\r\n", "\n")).as_bytes()).expect("it is sent");
+    let mut said = String::new();
+    socket.read_to_string(&mut said).expect("answers");
+    assert!(said.starts_with("HTTP/1.1 201") && said.contains("HTTP/1.1 400"), "{said}");
+}
+
+#[test]
+fn slow_uploads_do_not_keep_others_from_theirs() {
+    let (_folder, service) = limited(Limits::default());
+    let head = "POST /v1/networks/validate HTTP/1.1\r\nhost: localhost\r\ncontent-length: 50000000\r\n\r\n{";
+    let slow: Vec<TcpStream> = (0..8)
+        .map(|_| {
+            let mut socket = connect(&service);
+            socket.write_all(head.as_bytes()).expect("it is sent");
+            socket
+        })
+        .collect();
+    let network = std::fs::read_to_string("../../networks/paper.toml").expect("it is shipped");
+    let large = format!("{network}\n# {}\n", "a".repeat(5 << 20));
+    let begun = std::time::Instant::now();
+    let answer = service.post("/v1/networks/validate", &json!({"toml": large}));
+    assert_eq!(answer.status, 200, "{answer:?}");
+    assert!(begun.elapsed() < Limits::default().request / 2, "it did not wait for the others");
+    drop(slow);
+}
+
 #[test]
 fn a_body_that_does_not_come_ends_the_request() {
     let (_folder, service) =

@@ -62,8 +62,11 @@ pub struct ResultPolicy {
     pub sees: Sees,
     /// SHA-256 of its weight file, by which a reader finds the weights that played; `None` for a policy that has no
     /// weights, or weights of another program. This cannot be verified from choices either.
+    // A function of its own makes a member that is missing an error, as the schema has it.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub weights_sha256: Option<String>,
     /// The time that one decision took on the machine of the evaluation; `None` for a reference that plans whole days.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub decision_ns: Option<LatencySummary>,
 }
 
@@ -174,7 +177,7 @@ impl ResultFile {
     /// Reads the bytes of a file; `origin` stands for the file in messages.
     ///
     /// # Errors
-    /// Returns [`Error::NotAResult`] if they are not of this format.
+    /// Returns [`Error::NotAResult`] if they are not of this format, or have values that the format's schema refuses.
     pub fn from_json(bytes: &[u8], origin: &str) -> Result<Self, Error> {
         let not = |rule: String| Error::NotAResult { origin: origin.to_owned(), rule };
         let Format { format } =
@@ -183,7 +186,48 @@ impl ResultFile {
             let found: String = format.chars().take(64).collect();
             return Err(not(format!("`format` must be {RESULT_FORMAT:?}, found {found:?}")));
         }
-        serde_json::from_slice(bytes).map_err(|error| not(error.to_string()))
+        let result: Self = serde_json::from_slice(bytes).map_err(|error| not(error.to_string()))?;
+        result.check_form().map_err(not)?;
+        Ok(result)
+    }
+
+    /// Checks what the schema says of texts, and that no number is one that cannot be.
+    fn check_form(&self) -> Result<(), String> {
+        let is_hash = |text: &str, digits| {
+            text.len() == digits
+                && text.bytes().all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f'))
+        };
+        let ResultPolicy { weights_sha256, decision_ns, .. } = &self.policy;
+        if let Some(text) = weights_sha256.as_ref().filter(|text| !is_hash(text, 64)) {
+            let text: String = text.chars().take(64).collect();
+            return Err(format!("`weights_sha256` must be 64 digits 0-9 and a-f, found {text:?}"));
+        }
+        if let Some(LatencySummary { median_ns, p99_ns }) =
+            decision_ns.filter(|time| time.median_ns > time.p99_ns)
+        {
+            return Err(format!(
+                "`decision_ns` cannot be: a median of {median_ns} is longer than the 99th percentile, {p99_ns}"
+            ));
+        }
+        for ResultDay { day, hash, choices, .. } in &self.days {
+            if !is_hash(hash, 32) {
+                return Err(format!("the `hash` of {day:?} must be 32 digits 0-9 and a-f"));
+            }
+            if !choices.bytes().all(|byte| byte.is_ascii_digit() || byte == b' ') {
+                return Err(format!(
+                    "the `choices` of {day:?} must be whole numbers with a blank between them"
+                ));
+            }
+        }
+        for (member, estimate) in
+            [("bound_share", &self.bound_share), ("profit_usd", &self.profit_usd)]
+        {
+            let widths = [estimate.standard_deviation, estimate.half_width_95];
+            if widths.into_iter().flatten().any(|width| width < 0.0) {
+                return Err(format!("`{member}` has a negative standard deviation or half width"));
+            }
+        }
+        Ok(())
     }
 }
 

@@ -5,11 +5,12 @@ use vertifleet_picture::numbers::{dollars, grouped, minutes};
 
 use super::{Explanation, PAGE, table};
 use crate::account::page::{self, Beside, section};
+use crate::record::bound_share;
 
 /// The page as HTML.
 pub(super) fn text(explanation: &Explanation) -> String {
     let bound_usd = explanation.upper_bound_usd;
-    let share = 100.0 * explanation.account.totals.profit_usd / bound_usd.max(f64::MIN_POSITIVE);
+    let share = 100.0 * bound_share(&explanation.account.totals, bound_usd);
     let slices = minutes(explanation.bound_step_s);
     let beside = Beside {
         opening: PAGE.opening,

@@ -4,6 +4,7 @@ use vertifleet_picture::numbers::{grouped, signed};
 
 use super::Explanation;
 use crate::account::table::{ledger, pairs, periods, types, vertiports, worst_cells};
+use crate::record::bound_share;
 use crate::table::append_aligned;
 
 /// Most pairs, and most pairs with a period, that are listed; JSON has all of them.
@@ -18,7 +19,7 @@ pub(super) fn text(explanation: &Explanation) -> String {
         account.day,
         account.policy,
         grouped(totals.profit_usd, 2),
-        100.0 * totals.profit_usd / explanation.upper_bound_usd.max(f64::MIN_POSITIVE),
+        100.0 * bound_share(totals, explanation.upper_bound_usd),
         grouped(explanation.upper_bound_usd, 2),
         explanation.bound_step_s / 60,
         grouped(totals.spilled_passengers as f64, 0),

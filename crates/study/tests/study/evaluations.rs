@@ -156,3 +156,40 @@ proptest::proptest! {
         }
     }
 }
+
+#[test]
+fn values_that_the_schema_refuses_are_refused() {
+    type Change = fn(&mut serde_json::Value);
+    let changes: [(&str, Change); 8] = [
+        ("a member less", |result| {
+            result["policy"].as_object_mut().expect("an object").remove("weights_sha256");
+        }),
+        ("an interval less", |result| {
+            result["profit_usd"].as_object_mut().expect("an object").remove("half_width_95");
+        }),
+        ("a member more", |result| {
+            result["policy"]["decision_ns"] =
+                serde_json::json!({"median_ns": 1, "p99_ns": 2, "mean_ns": 1});
+        }),
+        ("no hash", |result| result["policy"]["weights_sha256"] = "abc".into()),
+        ("a hash in capitals", |result| {
+            let hash = result["days"][0]["hash"].as_str().expect("a text").to_uppercase();
+            result["days"][0]["hash"] = ("A".to_owned() + &hash[1..]).into();
+        }),
+        ("a median above the 99th percentile", |result| {
+            result["policy"]["decision_ns"] = serde_json::json!({"median_ns": 3, "p99_ns": 2});
+        }),
+        ("a negative width", |result| result["bound_share"]["half_width_95"] = (-0.1).into()),
+        ("tabs between choices", |result| {
+            let choices = result["days"][0]["choices"].as_str().expect("a text").replace(' ', "\t");
+            result["days"][0]["choices"] = choices.into();
+        }),
+    ];
+    let honest = serde_json::to_value(&*HONEST).expect("plain data");
+    for (what, change) in changes {
+        let mut result = honest.clone();
+        change(&mut result);
+        let error = ResultFile::from_json(result.to_string().as_bytes(), "here").expect_err(what);
+        assert_eq!(error.code().to_string(), "V413", "{what}");
+    }
+}

@@ -20,8 +20,8 @@ Answer = TypeVar("Answer", bound=Mapping[str, object])
 CONNECT_S = 5.0
 """A connection must be made within this time."""
 
-SILENCE_S = 45.0
-"""The service gives a sign of life every 15 s on a stream: after three that are missing, it is lost."""
+SILENCE_S = 15.0
+"""The service sends a sign of life every 2 s on a stream. A connection that is silent for this long is lost."""
 
 
 class Connection:

@@ -167,24 +167,24 @@ class Day:
             times: how times are written in the events.
 
         Raises:
-            ServiceError: V602 if the day has no such event, perhaps because it was restored from a copy: then
-                read its state again. That fails too if the day has been deleted.
+            ServiceError: V602 if the day has no such event, and V631 if it was put back from a copy while the
+                stream was read: then read its state again. That fails too if the day has been deleted.
             NoAnswerError: if the service does not come back.
         """
         pauses = self._connection.pauses()
-        last: int | None = None
+        last: str | None = None
         while True:
             asked = reading("days", self.id, "stream", after=after, times=times)
             if last is not None:
-                asked = replace(asked, headers={"Last-Event-ID": str(last)})
+                asked = replace(asked, headers={"Last-Event-ID": last})
             try:
                 with closing(self._connection.messages(asked)) as messages:
                     for message in messages:
                         pauses = self._connection.pauses()
                         # Other kinds are signs of life, and `behind`: what was missed follows by itself.
                         if message.kind == "message":
-                            last = int(message.id)
                             event: TakenEvent = json.loads(message.text)
+                            last = event["mark"]
                             yield event
             except ServiceError as error:
                 pause_s = next(pauses, None)

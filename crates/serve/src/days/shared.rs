@@ -1,0 +1,132 @@
+//! Days that other services write to as well, in one database: what they have added is taken in when a day is used, and while its
+//! stream is read.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use tokio::sync::OnceCell;
+use tokio::time::sleep;
+
+use super::{DayCell, Days};
+use crate::error::Error;
+use crate::store::{DayNotice, PAGE};
+
+/// How often the days whose streams are read are looked at, in case a notice was missed.
+const LOOK: Duration = Duration::from_secs(2);
+
+impl Days {
+    /// Takes in what other services have added to a day. Returns false if memory does not go on as the store does: an event of
+    /// ours waits to be stored under a number that has been taken, or the day was archived, opened again, deleted or put back
+    /// from a copy.
+    pub(super) async fn catch_up(&self, day: &DayCell) -> Result<bool, Error> {
+        let stored = *day.durable.borrow();
+        let Some(head) = self.store.head(day.id()).await? else { return Ok(false) };
+        if head.archived != day.stored.archived || head.seq < stored {
+            return Ok(false);
+        }
+        loop {
+            let (known, chain) = {
+                let state = day.state();
+                (state.seq(), state.chain())
+            };
+            if head.seq <= known {
+                // Events of ours may be on their way to the store.
+                return Ok(head.seq < known || head.chain == chain);
+            }
+            let page = self.store.events(day.id(), known, PAGE).await?;
+            let mut state = day.state();
+            for event in page.events {
+                if event.seq == state.seq() + 1 {
+                    if state.replay(&event).is_err() {
+                        return Ok(false);
+                    }
+                    day.publish(vec![event]);
+                }
+            }
+            if page.is_last && state.seq() < head.seq {
+                return Ok(false);
+            }
+        }
+    }
+
+    /// Follows what other services do to the days whose streams are read, until it is dropped. One connection hears their
+    /// notices for all readers.
+    pub(crate) async fn follow_others(&self) {
+        if !self.store.is_shared() {
+            return;
+        }
+        loop {
+            if let Err(error) = self.listen().await {
+                tracing::warn!(%error, "cannot listen for changes of other services; trying again soon");
+            }
+            sleep(LOOK).await;
+        }
+    }
+
+    async fn listen(&self) -> Result<(), Error> {
+        let Some(mut listener) = self.store.listener().await? else { return Ok(()) };
+        loop {
+            // At first for what happened before it listened, then for notices that were missed.
+            self.check_followed_days().await?;
+            let checked = Instant::now();
+            while let Some(left) = LOOK.checked_sub(checked.elapsed()) {
+                match listener.next(left).await? {
+                    Some(notice) => self.apply_notice(&notice).await?,
+                    None => break,
+                }
+            }
+        }
+    }
+
+    async fn apply_notice(&self, DayNotice { day, seq }: &DayNotice) -> Result<(), Error> {
+        // Other days are compared with the store when they are used.
+        let Some(day) = self.loaded(day).filter(|day| day.is_read()) else { return Ok(()) };
+        let is_known = seq.is_some_and(|seq| seq <= day.state().seq());
+        if is_known { Ok(()) } else { self.refresh(&day).await }
+    }
+
+    /// Compares the days whose streams are read with the store, all in one question.
+    async fn check_followed_days(&self) -> Result<(), Error> {
+        let days: Vec<Arc<DayCell>> = {
+            let cells = self.cells();
+            let loaded = cells.values().filter_map(|cell| cell.get());
+            loaded.filter(|day| day.is_read()).cloned().collect()
+        };
+        let ids: Vec<String> = days.iter().map(|day| day.id().to_owned()).collect();
+        let heads = self.store.heads(&ids).await?;
+        for day in days {
+            let is_known = heads.get(day.id()).is_some_and(|head| {
+                let state = day.state();
+                head.archived == day.stored.archived
+                    && (head.seq, head.chain) == (state.seq(), state.chain())
+            });
+            if !is_known {
+                self.refresh(&day).await?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes in what other services have done to a day. A damaged one is dropped, and does not keep others from being followed.
+    async fn refresh(&self, day: &DayCell) -> Result<(), Error> {
+        match self.catch_up(day).await {
+            Ok(true) => {}
+            Ok(false) | Err(Error::BadData { .. }) => self.drop_from_memory(day),
+            Err(error) => return Err(error),
+        }
+        Ok(())
+    }
+
+    /// A day that is in memory.
+    fn loaded(&self, id: &str) -> Option<Arc<DayCell>> {
+        self.cells().get(id).and_then(|cell| OnceCell::get(cell)).cloned()
+    }
+}
+
+impl DayCell {
+    /// Whether somebody reads its stream.
+    fn is_read(&self) -> bool {
+        self.readers.receiver_count() > 0 && !self.has_failed.load(Ordering::Acquire)
+    }
+}

@@ -1,0 +1,123 @@
+//! Recomputes prices in the background while the service is busy: decisions keep the old ones until then. While it is not busy, a
+//! decision recomputes them itself, so that a day that is dispatched alone ends as in the simulator, to the last digit.
+
+use std::sync::mpsc;
+use std::thread;
+
+use vertifleet_policy::{Policy, PriceMemory};
+use vertifleet_sim::{Decision, Simulation};
+
+/// A thread that recomputes prices, one day after the other.
+#[derive(Debug)]
+pub(crate) struct Renewals(mpsc::Sender<Renewal>);
+
+/// The prices of a day that are to be recomputed.
+struct Renewal {
+    memory: PriceMemory,
+    day: Simulation,
+    decision: Decision,
+    found: mpsc::Sender<PriceMemory>,
+}
+
+impl Renewals {
+    /// Starts the thread. It ends when this is dropped.
+    pub(crate) fn start() -> Self {
+        let (queue, asked) = mpsc::channel::<Renewal>();
+        thread::spawn(move || {
+            for Renewal { mut memory, day, decision, found } in asked {
+                memory.at(day.view(), &decision);
+                // The policy may have found them itself meanwhile.
+                let _ = found.send(memory);
+            }
+        });
+        Self(queue)
+    }
+}
+
+/// The prices of a policy that are being recomputed, if any are.
+#[derive(Debug, Default)]
+pub(crate) struct Renewing(Option<mpsc::Receiver<PriceMemory>>);
+
+impl Renewing {
+    /// Call this before each decision: it takes over prices that have been recomputed, and if the service is busy, has old ones
+    /// recomputed in the background.
+    pub(crate) fn before(
+        &mut self,
+        policy: &mut dyn Policy,
+        day: &Simulation,
+        decision: &Decision,
+        busy: Option<&Renewals>,
+    ) {
+        let Some(memory) = policy.price_memory() else { return };
+        if let Some(Ok(found)) = self.0.as_ref().map(mpsc::Receiver::try_recv) {
+            *memory = found;
+            self.0 = None;
+        }
+        memory.keep_old(false);
+        let Some(renewals) = busy.filter(|_| memory.is_merely_old(day.view(), decision)) else {
+            // The decision finds prices itself if they are due, and what was found before it is of no use then.
+            self.0 = None;
+            return;
+        };
+        if self.0.is_none() {
+            let (found, pending) = mpsc::channel();
+            let (memory, day, decision) = (memory.clone(), day.clone(), *decision);
+            // Without the thread, which only a panic ends, the decision finds them.
+            if renewals.0.send(Renewal { memory, day, decision, found }).is_ok() {
+                self.0 = Some(pending);
+            }
+        }
+        memory.keep_old(self.0.is_some());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use vertifleet_core::{DaySeed, Network};
+    use vertifleet_policy::{BidPricePolicy, Policy as _, play};
+    use vertifleet_sim::Simulation;
+
+    use super::{Renewals, Renewing};
+
+    fn day() -> Simulation {
+        let network = Network::shipped("paper").expect("it is shipped");
+        Simulation::new(Arc::new(network.draw(DaySeed::validation(2).expect("a seed"))))
+    }
+
+    /// Plays a day and returns its profit. `is_busy` says for each decision whether the service is busy; prices that are being
+    /// recomputed arrive before the tenth decision after that.
+    fn profit_usd(is_busy: impl Fn(u32) -> bool) -> f64 {
+        let (renewals, mut renewing) = (Renewals::start(), Renewing::default());
+        let (mut policy, mut day) = (BidPricePolicy::default(), day());
+        let mut kept = 0;
+        while let Some(decision) = day.next_decision() {
+            let busy = is_busy(decision.index).then_some(&renewals);
+            renewing.before(&mut policy, &day, &decision, busy);
+            let choice = policy.choose(&decision, &day.view()).expect("it has an answer");
+            day.apply(choice).expect("it is feasible");
+            kept += u32::from(renewing.0.is_some());
+            if kept == 10
+                && let Some(pending) = renewing.0.take()
+            {
+                *policy.price_memory().expect("it has prices") =
+                    pending.recv().expect("they are found");
+                kept = 0;
+            }
+        }
+        day.totals().profit_usd
+    }
+
+    #[test]
+    fn a_day_ends_as_in_the_simulator_while_the_service_is_not_busy() {
+        let mut simulated = day();
+        play(&mut simulated, &mut BidPricePolicy::default(), |_| ()).expect("it is played");
+        let simulated_usd = simulated.totals().profit_usd;
+        assert_eq!(profit_usd(|_| false).to_bits(), simulated_usd.to_bits());
+        // While it is busy, the day is played all the same, nearly as well.
+        for busy_usd in [profit_usd(|_| true), profit_usd(|decision| decision.is_multiple_of(3))] {
+            assert!(busy_usd > 0.98 * simulated_usd, "{busy_usd} of {simulated_usd}");
+        }
+    }
+}

@@ -1,0 +1,122 @@
+import { describe, expect, it } from 'vitest'
+import type { DayState, TakenEvent } from '../api/types'
+import { alertsOf, type Alert } from './alerts'
+import type { DayRecord, LegRecord } from './record'
+import type { Scenario } from './scenario'
+
+const SEVEN = 7 * 3600
+
+function leg(more: Partial<LegRecord>): LegRecord {
+  return {
+    aircraft: 0,
+    from: 0,
+    to: 1,
+    decided: SEVEN - 3600,
+    departs: SEVEN - 3600,
+    arrives: SEVEN,
+    ready: SEVEN + 1800,
+    passengers: 4,
+    profit_usd: 90,
+    is_expected: false,
+    ...more,
+  }
+}
+
+interface Given {
+  legs?: LegRecord[]
+  closures?: DayRecord['closures']
+  outages?: DayRecord['outages']
+  taken?: number[]
+  notices?: DayState['notices']
+  events?: TakenEvent[]
+  distance_mi?: number
+}
+
+function alerts(given: Given, time = SEVEN): Alert[] {
+  const ids = ['V1', 'V2', 'V3']
+  const aircraft = { id: 'A01', type: 'midnight', seats: 4, battery_kwh: 140, energy_kwh_per_mi: 2 }
+  const record = {
+    aircraft: [aircraft, { ...aircraft, id: 'A02' }],
+    vertiports: ids.map((id) => ({ id, stands: 6 })),
+    legs: given.legs ?? [],
+    closures: given.closures ?? [],
+    outages: given.outages ?? [],
+  } as unknown as DayRecord
+  const state = {
+    vertiports: ids.map((id, at) => ({ id, stands: 6, taken: given.taken?.[at] ?? 0, closed: [] })),
+    notices: given.notices ?? [],
+  } as unknown as DayState
+  const distance_mi = ids.map(() => ids.map(() => given.distance_mi ?? 20))
+  const scenario = { distance_mi } as unknown as Scenario
+  return alertsOf({ scenario, state, record, events: given.events ?? [], time })
+}
+
+describe('alerts', () => {
+  it('are none on a day on which all goes as it should', () => {
+    const flight = leg({ awaited: { report: 'landing', due: SEVEN + 600 } })
+    expect(alerts({ legs: [flight], taken: [5, 2, 0] })).toEqual([])
+  })
+
+  it('name a report that is overdue, and are critical after a quarter of an hour', () => {
+    const late = (minutes: number) =>
+      leg({ awaited: { report: 'landing', due: SEVEN }, arrives: SEVEN + 60 * minutes })
+    expect(alerts({ legs: [late(4)] })).toEqual([])
+    expect(alerts({ legs: [late(6)] })[0]).toMatchObject({ severity: 'warning', since: SEVEN })
+    expect(alerts({ legs: [late(15)] })[0]).toMatchObject({
+      severity: 'critical',
+      matter: { kind: 'overdue', aircraft: 'A01', to: 'V2', report: 'landing' },
+      target: { kind: 'aircraft', aircraft: 0 },
+    })
+  })
+
+  it('tell a full vertiport from one with more aircraft than stands', () => {
+    const found = alerts({ taken: [6, 7, 5] })
+    expect(found.map(({ key, severity }) => [key, severity])).toEqual([
+      ['over_full V2', 'critical'],
+      ['full V1', 'notice'],
+    ])
+  })
+
+  it('name a closure once, and how many are on the way there', () => {
+    const closures = [{ vertiport: 1, since: SEVEN - 600, until: SEVEN + 600 }]
+    const [alert, ...others] = alerts({ closures })
+    expect(others).toEqual([])
+    expect(alert).toMatchObject({ severity: 'warning', matter: { what: 'V2', underWay: 0 } })
+    const flight = leg({ awaited: { report: 'landing', due: SEVEN + 60 } })
+    const [struck] = alerts({ closures, legs: [flight] })
+    expect(struck).toMatchObject({ severity: 'critical', matter: { underWay: 1 } })
+    expect(alerts({ closures }, SEVEN + 600)).toEqual([])
+  })
+
+  it('name outages without an end, and flights that land with little charge', () => {
+    const outages = [{ aircraft: 1, since: SEVEN - 60 }]
+    expect(alerts({ outages })[0]).toMatchObject({ matter: { aircraft: 'A02', until: undefined } })
+    const flight = leg({ awaited: { report: 'landing', due: SEVEN + 600 } })
+    const low = alerts({ legs: [flight], distance_mi: 66.5 })
+    expect(low.map(({ matter }) => matter)).toEqual([
+      { kind: 'low_charge', aircraft: 'A01', to: 'V2', percent: 5 },
+    ])
+  })
+
+  it('repeat what came with an event, and of now only what no other alert is about', () => {
+    const notices = [
+      { seq: 4, text: 'aircraft "A02" landed at "V1" instead of "V3"' },
+      { seq: null, text: 'vertiport "V1" has 7 aircraft on its 6 stands or on their way there' },
+      { seq: null, text: 'vertiport "V2" has 7 aircraft on its 6 stands or on their way there' },
+    ]
+    const event = { type: 'landed', aircraft: 'A02', time: '06:58:00' }
+    const events = [{ seq: 4, event }] as unknown as TakenEvent[]
+    const found = alerts({ notices, events, taken: [0, 7, 0] })
+    expect(found.map(({ matter }) => ('words' in matter ? matter.words : matter.kind))).toEqual([
+      'over_full',
+      notices[0]?.text,
+      notices[1]?.text,
+    ])
+    expect(found[1]).toMatchObject({ since: SEVEN - 120, target: { aircraft: 1 } })
+  })
+})
+
+it('alerts of the same thing are one', () => {
+  const closure = { from: 0, to: 1, since: SEVEN - 60, until: SEVEN + 60 }
+  expect(alerts({ closures: [closure, closure] })).toHaveLength(1)
+})

@@ -1,0 +1,75 @@
+import { expect, it } from 'vitest'
+import { AHEAD_S, before, hitOf } from './hit'
+import type { DayRecord, LegRecord } from './record'
+
+const NOW = 7 * 3600
+
+function leg(aircraft: number, to: number, minutes: number, more: Partial<LegRecord> = {}): LegRecord {
+  const decided = NOW + 60 * minutes
+  return {
+    aircraft,
+    from: 0,
+    to,
+    decided,
+    departs: decided,
+    arrives: decided + 1800,
+    ready: decided + 3600,
+    passengers: 4,
+    profit_usd: 90,
+    is_expected: true,
+    ...more,
+  }
+}
+
+function record(...legs: LegRecord[]): DayRecord {
+  const ids = ['V1', 'V2', 'V3']
+  return {
+    aircraft: ['A01', 'A02', 'A03'].map((id) => ({ id })),
+    vertiports: ids.map((id) => ({ id })),
+    legs,
+  } as unknown as DayRecord
+}
+
+it('nobody is hit where both rests go on alike for two hours', () => {
+  const asItIs = record(leg(0, 1, 5), leg(1, 2, 10, { is_expected: false }), leg(0, 1, 130))
+  const whatIf = record(leg(0, 1, 5), leg(1, 1, 10, { is_expected: false }), leg(0, 2, 130))
+  const hit = hitOf(asItIs, whatIf, NOW)
+  expect(hit).toEqual({
+    until: NOW + AHEAD_S,
+    aircraft: [],
+    passengers: { asItIs: 4, whatIf: 4 },
+    pairs: [],
+    places: [],
+  })
+})
+
+it('those are hit who are sent elsewhere, with their passengers and the places', () => {
+  const asItIs = record(leg(0, 1, 5), leg(1, 2, 10), leg(2, 1, 20, { passengers: 3 }))
+  const whatIf = record(leg(0, 1, 6), leg(1, 0, 10, { passengers: 0 }), leg(2, 2, 15, { passengers: 3 }))
+  const hit = hitOf(asItIs, whatIf, NOW)
+  expect(hit.aircraft.map(({ id }) => id)).toEqual(['A02', 'A03'])
+  expect(hit.aircraft[0]).toMatchObject({ asItIs: { to: 2 }, whatIf: { to: 0 } })
+  expect(hit.passengers).toEqual({ asItIs: 11, whatIf: 7 })
+  expect(hit.pairs).toEqual([
+    { from: 'V1', to: 'V2', more: -3 },
+    { from: 'V1', to: 'V3', more: -1 },
+  ])
+  expect(hit.places).toEqual([{ id: 'V2', more: -1 }])
+})
+
+it('an aircraft that does nothing more in one of the rests is hit', () => {
+  const hit = hitOf(record(leg(0, 1, 5), leg(0, 2, 60)), record(leg(0, 1, 5)), NOW)
+  expect(hit.aircraft).toMatchObject([{ id: 'A01', asItIs: { to: 2 }, whatIf: undefined }])
+})
+
+it('a leg that moves over the end of the two hours hits nobody', () => {
+  const hit = hitOf(record(leg(0, 1, 5), leg(0, 2, 119)), record(leg(0, 1, 5), leg(0, 2, 121)), NOW)
+  expect(hit.aircraft).toEqual([])
+})
+
+it('marks of later legs are left out', () => {
+  const day = record(leg(0, 1, 5), leg(0, 2, 130))
+  const differing = { twin: undefined, isElsewhere: true }
+  const otherwise = new Map([0, 1].map((index) => [index, differing]))
+  expect([...before(otherwise, day, NOW + AHEAD_S).keys()]).toEqual([0])
+})

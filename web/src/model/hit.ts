@@ -1,0 +1,143 @@
+// Who is hit if things are otherwise: what two rests of a day have in common and what not within the next hours. Later on nearly every
+// decision differs, because each follows from those before, so that says nothing about the change itself.
+
+import type { Otherwise } from './differ'
+import { isHold, type DayRecord, type LegRecord, type Seconds } from './record'
+
+/** So far ahead a dispatcher can act on what is expected. */
+export const AHEAD_S = 2 * 3600
+
+/** An aircraft that is sent elsewhere, with the first leg in which that shows. */
+export interface HitAircraft {
+  id: string
+  asItIs: LegRecord | undefined
+  whatIf: LegRecord | undefined
+}
+
+/** How many more are carried from one vertiport to another. */
+export interface HitPair {
+  from: string
+  to: string
+  more: number
+}
+
+/** How many more aircraft land at a vertiport. */
+export interface HitPlace {
+  id: string
+  more: number
+}
+
+export interface Hit {
+  until: Seconds
+  aircraft: HitAircraft[]
+  /** Passengers who take off in these hours. */
+  passengers: { asItIs: number; whatIf: number }
+  /** The pairs with the largest differences first. */
+  pairs: HitPair[]
+  places: HitPlace[]
+}
+
+/** What differs from `now` on for two hours. */
+export function hitOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds): Hit {
+  const until = now + AHEAD_S
+  const [ones, others] = [soonOf(asItIs, now, until), soonOf(whatIf, now, until)]
+  const byPair = (record: DayRecord, legs: readonly LegRecord[]) =>
+    summed(
+      legs,
+      (leg) => `${idOf(record, leg.from)} ${idOf(record, leg.to)}`,
+      (leg) => leg.passengers,
+    )
+  const byPlace = (record: DayRecord, legs: readonly LegRecord[]) =>
+    summed(
+      legs,
+      (leg) => idOf(record, leg.to),
+      (leg) => Number(!isHold(leg)),
+    )
+  const pairs = moreOf(byPair(asItIs, ones), byPair(whatIf, others)).map(([pair, more]) => {
+    const [from = '', to = ''] = pair.split(' ')
+    return { from, to, more }
+  })
+  const places = moreOf(byPlace(asItIs, ones), byPlace(whatIf, others))
+  return {
+    until,
+    aircraft: aircraftOf(asItIs, whatIf, now, until),
+    passengers: { asItIs: passengersOf(ones), whatIf: passengersOf(others) },
+    pairs,
+    places: places.map(([id, more]) => ({ id, more })),
+  }
+}
+
+/** Differences of legs that are decided before a time; later ones are left out. */
+export function before(otherwise: Otherwise, record: DayRecord, until: Seconds): Otherwise {
+  return new Map([...otherwise].filter(([index]) => (record.legs[index]?.decided ?? Infinity) < until))
+}
+
+/** The legs that are yet to be decided, in the hours that are looked at. */
+function soonOf({ legs }: DayRecord, now: Seconds, until: Seconds): LegRecord[] {
+  return legs.filter((leg) => leg.is_expected && leg.decided >= now && leg.decided < until)
+}
+
+/** Aircraft that are sent elsewhere before a time. Their whole rests are compared leg by leg, so that a leg a minute before the time in
+ *  one and a minute after it in the other is no difference. */
+function aircraftOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds, until: Seconds): HitAircraft[] {
+  const [mine, theirs] = [byAircraft(asItIs, now), byAircraft(whatIf, now)]
+  const ids = [...new Set([...mine.keys(), ...theirs.keys()])]
+  const hit = ids.flatMap((id): HitAircraft[] => {
+    const [mineOf, theirsOf] = [mine.get(id) ?? [], theirs.get(id) ?? []]
+    const longer = mineOf.length > theirsOf.length ? mineOf : theirsOf
+    const leadsElsewhere = (at: number) => {
+      const [one, other] = [mineOf[at], theirsOf[at]]
+      const areBoth = one !== undefined && other !== undefined
+      return !areBoth || idOf(asItIs, one.to) !== idOf(whatIf, other.to)
+    }
+    const first = longer.findIndex((_, at) => leadsElsewhere(at))
+    return first < 0 ? [] : [{ id, asItIs: mineOf[first], whatIf: theirsOf[first] }]
+  })
+  const soon = hit.filter((one) => timeOf(one) < until)
+  return soon.sort((one, other) => timeOf(one) - timeOf(other))
+}
+
+function timeOf({ asItIs, whatIf }: HitAircraft): Seconds {
+  return Math.min(asItIs?.decided ?? Infinity, whatIf?.decided ?? Infinity)
+}
+
+/** The legs of each aircraft that are yet to be decided. */
+function byAircraft({ aircraft, legs }: DayRecord, now: Seconds): Map<string, LegRecord[]> {
+  const rows = new Map<string, LegRecord[]>()
+  for (const leg of legs) {
+    if (!leg.is_expected || leg.decided < now) continue
+    const id = aircraft[leg.aircraft]?.id ?? ''
+    const row = rows.get(id)
+    if (row === undefined) rows.set(id, [leg])
+    else row.push(leg)
+  }
+  return rows
+}
+
+function idOf({ vertiports }: DayRecord, vertiport: number): string {
+  return vertiports[vertiport]?.id ?? ''
+}
+
+function passengersOf(legs: readonly LegRecord[]): number {
+  return legs.reduce((sum, leg) => sum + leg.passengers, 0)
+}
+
+function summed(
+  legs: readonly LegRecord[],
+  name: (leg: LegRecord) => string,
+  number: (leg: LegRecord) => number,
+): Map<string, number> {
+  const sums = new Map<string, number>()
+  for (const leg of legs) sums.set(name(leg), (sums.get(name(leg)) ?? 0) + number(leg))
+  return sums
+}
+
+/** By how much each sum is larger in the second map, where it is another one; the largest differences first. */
+function moreOf(ones: Map<string, number>, others: Map<string, number>): [string, number][] {
+  const names = [...new Set([...ones.keys(), ...others.keys()])]
+  const more = names.map((name): [string, number] => [name, (others.get(name) ?? 0) - (ones.get(name) ?? 0)])
+  const differing = more.filter(([, by]) => by !== 0)
+  return differing.sort(
+    ([one, by], [other, otherBy]) => Math.abs(otherBy) - Math.abs(by) || one.localeCompare(other),
+  )
+}
