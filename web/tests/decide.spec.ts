@@ -155,7 +155,7 @@ test('a decision is taken back as long as the aircraft has not departed', async 
   expect((await fleet.events()).map((one) => one.event.type)).toEqual(['decided', 'undone'])
 
   await expect(page.getByRole('region', { name: 'Needs a decision' }).locator('.count')).toHaveText('6')
-  await page.keyboard.press('k')
+  // It leads back to the aircraft.
   await expect(panel(page).getByRole('heading', { name: /^A01/ })).toBeVisible()
   await page.waitForTimeout(400)
   await page.keyboard.press('a')
