@@ -1,9 +1,9 @@
-"""Evaluates two rules of one line on the suites: their shares of the bound and load factors, for the protocol's table.
+"""Evaluates two rules of one line on the suites: shares of the bound and load factors, for the protocol.
 
     python/.venv/bin/python python/benches/trivial_rules.py
 
-`furthest` takes the longest flight that earns anything, `most-profit` the flight that earns most. Both hold if no
-flight earns anything.
+`furthest` takes the longest flight that earns anything, `most-profit` the flight that earns most. Both hold
+if no flight earns anything.
 """
 
 from __future__ import annotations

@@ -39,9 +39,9 @@ const JUDGED_FROM: f64 = 0.25;
 const DIVE_SHARE: f64 = 0.5;
 /// With less time than this, no dive is begun.
 const LEAST_TO_DIVE: Duration = Duration::from_secs(5);
-/// With less time than this, no dive is begun beside the days of the policies, of which the rolling horizon needs all threads on
-/// networks of 20 vertiports and more.
-const LEAST_TO_DIVE_EARLY: Duration = Duration::from_secs(20);
+/// With less time than this, policies play their days alone if there is enough for that at all: on networks of 20 vertiports and
+/// more the rolling horizon needs all threads.
+const LEAST_TO_SHARE: Duration = Duration::from_secs(20);
 /// Steps of each search in a round, after which the best schedule of all searches is kept.
 const STEPS_A_ROUND: u64 = 50;
 /// Seconds that a round takes at most where time is limited, so that `watch` is called many times a second on days of
@@ -55,6 +55,13 @@ pub enum Budget {
     Time(Duration),
     /// A number of steps of each search. The plan then depends on nothing but scenario and settings.
     Steps(u64),
+}
+
+impl Budget {
+    /// Whether policies play their days before dives and a proof begin, and not beside them.
+    pub(crate) fn leaves_policies_alone(self) -> bool {
+        matches!(self, Self::Time(limit) if (LEAST_TO_DIVE..LEAST_TO_SHARE).contains(&limit))
+    }
 }
 
 /// The settings of a search for a plan.
@@ -126,7 +133,8 @@ pub fn plan(
     let dives = can_earn && clock.leaves_time_to_dive(scenario);
     let begin_dive = || Dive::begin(scenario, &problem, clock.end_of_dive());
     // A plan without a limit of time is one of several, perhaps, and takes one thread.
-    let early = (dives && clock.leaves_time_to_dive_early()).then(begin_dive);
+    let shares = !clock.waits_for_dive() && !clock.budget.leaves_policies_alone();
+    let early = (dives && shares).then(begin_dive);
     let mut stopped = false;
     // The time that the prices of a day take at its start. The search needs them too.
     let mut first = Duration::ZERO;
@@ -199,11 +207,6 @@ impl Clock {
             Budget::Time(limit) => limit >= LEAST_TO_DIVE,
             Budget::Steps(limit) => dive::search_steps(scenario) <= DIVE_SHARE * limit as f64,
         }
-    }
-
-    /// Whether to begin dives before policies play their days.
-    fn leaves_time_to_dive_early(&self) -> bool {
-        matches!(self.budget, Budget::Time(limit) if limit >= LEAST_TO_DIVE_EARLY)
     }
 
     /// When dives that begin now have to end, if time is limited.

@@ -9,6 +9,9 @@ use crate::Bound;
 use crate::plan::{Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, plan};
 use crate::proof::{POLL_INTERVAL, Proof};
 
+/// Where policies play their days alone, the proof begins at this share of the time at the latest.
+const LATEST_PROOF: f64 = 0.8;
+
 /// A plan, and the best bound that was proven meanwhile; `None` if there was no time for one, or the day is too large
 /// for any.
 #[derive(Debug, Clone)]
@@ -34,9 +37,18 @@ pub fn plan_with_proof(
     watch: &mut dyn FnMut(&SearchProgress, Option<&Bound>),
 ) -> ProvenPlan {
     let begun = Instant::now();
-    let proof = Proof::begin(scenario);
+    let mut late = None;
+    let early = (!settings.budget.leaves_policies_alone()).then(|| Proof::begin(scenario));
     let plan = plan(scenario, settings, starts, &mut |progress| {
         let profit_usd = progress.profit_usd;
+        let is_due = progress.steps > 0 || progress.share > LATEST_PROOF;
+        let Some(proof) = early
+            .as_ref()
+            .or_else(|| is_due.then(|| &*late.get_or_insert_with(|| Proof::begin(scenario))))
+        else {
+            watch(progress, None);
+            return !stop.is_requested();
+        };
         proof.knows(profit_usd);
         let bound = proof.best();
         watch(progress, bound.as_deref());
@@ -45,6 +57,7 @@ pub fn plan_with_proof(
         });
         !is_good_enough && !stop.is_requested()
     });
+    let proof = early.or(late).unwrap_or_else(|| Proof::begin(scenario));
     let bound = match settings.budget {
         Budget::Time(limit) => proof.best_in_time(begun, limit),
         Budget::Steps(_) => {

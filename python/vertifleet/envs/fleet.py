@@ -39,8 +39,8 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
 
     `reset` draws a day of the `split` from ``np_random``, or plays ``options={"scenario": scenario}`` or the
     day with the number ``options={"number": 7}``; the name of the day is ``info["day"]``, and its split is
-    ``info["split"]``. The last step's info has the day's numbers as ``summary``. An environment can be copied and pickled in the middle of a
-    day; copies share its network and spaces.
+    ``info["split"]``. The last step's info has the day's numbers as ``summary``. An environment can be copied
+    and pickled in the middle of a day; copies share its network and spaces.
     """
 
     metadata: dict[str, Any] = METADATA

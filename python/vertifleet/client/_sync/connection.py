@@ -21,7 +21,7 @@ CONNECT_S = 5.0
 """A connection must be made within this time."""
 
 SILENCE_S = 15.0
-"""The service sends a sign of life every 2 s on a stream. A connection that is silent for this long is lost."""
+"""The service sends a sign of life every 2 s on a stream: one that is silent for this long is lost."""
 
 
 class Connection:
