@@ -272,7 +272,7 @@ def test_what_a_function_raises_is_raised(paper: Network) -> None:
 
     with pytest.raises(ZeroDivisionError, match="whoever"):
         vertifleet.compare(paper, ["mine"], days=20, models={"mine": broken})
-    with pytest.raises(TypeError):
+    with pytest.raises(vertifleet.Error, match="V451"):
         vertifleet.compare(paper, ["mine"], days=1, models={"mine": lambda observation: "V1"})
     with pytest.raises(TypeError, match="a policy is"):
         vertifleet.compare(paper, ["mine"], days=1, models={"mine": 3})
