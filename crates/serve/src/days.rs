@@ -1,6 +1,7 @@
 //! The days that the service holds in memory, each with its lock, its readers and its policies.
 
 mod archived;
+mod reading;
 mod shared;
 
 use std::collections::HashMap;
@@ -302,12 +303,6 @@ impl Days {
         day.cloned()
     }
 
-    async fn read(&self, id: &str) -> Result<Arc<DayCell>, Error> {
-        let (store, id) = (self.store.clone(), id.to_owned());
-        // The first caller reads the day for all, so no token is charged.
-        self.turns.run("", async move { read(&store, &id).await }).await
-    }
-
     /// Checks that an event has happened after which somebody wants to read on, in this very log if the mark says so.
     ///
     /// # Errors
@@ -328,44 +323,6 @@ impl Days {
         } else {
             Err(Error::OtherLog { mark: mark.to_string() })
         }
-    }
-
-    /// A day as it was after an event.
-    ///
-    /// # Errors
-    /// Returns [`Error::NoSuchEvent`] if the day has no such event, and the errors of [`get`](Self::get).
-    pub(crate) async fn at(
-        &self,
-        actor: &str,
-        day: &DayCell,
-        seq: u64,
-    ) -> Result<DispatchDay, Error> {
-        day.check_begun(seq)?;
-        let scenario = Arc::clone(day.state().live().scenario());
-        self.replayed(actor, day, scenario, seq).await
-    }
-
-    /// A day as it would be after its events up to a number if it had begun otherwise.
-    ///
-    /// # Errors
-    /// Returns [`Error::BadData`] if an event could not have happened then.
-    pub(crate) async fn replayed(
-        &self,
-        actor: &str,
-        day: &DayCell,
-        scenario: Arc<Scenario>,
-        seq: u64,
-    ) -> Result<DispatchDay, Error> {
-        let (store, id) = (self.store.clone(), day.id().to_owned());
-        let replay = async move {
-            let mut state = DispatchDay::new(scenario);
-            store.replay(&id, &mut state, seq).await?;
-            if state.seq() < seq {
-                return Err(Error::NoSuchEvent { asked: seq, last: state.seq() });
-            }
-            Ok(state)
-        };
-        self.turns.run(actor, replay).await
     }
 
     /// Makes a day.
@@ -457,22 +414,6 @@ impl Days {
         outcome.await.map_err(|_| stopped())??;
         Ok(answer)
     }
-}
-
-/// Reads a day from the store.
-async fn read(store: &Store, id: &str) -> Result<Arc<DayCell>, Error> {
-    let found = store.day(id).await?;
-    let (stored, scenario) = found.ok_or_else(|| Error::not_found("day", id))?;
-    let head = store.head(id).await?.ok_or_else(|| Error::not_found("day", id))?;
-    let scenario = Scenario::from_json(scenario.as_bytes(), id)?;
-    let mut state = DispatchDay::new(Arc::new(scenario));
-    let replayed = store.replay(id, &mut state, u64::MAX).await;
-    if let Err(damaged) = replayed.and_then(|()| state.check_head(head)) {
-        // A day that was deleted meanwhile is not damaged.
-        store.head(id).await?.ok_or_else(|| Error::not_found("day", id))?;
-        return Err(damaged.of_day(id));
-    }
-    Ok(Arc::new(DayCell::new(stored, state)?))
 }
 
 /// Takes events in, all or none.

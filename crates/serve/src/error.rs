@@ -458,10 +458,7 @@ impl Coded for Error {
             Self::InList { cause, .. } => cause.hint(),
             Self::Moved { .. } => Some("read the day again, and decide anew"),
             Self::Unfit(_) => Some("if it is so in reality, report first what led there"),
-            Self::OtherLog { .. } => {
-                Some("the day was put back from a copy: read it again from its first event")
-            }
-            Self::NoSuchEvent { .. } => {
+            Self::NoSuchEvent { .. } | Self::OtherLog { .. } => {
                 Some("the day may have been put back from a copy: read its state again")
             }
             Self::NotFound { what: "policy", .. } => Some(
