@@ -129,7 +129,7 @@ impl DayPrices {
         now >= self.made_at + RENEWAL_S
     }
 
-    /// Whether age is the only reason for which [`refresh`](Self::refresh) would find the prices anew, and they are young enough to
+    /// Whether age is the only reason for which [`refresh`](Self::refresh) would compute the prices again, and they are young enough to
     /// be used a little longer.
     pub(crate) fn is_merely_old(&self, view: View<'_>, now: Time) -> bool {
         self.is_old(now)

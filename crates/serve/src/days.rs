@@ -148,7 +148,7 @@ impl DayCell {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Checks that an event has happened after which somebody wants to read on.
+    /// Checks that the event after which a reader continues has happened.
     ///
     /// # Errors
     /// Returns [`Error::NoSuchEvent`] if it has not: the day may have been put back from a copy.
@@ -303,7 +303,7 @@ impl Days {
         day.cloned()
     }
 
-    /// Checks that an event has happened after which somebody wants to read on, in this very log if the mark says so.
+    /// Checks that the event after which a reader continues has happened, in this very log if the mark says so.
     ///
     /// # Errors
     /// Returns [`Error::NoSuchEvent`] or [`Error::OtherLog`] if it has not: the day was put back from a copy.

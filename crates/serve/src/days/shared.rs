@@ -125,7 +125,7 @@ impl Days {
 }
 
 impl DayCell {
-    /// Whether somebody reads its stream.
+    /// Whether its stream has a reader.
     fn is_read(&self) -> bool {
         self.readers.receiver_count() > 0 && !self.has_failed.load(Ordering::Acquire)
     }

@@ -1,7 +1,5 @@
 //! Events are stored: those of one append all or none, several appends together, and never on a day that is archived.
 
-use std::collections::BTreeMap;
-
 use sqlx::{AssertSqlSafe, query, query_scalar};
 
 use super::{DayNotice, Store, StoredAnswer, StoredEvent, as_i64};
@@ -44,7 +42,7 @@ impl Store {
         answers: &[&StoredAnswer],
     ) -> Result<(), Error> {
         let mut transaction = self.pool.begin().await?;
-        self.move_heads(&mut transaction, events).await?;
+        let heads = self.move_heads(&mut transaction, events).await?;
         // A statement has at most 32,766 parameters in SQLite.
         for events in events.chunks(4_000) {
             let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain, append_id) VALUES ";
@@ -65,10 +63,8 @@ impl Store {
         }
         let at_ms = events.first().map_or(0, |new| new.event.at_ms);
         insert_answers(&mut transaction, answers, at_ms).await?;
-        let latest: BTreeMap<&str, u64> =
-            events.iter().map(|new| (new.day, new.event.seq)).collect();
         let notice = |(day, seq): (&str, u64)| DayNotice { day: day.to_owned(), seq: Some(seq) };
-        let notices: Vec<DayNotice> = latest.into_iter().map(notice).collect();
+        let notices: Vec<DayNotice> = heads.into_iter().map(notice).collect();
         self.notify(&mut transaction, &notices).await?;
         Ok(transaction.commit().await?)
     }

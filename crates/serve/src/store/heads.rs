@@ -45,10 +45,8 @@ impl Store {
     pub(crate) async fn heads(&self, days: &[String]) -> Result<HashMap<String, Head>, Error> {
         let mut heads = HashMap::new();
         for days in days.chunks(MOST_AT_ONCE) {
-            let places: Vec<String> = (1..=days.len()).map(|place| format!("${place}")).collect();
-            let places = places.join(", ");
-            let select =
-                format!("SELECT id, seq, chain, archived FROM days WHERE id IN ({places})");
+            let places = rows(1, days.len());
+            let select = format!("SELECT id, seq, chain, archived FROM days WHERE id IN {places}");
             let select = days.iter().fold(query(AssertSqlSafe(select)), Query::bind);
             for row in select.fetch_all(self.pool()).await? {
                 heads.extend(head(&row));
@@ -75,17 +73,17 @@ impl Store {
     }
 
     /// Moves the heads of days to the last of the events that a transaction adds, and locks the days until the transaction
-    /// ends.
+    /// ends. Returns the days with the numbers of their last events.
     ///
     /// # Errors
     /// Returns [`Error::NotFound`] or [`Error::Archived`] if a day takes no events, and [`Error::Conflict`] if an event is not
     /// the next one of its day, because another service was quicker.
-    pub(super) async fn move_heads(
+    pub(super) async fn move_heads<'a>(
         &self,
         transaction: &mut Transaction<'_, Any>,
-        events: &[NewEvent<'_>],
-    ) -> Result<(), Error> {
-        let mut days: BTreeMap<&str, Added> = BTreeMap::new();
+        events: &[NewEvent<'a>],
+    ) -> Result<Vec<(&'a str, u64)>, Error> {
+        let mut days: BTreeMap<&'a str, Added> = BTreeMap::new();
         for NewEvent { day, event, .. } in events {
             let (seq, chain) = (event.seq, event.chain);
             let added = days.entry(day).or_insert(Added { first: seq, last: seq, chain });
@@ -93,9 +91,8 @@ impl Store {
         }
         if self.is_shared() && days.len() > 1 {
             // Services that lock several days do so in one order, or they could wait for each other.
-            let places: Vec<String> = (1..=days.len()).map(|place| format!("${place}")).collect();
-            let places = places.join(", ");
-            let lock = format!("SELECT id FROM days WHERE id IN ({places}) ORDER BY id FOR UPDATE");
+            let places = rows(1, days.len());
+            let lock = format!("SELECT id FROM days WHERE id IN {places} ORDER BY id FOR UPDATE");
             let lock = days.keys().fold(query(AssertSqlSafe(lock)), |query, day| query.bind(*day));
             lock.execute(&mut **transaction).await?;
         }
@@ -112,7 +109,7 @@ impl Store {
         }
         let moved = update.execute(&mut **transaction).await?.rows_affected();
         if moved == days.len() as u64 {
-            return Ok(());
+            return Ok(days.into_iter().map(|(day, added)| (day, added.last)).collect());
         }
         for day in days.keys() {
             self.check_open(transaction, day).await?;

@@ -62,7 +62,7 @@ pub struct ResultPolicy {
     pub sees: Sees,
     /// SHA-256 of its weight file, by which a reader finds the weights that played; `None` for a policy that has no
     /// weights, or weights of another program. This cannot be verified from choices either.
-    // A function of its own makes a member that is missing an error, as the schema has it.
+    // With `deserialize_with`, serde rejects a result without this member, as the schema does.
     #[serde(deserialize_with = "Option::deserialize")]
     pub weights_sha256: Option<String>,
     /// The time that one decision took on the machine of the evaluation; `None` for a reference that plans whole days.
