@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use sqlx::any::{AnyPoolOptions, install_default_drivers};
-use sqlx::{AnyConnection, Connection as _, Executor as _, query, query_scalar};
+use sqlx::{Any, AnyConnection, Connection as _, Executor as _, Transaction, query, query_scalar};
 use tokio::time::sleep;
 
 use super::{DATABASE, Location, PATIENCE, SharedUrl, Store, VERSION};
@@ -92,9 +92,15 @@ async fn connect(url: &str, is_shared: bool) -> Result<AnyConnection, sqlx::Erro
     }
 }
 
-/// Makes the tables, if there are none. Services that begin at the same time with an empty database wait for each other.
-async fn make_tables(database: &mut AnyConnection, is_shared: bool) -> Result<(), sqlx::Error> {
-    let mut transaction = database.begin().await?;
+/// Begins a transaction, and makes the tables in it if there are none. Services that begin at the same time wait for each
+/// other.
+async fn make_tables(
+    database: &mut AnyConnection,
+    is_shared: bool,
+) -> Result<Transaction<'_, Any>, sqlx::Error> {
+    // SQLite lets a transaction write for certain only if it begins as one that writes.
+    let begin = if is_shared { "BEGIN" } else { "BEGIN IMMEDIATE" };
+    let mut transaction = database.begin_with(begin).await?;
     if is_shared {
         query("SELECT 1 FROM (SELECT pg_advisory_xact_lock($1)) AS held")
             .bind(LOCK)
@@ -104,7 +110,35 @@ async fn make_tables(database: &mut AnyConnection, is_shared: bool) -> Result<()
     for statement in TABLES {
         query(statement).execute(&mut *transaction).await?;
     }
-    transaction.commit().await
+    Ok(transaction)
+}
+
+/// Adds to a store of an earlier version what it lacks.
+async fn bring_up_to_date(database: &mut AnyConnection) -> Result<(), Error> {
+    query("INSERT INTO meta (name, value) VALUES ('version', $1) ON CONFLICT (name) DO NOTHING")
+        .bind(VERSION)
+        .execute(&mut *database)
+        .await?;
+    let found: String = query_scalar("SELECT value FROM meta WHERE name = 'version'")
+        .fetch_one(&mut *database)
+        .await?;
+    if found == VERSION {
+        return Ok(());
+    }
+    if !ADDED_AFTER.iter().any(|(version, _)| *version == found) {
+        let rule =
+            format!("it is of version {found:?}, and this program reads version {VERSION:?}");
+        return Err(Error::ForeignData { rule });
+    }
+    // Versions have one digit, so their order is that of their texts.
+    for (_, statement) in ADDED_AFTER.iter().filter(|(version, _)| *version >= &*found) {
+        query(*statement).execute(&mut *database).await?;
+    }
+    query("UPDATE meta SET value = $1 WHERE name = 'version'")
+        .bind(VERSION)
+        .execute(&mut *database)
+        .await?;
+    Ok(())
 }
 
 impl Store {
@@ -150,12 +184,13 @@ impl Store {
         if !is_shared {
             first.execute(SQLITE).await.map_err(Error::of_opening)?;
         }
-        make_tables(&mut first, is_shared).await.map_err(Error::of_opening)?;
+        let mut transaction =
+            make_tables(&mut first, is_shared).await.map_err(Error::of_opening)?;
+        bring_up_to_date(&mut transaction).await?;
+        query(ONE_NAME).execute(&mut *transaction).await?;
+        transaction.commit().await?;
         first.close().await?;
-        let store = Self { pool: options.connect(&url).await?, shared };
-        store.check_version().await?;
-        query(ONE_NAME).execute(&store.pool).await?;
-        Ok(store)
+        Ok(Self { pool: options.connect(&url).await?, shared })
     }
 
     /// Opens a store that must be there.
@@ -184,42 +219,6 @@ impl Store {
             }
         }
         Self::open(location).await
-    }
-
-    async fn check_version(&self) -> Result<(), Error> {
-        query(
-            "INSERT INTO meta (name, value) VALUES ('version', $1) ON CONFLICT (name) DO NOTHING",
-        )
-        .bind(VERSION)
-        .execute(&self.pool)
-        .await?;
-        let found: String = query_scalar("SELECT value FROM meta WHERE name = 'version'")
-            .fetch_one(&self.pool)
-            .await?;
-        if ADDED_AFTER.iter().any(|(version, _)| *version == found) {
-            return self.bring_up_to_date(&found).await;
-        }
-        if found != VERSION {
-            let rule =
-                format!("it is of version {found:?}, and this program reads version {VERSION:?}");
-            return Err(Error::ForeignData { rule });
-        }
-        Ok(())
-    }
-
-    /// Adds to a store of an earlier version what it lacks.
-    async fn bring_up_to_date(&self, found: &str) -> Result<(), Error> {
-        let mut transaction = self.pool.begin().await?;
-        let update = "UPDATE meta SET value = $1 WHERE name = 'version' AND value = $2";
-        let updated = query(update).bind(VERSION).bind(found).execute(&mut *transaction).await?;
-        // Another service may have done it in the meantime.
-        if updated.rows_affected() > 0 {
-            // Versions have one digit, so their order is that of their texts.
-            for (_, statement) in ADDED_AFTER.iter().filter(|(version, _)| *version >= found) {
-                query(*statement).execute(&mut *transaction).await?;
-            }
-        }
-        Ok(transaction.commit().await?)
     }
 }
 
