@@ -1,12 +1,13 @@
 //! The one writer of events. It takes all events that wait and commits them together, so that many clients share the
 //! cost of one write to the disk, and answers each when its events are durable.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicI64, Ordering};
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use tokio::sync::{mpsc, oneshot};
 
-use crate::days::{DayCell, now_ms};
+use crate::days::DayCell;
 use crate::error::Error;
 use crate::keys::Busy;
 use crate::metrics::Metrics;
@@ -15,8 +16,8 @@ use crate::store::{AppendId, NewEvent, Store, StoredAnswer, StoredEvent};
 /// At most this many requests are committed together.
 const MOST_TOGETHER: usize = 1_024;
 
-/// For so long a failure counts as one of a moment ago, milliseconds.
-const A_MOMENT_MS: i64 = 5_000;
+/// For so long a failure counts as one of a moment ago.
+const A_MOMENT: Duration = Duration::from_secs(5);
 
 /// Events of a day that wait to be stored.
 pub(crate) struct Append {
@@ -39,22 +40,36 @@ impl Append {
 #[derive(Debug, Clone)]
 pub(crate) struct Committer {
     queue: mpsc::UnboundedSender<Append>,
-    /// When the store last refused events, milliseconds of the Unix clock.
-    failed_ms: Arc<AtomicI64>,
+    failed: LastFailure,
+}
+
+/// When the store last refused events, by a clock that nobody can set.
+#[derive(Debug, Clone, Default)]
+struct LastFailure(Arc<Mutex<Option<Instant>>>);
+
+impl LastFailure {
+    fn is_now(&self) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+    }
+
+    fn was_a_moment_ago(&self) -> bool {
+        let at = *self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        at.is_some_and(|at| at.elapsed() < A_MOMENT)
+    }
 }
 
 impl Committer {
     /// Starts the writer. It ends when the last committer is dropped.
     pub(crate) fn start(store: Store, metrics: Arc<Metrics>) -> Self {
         let (queue, waiting) = mpsc::unbounded_channel();
-        let failed_ms = Arc::new(AtomicI64::new(0));
-        tokio::spawn(write_all(store, metrics, Arc::clone(&failed_ms), waiting));
-        Self { queue, failed_ms }
+        let failed = LastFailure::default();
+        tokio::spawn(write_all(store, metrics, failed.clone(), waiting));
+        Self { queue, failed }
     }
 
     /// Whether the store has refused events a moment ago.
     pub(crate) fn has_failed(&self) -> bool {
-        now_ms() - self.failed_ms.load(Ordering::Relaxed) < A_MOMENT_MS
+        self.failed.was_a_moment_ago()
     }
 
     /// Puts events into the queue. Events of a day must come in their order, so the caller holds the day's lock.
@@ -69,29 +84,34 @@ impl Committer {
 async fn write_all(
     store: Store,
     metrics: Arc<Metrics>,
-    failed_ms: Arc<AtomicI64>,
+    failed: LastFailure,
     mut waiting: mpsc::UnboundedReceiver<Append>,
 ) {
     let mut batch = Vec::new();
     while waiting.recv_many(&mut batch, MOST_TOGETHER).await > 0 {
         metrics.commits.inc();
-        write(&store, &metrics, &failed_ms, &mut batch).await;
+        write(&store, &metrics, &failed, &mut batch).await;
     }
 }
 
 /// Stores a batch and answers everybody in it. If the batch cannot be stored, each of its requests is tried alone, so
-/// that one that conflicts does not fail the others.
-async fn write(store: &Store, metrics: &Metrics, failed_ms: &AtomicI64, batch: &mut Vec<Append>) {
-    let one_by_one = batch.len() == 1 || store_together(store, batch).await.is_err();
+/// that one that conflicts does not fail the others; but a database that hangs is waited for only once.
+async fn write(store: &Store, metrics: &Metrics, failed: &LastFailure, batch: &mut Vec<Append>) {
+    let mut together = match &batch[..] {
+        [_] => None,
+        _ => Some(store_together(store, batch).await),
+    };
     for append in batch.drain(..) {
-        let outcome = if !one_by_one {
-            Ok(())
-        } else if append.day.has_failed.load(Ordering::Acquire) {
+        let outcome = match &together {
+            Some(Ok(())) => Ok(()),
+            Some(Err(Error::StoreHangs { s })) => Err(Error::StoreHangs { s: *s }),
             // An earlier event of the day could not be stored. The day is read again before this one is tried again.
-            Err(Error::Conflict)
-        } else {
-            store_alone(store, &append).await
+            _ if append.day.has_failed.load(Ordering::Acquire) => Err(Error::Conflict),
+            _ => store_alone(store, &append).await,
         };
+        if let Err(Error::StoreHangs { s }) = outcome {
+            together = Some(Err(Error::StoreHangs { s }));
+        }
         match &outcome {
             Ok(()) => {
                 metrics.events.inc_by(append.events.len() as u64);
@@ -107,8 +127,8 @@ async fn write(store: &Store, metrics: &Metrics, failed_ms: &AtomicI64, batch: &
                     _ => tracing::error!(day, %error, "events could not be stored"),
                 }
                 append.day.fail();
-                if matches!(error, Error::Store { .. }) {
-                    failed_ms.store(now_ms(), Ordering::Relaxed);
+                if matches!(error, Error::Store { .. } | Error::StoreHangs { .. }) {
+                    failed.is_now();
                 }
             }
         }

@@ -98,6 +98,16 @@ pub enum Error {
         cause: String,
     },
 
+    /// V606. The database hangs: it holds its connections and does not answer. What it was asked to store may be stored later.
+    /// Fix: send the request again with its `Idempotency-Key` once the database answers.
+    #[error(
+        "the store failed: the database has not answered for {s} s; what it was sent may still be stored"
+    )]
+    StoreHangs {
+        /// For how long, seconds.
+        s: u64,
+    },
+
     /// V607. The data belongs to another version of the program, or is damaged. Cause: a newer program wrote it, or bytes
     /// on the disk changed. Fix: use the newer program, or restore a copy; `vertifleet serve verify` names the events.
     #[error("the data of the service cannot be read: {rule}")]
@@ -373,7 +383,7 @@ impl Error {
             Self::TooMuch { what, .. } if what.starts_with("bytes") => {
                 StatusCode::PAYLOAD_TOO_LARGE
             }
-            Self::Store { .. } => StatusCode::SERVICE_UNAVAILABLE,
+            Self::Store { .. } | Self::StoreHangs { .. } => StatusCode::SERVICE_UNAVAILABLE,
             Self::TooOften { .. } | Self::TooMuch { what: "streams", .. } => {
                 StatusCode::TOO_MANY_REQUESTS
             }
@@ -422,7 +432,7 @@ impl Coded for Error {
             Self::UnknownId { .. } => 603,
             Self::Unfit(_) => 604,
             Self::Moved { .. } => 605,
-            Self::Store { .. } => 606,
+            Self::Store { .. } | Self::StoreHangs { .. } => 606,
             Self::BadData { .. } | Self::ForeignData { .. } => 607,
             Self::Archived { .. } => 608,
             Self::KeyReused { .. } => 609,
@@ -489,6 +499,7 @@ impl Coded for Error {
             Self::Core(error) => error.exit(),
             Self::Study(error) => error.exit(),
             Self::Store { .. }
+            | Self::StoreHangs { .. }
             | Self::Internal { .. }
             | Self::CannotListen { .. }
             | Self::NoAnswer { .. } => Exit::Failed,

@@ -175,8 +175,32 @@ impl Store {
         &self.pool
     }
 
+    /// The outcome of a question to the database. A server may hang and keep its connections open, which nothing else notices.
+    ///
+    /// # Errors
+    /// Returns [`Error::StoreHangs`] if a server has not answered for [`PATIENCE`]. It may still do what it was asked for.
+    async fn in_time<T>(
+        &self,
+        outcome: impl Future<Output = Result<T, Error>>,
+    ) -> Result<T, Error> {
+        if !self.is_shared() {
+            return outcome.await;
+        }
+        let outcome = tokio::time::timeout(PATIENCE, outcome).await;
+        outcome.unwrap_or(Err(Error::StoreHangs { s: PATIENCE.as_secs() }))
+    }
+
     /// Adds a day.
     pub(crate) async fn add_day(
+        &self,
+        day: &StoredDay,
+        scenario: &str,
+        answer: Option<&StoredAnswer>,
+    ) -> Result<(), Error> {
+        self.in_time(self.add_day_at_once(day, scenario, answer)).await
+    }
+
+    async fn add_day_at_once(
         &self,
         day: &StoredDay,
         scenario: &str,
@@ -210,14 +234,12 @@ impl Store {
 
     /// The days after `after`, in the order of their ids.
     pub(crate) async fn days(&self, after: &str, limit: u32) -> Result<Vec<StoredDay>, Error> {
-        let rows = query(
+        let select = query(
             "SELECT id, name, created_ms, archived, policy, date, time_zone FROM days WHERE id > $1
              ORDER BY id LIMIT $2",
-        )
-        .bind(after)
-        .bind(i64::from(limit))
-        .fetch_all(&self.pool)
-        .await?;
+        );
+        let select = select.bind(after).bind(i64::from(limit)).fetch_all(&self.pool);
+        let rows = self.in_time(async { Ok(select.await?) }).await?;
         rows.iter().map(stored_day).collect()
     }
 
@@ -226,13 +248,12 @@ impl Store {
     /// # Errors
     /// Returns [`Error::BadData`] if they are not as they were stored.
     pub(crate) async fn day(&self, id: &str) -> Result<Option<(StoredDay, String)>, Error> {
-        let row = query(
+        let select = query(
             "SELECT id, name, created_ms, archived, policy, date, time_zone, scenario, sum FROM days
              JOIN scenarios ON scenarios.day = days.id WHERE id = $1",
-        )
-        .bind(id)
-        .fetch_optional(&self.pool)
-        .await?;
+        );
+        let select = select.bind(id).fetch_optional(&self.pool);
+        let row = self.in_time(async { Ok(select.await?) }).await?;
         let Some(row) = row else { return Ok(None) };
         let (day, scenario): (_, String) = (stored_day(&row)?, row.try_get("scenario")?);
         let sum: i64 = row.try_get("sum")?;
@@ -245,8 +266,8 @@ impl Store {
 
     /// The number of days.
     pub(crate) async fn number_of_days(&self) -> Result<u64, Error> {
-        let count: i64 = query_scalar("SELECT COUNT(*) FROM days").fetch_one(&self.pool).await?;
-        Ok(as_u64(count))
+        let count = query_scalar("SELECT COUNT(*) FROM days").fetch_one(&self.pool);
+        self.in_time(async { Ok(as_u64(count.await?)) }).await
     }
 
     /// Closes a day to writes or opens it again, if it is at the event that is expected.
@@ -260,12 +281,15 @@ impl Store {
         expected: Option<u64>,
         actor: &str,
     ) -> Result<(), Error> {
-        let mut transaction = self.pool.begin().await?;
-        let update = "UPDATE days SET archived = $2 WHERE id = $1 RETURNING seq";
-        let update = query_scalar(update).bind(id).bind(i64::from(archived));
-        check_at(id, update.fetch_optional(&mut *transaction).await?, expected)?;
-        let done = if archived { "day archived" } else { "day unarchived" };
-        self.commit_change(transaction, id, (actor, done)).await
+        let change = async {
+            let mut transaction = self.pool.begin().await?;
+            let update = "UPDATE days SET archived = $2 WHERE id = $1 RETURNING seq";
+            let update = query_scalar(update).bind(id).bind(i64::from(archived));
+            check_at(id, update.fetch_optional(&mut *transaction).await?, expected)?;
+            let done = if archived { "day archived" } else { "day unarchived" };
+            self.commit_change(transaction, id, (actor, done)).await
+        };
+        self.in_time(change).await
     }
 
     /// Removes a day with its events, if it is at the event that is expected.
@@ -278,14 +302,18 @@ impl Store {
         expected: Option<u64>,
         actor: &str,
     ) -> Result<(), Error> {
-        let mut transaction = self.pool.begin().await?;
-        let delete = query_scalar("DELETE FROM days WHERE id = $1 RETURNING seq").bind(id);
-        check_at(id, delete.fetch_optional(&mut *transaction).await?, expected)?;
-        for delete in ["DELETE FROM scenarios WHERE day = $1", "DELETE FROM events WHERE day = $1"]
-        {
-            query(delete).bind(id).execute(&mut *transaction).await?;
-        }
-        self.commit_change(transaction, id, (actor, "day deleted")).await
+        let change = async {
+            let mut transaction = self.pool.begin().await?;
+            let delete = query_scalar("DELETE FROM days WHERE id = $1 RETURNING seq").bind(id);
+            check_at(id, delete.fetch_optional(&mut *transaction).await?, expected)?;
+            for delete in
+                ["DELETE FROM scenarios WHERE day = $1", "DELETE FROM events WHERE day = $1"]
+            {
+                query(delete).bind(id).execute(&mut *transaction).await?;
+            }
+            self.commit_change(transaction, id, (actor, "day deleted")).await
+        };
+        self.in_time(change).await
     }
 
     /// Records who changed a day, and commits the change.
@@ -302,6 +330,10 @@ impl Store {
 
     /// The events of a day after number `after`, at most `limit`, and fewer where they are long.
     pub(crate) async fn events(&self, day: &str, after: u64, limit: u32) -> Result<Page, Error> {
+        self.in_time(self.read_events(day, after, limit)).await
+    }
+
+    async fn read_events(&self, day: &str, after: u64, limit: u32) -> Result<Page, Error> {
         let mut rows = query(
             "SELECT seq, at_ms, actor, body, notices, chain FROM events
              WHERE day = $1 AND seq > $2 ORDER BY seq LIMIT $3",
@@ -348,10 +380,9 @@ impl Store {
 
     /// The answer that was given to a request with this key.
     pub(crate) async fn answer(&self, key: &str) -> Result<Option<StoredAnswer>, Error> {
-        let row = query("SELECT request, answer FROM answers WHERE idempotency_key = $1")
-            .bind(key)
-            .fetch_optional(&self.pool)
-            .await?;
+        let select = query("SELECT request, answer FROM answers WHERE idempotency_key = $1");
+        let select = select.bind(key).fetch_optional(&self.pool);
+        let row = self.in_time(async { Ok(select.await?) }).await?;
         let answer = |row: AnyRow| {
             Ok(StoredAnswer {
                 key: key.to_owned(),
@@ -383,8 +414,8 @@ impl Store {
     /// Returns [`Error::Store`] if it does not.
     pub(crate) async fn check(&self) -> Result<(), Error> {
         // The same value as before, whichever it is: a newer program may have brought the store up to date by now.
-        query("UPDATE meta SET value = value WHERE name = 'version'").execute(&self.pool).await?;
-        Ok(())
+        let update = query("UPDATE meta SET value = value WHERE name = 'version'");
+        self.in_time(async { Ok(update.execute(&self.pool).await.map(drop)?) }).await
     }
 }
 

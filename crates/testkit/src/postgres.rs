@@ -61,17 +61,45 @@ impl Postgres {
         self.server = serve(self.folder.path(), self.port);
     }
 
+    /// Stops all processes of the server where they are, so that its connections stay open and nothing is answered.
+    pub fn freeze(&self) {
+        self.signal("-STOP");
+        self.signal_connections("-STOP");
+    }
+
+    /// Lets them go on.
+    pub fn thaw(&self) {
+        self.signal_connections("-CONT");
+        self.signal("-CONT");
+        // A program that runs the server as another user stops when the server does.
+        let _ = Command::new("kill").args(["-CONT", &self.server.id().to_string()]).status();
+    }
+
+    /// Connections have processes of their own.
+    fn signal_connections(&self, signal: &str) {
+        let pid = self.pid();
+        let children = std::fs::read_to_string(format!("/proc/{pid}/task/{pid}/children"));
+        let children = children.unwrap_or_default();
+        // A connection may have ended meanwhile.
+        let _ = Command::new("kill").arg(signal).args(children.split_whitespace()).output();
+    }
+
     /// The first line of the file is the process that the server runs in, which is not the one that was started if another
     /// user runs it.
+    fn pid(&self) -> String {
+        let file = std::fs::read_to_string(self.folder.path().join("postmaster.pid"));
+        file.unwrap_or_default().lines().next().unwrap_or_default().to_owned()
+    }
+
     fn signal(&self, signal: &str) {
-        let pid = std::fs::read_to_string(self.folder.path().join("postmaster.pid"));
-        let pid = pid.unwrap_or_default().lines().next().unwrap_or_default().to_owned();
-        let _ = Command::new("kill").args([signal, &pid]).status();
+        let _ = Command::new("kill").args([signal, &self.pid()]).status();
     }
 }
 
 impl Drop for Postgres {
     fn drop(&mut self) {
+        // A test may have failed while the server was frozen, and a frozen one does not end.
+        self.thaw();
         // Not SIGKILL, which would leave its children and the memory that they share.
         self.signal("-INT");
         let _ = self.server.wait();

@@ -36,7 +36,19 @@ impl AppendId {
 
 impl Store {
     /// Adds events of several days, all or none.
+    ///
+    /// # Errors
+    /// Returns the errors of [`move_heads`](Self::move_heads), [`Error::Store`], and [`Error::StoreHangs`], after which the
+    /// events may still be stored.
     pub(crate) async fn append(
+        &self,
+        events: &[NewEvent<'_>],
+        answers: &[&StoredAnswer],
+    ) -> Result<(), Error> {
+        self.in_time(self.append_at_once(events, answers)).await
+    }
+
+    async fn append_at_once(
         &self,
         events: &[NewEvent<'_>],
         answers: &[&StoredAnswer],
@@ -77,12 +89,9 @@ impl Store {
         day: &str,
         seq: u64,
     ) -> Result<bool, Error> {
-        let found: Option<i64> =
-            query_scalar("SELECT append_id FROM events WHERE day = $1 AND seq = $2")
-                .bind(day)
-                .bind(as_i64(seq))
-                .fetch_optional(&self.pool)
-                .await?;
+        let select = query_scalar("SELECT append_id FROM events WHERE day = $1 AND seq = $2");
+        let select = select.bind(day).bind(as_i64(seq)).fetch_optional(&self.pool);
+        let found: Option<i64> = self.in_time(async { Ok(select.await?) }).await?;
         Ok(found == Some(append.0))
     }
 }

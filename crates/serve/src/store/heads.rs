@@ -37,7 +37,8 @@ impl Store {
     /// The head of a day; `None` if there is no such day.
     pub(crate) async fn head(&self, day: &str) -> Result<Option<Head>, Error> {
         let select = "SELECT id, seq, chain, archived FROM days WHERE id = $1";
-        let row = query(select).bind(day).fetch_optional(self.pool()).await?;
+        let select = query(select).bind(day).fetch_optional(self.pool());
+        let row = self.in_time(async { Ok(select.await?) }).await?;
         row.map(|row| head(&row).map(|(_, head)| head)).transpose()
     }
 
@@ -48,7 +49,8 @@ impl Store {
             let places = rows(1, days.len());
             let select = format!("SELECT id, seq, chain, archived FROM days WHERE id IN {places}");
             let select = days.iter().fold(query(AssertSqlSafe(select)), Query::bind);
-            for row in select.fetch_all(self.pool()).await? {
+            let select = select.fetch_all(self.pool());
+            for row in self.in_time(async { Ok(select.await?) }).await? {
                 heads.extend(head(&row));
             }
         }
@@ -59,7 +61,8 @@ impl Store {
     pub(crate) async fn chain_at(&self, day: &str, seq: u64) -> Result<Option<u32>, Error> {
         let select = "SELECT chain FROM events WHERE day = $1 AND seq = $2";
         let select = query_scalar(select).bind(day).bind(as_i64(seq));
-        let chain: Option<i64> = select.fetch_optional(self.pool()).await?;
+        let select = select.fetch_optional(self.pool());
+        let chain: Option<i64> = self.in_time(async { Ok(select.await?) }).await?;
         Ok(chain.and_then(|chain| u32::try_from(chain).ok()))
     }
 

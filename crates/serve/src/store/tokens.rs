@@ -41,7 +41,8 @@ impl Store {
     /// All tokens, those that were revoked among them.
     pub(crate) async fn tokens(&self) -> Result<Vec<StoredToken>, Error> {
         let select = "SELECT id, name, role, hash, created_ms, revoked_ms FROM tokens ORDER BY created_ms, id";
-        let rows = query(select).fetch_all(self.pool()).await?;
+        let select = query(select).fetch_all(self.pool());
+        let rows = self.in_time(async { Ok(select.await?) }).await?;
         rows.iter().map(stored_token).collect()
     }
 

@@ -227,10 +227,9 @@ fn services_that_start_together_make_the_tables_once() {
     }
 }
 
-#[test]
-fn a_database_that_crashes_loses_nothing_that_was_acknowledged() {
-    let mut database = Postgres::start();
-    let services = [(); 2].map(|()| Running::start_at(location(&database)));
+/// Has four clients write to a day of two services, each event once it has been told that the one before is stored, while
+/// something happens to the database. Checks that every acknowledged event is stored once and in order.
+fn check_writes(services: &[Running; 2], during: impl FnOnce(&str)) {
     let path = services[0].new_day("greedy");
     let stop = AtomicBool::new(false);
     let acknowledged: Vec<Vec<String>> = thread::scope(|scope| {
@@ -248,12 +247,8 @@ fn a_database_that_crashes_loses_nothing_that_was_acknowledged() {
                 })
             })
             .collect();
-        for _ in 0..3 {
-            thread::sleep(Duration::from_millis(500));
-            database.crash();
-            thread::sleep(Duration::from_millis(200));
-            database.resume();
-        }
+        thread::sleep(Duration::from_millis(500));
+        during(&path);
         thread::sleep(Duration::from_millis(500));
         stop.store(true, Ordering::Relaxed);
         clients.into_iter().map(|client| client.join().expect("it writes")).collect()
@@ -267,4 +262,34 @@ fn a_database_that_crashes_loses_nothing_that_was_acknowledged() {
         assert!(of_client.into_iter().eq(acknowledged), "client {client}: once, and in order");
     }
     assert_eq!(marks(&services[1], &path), stored);
+}
+
+#[test]
+fn a_database_that_crashes_loses_nothing_that_was_acknowledged() {
+    let mut database = Postgres::start();
+    let services = [(); 2].map(|()| Running::start_at(location(&database)));
+    check_writes(&services, |_| {
+        for _ in 0..3 {
+            database.crash();
+            thread::sleep(Duration::from_millis(200));
+            database.resume();
+            thread::sleep(Duration::from_millis(500));
+        }
+    });
+}
+
+#[test]
+fn a_database_that_hangs_is_said_to_and_loses_nothing_that_was_acknowledged() {
+    let database = Postgres::start();
+    let services = [(); 2].map(|()| Running::start_at(location(&database)));
+    check_writes(&services, |path| {
+        database.freeze();
+        for path in [path, "/readyz", "/v1/days"] {
+            let begun = Instant::now();
+            let answer = services[0].get(path);
+            assert_eq!((answer.status, &answer.json["code"]), (503, &json!("V606")), "{path}");
+            assert!(begun.elapsed() < Duration::from_secs(15), "{path}: {:?}", begun.elapsed());
+        }
+        database.thaw();
+    });
 }
