@@ -25,6 +25,8 @@ mod metrics;
 mod moment;
 mod networks;
 mod operate;
+#[cfg(test)]
+mod orders;
 mod outlook;
 mod policies;
 mod problem;

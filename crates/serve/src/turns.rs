@@ -156,13 +156,94 @@ impl Drop for StopWhenDropped {
 
 #[cfg(test)]
 mod tests {
-    use std::pin::pin;
-    use std::sync::mpsc;
+    use std::pin::{Pin, pin};
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::{Arc, mpsc};
+    use std::task::{Context, Poll, Wake};
     use std::time::Duration;
 
     use futures_util::poll;
 
-    use super::Turns;
+    use super::{Turn, Turns};
+    use crate::orders::{Choices, in_every_order};
+
+    /// Whether a waiting request was woken.
+    #[derive(Default)]
+    struct Woken(AtomicBool);
+
+    impl Wake for Woken {
+        fn wake(self: Arc<Self>) {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// A request for a turn.
+    #[derive(Default)]
+    enum Request {
+        #[default]
+        Unasked,
+        Waits(Pin<Box<dyn Future<Output = Turn>>>, Arc<Woken>),
+        Runs(#[expect(dead_code, reason = "it is only held")] Turn),
+        Over,
+    }
+
+    impl Request {
+        /// The number of things that it may do next: ask; take the turn if it was woken, or go away; end.
+        fn ways_on(&self) -> usize {
+            match self {
+                Self::Waits(_, woken) => 1 + usize::from(woken.0.load(Ordering::Relaxed)),
+                Self::Unasked | Self::Runs(_) => 1,
+                Self::Over => 0,
+            }
+        }
+
+        fn go_on(&mut self, way: usize, turns: &Turns, actor: &'static str) {
+            let (mut future, woken) = match std::mem::take(self) {
+                Self::Unasked => {
+                    let turns = turns.clone();
+                    let take = async move { turns.take(actor).await };
+                    (Box::pin(take) as Pin<Box<_>>, Arc::default())
+                }
+                Self::Waits(future, woken) if way == 1 => (future, woken),
+                _ => return *self = Self::Over,
+            };
+            let waker = Arc::clone(&woken).into();
+            *self = match future.as_mut().poll(&mut Context::from_waker(&waker)) {
+                Poll::Ready(turn) => Self::Runs(turn),
+                Poll::Pending => Self::Waits(future, woken),
+            };
+        }
+    }
+
+    /// Plays one order of the steps of three requests.
+    fn play(free: usize, choices: &mut Choices) {
+        let turns = Turns::new(free);
+        let actors = ["one", "one", "two"];
+        let mut requests: [Request; 3] = Default::default();
+        loop {
+            let ways: Vec<(usize, usize)> = (0..requests.len())
+                .flat_map(|at| (0..requests[at].ways_on()).map(move |way| (at, way)))
+                .collect();
+            if ways.is_empty() {
+                break;
+            }
+            let (at, way) = ways[choices.of(ways.len())];
+            requests[at].go_on(way, &turns, actors[at]);
+            let state = turns.state();
+            let running: usize = state.running.values().sum();
+            assert_eq!(state.free + running, free, "no turn is lost or given twice: {choices:?}");
+            let is_awaited = state.waiting.iter().any(|waiting| !waiting.turn.is_closed());
+            assert!(state.free == 0 || !is_awaited, "nobody waits for a free turn: {choices:?}");
+        }
+        assert!(turns.state().running.is_empty() && !turns.are_awaited());
+    }
+
+    #[test]
+    fn in_every_order_of_requests_no_turn_is_lost_or_given_twice() {
+        for free in [1, 2] {
+            assert!(in_every_order(|choices| play(free, choices)) > 100);
+        }
+    }
 
     #[tokio::test]
     async fn the_token_with_fewer_turns_comes_first() {

@@ -1,5 +1,7 @@
 //! The stream of a day's events (server-sent events).
 
+mod position;
+
 use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -15,6 +17,7 @@ use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::watch;
 use utoipa::IntoParams;
 
+use self::position::Position;
 use super::answer::Times;
 use super::events::TakenEvent;
 use super::extract::{Asked, EventNumber, Named};
@@ -55,9 +58,7 @@ struct Reader {
     day: Arc<DayCell>,
     store: Store,
     fresh: Receiver<Arc<Told>>,
-    /// The last event that was sent, or the one that the reader came with.
-    after: EventMark,
-    is_behind: bool,
+    position: Position,
     stopping: watch::Receiver<bool>,
     service: Arc<Service>,
     /// What the reader came with, to see whether its token is still in force.
@@ -113,8 +114,7 @@ pub(super) async fn stream(
         day,
         store,
         fresh,
-        after,
-        is_behind: true,
+        position: Position::after(after),
         stopping,
         service,
         headers,
@@ -138,11 +138,11 @@ impl Reader {
                 self.look_around().await?;
             }
             let mut text = BytesMut::new();
-            if self.is_behind {
-                let page = self.store.events(self.day.id(), self.after.seq, PAGE).await.ok()?;
-                self.is_behind = !page.is_last;
+            if self.position.is_behind() {
+                let seq = self.position.mark().seq;
+                let page = self.store.events(self.day.id(), seq, PAGE).await.ok()?;
+                self.position.read(&page);
                 for event in &page.events {
-                    self.after = event.mark();
                     text.extend_from_slice(&self.message(event));
                 }
             } else {
@@ -155,7 +155,7 @@ impl Reader {
                     self.take(fresh, &mut text)?;
                 }
                 // What has come meanwhile goes out together: where many read, a write for each event would cost most.
-                while !self.is_behind
+                while !self.position.is_behind()
                     && let Ok(event) = self.fresh.try_recv()
                 {
                     self.take(Ok(event), &mut text)?;
@@ -174,20 +174,16 @@ impl Reader {
     /// Takes what the day tells its readers; `None` if it tells them nothing any more.
     fn take(&mut self, fresh: Result<Arc<Told>, RecvError>, text: &mut BytesMut) -> Option<()> {
         match fresh {
-            Ok(told) if told.event.seq <= self.after.seq => {}
-            Ok(told) if told.event.seq == self.after.seq + 1 => {
-                self.after = told.event.mark();
-                match self.times {
-                    Times::Clock => {
-                        let shown = told.shown.get_or_init(|| self.message(&told.event));
-                        text.extend_from_slice(shown);
-                    }
-                    Times::Iso => text.extend_from_slice(&self.message(&told.event)),
+            Ok(told) if self.position.take(&told.event) => match self.times {
+                Times::Clock => {
+                    let shown = told.shown.get_or_init(|| self.message(&told.event));
+                    text.extend_from_slice(shown);
                 }
-            }
-            Ok(_) => self.is_behind = true,
+                Times::Iso => text.extend_from_slice(&self.message(&told.event)),
+            },
+            Ok(_) => {}
             Err(RecvError::Lagged(missed)) => {
-                self.is_behind = true;
+                self.position.has_missed_events();
                 let said = format!(
                     "event: behind\ndata: {missed} events came faster than they were read; they follow\n\n"
                 );
@@ -205,9 +201,10 @@ impl Reader {
         self.service.access.may(&self.headers, Role::Read).await.ok()?;
         if self.day.is_spoilt() {
             self.day = self.service.days.get(self.day.id()).await.ok()?;
-            self.service.days.check_mark(&self.day, self.after).await.ok()?;
+            let mark = self.position.mark();
+            self.service.days.check_mark(&self.day, mark).await.ok()?;
             self.fresh = self.day.subscribe();
-            self.is_behind = true;
+            self.position = Position::after(mark);
         }
         Some(())
     }
