@@ -79,6 +79,7 @@ test('a study that plays can be stopped, and says how far it is', async ({ page,
   await dialog.getByRole('button', { name: 'Play the study' }).click()
   await expect(page.getByRole('progressbar', { name: 'Progress' })).toBeVisible()
   await expect(page.getByText(/about .* left/)).toBeVisible({ timeout: 45_000 })
+  await expect(page.getByRole('table', { name: /^So far/ })).toContainText('greedy', { timeout: 45_000 })
   await page.getByRole('button', { name: 'Stop' }).click()
   await expect(page.getByText('There is no study yet.')).toBeVisible()
 })

@@ -34,7 +34,7 @@ impl KeptBounds {
     /// # Errors
     /// Returns an error if a day is too large for a bound with this step; [`Error::Stopped`] if `stopped` is requested
     /// meanwhile.
-    pub fn days(
+    pub(crate) fn days(
         &self,
         scenarios: Vec<Arc<Scenario>>,
         step: Step,

@@ -4,7 +4,7 @@
 //! meaning, and [`competitor`] finds the policies of a study. There are five studies: [`comparison`], of policies on
 //! the days of one network, [`generalisation`], over one day of each of many networks, [`evaluation`], on the days of a
 //! frozen [`Suite`], [`sweep`], over many settings of one network, and [`size`], which searches for the best numbers of
-//! aircraft, stands and chargers. All go from the request to records, and let [`run`] play the days. [`report`] writes the
+//! aircraft, stands and chargers. All go from the request to records. [`report`] writes the
 //! pages of the first two; an evaluation leaves result files, which can be verified. [`ComparisonReport`] turns records into
 //! statistics. The presentation computes nothing, and the statistics do not depend on the presentation.
 //!
@@ -50,7 +50,7 @@ pub mod record;
 pub mod replay;
 pub mod report;
 mod resolved_policy;
-pub mod run;
+mod run;
 mod sees;
 mod share;
 pub mod size;

@@ -20,7 +20,7 @@ use crate::record::{DayRecord, LatencySummary, PolicyRecord};
 use crate::resolved_policy::ResolvedPolicy;
 
 /// A day of a comparison.
-pub struct BoundedDay {
+pub(crate) struct BoundedDay {
     /// The scenario that every policy plays.
     pub scenario: Arc<Scenario>,
     /// Its upper bound in dollars, if one was asked for.
@@ -29,7 +29,7 @@ pub struct BoundedDay {
 
 impl BoundedDay {
     /// A day without an upper bound.
-    pub fn unbounded(scenario: Arc<Scenario>) -> Self {
+    pub(crate) fn unbounded(scenario: Arc<Scenario>) -> Self {
         Self { scenario, upper_bound_usd: None }
     }
 
@@ -43,7 +43,7 @@ impl BoundedDay {
 
 /// What is kept of a day that was played.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kept {
+pub(crate) enum Kept {
     /// Its totals.
     Totals,
     /// Every choice of every day too.
@@ -63,41 +63,34 @@ impl Kept {
     }
 }
 
-/// Plays all days with every competitor, one competitor after the other. `begin` is called with the name of the
-/// competitor that begins, and returns the function that is called after each of its days, from any thread.
+/// Plays all days with a competitor. `played` is called after each of them, from any thread.
 ///
 /// # Errors
 /// Returns [`Error::Stuck`] if a policy cannot play a day to its end; [`Error::Stopped`] soon after `stop` is
 /// requested.
-pub fn run<Played: Fn() + Sync>(
+pub(crate) fn play_all(
+    competitor: &Competitor,
     days: &[BoundedDay],
-    competitors: &[Competitor],
     kept: Kept,
     stop: &Stop,
-    mut begin: impl FnMut(&str) -> Played,
-) -> Result<Vec<PolicyRecord>, Error> {
-    let mut play = |competitor: &Competitor| {
-        let played = begin(&competitor.name);
-        let (days, decision_ns) = match &competitor.kind {
-            Kind::Policy(policy) => {
-                let (days, time) =
-                    play_policy(&competitor.name, policy, days, kept, stop, &played)?;
-                (days, Some(time))
-            }
-            Kind::Planner(planner) => {
-                (play_plans(&competitor.name, planner, days, kept, stop, &played)?, None)
-            }
-        };
-        Ok(PolicyRecord {
-            name: competitor.name.clone(),
-            description: competitor.description(),
-            sees: competitor.sees(),
-            weights_sha256: competitor.weights_sha256(),
-            days,
-            decision_ns,
-        })
+    played: &(impl Fn() + Sync),
+) -> Result<PolicyRecord, Error> {
+    let name = &competitor.name;
+    let (days, decision_ns) = match &competitor.kind {
+        Kind::Policy(policy) => {
+            let (days, time) = play_policy(name, policy, days, kept, stop, played)?;
+            (days, Some(time))
+        }
+        Kind::Planner(planner) => (play_plans(name, planner, days, kept, stop, played)?, None),
     };
-    competitors.iter().map(&mut play).collect()
+    Ok(PolicyRecord {
+        name: name.clone(),
+        description: competitor.description(),
+        sees: competitor.sees(),
+        weights_sha256: competitor.weights_sha256(),
+        days,
+        decision_ns,
+    })
 }
 
 /// Plays all days with a policy that decides while they are played, one policy per thread, and measures the time of
@@ -210,7 +203,7 @@ mod tests {
 
     use vertifleet_core::{Coded, DaySeed, Network, Stop};
 
-    use super::{BoundedDay, Kept, LatencySummary, PolicyRecord, latency, run};
+    use super::{BoundedDay, Kept, LatencySummary, PolicyRecord, latency, play_all};
     use crate::comparison::ComparisonReport;
     use crate::competitor::{Competitor, Kind, Planner};
     use crate::resolved_policy::ResolvedPolicy;
@@ -235,7 +228,10 @@ mod tests {
         };
         let days: Vec<BoundedDay> = seeds.map(day).collect();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| run(&days, &competitors(), Kept::Totals, &Stop::default(), |_| || ()))
+        let play = |competitor: &Competitor| {
+            play_all(competitor, &days, Kept::Totals, &Stop::default(), &|| ())
+        };
+        pool.install(|| competitors().iter().map(play).collect::<Result<_, _>>())
             .expect("every day is played")
     }
 
@@ -254,9 +250,11 @@ mod tests {
         let days = [BoundedDay::unbounded(Arc::new(day))];
         let stop = Stop::default();
         stop.request();
-        let error = run(&days, &competitors(), Kept::Totals, &stop, |_| || ())
-            .expect_err("nothing was to be played");
-        assert_eq!(error.code().to_string(), "V408");
+        for competitor in competitors() {
+            let error = play_all(&competitor, &days, Kept::Totals, &stop, &|| ())
+                .expect_err("nothing was to be played");
+            assert_eq!(error.code().to_string(), "V408", "{}", competitor.name);
+        }
     }
 
     #[test]

@@ -78,7 +78,7 @@ pub struct SizeRequest<'a> {
 pub struct Sizing {
     space: Space,
     goal: Goal,
-    competitor: [Competitor; 1],
+    competitor: Competitor,
     drawn: DrawnDays,
     again: DrawnDays,
     bound_step: Step,
@@ -102,7 +102,7 @@ impl Sizing {
         if days == 0 {
             return Err(Error::Empty { policies, days });
         }
-        let competitor = <[Competitor; 1]>::try_from(competitors).map_err(|_| Error::Asked {
+        let [competitor] = <[Competitor; 1]>::try_from(competitors).map_err(|_| Error::Asked {
             rule: format!("one policy plays the days of a search, found {policies}"),
             hint: "give one name",
         })?;
@@ -117,7 +117,7 @@ impl Sizing {
         let mut sizing =
             Self { space, goal, competitor, drawn, again, bound_step, designs, fingerprint };
         sizing.fingerprint = sizing.print();
-        sizing.competitor[0].check_fits(&sizing.first_day()?)?;
+        sizing.competitor.check_fits(&sizing.first_day()?)?;
         Ok(sizing)
     }
 
@@ -137,7 +137,7 @@ impl Sizing {
     /// A number that changes when anything changes that the results depend on.
     fn print(&self) -> String {
         let dimension = |one: &space::Dimension| json!([one.path, one.low, one.step, one.steps]);
-        let [policy] = &self.competitor;
+        let policy = &self.competitor;
         let text = json!({
             "program": env!("CARGO_PKG_VERSION"),
             "network": self.space.network.toml(),

@@ -9,7 +9,7 @@ use crate::competitor::Competitor;
 use crate::error::Error;
 use crate::kept_bounds::KeptBounds;
 use crate::record::PolicyRecord;
-use crate::run::{BoundedDay, Kept, run};
+use crate::run::{BoundedDay, Kept, play_all};
 
 /// The most days, or networks, of a study.
 pub const MOST_DAYS: u32 = 1_000_000;
@@ -22,6 +22,8 @@ pub trait Watch {
     fn bounds(&self, days: usize) -> Self::Bar;
     /// Called before this policy plays this many days; it is number `position` of `policies`, from 1.
     fn policy(&self, name: &str, position: usize, policies: usize, days: usize) -> Self::Bar;
+    /// Called when a policy has played all its days.
+    fn played(&self, _: &PolicyRecord) {}
 }
 
 /// Ignores the progress.
@@ -97,10 +99,12 @@ impl Study {
             Bounds::Known(bounds_usd) => BoundedDay::with_bounds(scenarios, bounds_usd),
             Bounds::None => scenarios.into_iter().map(BoundedDay::unbounded).collect(),
         };
-        let mut begun = 0;
-        run(&days, competitors, *kept, stop, |name| {
-            begun += 1;
-            watch.policy(name, begun, competitors.len(), number)
-        })
+        let play = |(at, competitor): (usize, &Competitor)| {
+            let played = watch.policy(&competitor.name, at + 1, competitors.len(), number);
+            let record = play_all(competitor, &days, *kept, stop, &played)?;
+            watch.played(&record);
+            Ok(record)
+        };
+        competitors.iter().enumerate().map(play).collect()
     }
 }

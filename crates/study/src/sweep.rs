@@ -38,7 +38,7 @@ use crate::figure;
 use crate::journal::{self, Head, Journal, fingerprint};
 use crate::kept_bounds::KeptBounds;
 use crate::report::{File, Records, is_figure, pictures};
-use crate::run::{BoundedDay, Kept, run};
+use crate::run::{BoundedDay, Kept, play_all};
 
 pub use cell::Cell;
 pub use design::{Design, Factor, Levels, MOST_CELLS};
@@ -200,13 +200,14 @@ impl Sweep {
             Some(slices) => KeptBounds::of_this_user().days(days, slices, stop, &|| ())?,
             None => days.into_iter().map(BoundedDay::unbounded).collect(),
         };
-        let policies = run(&days, &self.competitors, Kept::Totals, stop, |_| || ())?;
-        let totals =
-            policies.into_iter().map(|one| one.days.iter().map(|day| day.totals).collect());
+        let totals = |competitor: &Competitor| {
+            let policy = play_all(competitor, &days, Kept::Totals, stop, &|| ())?;
+            Ok(policy.days.iter().map(|day| day.totals).collect())
+        };
         Ok(Some(CellRecord {
             cell,
             upper_bounds_usd: days.iter().filter_map(|day| day.upper_bound_usd).collect(),
-            totals: totals.collect(),
+            totals: self.competitors.iter().map(totals).collect::<Result<_, Error>>()?,
         }))
     }
 

@@ -1232,6 +1232,13 @@ export interface components {
             /** @description The trace, as its file has it, with amounts to the cent. */
             trace: string;
         };
+        /** @description What came out for a policy while others still play. */
+        PlayedPolicy: {
+            /** @description Its name. */
+            name: string;
+            /** @description Profit of a day, dollars. */
+            profit_usd: components["schemas"]["Estimate"];
+        };
         /** @description A policy. */
         PolicyInfo: {
             /** @description Whether the program has it; the others were uploaded. */
@@ -1489,6 +1496,8 @@ export interface components {
              *     quick as those before them on the mean. Absent until a day has been played.
              */
             left_s?: number | null;
+            /** @description What came out for the policies that have played all their days. */
+            played: components["schemas"]["PlayedPolicy"][];
             /**
              * Format: double
              * @description The share of all that is to be played that has been, 0 to 1; every policy counts the same.

@@ -312,6 +312,7 @@ export const studies = {
   left: (time: string) => `about ${time} left`,
   took: (time: string) => `took ${time}`,
   progress: 'Progress',
+  soFar: (played: number, all: number) => `So far: ${played} of ${all} policies have played all days`,
   end: 'Stop',
   remove: 'Delete',
   removed: 'The study is deleted.',

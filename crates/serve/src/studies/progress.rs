@@ -6,8 +6,10 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use utoipa::ToSchema;
-use vertifleet_study::Watch;
+use vertifleet_study::statistics;
+use vertifleet_study::{PolicyRecord, Watch};
 
+use super::result::Estimate;
 use super::{Stage, Study, lock};
 
 /// How far a study has come.
@@ -22,6 +24,17 @@ pub(crate) struct StudyProgress {
     /// quick as those before them on the mean. Absent until a day has been played.
     #[serde(skip_serializing_if = "Option::is_none")]
     left_s: Option<f64>,
+    /// What came out for the policies that have played all their days.
+    played: Vec<PlayedPolicy>,
+}
+
+/// What came out for a policy while others still play.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub(crate) struct PlayedPolicy {
+    /// Its name.
+    name: String,
+    /// Profit of a day, dollars.
+    profit_usd: Estimate,
 }
 
 /// How far a study has come, as it is kept: each phase is the bounds or a policy.
@@ -32,6 +45,7 @@ pub(super) struct Progress {
     /// The number of phases that are over.
     over: usize,
     phase: Option<Phase>,
+    played: Vec<PlayedPolicy>,
 }
 
 #[derive(Debug)]
@@ -45,7 +59,7 @@ struct Phase {
 impl Progress {
     /// Nothing has been played yet.
     pub(super) fn of(phases: usize) -> Self {
-        Self { begun: Instant::now(), phases, over: 0, phase: None }
+        Self { begun: Instant::now(), phases, over: 0, phase: None, played: Vec::new() }
     }
 
     /// The next phase begins. Returns what counts its days.
@@ -64,13 +78,13 @@ impl Progress {
     /// What can be said now.
     pub(super) fn now(&self) -> StudyProgress {
         let Some(Phase { doing, begun, days, done }) = &self.phase else {
-            return StudyProgress { doing: None, share: 0.0, left_s: None };
+            return StudyProgress { doing: None, share: 0.0, left_s: None, played: Vec::new() };
         };
         let done = done.load(Ordering::Relaxed) as f64 / (*days).max(1) as f64;
         let share = (self.over as f64 + done) / self.phases.max(1) as f64;
         let before = begun.duration_since(self.begun);
         let left_s = self.left_s(done, before, begun.elapsed());
-        StudyProgress { doing: Some(doing.clone()), share, left_s }
+        StudyProgress { doing: Some(doing.clone()), share, left_s, played: self.played.clone() }
     }
 
     /// How much longer it takes, if the share `done` of this phase took `so_far` and all phases before it took `before`.
@@ -109,6 +123,13 @@ impl Watch for Watched {
 
     fn policy(&self, name: &str, _: usize, _: usize, days: usize) -> Self::Bar {
         self.begin(name, days)
+    }
+
+    fn played(&self, record: &PolicyRecord) {
+        let Stage::Playing(progress) = &mut *lock(&self.0.stage) else { return };
+        let daily_usd: Vec<f64> = record.days.iter().map(|day| day.totals.profit_usd).collect();
+        let profit_usd = statistics::Estimate::of(&daily_usd).into();
+        progress.played.push(PlayedPolicy { name: record.name.clone(), profit_usd });
     }
 }
 

@@ -67,7 +67,7 @@ pub(crate) struct PolicyResult {
 }
 
 /// A mean with its interval.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
 pub(crate) struct Estimate {
     /// The mean.
     mean: f64,

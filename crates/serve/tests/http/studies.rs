@@ -41,13 +41,18 @@ fn assert_runs_under_its_policy(service: &Running, page: &str) {
 
 /// Waits until a study is in a state.
 fn until(service: &Running, study: &str, state: &str) -> Value {
+    when(service, study, |found| found["state"] == state)
+}
+
+/// Waits for something to be true of a study.
+fn when(service: &Running, study: &str, is_so: impl Fn(&Value) -> bool) -> Value {
     let begun = Instant::now();
     loop {
         let found = service.get(study).json;
-        if found["state"] == state {
+        if is_so(&found) {
             return found;
         }
-        assert!(begun.elapsed() < Duration::from_mins(2), "it never is {state}: {found}");
+        assert!(begun.elapsed() < Duration::from_mins(2), "it never is: {found}");
         std::thread::sleep(Duration::from_millis(20));
     }
 }
@@ -139,10 +144,17 @@ fn a_study_has_bounds_and_follows_its_progress() {
 #[test]
 fn studies_wait_for_each_other_and_can_be_ended() {
     let (_folder, service) = service();
-    let long = json!({"network": "paper", "policies": ["rolling", "greedy"], "days": 1_000});
+    let long = json!({"network": "paper", "policies": ["greedy", "rolling"], "days": 100});
     let first = made(&service, &long);
     let playing = until(&service, &first, "playing");
     assert!(playing["progress"]["share"].is_number(), "{playing}");
+    // What came out for the first policy is there while the second one plays.
+    let playing = when(&service, &first, |found| found["progress"]["doing"] == "rolling");
+    let played = &playing["progress"]["played"][0];
+    assert_eq!(played["name"], "greedy");
+    let (profit_usd, width_usd) =
+        (&played["profit_usd"]["mean"], &played["profit_usd"]["half_width_95"]);
+    assert!(number(profit_usd) > 34_000.0 && number(width_usd) < 200.0, "{played}");
     assert_eq!(service.get(&format!("{first}/report")).status, 404, "it has no result yet");
     let short = json!({"network": "paper", "policies": ["greedy"], "days": 1});
     let second = made(&service, &short);

@@ -17,7 +17,7 @@ use super::space::{Design, Dimension, Space, What};
 use crate::comparison::DrawnDays;
 use crate::error::Error;
 use crate::journal::Journal;
-use crate::run::{BoundedDay, Kept, run};
+use crate::run::{BoundedDay, Kept, play_all};
 use crate::statistics::mean;
 
 /// The solver of a search, with everything that was found out.
@@ -93,8 +93,7 @@ impl<'a> KnownDesigns<'a> {
         let network = self.sizing.space.network(design)?;
         let days = drawn.draw(&network, self.stop)?;
         let days: Vec<BoundedDay> = days.into_iter().map(BoundedDay::unbounded).collect();
-        let records = run(&days, &self.sizing.competitor, Kept::Totals, self.stop, |_| || ())?;
-        let policy = records.into_iter().next().expect("there is one policy");
+        let policy = play_all(&self.sizing.competitor, &days, Kept::Totals, self.stop, &|| ())?;
         Ok(policy.days.iter().map(|day| day.totals).collect())
     }
 

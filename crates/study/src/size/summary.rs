@@ -196,7 +196,7 @@ impl SizeReport {
             command,
             network: sizing.space.network.name().to_owned(),
             goal: sizing.goal.name(),
-            policy: sizing.competitor[0].name.clone(),
+            policy: sizing.competitor.name.clone(),
             first_day: sizing.drawn.first,
             split: sizing.drawn.purpose.name(),
             days: sizing.drawn.days,
