@@ -16,6 +16,7 @@ from gymnasium.utils.env_checker import check_env
 
 import vertifleet
 from vertifleet.envs import FleetEnv
+from vertifleet.envs.days import _warn_once
 
 Step = tuple[dict[str, np.ndarray], float, bool, dict[str, object]]
 
@@ -302,7 +303,12 @@ def test_a_day_says_whose_it_is() -> None:
     env = gymnasium.make("vertifleet/Fleet-v0", split="validation")
     assert env.reset(seed=1)[1]["split"] == "validation"
     day = vertifleet.Network("paper").draw(1)
-    assert env.reset(options={"scenario": day})[1]["split"] == day.split == "comparison"
+    _warn_once.cache_clear()
+    with pytest.warns(UserWarning, match="comparison days"):
+        assert env.reset(options={"scenario": day})[1]["split"] == day.split == "comparison"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        env.reset(options={"scenario": day})
     assert vertifleet.Network("paper").draw(1, "training").split == "training"
 
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from vertifleet._errors import Error
 from vertifleet._native import Scenario
 from vertifleet._view import Outcome, View
+from vertifleet.envs.days import warn_of_comparison
 
 Reward: TypeAlias = Literal["terminal", "dense"] | Callable[[View, Outcome], float]
 """What a decision pays: a name, or a function of the decision and of what came of it."""
@@ -115,6 +116,9 @@ def options_of(options: Any, *taken: str, many: bool = False) -> Mapping[str, An
     if not listed and not isinstance(scenario, Scenario | None):
         hint = "Scenario.read reads one, Network.draw draws one"
         raise Error("V451", f"option scenario must be a vertifleet.Scenario, found {scenario!r}", hint)
+    for day in scenario if isinstance(scenario, (list, tuple)) else [scenario]:
+        if day is not None:
+            warn_of_comparison(day.split)
     return options
 
 

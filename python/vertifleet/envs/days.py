@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import os
+import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeAlias
 
@@ -17,8 +19,24 @@ NetworksChoice: TypeAlias = NetworkChoice | Iterable[NetworkChoice]
 "random-places:N" for the paper's network with N vertiports at random places."""
 
 
+def warn_of_comparison(split: str | None) -> None:
+    """Says once, if these are comparison days, that nothing should be learned from them."""
+    if split == "comparison":
+        _warn_once()
+
+
+@functools.cache
+def _warn_once() -> None:
+    warnings.warn(
+        "these are comparison days, by which policies are judged: learn from those of "
+        'split="training", and choose settings by "validation"',
+        stacklevel=5,
+    )
+
+
 def days_of(networks: NetworksChoice, split: Split) -> tuple[Days, Network | None]:
     """The days of the networks, and the network if there is only one."""
+    warn_of_comparison(split)
     if isinstance(networks, str) and Days.are_drawn(networks):
         return Days(networks, split), None
     if isinstance(networks, (str, os.PathLike, Network, Mapping)):
