@@ -73,7 +73,8 @@ impl NetworkText<'_> {
         Ok((network, text))
     }
 
-    /// The members that are taken from the base as they are, and what surges among them do to the demand.
+    /// The members that are taken from the base, with what surges among them do to the demand and whether the fleet has
+    /// another size.
     pub(crate) fn inherited(&self) -> Result<Vec<String>, Error> {
         let file = self.base_file()?;
         let mut members = Vec::new();
@@ -92,9 +93,12 @@ impl NetworkText<'_> {
         };
         members.retain(|member| !left_out(member));
         let surges = surges_percent(&file);
-        for member in members.iter_mut().filter(|member| *member == "disturbances.forecast_error") {
-            if surges > 0.0 {
+        for member in &mut members {
+            if surges > 0.0 && member == "disturbances.forecast_error" {
                 let _ = write!(member, " (its surges raise demand by {surges:.1} % in the mean)");
+            }
+            if let (Some(aircraft), "fleet") = (self.aircraft, member.as_str()) {
+                let _ = write!(member, " (its shares of types, with {aircraft} aircraft)");
             }
         }
         Ok(members)

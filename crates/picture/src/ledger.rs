@@ -15,7 +15,8 @@ const LINE: f64 = 30.0;
 /// A line of the ledger: its name, and its amount in dollars; costs are negative.
 pub(crate) type Line = (&'static str, f64);
 
-/// The lines of the ledger: revenue, the costs that there are, and profit.
+/// The lines of the ledger: revenue, the costs that there are, and profit. What aircraft cost is there also if it is nothing, so
+/// that nobody takes the profit of a network without this cost for one after it.
 pub fn ledger_lines(day: &Scenario, rows: &[TraceRow]) -> Vec<Line> {
     // From 0, because the sum of no numbers is -0.
     let sum =
@@ -29,7 +30,8 @@ pub fn ledger_lines(day: &Scenario, rows: &[TraceRow]) -> Vec<Line> {
         ("site cost", day.site_cost_usd()),
     ];
     let profit_usd = costs.iter().fold(revenue_usd, |left, (_, usd)| left - usd);
-    let costs = costs.into_iter().filter(|&(_, usd)| usd != 0.0).map(|(name, usd)| (name, -usd));
+    let costs = costs.into_iter().filter(|&(name, usd)| usd != 0.0 || name == "aircraft cost");
+    let costs = costs.map(|(name, usd)| (name, 0.0 - usd));
     [("revenue", revenue_usd)].into_iter().chain(costs).chain([("profit", profit_usd)]).collect()
 }
 

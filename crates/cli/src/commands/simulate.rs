@@ -75,7 +75,8 @@ fn text(totals: &DayTotals, scenario: &Scenario, policy: &str) -> String {
         ("aircraft cost", totals.aircraft_cost_usd),
         ("site cost    ", totals.site_cost_usd),
     ];
-    let beside = beside.into_iter().filter(|&(_, cost)| cost != 0.0);
+    // What aircraft cost is said also if it is nothing: a network may not know it.
+    let beside = beside.into_iter().filter(|&(name, cost)| cost != 0.0 || name == "aircraft cost");
     lines.extend(beside.map(|(name, cost)| format!("  {name}   {cost:>12.2} $")));
     lines.extend([
         format!(
