@@ -1,7 +1,7 @@
 //! Checks that the documentation is true: the error index, the links, the architecture page and the command reference
 //! must match the code and the folders.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -196,38 +196,6 @@ fn the_architecture_page_names_every_package_of_the_console() {
     let kinds = ["dependencies", "devDependencies"].map(|kind| manifest[kind].as_object());
     let asked = kinds.into_iter().flat_map(|kind| kind.expect("an object").keys().cloned());
     assert_eq!(named, asked.collect());
-}
-
-#[test]
-fn the_benchmark_page_shows_the_latest_figures_of_the_history() {
-    let page = text("docs/src/benchmarks.md");
-    let history = root().join("benches/history/criterion.csv");
-    let mut history = csv::Reader::from_path(history).expect("the history");
-    let rows = history.deserialize::<BTreeMap<String, String>>();
-    let rows = rows.map(|row| row.expect("a row"));
-    // Later rows are later measurements, so the last row of a benchmark is the latest.
-    let latest: BTreeMap<String, _> = rows.map(|row| (row["bench"].clone(), row)).collect();
-    let (_, table) = page.split_once("<!-- begin of criterion.csv -->").expect("a table");
-    let (table, _) = table.split_once("<!-- end of criterion.csv -->").expect("its end");
-    let shown: Vec<String> = table
-        .lines()
-        .skip(4)
-        .filter(|line| !line.is_empty())
-        .map(|line| line.replace(',', ""))
-        .collect();
-    assert_eq!(shown.len(), latest.len());
-    for (row, line) in latest.values().zip(shown) {
-        let cell = |name: &str| &row[name];
-        let bench = cell("bench").replace(',', "");
-        let figures = format!(
-            "| {bench} | {} | {} to {} |",
-            cell("median_ns"),
-            cell("low_ns"),
-            cell("high_ns")
-        );
-        assert!(line.starts_with(&figures), "{line}: the history has {figures}");
-        assert!(line.contains(cell("commit")) && line.contains(cell("date")), "{line}");
-    }
 }
 
 /// The output of `vertifleet ... --help`.
