@@ -37,7 +37,7 @@ lint: prepare python tools console-ready
 	cd docs && ../python/.venv/bin/stubtest vertifleet._native
 	python/.venv/bin/typos
 	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
-	shellcheck .ci/run scripts/* benches/table2/figure
+	shellcheck .ci/run benches/table2/figure $$(find scripts -type f)
 	cd web && npm run check
 
 rust-test: prepare database
