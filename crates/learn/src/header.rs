@@ -1,5 +1,4 @@
-//! The header of a weight file, which describes the weights and says where they came from. Headers of earlier formats
-//! are read too.
+//! The header of a weight file, which describes the weights and their origin.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -10,10 +9,8 @@ use crate::run::TrainingRequest;
 use crate::settings::TrainingSettings;
 use crate::{features, full, gcaps_x};
 
-/// The format of the files that are written.
+/// The format of weight files.
 pub(crate) const FORMAT: &str = "vertifleet-weights/2";
-/// Earlier formats: for weights that fit one number of vertiports, and for weights that fit any number.
-const FORMER: [&str; 2] = ["vertifleet-weights/1", "vertifleet-weights-any/1"];
 
 /// The members that every header has beside the format.
 const MEMBERS: [&str; 8] =
@@ -110,9 +107,7 @@ impl Header {
     pub(crate) fn read(mut header: Map<String, Value>) -> Result<Self, String> {
         let format = header.remove("format").unwrap_or_default();
         let format = format.as_str().unwrap_or_default();
-        if FORMER.contains(&format) {
-            modernise(&mut header);
-        } else if format != FORMAT {
+        if format != FORMAT {
             return Err(format!("format must be {FORMAT:?}, found {format:?}"));
         }
         // A value that is not known must be null; it must not be left out.
@@ -184,15 +179,4 @@ pub(crate) fn network(policy: &Architecture, vertiports: usize) -> nn::NeuralNet
     nn::NeuralNetwork::new(policy.clone(), shape_of(policy, vertiports)).expect(
         "sizes were checked when the weights were made, and days have at most 256 vertiports",
     )
-}
-
-/// Renames the members that had other names in earlier formats. Weights that fit any number of vertiports had no
-/// scales.
-fn modernise(header: &mut Map<String, Value>) {
-    header.entry("feature_scales").or_insert(Value::Null);
-    for (former, name) in [("course", "settings"), ("decisions", "steps")] {
-        if let Some(value) = header.remove(former) {
-            header.insert(name.to_owned(), value);
-        }
-    }
 }

@@ -19,12 +19,10 @@ pub struct RolloutSettings {
     /// Duration of each roll-out, seconds; half of it on the largest days.
     pub horizon_s: u32,
     /// Number of roll-outs of each choice, whose mean is the value.
-    #[serde(alias = "courses")]
     pub rollouts: u32,
     /// Size of the noise, as a share of the [stake](DayPrices::stake_usd) of a decision.
     pub noise: f64,
     /// Weight of the choice's worth at the prices to the aircraft alone.
-    #[serde(alias = "own")]
     pub price_weight: f64,
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Randomness is a function of seed, day and decision, so there is no generator to store. This module writes what all
 //! ways to learn have: the identity of the run, the parameters and Adam's moments. Each way adds its own
-//! [progress](Checkpoint::progress) and tensors. Checkpoints of earlier formats are read too.
+//! [progress](Checkpoint::progress) and tensors.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -18,11 +18,8 @@ use crate::run::RunIdentity;
 use crate::settings::{TrainingSettings, first_difference};
 use crate::tensor_file;
 
-/// The format of the files that are written.
+/// The format of checkpoints.
 const FORMAT: &str = "vertifleet-checkpoint/2";
-/// Earlier formats, for PPO and for imitation.
-const FORMER_PPO: &str = "vertifleet-checkpoint/1";
-const FORMER_IMITATION: &str = "vertifleet-checkpoint-any/1";
 /// Larger files are not read. No checkpoint of this program comes near this size.
 const LIMIT_BYTES: u64 = 16 << 30;
 /// The tensors of the parameters and of Adam's moments.
@@ -83,12 +80,9 @@ fn parse<Progress: DeserializeOwned>(
     parameters: usize,
 ) -> Result<Checkpoint<Progress>, String> {
     let mut header = tensor_file::header(&bytes)?;
-    let format = header.get("format").and_then(Value::as_str).unwrap_or_default().to_owned();
-    match format.as_str() {
-        FORMAT => {}
-        FORMER_PPO => modernise_ppo(&mut header),
-        FORMER_IMITATION => modernise_imitation(&mut header),
-        found => return Err(format!("format must be {FORMAT:?}, found {found:?}")),
+    let format = header.get("format").and_then(Value::as_str).unwrap_or_default();
+    if format != FORMAT {
+        return Err(format!("format must be {FORMAT:?}, found {format:?}"));
     }
     check_same(&mut header, asked)?;
     let adam_steps = member(&mut header, "adam_steps")?;
@@ -171,34 +165,4 @@ fn check_same(header: &mut Map<String, Value>, asked: &RunIdentity) -> Result<()
         Some((name, found, asked)) => different(&format!("setting {name}"), &found, &asked),
         None => Ok(()),
     }
-}
-
-/// Gathers under `run` the members that stood side by side in PPO's former header.
-fn modernise_ppo(header: &mut Map<String, Value>) {
-    let mut run = Map::new();
-    for (former, name) in [
-        ("network", "network"),
-        ("network_print", "network_fingerprint"),
-        ("policy", "policy"),
-        ("settings", "settings"),
-        ("seed", "seed"),
-    ] {
-        run.extend(header.remove(former).map(|value| (name.to_owned(), value)));
-    }
-    header.insert("run".to_owned(), run.into());
-}
-
-/// Renames the members that had other names in imitation's former header, and gathers its progress.
-fn modernise_imitation(header: &mut Map<String, Value>) {
-    if let Some(Value::Object(run)) = header.get_mut("run") {
-        for (former, name) in [("network_print", "network_fingerprint"), ("course", "settings")] {
-            let value = run.remove(former);
-            run.extend(value.map(|value| (name.to_owned(), value)));
-        }
-    }
-    let mut progress = Map::new();
-    for (former, name) in [("rounds", "curve"), ("vertiports", "vertiports")] {
-        progress.extend(header.remove(former).map(|value| (name.to_owned(), value)));
-    }
-    header.insert("progress".to_owned(), progress.into());
 }

@@ -1,7 +1,7 @@
 //! Properties of a training run by either way to learn: the weights are the same on any number of threads and after
 //! any interruption.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use crate::support::{advance, finished, on_mornings, remains};
@@ -140,65 +140,6 @@ fn a_run_that_is_stopped_stands_as_before_and_goes_on() {
         assert!(matches!(stopped, Err(Error::Stopped)), "{plan:?}");
         assert!(remains(run.as_ref()) == before, "{plan:?}");
         assert!(remains(finished(run).as_ref()) == remains(whole.as_ref()), "{plan:?}");
-    }
-}
-
-/// The run whose files in `tests/former` an earlier version left, after some of its rows.
-fn former(policy: Architecture) -> TrainingRequest {
-    let (network, settings) = if matches!(policy, Architecture::GcapsX(_)) {
-        let end = ("operations.end".to_owned(), "06:30:00".into());
-        let short = paper().changed([(&end.0, &end.1)]).expect("a network");
-        let settings: &[(&str, &str)] = &[
-            ("rounds", "2"),
-            ("days", "1"),
-            ("passes", "1"),
-            ("rollouts", "1"),
-            ("horizon_s", "600"),
-            ("validation_days", "1"),
-            ("random_share", "0"),
-        ];
-        (Arc::new(short), settings)
-    } else {
-        let settings: &[(&str, &str)] = &[
-            ("total_steps", "192"),
-            ("n_envs", "2"),
-            ("n_steps", "32"),
-            ("batch_size", "32"),
-            ("n_epochs", "1"),
-            ("eval_every", "1"),
-            ("eval_days", "1"),
-        ];
-        (paper(), settings)
-    };
-    let mut all = TrainingSettings::preset(&policy, "default").expect("a preset");
-    all.set(settings.iter().copied()).expect("settings within their bounds");
-    TrainingRequest {
-        world: network.into(),
-        policy,
-        settings: all,
-        seed: 3,
-        begin_with: None,
-        commit: "v0".to_owned(),
-    }
-}
-
-fn former_file(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/former").join(name)
-}
-
-#[test]
-fn a_checkpoint_of_an_earlier_version_goes_on_to_the_weights_that_it_would_have_left() {
-    let mlp = Architecture::Mlp(MlpSettings { width: 4, layers: 1, value_width: 2 });
-    let gcaps_x = Architecture::GcapsX(GcapsSettings::of_sizes(4, 2));
-    for (policy, checkpoint, weights) in [
-        (mlp, "checkpoint-1.safetensors", "weights-1-end.safetensors"),
-        (gcaps_x, "checkpoint-any-1.safetensors", "weights-any-1-end.safetensors"),
-    ] {
-        let run = former(policy).resume(&former_file(checkpoint)).expect("its run");
-        assert!(!run.is_done() && !run.curve().is_empty());
-        let model = finished(run).model();
-        let left = Model::read(&former_file(weights)).expect("weights");
-        assert_eq!((model.header(), model.params()), (left.header(), left.params()), "{weights}");
     }
 }
 
