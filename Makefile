@@ -5,7 +5,7 @@
 # The main job: all policies on 100 unseen days of the paper's network. The dispatch service, half of a build, is left out.
 demo: prepare
 	cargo build --release --locked -p vertifleet-cli --no-default-features
-	./target/release/vertifleet compare --network paper --policies random,greedy,lookahead,prices,rolling,mlp,gcaps,gcaps-x --days 100 --seed 1 --report out/report
+	./target/release/vertifleet compare --network paper --policies random,greedy,prices,rolling,mlp,gcaps,gcaps-x --days 100 --seed 1 --report out/report
 
 # The whole workspace decides on the features of dependencies, so that the tests can use what is compiled here.
 program: prepare

@@ -73,7 +73,7 @@ impl Evaluation {
             })
         };
         let days = || rows().map(|(_, _, day): (_, &PolicyRecord, &DayRecord)| day);
-        columns.texts("suite", rows().map(|(suite, _, _)| suite.suite.name))?;
+        columns.texts("suite", rows().map(|(suite, _, _)| suite.suite.name.as_ref()))?;
         columns.texts("policy", rows().map(|(_, policy, _)| policy.name.as_str()))?;
         columns.texts("day", days().map(|day| day.day.as_str()))?;
         columns.counts("seed", days().map(|day| day.seed))?;
@@ -143,7 +143,7 @@ impl Evaluation {
     }
 
     fn __repr__(&self) -> String {
-        let suites: Vec<&str> = self.suites.iter().map(|suite| suite.suite.name).collect();
+        let suites: Vec<&str> = self.suites.iter().map(|suite| &*suite.suite.name).collect();
         format!("<Evaluation on {}>", suites.join(", "))
     }
 }
@@ -172,11 +172,8 @@ pub(crate) fn evaluate(
     }
     let outcome = interruptible(py, interruptible::threads(threads)?, move |stop| {
         let evaluation = |(suite, models): &(Suite, Vec<(String, PolicySource)>)| {
-            study::Evaluation::new(
-                *suite,
-                &Selection { policies: &policies, models, seed: SEED },
-                stop,
-            )
+            let selection = Selection { policies: &policies, models, seed: SEED };
+            study::Evaluation::new(suite.clone(), &selection, stop)
         };
         // Everything is checked before the first day is played.
         let evaluations: Vec<_> = asked.iter().map(evaluation).collect::<Result<_, _>>()?;
@@ -208,8 +205,8 @@ pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyAny>
 
 /// The names of all suites.
 #[pyfunction]
-pub(crate) fn suite_names() -> Vec<&'static str> {
-    SUITES.iter().map(|suite| suite.name).collect()
+pub(crate) fn suite_names() -> Vec<String> {
+    SUITES.iter().map(|suite| suite.name.to_string()).collect()
 }
 
 /// A suite: its description, its network if it has one, its days, their bounds in dollars, and the minutes of the
@@ -217,11 +214,16 @@ pub(crate) fn suite_names() -> Vec<&'static str> {
 #[pyfunction]
 #[expect(clippy::type_complexity, reason = "the Python side gives the members names")]
 pub(crate) fn find_suite(
-    name: &str,
-) -> Result<(&'static str, Option<&'static str>, Vec<Scenario>, Vec<f64>, u32), Failure> {
-    let suite = Suite::find(name)?;
-    let days = suite.draw(&core::Stop::default())?;
-    let bounds = days.iter().map(|day| day.upper_bound_usd).collect();
+    py: Python<'_>,
+    name: String,
+) -> PyResult<(String, Option<&'static str>, Vec<Scenario>, Vec<f64>, u32)> {
+    let suite = Suite::find(&name).map_err(Failure::from)?;
+    let drawn = suite.clone();
+    let days =
+        interruptible(py, interruptible::threads(None)?, move |stop| drawn.draw_with_bounds(stop))?;
+    let days = days.map_err(Failure::from)?;
+    let bounds = days.iter().filter_map(|day| day.upper_bound_usd).collect();
     let scenarios = days.into_iter().map(|day| Scenario { scenario: day.scenario }).collect();
-    Ok((suite.description, suite.network(), scenarios, bounds, suite.step_minutes))
+    let description = suite.description.to_string();
+    Ok((description, suite.network(), scenarios, bounds, suite.step_minutes))
 }

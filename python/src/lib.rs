@@ -18,7 +18,6 @@ mod environment;
 mod evaluation;
 mod failure;
 mod frames;
-mod generalisation;
 mod interruptible;
 mod kept;
 mod layout;
@@ -56,7 +55,6 @@ mod _native {
     #[pymodule_export]
     use crate::evaluation::{Evaluation, evaluate, find_suite, suite_names, verify};
     #[pymodule_export]
-    use crate::generalisation::{Generalisation, generalise};
     #[pymodule_export]
     use crate::kept::KeptParts;
     #[pymodule_export]

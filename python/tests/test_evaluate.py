@@ -152,12 +152,12 @@ def test_too_few_actions_are_refused() -> None:
 
 def test_policies_are_measured_on_random_networks(tmp_path: Path) -> None:
     own = FunctionPolicy(first_feasible, "full", network="random")
-    found = vertifleet.generalise(["greedy", "mine"], networks=4, step=15, models={"mine": own})
+    found = vertifleet.evaluate(["greedy", "mine"], suite="random:2", models={"mine": own})
     rows = found.to_pandas()
-    assert list(rows["network"][:4]) == [f"random:{number}" for number in range(4)]
+    assert list(rows["seed"][:2]) == [0, 1]
     assert (rows["profit_usd"] < rows["upper_bound_usd"]).all()
-    assert found.summary["policies"][1]["minus_first"]["difference"]["mean"] < 0
-    assert "above greedy" in str(found)
-    assert found.report(tmp_path / "report").exists()
-    with pytest.raises(vertifleet.Error, match="networks must be"):
-        vertifleet.generalise(["greedy"], networks=0)
+    assert found.summary["suites"][0]["policies"][1]["minus_first"]["difference"]["mean"] < 0
+    [path, _] = found.save(tmp_path / "results")
+    assert vertifleet.verify(path).valid
+    with pytest.raises(vertifleet.Error, match="no suite"):
+        vertifleet.evaluate(["greedy"], suite="random:0")

@@ -255,9 +255,7 @@ def test_a_choice_outside_the_mask_holds_is_counted_and_warned_of() -> None:
     assert played.summary["flights"] == 0
 
 
-@pytest.mark.parametrize(
-    "name", ["random", "greedy", "lookahead", "prices", "rolling", "gcaps", "mlp", "gcaps-x"]
-)
+@pytest.mark.parametrize("name", ["random", "greedy", "prices", "rolling", "gcaps", "mlp", "gcaps-x"])
 def test_a_policy_that_is_asked_plays_as_the_program_does(name: str) -> None:
     day = Network("paper").draw(5)
     played = vertifleet.simulate(day, name)

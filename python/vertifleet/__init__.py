@@ -17,12 +17,10 @@ from vertifleet._compare import compare
 from vertifleet._dataset import Dataset, dataset
 from vertifleet._errors import Error
 from vertifleet._evaluate import SUITES, Suite, Verification, evaluate, suite, verify
-from vertifleet._generalise import generalise
 from vertifleet._native import (
     Bound,
     Comparison,
     Evaluation,
-    Generalisation,
     Model,
     Network,
     Picture,
@@ -55,7 +53,6 @@ __all__ = [
     "Error",
     "Evaluation",
     "FunctionPolicy",
-    "Generalisation",
     "Model",
     "Network",
     "Outcome",
@@ -78,7 +75,6 @@ __all__ = [
     "compare",
     "dataset",
     "evaluate",
-    "generalise",
     "plan",
     "policy",
     "settings",

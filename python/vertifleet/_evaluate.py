@@ -17,7 +17,7 @@ from vertifleet._errors import Error
 from vertifleet._native import Evaluation, Network, Scenario
 from vertifleet._own_policy import FunctionPolicy
 
-RULES = ("random", "greedy", "lookahead", "prices", "rolling", "plan")
+RULES = ("random", "greedy", "prices", "rolling", "plan")
 """Names that stand for nothing but the program's own policies."""
 
 SUITES: tuple[str, ...] = tuple(_native.suite_names())
@@ -40,7 +40,8 @@ def evaluate(
         policy: the policy: a name as in ``vertifleet compare``, a model, a function from an observation to an
             action, a `FunctionPolicy` or an `OwnPolicy`; or several: their names, or a mapping from names to
             policies. The others are measured against the first.
-        suite: the name of a suite of `SUITES`, several names, or "all".
+        suite: the name of a suite of `SUITES`, several names, or "all"; "random:80" is a day of each of the
+            first 80 random networks, whose bounds are proven first.
         models: weights or policies of your own, for those of the names that need one.
         threads: most threads to use; all cores by default. A policy that remembers something between calls
             needs ``threads=1``, unless it is a class.

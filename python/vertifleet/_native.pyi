@@ -22,7 +22,6 @@ __all__ = [
     "Days",
     "Environment",
     "Evaluation",
-    "Generalisation",
     "KeptParts",
     "Layout",
     "Model",
@@ -42,7 +41,6 @@ __all__ = [
     "evaluate",
     "find_policy",
     "find_suite",
-    "generalise",
     "plan",
     "read_days",
     "record",
@@ -455,42 +453,6 @@ class Comparison:
     @staticmethod
     def from_json(text: str, warnings: Sequence[str] = ...) -> Comparison:
         """Restores a comparison from the text that `pickle` keeps."""
-
-@final
-class Generalisation:
-    """The results of policies on a day of each of many random networks: one row for each policy and
-    network, and statistics.
-    """
-    @property
-    def columns(self) -> dict[str, NDArray[Any]]:
-        """A row for each policy and network, as a dict of numpy arrays: `policy`, `network`, `seed`, the
-        sizes of the network, `profit_usd`, `upper_bound_usd` and `bound_share`.
-        """
-    @property
-    def summary(self) -> dict[str, Any]:
-        """The statistics, as `vertifleet generalise --json` prints them."""
-    def to_pandas(self) -> pd.DataFrame:
-        """The rows as a pandas `DataFrame`."""
-    def to_polars(self) -> pl.DataFrame:
-        """The rows as a polars `DataFrame`."""
-    def report(self, folder: _Path, *, force: bool = False) -> Path:
-        """Writes a table, a figure and a report page into a folder, and returns the path of the page. An
-        earlier report in the folder is replaced, but a read-only one only with `force`. A folder that
-        holds anything else is refused, or, with `force`, kept under another name.
-        """
-
-def generalise(
-    policies: Sequence[str],
-    models: Mapping[str, Any],
-    *,
-    networks: SupportsIndex,
-    step: SupportsIndex,
-    threads: SupportsIndex | None,
-    command: str,
-) -> Generalisation:
-    """Plays a day of each of the first random networks with every policy, and bounds these days. A policy
-    that is a function says what its environment drew its days from.
-    """
 
 @final
 class Picture:

@@ -47,7 +47,7 @@ class Policy:
     def values(self, view: View) -> NDArray[np.float64]:
         """What it compares choices by [N], the higher the better; NaN for a choice that it does not consider.
 
-        Dollars an hour for "greedy" and "lookahead"; dollars for "prices", "rolling" and "gcaps-x"; logits
+        Dollars an hour for "greedy"; dollars for "prices", "rolling" and "gcaps-x"; logits
         for "gcaps" and "mlp"; NaN for all of "random".
         """
         return self._native.values(view._native)

@@ -60,13 +60,11 @@ pub(crate) enum Command {
     Train(TrainArguments),
     /// Play many days with many policies and report who earns what
     Compare(CompareArguments),
-    /// Play a day of each of many random networks and report shares of the bound
-    Generalise(GeneraliseArguments),
     /// Play the same days under many settings of a network: what is a change worth?
     Sweep(SweepArguments),
     /// Find how many aircraft, stands and chargers a network should have
     Size(SizeArguments),
-    /// Measure policies on a frozen suite of days, and verify results
+    /// Measure policies on frozen suites of days or on random networks, and verify results
     Evaluate(EvaluateArguments),
     /// Run the dispatch service: live days over HTTP
     #[cfg(feature = "service")]
@@ -106,7 +104,7 @@ pub(crate) struct ScenarioArguments {
 pub(crate) struct SimulateArguments {
     /// Scenario file
     pub(crate) scenario: PathBuf,
-    /// random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K, gcaps-full, mlp-full, or replay:TRACE
+    /// random, greedy, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K, gcaps-full, mlp-full, or replay:TRACE
     #[arg(long, value_parser = parse_name)]
     pub(crate) policy: String,
     /// Seed of the random policy
@@ -252,7 +250,7 @@ pub(crate) struct CompareArguments {
     /// Days of your own in place of drawn ones: scenario files, or a folder with them (all *.json, in the order of their names)
     #[arg(long, value_name = "DIR|FILE", num_args = 1.., conflicts_with_all = ["network", "days", "seed", "split"])]
     pub(crate) days_from: Vec<PathBuf>,
-    /// Policies, separated by commas: random, greedy, lookahead, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K (which
+    /// Policies, separated by commas: random, greedy, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K (which
     /// rolls its K best choices out), names given by --model, and plan, the planner, which knows the days beforehand
     #[arg(long, value_delimiter = ',', required = true, value_parser = parse_name)]
     pub(crate) policies: Vec<String>,
@@ -280,26 +278,8 @@ pub(crate) struct CompareArguments {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct GeneraliseArguments {
-    /// Number of networks: random:0 and on
-    #[arg(long, default_value_t = 50, allow_hyphen_values = true, value_parser = parse_count)]
-    pub(crate) networks: u32,
-    /// Policies, separated by commas, as compare takes them; the others are measured against the first
-    #[arg(long, value_delimiter = ',', required = true, value_parser = parse_name)]
-    pub(crate) policies: Vec<String>,
-    /// Weights for a policy name; may be given several times
-    #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
-    pub(crate) models: Vec<(String, PolicySource)>,
-    /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer never give looser bounds, and take longer
-    #[arg(long, value_name = "MIN", default_value_t = 3, allow_hyphen_values = true, value_parser = parse_minutes)]
-    pub(crate) step: u32,
-    #[command(flatten)]
-    pub(crate) presented: PresentedArguments,
-}
-
-#[derive(Debug, Args)]
 pub(crate) struct EvaluateArguments {
-    /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, cities-100, random-50, random-places-100, large; or all
+    /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, cities-100, random-50, random-places-100, large, or all; random:N is a day of each of N random networks, whose bounds are proven first
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "paper-100", value_parser = parse_name)]
     pub(crate) suite: Vec<String>,
     /// Policies, separated by commas, as compare takes them; the others are measured against the first

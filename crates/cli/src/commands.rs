@@ -6,7 +6,6 @@ pub(crate) mod compare;
 pub(crate) mod evaluate;
 pub(crate) mod explain;
 pub(crate) mod export;
-pub(crate) mod generalise;
 pub(crate) mod network;
 #[cfg(feature = "service")]
 pub(crate) mod operate;

@@ -40,7 +40,6 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
         Command::Plan(arguments) => commands::plan::run(&arguments),
         Command::Train(arguments) => commands::train::run(&arguments),
         Command::Compare(arguments) => commands::compare::run(&arguments),
-        Command::Generalise(arguments) => commands::generalise::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Export(arguments) => commands::export::run(&arguments),
         Command::Sweep(arguments) => commands::sweep::run(&arguments),

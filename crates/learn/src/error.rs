@@ -144,7 +144,7 @@ impl Coded for Error {
                 "resume with the settings the run was started with, or start anew in another folder",
             ),
             Self::NotShipped { .. } => Some(
-                "name a rule (random, greedy, lookahead, prices, rolling), gcaps-x, or give weights with --model",
+                "name a rule (random, greedy, prices, rolling), gcaps-x, or give weights with --model",
             ),
             Self::BadCurve { .. } => Some(
                 "`vertifleet train` writes the curve beside the weights; remove the file to go without",

@@ -1,8 +1,7 @@
 //! The [`Policy`] trait, the policies that need no learning, and how a day is played with one.
 //!
-//! This crate builds on `vertifleet-sim`. A policy sees a day only through a `View`. [`Greedy`] and [`Lookahead`] are
-//! rules that look one and two flights ahead, [`BidPricePolicy`] decides by [`DayPrices`], and a [`RolloutEvaluator`]
-//! evaluates choices by roll-outs.
+//! This crate builds on `vertifleet-sim`. A policy sees a day only through a `View`. [`Greedy`] is a rule,
+//! [`BidPricePolicy`] decides by [`DayPrices`], and a [`RolloutEvaluator`] evaluates choices by roll-outs.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -23,7 +22,6 @@
 mod bid_prices;
 mod draw;
 mod greedy;
-mod lookahead;
 mod play;
 mod policy;
 mod price_memory;
@@ -37,7 +35,6 @@ mod stoppable;
 pub use bid_prices::BidPricePolicy;
 pub use draw::draw;
 pub use greedy::Greedy;
-pub use lookahead::Lookahead;
 pub use play::{PlayError, play};
 pub use policy::{Policy, PolicyError};
 pub use price_memory::PriceMemory;

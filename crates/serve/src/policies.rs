@@ -15,8 +15,8 @@ use crate::store::{Kind, Store, StoredPolicy, Uploaded};
 /// The number of policies that can be uploaded.
 const MOST: usize = 1_000;
 /// The policies that the program has and that decide on a day that happens.
-const OURS: [&str; 9] =
-    ["gcaps-x", "rolling", "prices", "gcaps-full", "greedy", "lookahead", "gcaps", "mlp", "random"];
+const OURS: [&str; 8] =
+    ["gcaps-x", "rolling", "prices", "gcaps-full", "greedy", "gcaps", "mlp", "random"];
 
 /// A policy.
 #[derive(Debug, Serialize, ToSchema)]

@@ -15,7 +15,7 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let names: Vec<String> = arguments.collect();
-    let asked = |suite: &Suite| names.is_empty() || names.iter().any(|name| name == suite.name);
+    let asked = |suite: &Suite| names.is_empty() || names.iter().any(|name| *name == suite.name);
     for suite in SUITES.into_iter().filter(asked) {
         if let Err(error) = freeze(&suite, Path::new(&folder)) {
             eprintln!("error[{}]: {error}", error.code());

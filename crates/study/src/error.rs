@@ -140,7 +140,7 @@ pub enum Error {
     #[error("suite {suite:?} is no longer what was frozen: {day}")]
     SuiteChanged {
         /// The name of the suite.
-        suite: &'static str,
+        suite: String,
         /// What differs.
         day: String,
     },

@@ -24,7 +24,7 @@ pub use verify::{Verification, verify};
 /// A suite and the competitors that will play it. Everything that can be checked beforehand has been checked.
 pub struct Evaluation {
     suite: Suite,
-    hashes: Vec<&'static str>,
+    hashes: Vec<String>,
     study: Study,
     left_out: Vec<LeftOut>,
 }
@@ -49,10 +49,11 @@ impl Evaluation {
         let days = suite.draw(stop)?;
         let scenarios: Vec<Arc<Scenario>> =
             days.iter().map(|day| Arc::clone(&day.scenario)).collect();
-        let bounds = days.iter().map(|day| day.upper_bound_usd).collect();
+        let known: Option<Vec<f64>> = days.iter().map(|day| day.upper_bound_usd).collect();
+        let bounds = known.map_or(Bounds::Prove(suite.step()?), Bounds::Known);
         let (competitors, left_out) = select(&suite, selection, &days)?;
-        let study = Study::new(competitors, scenarios, Bounds::Known(bounds))?;
-        let hashes = days.iter().map(|day| day.hash).collect();
+        let study = Study::new(competitors, scenarios, bounds)?;
+        let hashes = days.into_iter().map(|day| day.hash).collect();
         Ok(Self { suite, hashes, study: Study { kept: Kept::Choices, ..study }, left_out })
     }
 
@@ -80,7 +81,7 @@ pub struct EvaluationRecords {
     /// The command line of the evaluation.
     pub command: String,
     /// The hash of each day.
-    pub hashes: Vec<&'static str>,
+    pub hashes: Vec<String>,
     /// The records of every policy, with bounds and choices. The other policies are measured against the first.
     pub policies: Vec<PolicyRecord>,
     /// The policies that cannot play these days.

@@ -12,14 +12,11 @@ mod heat_map;
 mod key;
 mod learning_curves;
 mod response;
-mod share_by_size;
 mod tornado;
 
 use crate::comparison::ComparisonReport;
 use crate::size::SizeReport;
 use crate::sweep::SweepReport;
-
-pub(crate) use share_by_size::share_by_size;
 
 /// A picture with the text that a page shows with it.
 #[derive(Debug, Clone, PartialEq, Eq)]

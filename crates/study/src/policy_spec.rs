@@ -19,10 +19,9 @@ use crate::resolved_policy::{PolicyFactory, ResolvedPolicy};
 const ANY_SIZE: &str = "gcaps-x";
 
 /// The names that need no further information.
-const NAMES: [&str; 11] = [
+const NAMES: [&str; 10] = [
     "random",
     "greedy",
-    "lookahead",
     "prices",
     "rolling",
     ANY_SIZE,
@@ -45,7 +44,6 @@ pub struct PolicySpec {
 enum Kind {
     Random,
     Greedy,
-    Lookahead,
     BidPrices,
     Rolling,
     /// The planner, which is not a policy because it knows the day.
@@ -96,7 +94,6 @@ impl PolicySpec {
         let kind = match name {
             "random" => Kind::Random,
             "greedy" => Kind::Greedy,
-            "lookahead" => Kind::Lookahead,
             "prices" => Kind::BidPrices,
             "rolling" => Kind::Rolling,
             "plan" => Kind::Planner,
@@ -169,7 +166,6 @@ impl PolicySpec {
             }),
             (None, Kind::Random) => Ok(ResolvedPolicy::Random(seed)),
             (None, Kind::Greedy) => Ok(ResolvedPolicy::Greedy),
-            (None, Kind::Lookahead) => Ok(ResolvedPolicy::Lookahead),
             (None, Kind::BidPrices) => Ok(ResolvedPolicy::BidPrices),
             (None, Kind::Rolling) => Ok(ResolvedPolicy::Rolling),
             (None, Kind::Replay(path)) => match days {

@@ -54,20 +54,13 @@ pub(crate) fn is_figure(name: &str) -> bool {
     name.starts_with("figure-") && end.is_some_and(|end| end == "svg" || end == "png")
 }
 
-/// A folder that holds a report of either study and nothing else.
+/// A folder that holds a report and nothing else.
 pub(crate) const FOLDER: FolderKind = FolderKind {
     name: "report",
-    mark: (
-        "summary.json",
-        &[
-            summary_of("{\n  \"format\": \"vertifleet-comparison/"),
-            summary_of("{\n  \"format\": \"vertifleet-generalisation/"),
-        ],
-    ),
+    mark: ("summary.json", &[summary_of("{\n  \"format\": \"vertifleet-comparison/")]),
     holds: |name| {
         is_figure(name)
-            || ["report.html", "replay.html", "summary.json", "days.csv", "networks.csv"]
-                .contains(&name)
+            || ["report.html", "replay.html", "summary.json", "days.csv"].contains(&name)
     },
 };
 

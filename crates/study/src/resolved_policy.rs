@@ -7,9 +7,7 @@ use vertifleet_core::{Scenario, Stop};
 use vertifleet_learn::{Curve, Model};
 use vertifleet_optimize::Rolling;
 use vertifleet_picture::numbers::grouped;
-use vertifleet_policy::{
-    BidPricePolicy, Greedy, Lookahead, Policy, Random, Replay, Stoppable, play,
-};
+use vertifleet_policy::{BidPricePolicy, Greedy, Policy, Random, Replay, Stoppable, play};
 use vertifleet_sim::{DayTotals, Simulation, Trace};
 
 use crate::error::Error;
@@ -23,8 +21,6 @@ pub enum ResolvedPolicy {
     Random(u64),
     /// [`Greedy`].
     Greedy,
-    /// [`Lookahead`].
-    Lookahead,
     /// [`BidPricePolicy`].
     BidPrices,
     /// [`Rolling`].
@@ -69,7 +65,6 @@ impl ResolvedPolicy {
         match self {
             Self::Random(seed) => Box::new(Random::new(*seed)),
             Self::Greedy => Box::new(Greedy),
-            Self::Lookahead => Box::new(Lookahead),
             Self::BidPrices => Box::new(BidPricePolicy::default()),
             Self::Rolling => Box::new(Rolling::default()),
             Self::Own(factory) => (factory.make)(),
@@ -147,9 +142,7 @@ impl ResolvedPolicy {
             Self::Learned { model, .. } if !model.header().policy.sees_the_forecast() => {
                 Sees::Present
             }
-            Self::Lookahead | Self::BidPrices | Self::Rolling | Self::Learned { .. } => {
-                Sees::Forecast
-            }
+            Self::BidPrices | Self::Rolling | Self::Learned { .. } => Sees::Forecast,
         }
     }
 
@@ -158,7 +151,6 @@ impl ResolvedPolicy {
         match self {
             Self::Random(_) => "draws evenly among the feasible vertiports (Feas-RND)".to_owned(),
             Self::Greedy => "takes the flight with the highest profit per hour".to_owned(),
-            Self::Lookahead => "takes the first of the best two flights in a row".to_owned(),
             Self::BidPrices => "takes what is worth most at the day's prices".to_owned(),
             Self::Rolling => "rolls out what is worth nearly most at the day's prices".to_owned(),
             Self::Own(_) => "decides in a way of its own".to_owned(),

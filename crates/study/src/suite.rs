@@ -4,9 +4,13 @@
 //! A suite's days are drawn, not stored. The table of a suite (`suites/NAME.csv`, made by `make suites`) has a hash of
 //! each day, and a day that is drawn otherwise than it was when the suite was frozen is refused. All days are comparison
 //! days, which no training and no validation ever draws.
+//!
+//! `random:N` names the days of the first N random networks in the same way. They are not frozen: their bounds are proven
+//! when they are needed.
 
 mod frozen;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
@@ -17,22 +21,23 @@ use vertifleet_optimize::Step;
 
 use crate::error::Error;
 use crate::kept_bounds::KeptBounds;
+use crate::study::MOST_DAYS;
 use frozen::FrozenDay;
 
-/// A frozen set of days.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A set of days with a name.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Suite {
     /// Its name, for example `paper-100`.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Describes its days, in one short phrase.
-    pub description: &'static str,
+    pub description: Cow<'static, str>,
     /// Number of its days.
     pub days: usize,
     /// Minutes for which the prices of its bounds stay the same.
     pub step_minutes: u32,
     drawn_from: DrawnFrom,
-    /// The text of its table.
-    table: &'static str,
+    /// The text of its table, if it is frozen.
+    table: Option<&'static str>,
 }
 
 /// What the days of a suite are drawn from.
@@ -52,12 +57,12 @@ enum DrawnFrom {
 macro_rules! suite {
     ($name:literal, $days:literal, $step:literal, $from:expr, $description:literal) => {
         Suite {
-            name: $name,
-            description: $description,
+            name: Cow::Borrowed($name),
+            description: Cow::Borrowed($description),
             days: $days,
             step_minutes: $step,
             drawn_from: $from,
-            table: include_str!(concat!("../../../suites/", $name, ".csv")),
+            table: Some(include_str!(concat!("../../../suites/", $name, ".csv"))),
         }
     };
 }
@@ -65,7 +70,12 @@ macro_rules! suite {
 /// The cities of `cities-100`.
 const CITIES: [&str; 5] = ["new-york", "san-francisco", "los-angeles", "dallas", "paris"];
 
-/// All suites.
+/// The name of random networks, which a number follows.
+const RANDOM: &str = "random:";
+/// Minutes for which the prices of bounds of random networks stay the same.
+const RANDOM_STEP_MINUTES: u32 = 3;
+
+/// All frozen suites.
 pub const SUITES: [Suite; 7] = [
     suite!("paper-100", 100, 1, DrawnFrom::Network("paper"), "100 days of the paper's network"),
     suite!(
@@ -111,10 +121,10 @@ pub const SUITES: [Suite; 7] = [
 pub struct SuiteDay {
     /// The day.
     pub scenario: Arc<Scenario>,
-    /// The hash of the day, as the suite's table has it.
-    pub hash: &'static str,
-    /// The certified upper bound of its profit, dollars.
-    pub upper_bound_usd: f64,
+    /// The hash of the day.
+    pub hash: String,
+    /// The certified upper bound of its profit, dollars; `None` if it has not been proven.
+    pub upper_bound_usd: Option<f64>,
 }
 
 impl Suite {
@@ -123,11 +133,29 @@ impl Suite {
     /// # Errors
     /// Returns [`Error::UnknownSuite`] if there is none.
     pub fn find(name: &str) -> Result<Self, Error> {
-        let names = || SUITES.iter().map(|suite| suite.name);
-        SUITES.into_iter().find(|suite| suite.name == name).ok_or_else(|| Error::UnknownSuite {
-            name: name.to_owned(),
-            known: names().collect::<Vec<_>>().join(", "),
-            meant: nearest(name, names()).map(|name| format!("did you mean {name}?")),
+        let frozen = SUITES.into_iter().find(|suite| suite.name == name);
+        frozen.or_else(|| Self::of_random_networks(name)).ok_or_else(|| {
+            let names: Vec<Cow<'_, str>> = SUITES.map(|suite| suite.name).into();
+            let meant = nearest(name, names.iter().map(AsRef::as_ref));
+            Error::UnknownSuite {
+                name: name.to_owned(),
+                known: format!("{}, random:1 to random:{MOST_DAYS}", names.join(", ")),
+                meant: meant.map(|name| format!("did you mean {name}?")),
+            }
+        })
+    }
+
+    /// A day of each of the first random networks, if the name asks for so many.
+    fn of_random_networks(name: &str) -> Option<Self> {
+        let networks: u32 = name.strip_prefix(RANDOM)?.parse().ok()?;
+        (1..=MOST_DAYS).contains(&networks).then(|| Self {
+            name: format!("{RANDOM}{networks}").into(),
+            description: format!("a day of each of {networks} networks that differ in everything")
+                .into(),
+            days: networks as usize,
+            step_minutes: RANDOM_STEP_MINUTES,
+            drawn_from: DrawnFrom::RandomNetworks,
+            table: None,
         })
     }
 
@@ -149,19 +177,27 @@ impl Suite {
         }
     }
 
-    /// Draws the days, and checks that they are the ones that were frozen.
+    /// Draws the days, and checks that they are the ones that were frozen, if any were.
     ///
     /// # Errors
     /// Returns [`Error::SuiteChanged`] if a day is not what it was; [`Error::Stopped`] soon after `stop` is requested.
     pub fn draw(&self, stop: &Stop) -> Result<Vec<SuiteDay>, Error> {
-        let frozen = frozen::parse(self.table);
-        let changed = |day: String| Error::SuiteChanged { suite: self.name, day };
+        let Some(table) = self.table else {
+            let day = |scenario: Arc<Scenario>| SuiteDay {
+                hash: frozen::hash(&scenario),
+                upper_bound_usd: None,
+                scenario,
+            };
+            return Ok(self.scenarios(stop)?.into_par_iter().map(day).collect());
+        };
+        let frozen = frozen::parse(table);
+        let changed = |day: String| Error::SuiteChanged { suite: self.name.to_string(), day };
         if frozen.len() != self.days {
             return Err(changed(format!("{} days in its table", frozen.len())));
         }
         let check = |(scenario, frozen): (Arc<Scenario>, FrozenDay)| {
-            let day =
-                SuiteDay { hash: frozen.hash, upper_bound_usd: frozen.upper_bound_usd, scenario };
+            let (hash, upper_bound_usd) = (frozen.hash.to_owned(), Some(frozen.upper_bound_usd));
+            let day = SuiteDay { scenario, hash, upper_bound_usd };
             if stop.is_requested() {
                 Err(Error::Stopped)
             } else if frozen.name == day.scenario.name && frozen.hash == frozen::hash(&day.scenario)
@@ -175,14 +211,35 @@ impl Suite {
         drawn.into_iter().zip(frozen).collect::<Vec<_>>().into_par_iter().map(check).collect()
     }
 
+    /// Draws the days as [`draw`](Self::draw) does, and proves the bounds that are missing.
+    ///
+    /// # Errors
+    /// Returns the errors of [`draw`](Self::draw), and an error if a day is too large for its bound.
+    pub fn draw_with_bounds(&self, stop: &Stop) -> Result<Vec<SuiteDay>, Error> {
+        let mut days = self.draw(stop)?;
+        if self.table.is_none() {
+            let scenarios = days.iter().map(|day| Arc::clone(&day.scenario)).collect();
+            let bounded = KeptBounds::of_this_user().days(scenarios, self.step()?, stop, &|| ())?;
+            for (day, bounded) in days.iter_mut().zip(bounded) {
+                day.upper_bound_usd = bounded.upper_bound_usd;
+            }
+        }
+        Ok(days)
+    }
+
+    /// The length of the slices of its bounds.
+    pub(crate) fn step(&self) -> Result<Step, Error> {
+        Ok(Step::from_minutes(self.step_minutes)?)
+    }
+
     /// Proves the bounds of all days anew, and returns the text of the suite's table. `bounded` is called after each
     /// day, from any thread.
     ///
     /// # Errors
     /// Returns an error if a day is too large for its bound; [`Error::Stopped`] soon after `stop` is requested.
     pub fn freeze(&self, stop: &Stop, bounded: &(impl Fn() + Sync)) -> Result<String, Error> {
-        let slices = Step::from_minutes(self.step_minutes)?;
-        let days = KeptBounds::of_this_user().days(self.scenarios(stop)?, slices, stop, bounded)?;
+        let days =
+            KeptBounds::of_this_user().days(self.scenarios(stop)?, self.step()?, stop, bounded)?;
         Ok(frozen::text(
             days.iter()
                 .map(|day| (&*day.scenario, day.upper_bound_usd.expect("every day was bounded"))),

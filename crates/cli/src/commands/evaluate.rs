@@ -1,4 +1,4 @@
-//! `vertifleet evaluate`: plays frozen suites, measures shares of their certified bounds, and verifies results.
+//! `vertifleet evaluate`: plays suites and random networks, measures shares of their certified bounds, and verifies results.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -39,12 +39,12 @@ pub(crate) fn run(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
     // Everything is checked before the first day is played.
     let evaluations = suites
         .iter()
-        .map(|suite| Evaluation::new(*suite, &selection, &never))
+        .map(|suite| Evaluation::new(suite.clone(), &selection, &never))
         .collect::<Result<Vec<_>, _>>()?;
     if let Some(folder) = &arguments.results {
         create_folder(folder)?;
         for (suite, policy) in pairs(&suites, policies) {
-            outputs.writes(&folder.join(ResultFile::file_name(suite.name, policy)), &RESULT)?;
+            outputs.writes(&folder.join(ResultFile::file_name(&suite.name, policy)), &RESULT)?;
         }
     }
     let mut records = Vec::new();

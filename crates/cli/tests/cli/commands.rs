@@ -34,7 +34,7 @@ fn a_day_is_drawn_played_checked_and_replayed() {
     let folder = folder();
     let at = folder.path();
     stdout(at, "scenario paper --seed 7 -o day.json");
-    for policy in ["random", "greedy", "lookahead", "prices", "rolling", "gcaps", "mlp"] {
+    for policy in ["random", "greedy", "prices", "rolling", "gcaps", "mlp"] {
         let played = stdout(
             at,
             &format!("simulate day.json --policy {policy} --seed 3 --trace {policy}.csv --json"),

@@ -13,22 +13,8 @@ use vertifleet_learn::{EvolutionSettings, ImitationSettings, TrainingSettings};
 type Names = BTreeSet<String>;
 
 const COMMANDS: &[&str] = &[
-    "network",
-    "scenario",
-    "simulate",
-    "check",
-    "explain",
-    "export",
-    "bound",
-    "plan",
-    "train",
-    "compare",
-    "generalise",
-    "sweep",
-    "size",
-    "evaluate",
-    "serve",
-    "operate",
+    "network", "scenario", "simulate", "check", "explain", "export", "bound", "plan", "train",
+    "compare", "sweep", "size", "evaluate", "serve", "operate",
 ];
 
 /// Commands within commands.

@@ -10,7 +10,6 @@ mod docs;
 mod evaluate;
 #[cfg(unix)]
 mod full_disk;
-mod generalise;
 mod guide;
 mod guide_figures;
 #[cfg(unix)]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use proptest::prelude::{ProptestConfig, any, proptest};
 use vertifleet_core::{AircraftIx, DaySeed, Network, Scenario, Stop, TakeoffDelays, Time};
-use vertifleet_policy::{BidPricePolicy, Greedy, Lookahead, Policy, Random, draw, play};
+use vertifleet_policy::{BidPricePolicy, Greedy, Policy, Random, draw, play};
 use vertifleet_sim::{Simulation, Trace};
 use vertifleet_testkit::{Size, any_extended_day};
 
@@ -35,8 +35,8 @@ fn scarce_day(name: &str, seed: u64, hours: u32) -> Arc<Scenario> {
 }
 
 fn traces(day: &Arc<Scenario>) -> Vec<Trace> {
-    let policies: [&mut dyn Policy; 4] =
-        [&mut Random::new(3), &mut Greedy, &mut Lookahead, &mut BidPricePolicy::default()];
+    let policies: [&mut dyn Policy; 3] =
+        [&mut Random::new(3), &mut Greedy, &mut BidPricePolicy::default()];
     let played = policies.into_iter().map(|policy| {
         let mut trace = Trace::default();
         let mut simulation = Simulation::new(Arc::clone(day));

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{Scenario, Stop};
 use vertifleet_policy::{
-    BidPricePolicy, Greedy, Lookahead, PlayError, Policy, PolicyError, Random, Stoppable, play,
+    BidPricePolicy, Greedy, PlayError, Policy, PolicyError, Random, Stoppable, play,
 };
 use vertifleet_sim::{Simulation, Trace};
 
@@ -103,7 +103,6 @@ pub(super) fn best_policy(
     });
     best = better(best, priced.finished("prices"));
     let others = [
-        StartingPolicy::new("lookahead", Box::new(Lookahead)),
         StartingPolicy::new("random", Box::new(Random::new(0))),
         StartingPolicy::new("rolling", Box::<Rolling>::default()),
     ];

@@ -9,7 +9,7 @@ use vertifleet_core::{
     Coded, DaySeed, Matrix, Network, Scenario, Stop, TakeoffDelays, Time, TypeIx, VertiportIx,
 };
 use vertifleet_optimize::{Error, Rolling, Step, kept_upper_bound, upper_bound};
-use vertifleet_policy::{BidPricePolicy, Greedy, Lookahead, Policy, Random, play};
+use vertifleet_policy::{BidPricePolicy, Greedy, Policy, Random, play};
 use vertifleet_sim::Simulation;
 use vertifleet_testkit::{Size, any_day, any_extended_day, paper_day};
 
@@ -124,10 +124,9 @@ fn no_policy_earns_more_than_the_bound_on_200_networks() {
     (1_000..1_200_u32).into_par_iter().for_each(|number| {
         let day = any_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 5 });
         let bound = bound_usd(&day, [5, 7, 15, 30, 60][number as usize % 5]);
-        let policies: [&mut dyn Policy; 5] = [
+        let policies: [&mut dyn Policy; 4] = [
             &mut Random::new(1),
             &mut Greedy,
-            &mut Lookahead,
             &mut BidPricePolicy::default(),
             &mut Rolling::default(),
         ];
@@ -143,10 +142,9 @@ fn no_policy_earns_more_than_the_bound_on_200_disturbed_networks() {
     (2_000..2_200_u32).into_par_iter().for_each(|number| {
         let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 5 });
         let bound = bound_usd(&day, [5, 7, 15, 30, 60][number as usize % 5]);
-        let policies: [&mut dyn Policy; 5] = [
+        let policies: [&mut dyn Policy; 4] = [
             &mut Random::new(1),
             &mut Greedy,
-            &mut Lookahead,
             &mut BidPricePolicy::default(),
             &mut Rolling::default(),
         ];

@@ -9,8 +9,8 @@ use vertifleet_sim::live::{Booking, LiveDay, Report, Routes};
 use vertifleet_study::{PolicySpec, ResolveFor};
 use vertifleet_testkit::{Size, any_extended_day};
 
-const POLICIES: [&str; 7] =
-    ["random", "greedy", "lookahead", "prices", "rolling", "gcaps-x", "gcaps-x:rollouts=2"];
+const POLICIES: [&str; 6] =
+    ["random", "greedy", "prices", "rolling", "gcaps-x", "gcaps-x:rollouts=2"];
 const DAYS: u64 = 60;
 const REPORTS: u32 = 40;
 

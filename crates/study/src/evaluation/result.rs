@@ -95,7 +95,7 @@ impl EvaluationRecords {
             format: RESULT_FORMAT.to_owned(),
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
             command: self.command.clone(),
-            suite: self.suite.name.to_owned(),
+            suite: self.suite.name.to_string(),
             policy: ResultPolicy {
                 name: policy.name.clone(),
                 description: policy.description.clone(),
@@ -113,10 +113,10 @@ impl EvaluationRecords {
     }
 }
 
-fn result_day((day, &hash): (&DayRecord, &&str)) -> ResultDay {
+fn result_day((day, hash): (&DayRecord, &String)) -> ResultDay {
     ResultDay {
         day: day.day.clone(),
-        hash: hash.to_owned(),
+        hash: hash.clone(),
         upper_bound_usd: day.upper_bound_usd.expect("every day of a suite has its bound"),
         profit_usd: day.totals.profit_usd,
         choices: choices_text(&day.choices),
@@ -150,7 +150,7 @@ impl ResultFile {
             let is_plain = letter.is_ascii_alphanumeric() || "._-".contains(letter);
             if is_plain { letter } else { '-' }
         };
-        format!("{suite}-{}.json", policy.chars().map(plain).collect::<String>())
+        format!("{suite}-{policy}").chars().map(plain).chain(".json".chars()).collect()
     }
 
     /// Writes the file.

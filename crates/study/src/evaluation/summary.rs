@@ -103,8 +103,8 @@ impl SuiteReport {
             EvaluatedPolicy { share, p_value_holm, profit_usd, decision_ns }
         };
         Ok(Self {
-            suite: suite.name.to_owned(),
-            description: suite.description.to_owned(),
+            suite: suite.name.to_string(),
+            description: suite.description.to_string(),
             days: suite.days,
             one_network: suite.network().is_some(),
             bound_step_s: 60 * suite.step_minutes,

@@ -50,7 +50,7 @@ pub struct Verification {
 /// not the ones that were frozen, and [`Error::Stopped`] soon after `stop` is requested.
 pub fn verify(result: &ResultFile, stop: &Stop) -> Result<Verification, Error> {
     let suite = Suite::find(&result.suite)?;
-    let days = suite.draw(stop)?;
+    let days = suite.draw_with_bounds(stop)?;
     let mut findings = Vec::new();
     if result.days.len() != days.len() {
         findings.push(format!(
@@ -119,7 +119,7 @@ fn agree(claimed: f64, found: f64) -> bool {
 /// Plays the choices of a day. The record has what the day earns; the error says what does not hold.
 fn verified_day(day: &SuiteDay, claim: &ResultDay) -> Result<DayRecord, String> {
     let name = &day.scenario.name;
-    if (&claim.day, claim.hash.as_str()) != (name, day.hash) {
+    if (&claim.day, &claim.hash) != (name, &day.hash) {
         return Err(format!("{name}: the file has {:?} in its place, or another hash", claim.day));
     }
     let (trace, totals) =
@@ -140,15 +140,16 @@ fn verified_day(day: &SuiteDay, claim: &ResultDay) -> Result<DayRecord, String> 
             ));
         }
     }
-    if !agree(claim.upper_bound_usd, day.upper_bound_usd) {
-        let (claimed, found) = (claim.upper_bound_usd, day.upper_bound_usd);
+    let upper_bound_usd = day.upper_bound_usd.expect("every day was bounded");
+    if !agree(claim.upper_bound_usd, upper_bound_usd) {
+        let (claimed, found) = (claim.upper_bound_usd, upper_bound_usd);
         return Err(format!("{name}: a bound of {claimed} $ is claimed, the suite has {found}"));
     }
     Ok(DayRecord {
         day: name.clone(),
         seed: day.scenario.seed,
         totals,
-        upper_bound_usd: Some(day.upper_bound_usd),
+        upper_bound_usd: day.upper_bound_usd,
         choices: Vec::new(),
     })
 }

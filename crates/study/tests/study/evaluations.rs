@@ -30,7 +30,7 @@ fn every_suite_is_what_was_frozen() {
     for suite in SUITES {
         let days = suite.draw(&Stop::default()).expect("the frozen days");
         assert_eq!(days.len(), suite.days, "{}", suite.name);
-        assert_eq!(Suite::find(suite.name).expect("a suite"), suite);
+        assert_eq!(Suite::find(&suite.name).expect("a suite"), suite);
     }
     let unknown = Suite::find("paper-10").expect_err("no suite");
     assert_eq!(
@@ -47,8 +47,30 @@ fn the_bounds_of_a_suite_are_those_that_are_proven_anew() {
         let day = suite.draw(&Stop::default()).expect("the frozen days").remove(at);
         let step = Step::from_minutes(suite.step_minutes).expect("a step");
         let proven_usd = upper_bound(&day.scenario, step).expect("a bound").upper_bound_usd();
-        let above_usd = day.upper_bound_usd - proven_usd;
+        let above_usd = day.upper_bound_usd.expect("it is frozen") - proven_usd;
         assert!((0.0..=1e-4 + 1e-9).contains(&above_usd), "{name}: {above_usd}");
+    }
+}
+
+#[test]
+fn random_networks_are_those_of_the_suite_with_bounds_that_are_proven() {
+    let asked = Suite::find("random:2").expect("two networks");
+    let frozen = Suite::find("random-50").expect("a suite");
+    let (asked, frozen) = (asked.draw_with_bounds(&Stop::default()), frozen.draw(&Stop::default()));
+    let (asked, frozen) = (asked.expect("two days"), frozen.expect("the frozen days"));
+    assert_eq!(asked.len(), 2);
+    for (asked, frozen) in asked.iter().zip(&frozen) {
+        assert_eq!((&asked.scenario, &asked.hash), (&frozen.scenario, &frozen.hash));
+        let (asked_usd, frozen_usd) = (asked.upper_bound_usd, frozen.upper_bound_usd);
+        let looser = asked_usd.expect("it is proven") / frozen_usd.expect("it is frozen");
+        assert!((1.0..1.01).contains(&looser), "slices of three minutes in place of one: {looser}");
+    }
+    let records = evaluated("random:2", &["greedy", "random"]);
+    let result = records.results(&BTreeMap::new()).remove(0);
+    let verification = verify(&result, &Stop::default()).expect("networks by number");
+    assert!(verification.valid, "{verification}");
+    for name in ["random:0", "random:", "random:x", "random:1000001"] {
+        assert_eq!(Suite::find(name).expect_err("no suite").code().to_string(), "V411", "{name}");
     }
 }
 

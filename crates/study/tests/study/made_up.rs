@@ -38,8 +38,8 @@ const POLICIES: [Outline; 5] = [
         decision_ns: latency(310, 640),
     },
     Outline {
-        name: "lookahead",
-        description: "the highest profit per hour over two flights",
+        name: "prices",
+        description: "what is worth most at the prices of the day",
         profit_usd: 38_150.0,
         noise_usd: 450.0,
         flights: 350,
@@ -95,7 +95,7 @@ pub(crate) fn study(days: usize) -> ComparisonRecords {
         days,
         bound_step_s: None,
         command: format!(
-            "vertifleet compare --network paper --policies random,greedy,lookahead,mlp,gcaps --days {days} --seed 1 --report out"
+            "vertifleet compare --network paper --policies random,greedy,prices,mlp,gcaps --days {days} --seed 1 --report out"
         ),
         policies,
         curves: vec![

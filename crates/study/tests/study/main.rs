@@ -3,7 +3,6 @@
 mod account;
 mod evaluations;
 mod explain;
-mod generalisation;
 mod made_up;
 mod report;
 mod size;
