@@ -13,17 +13,18 @@ impl HourlyDemand {
         let operations = base.operations();
         let (origin, problems) = match source {
             Demand::Table(path) => {
-                let problems = [self.nobody(), self.long_period(operations), self.outside(base)];
+                let problems =
+                    [self.no_passengers(), self.long_period(operations), self.outside(base)];
                 (path.display().to_string(), problems)
             }
             // The periods of trip records are the hours of operation.
-            Demand::Trips(_) => ("the trip records".to_owned(), [self.nobody(), None, None]),
+            Demand::Trips(_) => ("the trip records".to_owned(), [self.no_passengers(), None, None]),
         };
         let warning = |problem| Warning::Demand { origin: origin.clone(), problem };
         problems.into_iter().flatten().map(warning).collect()
     }
 
-    fn nobody(&self) -> Option<String> {
+    fn no_passengers(&self) -> Option<String> {
         let problem = "there are no passengers, so that no flight of any day earns a fare";
         (self.passengers() == 0.0).then(|| problem.to_owned())
     }

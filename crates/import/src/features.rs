@@ -16,7 +16,7 @@ use crate::header::{Header, Named};
 use crate::row::{Column, Need, Positions, Row};
 use crate::source::read_whole;
 use crate::table::{text, without_mark};
-use crate::{Error, Warning};
+use crate::{Error, Warning, strict_json};
 
 /// Whether a file is GeoJSON, by its name or, where the name does not say, by its first character.
 pub(crate) fn is_geojson(path: &Path) -> Result<bool, Error> {
@@ -52,7 +52,9 @@ pub(crate) fn shapes(
     let bytes = read_whole(path)?;
     let kind = "a GeoJSON FeatureCollection";
     let wrong = |problem: String| Error::NotParsed { origin: origin.clone(), kind, problem };
-    let collection: FeatureCollection = serde_json::from_slice(text(&bytes, kind, &origin)?)
+    let text = text(&bytes, kind, &origin)?;
+    let collection: FeatureCollection = strict_json::check(text)
+        .and_then(|()| serde_json::from_slice(text))
         .map_err(|error| wrong(shortened(&error.to_string(), 300)))?;
     if let Some(system) = other_system(&collection) {
         return Err(wrong(format!(

@@ -25,6 +25,7 @@ mod parquet_file;
 mod parquet_meaning;
 mod row;
 mod source;
+mod strict_json;
 mod table;
 mod tariffs;
 mod trip_times;

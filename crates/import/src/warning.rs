@@ -17,7 +17,7 @@ pub enum Warning {
         problem: String,
     },
 
-    /// V719. Vertiports are hardly where they are meant to be: two stand at the same place, or all of them where nobody
+    /// V719. Vertiports are hardly where they are meant to be: two stand at the same place, or all of them where no one
     /// lives. Fix: correct the positions; latitude and longitude may be exchanged.
     Places {
         /// The file.

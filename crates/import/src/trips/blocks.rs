@@ -152,7 +152,7 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// Sends all blocks, the first of which has been read already. Ends when nobody takes them any more.
+    /// Sends all blocks, the first of which has been read already. Ends when they are no longer taken.
     fn send(mut self, first: Block, blocks: &SyncSender<Result<Block, Error>>, stop: &Stop) {
         let mut next = Ok(Some(first));
         while !stop.is_requested() {
@@ -160,7 +160,7 @@ impl Source<'_> {
                 Ok(None) => return,
                 Ok(Some(block)) => blocks.send(Ok(block)),
                 Err(error) => {
-                    // Whoever reads the blocks has ended if this is not taken.
+                    // The reader of the blocks has ended if this is not taken.
                     let _ = blocks.send(Err(error));
                     return;
                 }

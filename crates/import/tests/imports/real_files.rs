@@ -113,6 +113,9 @@ fn a_name_that_is_read_must_not_occur_twice() {
         refused(&folder, vertiports(&folder, &places)),
         r#"V704 places.geojson: feature 1: the property "stands" is given before, in the same feature"#
     );
+    let places = map(&[point(r#""id":"JRB","stands":3,"stands":4"#, -74.0, 40.7)]);
+    let twice = refused(&folder, vertiports(&folder, &folder.file("places.geojson", places)));
+    assert!(twice.contains(r#"the member "stands" is there twice at line 1"#), "{twice}");
 }
 
 #[test]

@@ -33,7 +33,7 @@ fn a_missing_hour_and_passengers_outside_of_operations_bring_warnings() {
         warnings("", &format!("{TABLE}{rows}"))
     };
     assert!(hours(&mut (6..22)).is_empty());
-    // A table may begin after operations do: a period of nobody is put before it.
+    // A table may begin after operations do: a period without passengers is put before it.
     assert!(hours(&mut (9..22)).is_empty());
     let lasts = "and others last 01:00:00: if hours are missing, give them rows with 0 passengers";
     assert_eq!(
