@@ -35,7 +35,7 @@ use crate::mark::EventMark;
 /// The name of the database in the folder of the data.
 pub(crate) const DATABASE: &str = "vertifleet.db";
 /// A store that does not answer for so long has failed.
-const PATIENCE: Duration = Duration::from_secs(5);
+const STORE_TIMEOUT: Duration = Duration::from_secs(5);
 /// Rows that are read at once.
 pub(crate) const PAGE: u32 = 10_000;
 /// About so many bytes of events are read at once, so that neither long events nor many readers fill the memory.
@@ -178,7 +178,7 @@ impl Store {
     /// The outcome of a question to the database. A server may hang and keep its connections open, which nothing else notices.
     ///
     /// # Errors
-    /// Returns [`Error::StoreHangs`] if a server has not answered for [`PATIENCE`]. It may still do what it was asked for.
+    /// Returns [`Error::StoreHangs`] if a server has not answered for [`STORE_TIMEOUT`]. It may still do what it was asked for.
     async fn in_time<T>(
         &self,
         outcome: impl Future<Output = Result<T, Error>>,
@@ -186,8 +186,8 @@ impl Store {
         if !self.is_shared() {
             return outcome.await;
         }
-        let outcome = tokio::time::timeout(PATIENCE, outcome).await;
-        outcome.unwrap_or(Err(Error::StoreHangs { s: PATIENCE.as_secs() }))
+        let outcome = tokio::time::timeout(STORE_TIMEOUT, outcome).await;
+        outcome.unwrap_or(Err(Error::StoreHangs { s: STORE_TIMEOUT.as_secs() }))
     }
 
     /// Adds a day.
@@ -365,14 +365,20 @@ impl Store {
         state: &mut DispatchDay,
         until: u64,
     ) -> Result<(), Error> {
-        while state.seq() < until {
-            let most = u32::try_from(until - state.seq()).unwrap_or(PAGE).min(PAGE);
-            let page = self.events(day, state.seq(), most).await?;
+        let read = |after: u64| {
+            let (store, day) = (self.clone(), day.to_owned());
+            let most = u32::try_from(until - after).unwrap_or(PAGE).min(PAGE);
+            tokio::spawn(async move { store.events(&day, after, most).await })
+        };
+        let mut reading = (state.seq() < until).then(|| read(state.seq()));
+        while let Some(page) = reading {
+            let died = |error| Error::Internal { cause: format!("{error}") };
+            let page = page.await.map_err(died)??;
+            // The next page is read while this one is replayed.
+            let last = page.events.last().map(|event| event.seq);
+            reading = last.filter(|last| !page.is_last && *last < until).map(read);
             for event in &page.events {
                 state.replay(event)?;
-            }
-            if page.is_last {
-                break;
             }
         }
         Ok(())
