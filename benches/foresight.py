@@ -4,7 +4,7 @@ From the root of the project, after `cargo build --release -p vertifleet-cli`:
 
     python3 benches/foresight.py disrupted new-york > foresight.md
 
-What the rules lose in shares of the bound is what they cannot know and do not expect; what the bound loses is what nobody can avoid. The
+What the rules lose in shares of the bound is what they cannot know and do not expect; what the bound loses cannot be avoided. The
 days of all rows have the same seeds. `disrupted` takes about 2 minutes on 2 cores, and
 `new-york` about 10.
 """

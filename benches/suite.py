@@ -1,7 +1,7 @@
 """How the policies do on networks of every kind: a table of the policies' profit, and whether each promise is kept.
 
 The promises: `rolling` earns at least what `prices` and what `greedy` earn, `gcaps-x` at least what `prices` earns, in the mean
-over the days, but for what chance may make of it; and nobody loses money where holding is possible. From the root of the
+over the days, but for what chance may make of it; and no policy loses money where holding is possible. From the root of the
 project, after `cargo build --release -p vertifleet-cli`:
 
     python3 benches/suite.py --days 20 > suite.md

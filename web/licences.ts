@@ -1,5 +1,5 @@
 // What those want to be said whose work is in what is built: licences ask for their notices in every copy. The console carries them as
-// a file that its page names, the replay page carries them in itself. A licence that nobody has looked at ends the build.
+// a file that its page names, the replay page carries them in itself. A licence that was not reviewed ends the build.
 
 import { createHash } from 'node:crypto'
 import { readdirSync, readFileSync } from 'node:fs'

@@ -81,7 +81,7 @@ pub fn import_with(any: &str, bytes: &[u8]) -> bool {
 }
 
 /// libFuzzer ends the process at every panic, also at those of the Parquet library, which its reader turns into errors. So
-/// only panics of our own end it at once; any other that nobody catches still ends the run.
+/// only panics of our own end it at once; any other that is not caught still ends the run.
 fn stop_at_panics_of_ours() {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {

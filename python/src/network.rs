@@ -61,7 +61,7 @@ impl Network {
     fn changed(&self, changes: &Bound<'_, PyMapping>) -> PyResult<Self> {
         let asked = members("changes", changes)?;
         let network = self.network.changed(asked.iter().map(|(path, value)| (path, value)));
-        self.told_changed(changes, network.map_err(Failure::from)?, &mut HashSet::new())
+        self.changed_with_warnings(changes, network.map_err(Failure::from)?, &mut HashSet::new())
     }
 
     /// The Python expression that made the network, for people to read. A report contains it in its command.
@@ -180,7 +180,7 @@ impl Network {
     }
 
     /// This network with these changes. Python hears of those of its warnings that are not `said` yet.
-    pub(crate) fn told_changed(
+    pub(crate) fn changed_with_warnings(
         &self,
         changes: &Bound<'_, PyAny>,
         network: core::Network,

@@ -51,7 +51,9 @@ pub(crate) fn sweep_cells<'py>(
             changes.set_item(&factor.path, plain(py, value)?)?;
         }
         let varied = match varied {
-            Ok(varied) => Varied::Network(network.told_changed(&changes, *varied, &mut said)?),
+            Ok(varied) => {
+                Varied::Network(network.changed_with_warnings(&changes, *varied, &mut said)?)
+            }
             Err(reason) => Varied::LeftOut(reason),
         };
         Ok((changes, varied))

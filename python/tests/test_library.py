@@ -168,11 +168,11 @@ def test_days_of_ones_own_earn_what_they_do_alone_wherever_they_come_from(
 
 def test_what_somebody_else_wrote_is_replaced_by_force_alone(day: Scenario, tmp_path: Path) -> None:
     path = tmp_path / "notes.json"
-    path.write_text("dear to somebody", encoding="utf-8")
+    path.write_text("dear to its owner", encoding="utf-8")
     with pytest.raises(vertifleet.Error) as error:
         day.write(path)
     assert error.value.code == "V143"
-    assert path.read_text(encoding="utf-8") == "dear to somebody"
+    assert path.read_text(encoding="utf-8") == "dear to its owner"
     day.write(path, force=True)
     assert Scenario.read(path) == day
     # Replacing a file that the program wrote needs no force.
@@ -268,15 +268,15 @@ def test_a_function_needs_the_network_of_its_day(day: Scenario, asked: dict[str,
 
 def test_what_a_function_raises_is_raised(paper: Network) -> None:
     def broken(observation: dict[str, np.ndarray]) -> int:
-        raise ZeroDivisionError(f"by whoever wrote it, on {len(observation)} arrays")
+        raise ZeroDivisionError(f"by its author, on {len(observation)} arrays")
 
-    with pytest.raises(ZeroDivisionError, match="whoever"):
+    with pytest.raises(ZeroDivisionError, match="its author"):
         vertifleet.compare(paper, ["mine"], days=20, models={"mine": broken})
     with pytest.raises(vertifleet.Error, match="V451"):
         vertifleet.compare(paper, ["mine"], days=1, models={"mine": lambda observation: "V1"})
     with pytest.raises(TypeError, match="a policy is"):
         vertifleet.compare(paper, ["mine"], days=1, models={"mine": 3})
-    with pytest.raises(ZeroDivisionError, match="whoever"):
+    with pytest.raises(ZeroDivisionError, match="its author"):
         vertifleet.simulate(paper.draw(1), broken, network=paper)
     with pytest.raises(TypeError, match="a policy is"):
         vertifleet.simulate(paper.draw(1), 3, network=paper)

@@ -9,7 +9,7 @@ import { CELL, SECTOR, type CellText } from '../src/map/ground/grid.ts'
 import { encode } from '../src/map/ground/encoding.ts'
 import { linesByCell, ringsByCell, type Point } from './clip.ts'
 
-/** Nobody flies air taxis over the ice of Antarctica, which is a tenth of all coast. */
+/** Air taxis do not fly over the ice of Antarctica, which is a tenth of all coast. */
 const SOUTHERNMOST = -60
 
 /** Lakes come in files of parts of the world; each cell takes them from the first of these that has it whole. */

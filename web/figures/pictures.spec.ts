@@ -64,7 +64,7 @@ test('recording', async ({ page, program }) => {
   writeFileSync(`${images}/console.gif`, gif)
 })
 
-/** Takes pictures while somebody accepts what is recommended, about a second after it came up. */
+/** Takes pictures while a user accepts what is recommended, about a second after it came up. */
 async function record(page: Page): Promise<Buffer[]> {
   const frames: Buffer[] = []
   let isRead = 0

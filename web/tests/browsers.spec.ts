@@ -47,6 +47,7 @@ for (const [name, launch] of Object.entries(others)) {
         await expect.poll(shown, PATIENCE).toMatch(/^07:15:00/)
         await page.keyboard.press('End')
         await expect.poll(shown, PATIENCE).toMatch(/^09:\d\d:\d\d, \$3,142/)
+        await expect.poll(() => decodeURIComponent(page.url()), PATIENCE).toMatch(/09:\d\d:\d\d/)
         await page.reload()
         await expect.poll(shown, PATIENCE).toMatch(/\$3,142/)
         expect(wrongs).toEqual([])

@@ -60,7 +60,7 @@ test('two consoles on one day see each other', async ({ page, context, program, 
   await expect(theirs.getByRole('heading', { name: /^A02/ })).toBeVisible()
 })
 
-test('a console that nobody touches follows the other', async ({ page, context, program, fleet }) => {
+test('a console that is not touched follows the other', async ({ page, context, program, fleet }) => {
   const other = await context.newPage()
   await open(other, program, fleet)
   await open(page, program, fleet)

@@ -265,7 +265,7 @@ test('no network is replaced unasked', async ({ page, program }) => {
   expect((await read(program.url, 'smaller')).vertiports[2]?.stands).toBe(5)
 })
 
-test('whoever may only look can edit and download, and neither saves nor plays', async ({
+test('a user who may only read can edit and download, and neither saves nor plays', async ({
   page,
   program,
 }) => {

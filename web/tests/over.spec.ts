@@ -21,7 +21,7 @@ test('a day that is over shows its result, and nothing of it can be taken back',
   await expect(over).toContainText(`Passengers ${count(totals.passengers)}`)
   await expect(over).toContainText(`Over since ${String(now)}`)
   await expect(figures).not.toContainText('At most')
-  await expect(page.getByText('Nobody waits')).toHaveCount(0)
+  await expect(page.getByText('No one is waiting')).toHaveCount(0)
   await expect(page.getByText('Ready next')).toHaveCount(0)
   await expect(page.getByRole('region', { name: 'Decided lately' }).getByRole('listitem')).not.toHaveCount(0)
   await expect(page.getByRole('button', { name: 'Undo' })).toHaveCount(0)

@@ -70,7 +70,7 @@ test('what earned most is looked at first, beside the next best', async ({ page 
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
 })
 
-test('one policy stays alone for whoever has the link', async ({ page }) => {
+test('one policy stays alone for a user with the link', async ({ page }) => {
   await page.goto(address)
   await page.getByLabel('Beside it').selectOption('')
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)

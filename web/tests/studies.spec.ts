@@ -100,7 +100,7 @@ test('with a token the report is saved as a file', async ({ page, program }) => 
     (token) => sessionStorage.setItem('vertifleet-token', token),
     program.token('read'),
   )
-  // A service that was asked before the token was made lets everybody in for a moment longer.
+  // A service that was asked before the token was made lets all in for a moment longer.
   await expect.poll(async () => (await fetch(`${program.url}/v1/studies`)).status).toBe(401)
   await open(page, program.console)
   const download = page.waitForEvent('download')

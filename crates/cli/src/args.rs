@@ -48,7 +48,7 @@ pub(crate) enum Command {
     Simulate(SimulateArguments),
     /// Check a schedule against the rules, independently of the simulator
     Check(CheckArguments),
-    /// Say where a day's money is and is lost, and what one more stand would be worth
+    /// Break a day's profit down, and price one more stand, aircraft or seat
     Explain(ExplainArguments),
     /// Write a played or planned day in the formats of other programs
     Export(ExportArguments),
@@ -143,7 +143,7 @@ pub(crate) struct BoundArguments {
     /// Scenario file; several of them, or a folder with them (all *.json), give means over days too
     #[arg(required = true, value_name = "SCENARIO|DIR")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// Minutes for which prices stay the same at most, 1 to 60; slices have 60, 15, 5, 3 or 1 minutes. Fewer never give a looser bound, and take
+    /// Longest price interval, minutes, 1 to 60; slices have 60, 15, 5, 3 or 1 minutes. Fewer never give a looser bound, and take
     /// longer
     #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
@@ -270,7 +270,7 @@ pub(crate) struct CompareArguments {
     /// Prove an upper bound of every day and show each policy's share of it
     #[arg(long)]
     pub(crate) bound: bool,
-    /// Minutes for which the bound's prices stay the same at most, 1 to 60; fewer never give a looser bound, and take longer
+    /// Longest price interval of the bound, minutes, 1 to 60; shorter is never looser and takes longer
     #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     #[command(flatten)]

@@ -42,7 +42,7 @@ fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
 }
 
 /// Finds the world of a name, and protects the files that were read from being written to.
-fn find_world(name: &str, outputs: &mut Outputs) -> Result<World, Failure> {
+fn resolve_network(name: &str, outputs: &mut Outputs) -> Result<World, Failure> {
     let world = World::find(name)?;
     if let World::Network(network) = &world {
         for file in network.files() {
@@ -70,7 +70,7 @@ fn reads_policy(spec: &PolicySpec, model: Option<&PolicySource>, outputs: &mut O
 }
 
 /// Prints the warnings about some days on stderr, each one once, with the first day that it applies to.
-fn warn_of_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
+fn warn_unserved_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     let mut said: Vec<String> = Vec::new();
     let mut more = 0_u32;
     for day in days {

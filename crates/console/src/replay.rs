@@ -41,7 +41,7 @@ pub fn replay_page(days: &str, places: &[(f64, f64)]) -> String {
     format!("{REPLAY_OPENING}{head}{BASEMAP}{map}</script>\n    {DATA}{days}</script>{tail}")
 }
 
-/// What the replay page runs, and what it looks by: its script and its style sheet. Whoever serves the page and forbids
+/// What the replay page runs, and what it looks by: its script and its style sheet. A server of the page that forbids
 /// other scripts and styles has to allow these.
 ///
 /// # Panics

@@ -38,7 +38,7 @@ impl Network {
     ///
     /// Aircraft start as if the vertiports had the stands that `start_stands` of the file names, as far as there are stands
     /// for them; the others find a place by chance. A network that was [changed](Self::changed) keeps those of its base, so
-    /// that the days of both are comparable (common random numbers): one more stand moves nobody, one less moves only those
+    /// that the days of both are comparable (common random numbers): one more stand moves no aircraft, one less moves only those
     /// who stood there, and further aircraft leave the first ones where they were.
     pub fn draw(&self, seed: DaySeed) -> Scenario {
         let mut day = self.idle_day.clone().into_day();
@@ -54,7 +54,7 @@ impl Network {
         self.draw_disturbances(&mut day, seed);
         // Demand and forecast meet the same numbers, so that they respond alike.
         for demand in day.disturbances.forecast.iter_mut().chain([&mut day.demand]) {
-            self.respond(demand, &mut Stream::Market.of(seed));
+            self.apply_elasticity(demand, &mut Stream::Market.of(seed));
         }
         // Demand is within bounds for every network that was accepted, and start positions respect the stands.
         Scenario::checked(day)
@@ -80,7 +80,7 @@ impl Network {
     /// Applies the market's factors to what was drawn at the reference fares. Where this does not give whole passengers, one
     /// of the two neighbouring numbers is taken by chance. The draws are the same at all fares, so that a higher fare never
     /// gives more passengers on the same day.
-    fn respond(&self, demand: &mut [Matrix<u32>], random: &mut ChaCha8Rng) {
+    fn apply_elasticity(&self, demand: &mut [Matrix<u32>], random: &mut ChaCha8Rng) {
         let Some(factors) = &self.demand.factors else { return };
         for (table, factors) in demand.iter_mut().zip(factors) {
             for (passengers, factor) in table.cells_mut().iter_mut().zip(factors.cells()) {

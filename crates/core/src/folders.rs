@@ -88,8 +88,7 @@ fn irreplaceable(path: &Path, former: &Metadata) -> Option<&'static str> {
         return Some("the program runs in this folder; name one inside it");
     }
     let above = fs::metadata(target.parent()?).ok()?;
-    is_mounted(former, &above)
-        .then_some("another disk begins at this folder; name a folder inside it")
+    is_mounted(former, &above).then_some("this folder is a mount point; name a folder inside it")
 }
 
 #[cfg(unix)]

@@ -125,7 +125,7 @@ impl Market {
         responds.then_some(factors)
     }
 
-    /// Where the reference fare is 0, nobody flies at any other fare.
+    /// Where the reference fare is 0, no passenger flies at any other fare.
     fn factor(&self, pair: (VertiportIx, VertiportIx), fare_usd: f64, reference_usd: f64) -> f64 {
         let elasticity = self.elasticity[pair];
         if elasticity == 0.0 || fare_usd == reference_usd {

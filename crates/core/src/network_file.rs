@@ -123,7 +123,7 @@ impl RawNetwork {
             hourly: raw.hourly_demand,
             uniform: raw.uniform_demand,
         };
-        let mut demand = models.the_one(&vertiports, &places, origin)?;
+        let mut demand = models.single_table(&vertiports, &places, origin)?;
         let corridors = raw
             .corridors
             .map(|raw| corridors(raw, &places, &mut distance_mi, origin))
@@ -200,7 +200,7 @@ impl DemandModels {
     }
 
     /// Checks and returns the one that the file has.
-    fn the_one(
+    fn single_table(
         self,
         vertiports: &[Vertiport],
         places: &Positions,

@@ -99,7 +99,7 @@ impl Writer<'_> {
             .add_property("DTSTART", self.utc(begins))
             .add_property("CATEGORIES", word.to_ascii_uppercase())
             .add_property("LOCATION", &here.id)
-            // Aircraft come and go all day, and nobody is busy for it.
+            // Aircraft come and go all day, and no one is busy for it.
             .add_property("TRANSP", "TRANSPARENT");
         if ends > begins {
             // RFC 5545 wants an end to be later than the start, or no end.

@@ -10,7 +10,7 @@ use crate::nn::{AIRCRAFT_SHOWN, Architecture, FLEET_FEATURES, Inputs, Shape};
 #[derive(Debug, Clone)]
 pub(crate) struct Rows {
     shape: Shape,
-    beside: Beside,
+    beside: ExtraInputs,
     nodes: Vec<f32>,
     aircraft: Vec<f32>,
     mask: Vec<u8>,
@@ -21,7 +21,7 @@ pub(crate) struct Rows {
 
 /// What rows have beside the features of the vertiports and of the deciding aircraft.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Beside {
+pub(crate) struct ExtraInputs {
     /// Weights of edges.
     pub(crate) edges: bool,
     /// Features of the other aircraft.
@@ -42,7 +42,7 @@ pub(crate) struct Row<'a> {
     pub(crate) clock: &'a mut f32,
 }
 
-impl Beside {
+impl ExtraInputs {
     /// What a policy's network reads.
     pub(crate) fn of(policy: &Architecture) -> Self {
         Self { edges: policy.adjacency().is_observed(), fleet: policy.has_aircraft_graph() }
@@ -57,7 +57,7 @@ impl Beside {
 
 impl Rows {
     /// No rows yet, for features of this shape.
-    pub(crate) fn new(shape: Shape, beside: Beside) -> Self {
+    pub(crate) fn new(shape: Shape, beside: ExtraInputs) -> Self {
         Self {
             shape,
             beside,
@@ -73,7 +73,7 @@ impl Rows {
     /// Rows with the features, edges and other aircraft of earlier [`inputs`](Self::inputs), and with their masks where the
     /// features do not tell them.
     pub(crate) fn of(
-        (shape, beside): (Shape, Beside),
+        (shape, beside): (Shape, ExtraInputs),
         nodes: Vec<f32>,
         aircraft: Vec<f32>,
         [edges, fleet]: [Vec<f32>; 2],

@@ -83,7 +83,7 @@ pub fn upper_bound_unless(
     upper_bound_of_rest(stopped, scenario, &[], step)
 }
 
-/// Does the same for what is left of a day ([`WhatIsLeft`](vertifleet_sim::live::WhatIsLeft)), in which each aircraft takes
+/// Does the same for what is left of a day ([`RemainingDay`](vertifleet_sim::live::RemainingDay)), in which each aircraft takes
 /// a stand from the start of operations on, but decides first when it is `ready`. Aircraft past the end of `ready` are
 /// ready from the start.
 ///

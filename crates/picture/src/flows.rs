@@ -11,7 +11,7 @@ use crate::palette::Paint;
 
 /// Widths of the widest line, pixels, where vertiports have names and where there are too many.
 const WIDEST: (f64, f64) = (7.0, 3.0);
-/// Width of a line of nobody, pixels, so that every line can be seen.
+/// Width of a line without passengers, pixels, so that every line can be seen.
 const NARROWEST: f64 = 0.4;
 /// The most lines; with more, the map would be one spot.
 const MOST_LINES: usize = 200;

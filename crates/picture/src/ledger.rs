@@ -16,7 +16,7 @@ const LINE: f64 = 30.0;
 pub(crate) type Line = (&'static str, f64);
 
 /// The lines of the ledger: revenue, the costs that there are, and profit. What aircraft cost is there also if it is nothing, so
-/// that nobody takes the profit of a network without this cost for one after it.
+/// that the profit of a network without this cost is not taken for one after it.
 pub fn ledger_lines(day: &Scenario, rows: &[TraceRow]) -> Vec<Line> {
     // From 0, because the sum of no numbers is -0.
     let sum =

@@ -12,7 +12,7 @@ const LEFT: f64 = 64.0;
 const RIGHT: f64 = 24.0;
 
 /// The picture of a network as SVG. `day` is its [mean day](vertifleet_core::Network::mean_day), and `means` are the mean
-/// passengers by period. All of it is drawn from `means`: the day has them rounded for each pair, which leaves nobody where
+/// passengers by period. All of it is drawn from `means`: the day has them rounded for each pair, which leaves no passengers where
 /// demand is thin.
 pub fn network(day: &Scenario, means: &[Matrix<f64>]) -> String {
     let matrices = Matrices::of(day, means);

@@ -30,7 +30,7 @@ impl Occupancy {
             if row.to == at {
                 taken += 1;
             } else if row.from == at {
-                // A trace of another day may have a flight from where nobody is.
+                // A trace of another day may have a flight from where no aircraft is.
                 taken = taken.saturating_sub(1);
             } else {
                 continue;

@@ -64,7 +64,7 @@ impl Clock {
 /// Counts upward in an area, with lines at round values.
 pub(crate) fn counts(canvas: &mut Canvas, area: Area, values: impl Iterator<Item = f64>) -> Scale {
     let most = values.fold(0.0, f64::max);
-    // Where nobody is, an empty scale to 1 says so.
+    // Without aircraft the scale is empty and ends at 1.
     let most = if most > 0.0 { most } else { 1.0 };
     let scale = Scale::from_zero([most].into_iter(), area.bottom(), area.top, 4);
     for tick in scale.ticks() {

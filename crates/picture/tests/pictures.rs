@@ -12,7 +12,7 @@ use vertifleet_sim::{Simulation, TraceRow};
 const NETWORKS: [&str; 6] =
     ["paper", "disrupted", "new-york", "as-coded", "random:3", "random-places:2:1"];
 
-/// A day on which everybody flies to the next feasible vertiport, with its trace.
+/// A day on which every aircraft flies to the next feasible vertiport, with its trace.
 fn played(network: &str) -> (Arc<Scenario>, Vec<TraceRow>) {
     let network = Network::find(network).expect("a network");
     let day = Arc::new(network.draw(DaySeed::comparison(1).expect("a seed")));

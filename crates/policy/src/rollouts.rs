@@ -40,7 +40,7 @@ const MOST_NOISE: f64 = 3.5;
 
 /// Memory to roll a choice out in.
 #[derive(Debug, Clone, Default)]
-struct Room {
+struct RolloutMemory {
     /// An imagined day on which the choice was made, and in `rollout` one that continues from there.
     begun: Option<Imagined>,
     rollout: Option<Imagined>,
@@ -55,7 +55,7 @@ struct Room {
 pub struct RolloutEvaluator {
     settings: RolloutSettings,
     /// Memory for the roll-outs of each choice of a list.
-    rooms: Vec<Room>,
+    rooms: Vec<RolloutMemory>,
     /// The value of each roll-out of each choice, choice by choice, dollars.
     rollouts_usd: Vec<f64>,
     values_usd: Vec<f64>,
@@ -180,13 +180,13 @@ impl RolloutEvaluator {
         // A thread of the pool that waits for another would take up other work of the pool meanwhile, such as a whole
         // day, and the decision would seem to take as long.
         if looks >= LEAST_SHARED_LOOKS && rayon::current_thread_index().is_none() {
-            rooms.resize_with(rooms.len().max(listed.len()), Room::default);
+            rooms.resize_with(rooms.len().max(listed.len()), RolloutMemory::default);
             let choices = rollouts_usd.par_chunks_exact_mut(rollouts).zip(listed).zip(rooms);
             choices.for_each(|((usd, choice), room)| {
                 settings.roll_out(prices, view, until, choice.to, room, usd);
             });
         } else {
-            rooms.resize_with(rooms.len().max(1), Room::default);
+            rooms.resize_with(rooms.len().max(1), RolloutMemory::default);
             for (usd, choice) in rollouts_usd.chunks_exact_mut(rollouts).zip(listed) {
                 settings.roll_out(prices, view, until, choice.to, &mut rooms[0], usd);
             }
@@ -196,7 +196,7 @@ impl RolloutEvaluator {
 
     /// The profit of the day if this choice is taken and the fleet then follows the base rule to the end.
     fn day_usd(&mut self, prices: &DayPrices, view: View<'_>, to: VertiportIx) -> f64 {
-        self.rooms.resize_with(self.rooms.len().max(1), Room::default);
+        self.rooms.resize_with(self.rooms.len().max(1), RolloutMemory::default);
         let day = view.imagined_in(&mut self.rooms[0].begun);
         day.apply(to).expect("only feasible choices are tried");
         while let Some(next) = day.next_decision() {
@@ -259,7 +259,7 @@ impl RolloutSettings {
         view: View<'_>,
         until: Time,
         choice: VertiportIx,
-        room: &mut Room,
+        room: &mut RolloutMemory,
         values_usd: &mut [f64],
     ) {
         let begun = view.imagined_in(&mut room.begun);

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 /// How long work must last before its bar appears.
-const PATIENCE: Duration = Duration::from_secs(1);
+const SHOWN_AFTER: Duration = Duration::from_secs(1);
 /// How often a bar is drawn again while nothing else changes, so that its times advance.
 const TICK: Duration = Duration::from_secs(1);
 const TEMPLATE: &str =
@@ -80,7 +80,7 @@ impl Drop for Bar {
 fn appear_late(bar: ProgressBar) -> Sender<Infallible> {
     let (alive, gone) = channel();
     thread::spawn(move || {
-        let waited = gone.recv_timeout(PATIENCE);
+        let waited = gone.recv_timeout(SHOWN_AFTER);
         if waited == Err(RecvTimeoutError::Timeout) && !bar.is_finished() {
             bar.set_draw_target(ProgressDrawTarget::stderr());
             bar.enable_steady_tick(TICK);

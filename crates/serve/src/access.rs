@@ -1,4 +1,4 @@
-//! Who may do what: bearer tokens with roles. As long as no token has been made, everybody on this machine may do
+//! Who may do what: bearer tokens with roles. As long as no token has been made, every program on this machine may do
 //! everything, and the service listens on this machine alone.
 
 mod own_pages;
@@ -30,7 +30,7 @@ const FRESH: Duration = Duration::from_secs(2);
 /// While the store does not answer, tokens that are known hold for so long.
 const STALE: Duration = Duration::from_mins(1);
 const TWO: NonZeroU32 = NonZeroU32::new(2).unwrap();
-/// Every token begins like this, so that people and scanners know one when they see it.
+/// Every token begins like this, so that secret scanners recognise it.
 const PREFIX: &str = "vf_";
 /// What stands before a token, in large or small letters (RFC 9110).
 const SCHEME: &str = "Bearer ";
@@ -73,7 +73,7 @@ impl Role {
             Method::POST if !["/archive", "/unarchive"].iter().any(|end| path.ends_with(end)) => {
                 Self::Dispatch
             }
-            // Whoever may begin a study may end it.
+            // A role that may begin a study may end it.
             Method::DELETE if path.starts_with("/v1/studies/") => Self::Dispatch,
             _ => Self::Admin,
         }
@@ -98,7 +98,7 @@ pub struct StoredToken {
     pub revoked_ms: i64,
 }
 
-/// Whoever sent a request, by the name of the token; empty without tokens.
+/// The sender of a request, by the name of the token; empty without tokens.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Actor(pub(crate) String);
 
@@ -116,7 +116,7 @@ struct Known {
 pub(crate) struct Access {
     store: Store,
     known: Mutex<Option<Known>>,
-    /// How often each token may ask, by its id; whoever has no token shares one turn with all others of that kind.
+    /// How often each token may ask, by its id; requests without a token share one count.
     rates: RateLimiter<String, HashMapStateStore<String>, DefaultClock>,
     most_per_s: u32,
 }
@@ -164,18 +164,18 @@ impl Access {
         Ok(self.tokens().await?.iter().any(|token| token.revoked_ms == 0))
     }
 
-    /// Lets a request to a host in, or not. Whatever a token asks for counts as asked with it; what cannot be checked because
-    /// the store does not answer counts as nobody's.
+    /// Lets a request to a host in, or refuses it. A request counts against its token, also if it is refused; if the store is
+    /// unavailable, it is attributed to no token.
     async fn admit(&self, host: &str, headers: &HeaderMap, needed: Role) -> Result<Actor, Error> {
         let tokens = self.tokens().await?;
-        // Once there has been a token, revoking the last one does not open the door to everybody.
+        // Once there has been a token, revoking the last one does not open the service to all.
         if tokens.is_empty() {
             own_pages::check(host, headers)?;
             return Ok(Actor::default());
         }
         let token = sent(&tokens, headers);
-        let nobody = ("", "those who have no token");
-        let (id, who) = token.map_or(nobody, |token| (&token.id, &token.name));
+        let no_token = ("", "those who have no token");
+        let (id, who) = token.map_or(no_token, |token| (&token.id, &token.name));
         if self.rates.check_key(&id.to_owned()).is_err() {
             return Err(Error::TooOften { who: who.to_owned(), most: self.most_per_s });
         }

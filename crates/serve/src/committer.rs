@@ -43,7 +43,7 @@ pub(crate) struct Committer {
     failed: LastFailure,
 }
 
-/// When the store last refused events, by a clock that nobody can set.
+/// When the store last refused events, by a clock that cannot be set.
 #[derive(Debug, Clone, Default)]
 struct LastFailure(Arc<Mutex<Option<Instant>>>);
 
@@ -94,7 +94,7 @@ async fn write_all(
     }
 }
 
-/// Stores a batch and answers everybody in it. If the batch cannot be stored, each of its requests is tried alone, so
+/// Stores a batch and answers every request in it. If the batch cannot be stored, each of its requests is tried alone, so
 /// that one that conflicts does not fail the others; but a database that hangs is waited for only once.
 async fn write(store: &Store, metrics: &Metrics, failed: &LastFailure, batch: &mut Vec<Append>) {
     let mut together = match &batch[..] {
@@ -132,7 +132,7 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastFailure, batch: &m
                 }
             }
         }
-        // Whoever asked may have gone.
+        // The client may have gone.
         let _ = append.done.send(outcome);
     }
 }

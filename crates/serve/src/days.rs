@@ -29,7 +29,7 @@ use crate::turns::Turns;
 
 /// Events that a slow reader may be behind before it has to read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
-/// Beyond so many days, those that nobody uses leave memory. A day of `paper` takes half a megabyte.
+/// Beyond so many days, days that are not in use leave memory. A day of `paper` takes half a megabyte.
 const MOST_IN_MEMORY: usize = 1_000;
 /// A write is tried so often when other services write to the same day.
 const TRIES: u32 = 5;
@@ -41,7 +41,7 @@ pub(crate) struct DayCell {
     state: Mutex<DispatchDay>,
     /// The number of the latest event that is stored.
     durable: watch::Sender<u64>,
-    readers: broadcast::Sender<Arc<Told>>,
+    readers: broadcast::Sender<Arc<Published>>,
     /// Whether an event could not be stored, so that memory is ahead of the store and must be thrown away.
     pub(crate) has_failed: AtomicBool,
     pub(crate) deciders: Deciders,
@@ -55,7 +55,7 @@ impl fmt::Debug for DayCell {
 
 /// An event that readers are told.
 #[derive(Debug)]
-pub(crate) struct Told {
+pub(crate) struct Published {
     /// The event.
     pub(crate) event: StoredEvent,
     /// As a message of the stream, made once for all readers.
@@ -157,13 +157,13 @@ impl DayCell {
         if after <= last { Ok(()) } else { Err(Error::NoSuchEvent { asked: after, last }) }
     }
 
-    /// Whether memory can no longer be trusted: an event could not be stored, or somebody panicked over the state.
+    /// Whether memory can no longer be trusted: an event could not be stored, or a panic happened over the state.
     pub(crate) fn is_spoilt(&self) -> bool {
         self.has_failed.load(Ordering::Acquire) || self.state.is_poisoned()
     }
 
     /// The events as they are stored from now on.
-    pub(crate) fn subscribe(&self) -> broadcast::Receiver<Arc<Told>> {
+    pub(crate) fn subscribe(&self) -> broadcast::Receiver<Arc<Published>> {
         self.readers.subscribe()
     }
 
@@ -178,8 +178,8 @@ impl DayCell {
             });
         }
         for event in events {
-            // There may be nobody who reads.
-            let _ = self.readers.send(Arc::new(Told { event, shown: OnceLock::new() }));
+            // There may be no reader.
+            let _ = self.readers.send(Arc::new(Published { event, shown: OnceLock::new() }));
         }
     }
 
@@ -254,7 +254,7 @@ impl Days {
     fn cell(&self, id: &str) -> Arc<OnceCell<Arc<DayCell>>> {
         let mut cells = self.cells();
         if cells.len() >= MOST_IN_MEMORY && !cells.contains_key(id) {
-            // Days that nobody is using are read again when they are asked for.
+            // Days that are not in use are read again when they are asked for.
             cells.retain(|_, cell| {
                 Arc::strong_count(cell) > 1
                     || cell.get().is_some_and(|day| Arc::strong_count(day) > 1)
@@ -290,7 +290,7 @@ impl Days {
         let cell = self.cell(id);
         let day = cell.get_or_try_init(|| self.read(id)).await;
         if day.is_err() {
-            // Only if nobody else is reading it.
+            // Only if no other request is reading it.
             let mut cells = self.cells();
             if cells
                 .get(id)

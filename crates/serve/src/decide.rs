@@ -156,7 +156,7 @@ impl Deciders {
             values: vec![f64::NAN; day.vertiports.len()],
             renewing: Renewing::default(),
         };
-        // Somebody else may have asked for it at the same time.
+        // Another request may have made it at the same time.
         let decider =
             deciders.entry(name.to_owned()).or_insert_with(|| Shared::new(decider.into()));
         Ok(Arc::clone(decider))
@@ -172,7 +172,7 @@ impl Decider {
     /// recomputed in the background.
     ///
     /// # Errors
-    /// Returns [`Error::UnknownId`] if there is no such aircraft, and [`Error::Unfit`] if it cannot decide now.
+    /// Returns [`Error::UnknownId`] if there is no such aircraft, and [`Error::ReportError`] if it cannot decide now.
     pub(crate) fn propose(
         &mut self,
         cell: &DayCell,
@@ -272,7 +272,7 @@ impl Weighed<'_> {
 
 /// An amount to the hundredth, which is all that people read and much shorter than a float.
 fn to_cents(amount: f64) -> f64 {
-    // Nobody reads -0.0 as nothing.
+    // Normalise -0.0 to 0.0.
     (amount * 100.0).round() / 100.0 + 0.0
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use axum::http::StatusCode;
 use vertifleet_core::{Code, Coded, Exit};
 use vertifleet_policy::PolicyError;
-use vertifleet_sim::live::Unfit;
+use vertifleet_sim::live::ReportError;
 
 /// An expected error of the service. Messages are fragments for people; [`Coded::code`] is for programs and for the error
 /// index.
@@ -67,7 +67,7 @@ pub enum Error {
     /// V604. An event or a decision that the day cannot take. Cause: it breaks a rule, or it contradicts what has been
     /// reported. Fix: the message names the rule.
     #[error("{0}")]
-    Unfit(#[from] Unfit),
+    ReportError(#[from] ReportError),
 
     /// An event of several, which has the code of what is wrong with it.
     #[error("event {number} of {of}: {cause}")]
@@ -80,7 +80,7 @@ pub enum Error {
         cause: Box<Error>,
     },
 
-    /// V605. The day has gone on. Cause: somebody else added an event after the state that the request was made for
+    /// V605. The day has gone on. Cause: another client added an event after the state that the request was made for
     /// (`If-Match`). Fix: read the day again and decide anew.
     #[error("the day is at event {found}, and the request was made for event {expected}")]
     Moved {
@@ -284,7 +284,7 @@ pub enum Error {
         named: String,
     },
 
-    /// V628. A database that cannot be meant. Cause: `--database` is no address of `PostgreSQL`. Fix: name it as
+    /// V628. Invalid database address. Cause: `--database` is no address of `PostgreSQL`. Fix: name it as
     /// `postgres://user@host/database`.
     #[error("the address of the database must begin with postgres:// or postgresql://")]
     BadDatabase,
@@ -376,7 +376,7 @@ impl Error {
                 StatusCode::NOT_FOUND
             }
             Self::UnknownId { .. }
-            | Self::Unfit(_)
+            | Self::ReportError(_)
             | Self::Contradiction { .. }
             | Self::KeyReused { .. } => StatusCode::UNPROCESSABLE_ENTITY,
             Self::Moved { .. } => StatusCode::PRECONDITION_FAILED,
@@ -430,7 +430,7 @@ impl Coded for Error {
             Self::BadRequest { .. } => 601,
             Self::NotFound { .. } | Self::NoSuchEvent { .. } => 602,
             Self::UnknownId { .. } => 603,
-            Self::Unfit(_) => 604,
+            Self::ReportError(_) => 604,
             Self::Moved { .. } => 605,
             Self::Store { .. } | Self::StoreHangs { .. } => 606,
             Self::BadData { .. } | Self::ForeignData { .. } => 607,
@@ -467,7 +467,7 @@ impl Coded for Error {
             Self::Study(error) => error.hint(),
             Self::InList { cause, .. } => cause.hint(),
             Self::Moved { .. } => Some("read the day again, and decide anew"),
-            Self::Unfit(_) => Some("if it is so in reality, report first what led there"),
+            Self::ReportError(_) => Some("if it is so in reality, report first what led there"),
             Self::NoSuchEvent { .. } | Self::OtherLog { .. } => {
                 Some("the day may have been put back from a copy: read its state again")
             }

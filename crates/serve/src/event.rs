@@ -21,7 +21,7 @@ pub(crate) struct Event {
     pub(crate) time: Option<Moment>,
     /// What happened.
     #[serde(flatten)]
-    pub(crate) what: What,
+    pub(crate) what: EventKind,
 }
 
 impl<'de> Deserialize<'de> for Event {
@@ -34,7 +34,7 @@ impl<'de> Deserialize<'de> for Event {
         if let Some(unknown) = members.keys().find(|&name| is_clock && name != "type") {
             return Err(de::Error::custom(format!("unknown member `{unknown}` of a clock")));
         }
-        let what = What::deserialize(Value::Object(members)).map_err(de::Error::custom)?;
+        let what = EventKind::deserialize(Value::Object(members)).map_err(de::Error::custom)?;
         Ok(Self { time: time.transpose().map_err(de::Error::custom)?.flatten(), what })
     }
 }
@@ -85,7 +85,7 @@ pub(crate) fn reason<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String
 /// What happened.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum What {
+pub(crate) enum EventKind {
     /// The day is at this time; nothing else is known. Other events may not lie more than four hours after the latest.
     Clock,
     /// An aircraft that is ready is to fly to a vertiport; its own vertiport means hold. The rules must permit it.
@@ -320,7 +320,7 @@ impl Ids {
     }
 }
 
-impl What {
+impl EventKind {
     /// The report that the simulator takes.
     ///
     /// # Errors
@@ -394,7 +394,7 @@ impl Ids {
     }
 }
 
-impl What {
+impl EventKind {
     /// A report of the simulator as an event of its day.
     pub(crate) fn of(report: &Report, day: &Scenario) -> Self {
         let aircraft = |aircraft: AircraftIx| day.aircraft[aircraft.at()].id.clone();

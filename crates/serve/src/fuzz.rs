@@ -174,7 +174,7 @@ impl Client {
     /// The answer to a request that was carried out, as far as it is JSON. The others must have been refused for a reason.
     async fn answer(&mut self, request: Request<Body>) -> Option<Value> {
         let asked = format!("{} {}", request.method(), request.uri());
-        let answer = self.router.call(request).await.expect("it answers everybody");
+        let answer = self.router.call(request).await.expect("it answers every request");
         let status = answer.status();
         let is_stream = answer
             .headers()

@@ -78,12 +78,12 @@ mod tests {
     #[test]
     fn a_key_is_held_by_one_request_at_a_time_and_known_afterwards() {
         let keys = Keys::new(Some(&["old".to_owned()]));
-        let (busy, may_be_known) = keys.take("new").expect("nobody holds it");
+        let (busy, may_be_known) = keys.take("new").expect("it is free");
         assert!(!may_be_known);
         assert!(keys.take("new").is_err(), "it is being carried out");
         drop(busy);
-        assert!(keys.take("new").expect("nobody holds it").1);
-        assert!(keys.take("old").expect("nobody holds it").1);
-        assert!(Keys::new(None).take("any").expect("nobody holds it").1, "nothing is known");
+        assert!(keys.take("new").expect("it is free").1);
+        assert!(keys.take("old").expect("it is free").1);
+        assert!(Keys::new(None).take("any").expect("it is free").1, "nothing is known");
     }
 }

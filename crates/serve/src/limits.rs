@@ -1,4 +1,4 @@
-//! What the service takes at most, so that nobody keeps it from others.
+//! Limits of the service, so that no client keeps it from others.
 
 use std::time::Duration;
 

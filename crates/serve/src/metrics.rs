@@ -121,7 +121,7 @@ pub(crate) async fn measure(
     next: Next,
 ) -> Response {
     let known = [Method::GET, Method::POST, Method::PUT, Method::DELETE, Method::HEAD];
-    // Whoever makes up methods must not make up series.
+    // A client that invents methods must not create series.
     let method = request.method();
     let is_known = known.contains(method);
     let method = if is_known { method.as_str() } else { "other" }.to_owned();

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use vertifleet_core::{Aircraft, Scenario, Stop, TypeIx, VertiportIx};
 use vertifleet_optimize::{Step, upper_bound_of_rest};
-use vertifleet_sim::live::{LiveDay, WhatIsLeft};
+use vertifleet_sim::live::{LiveDay, RemainingDay};
 use vertifleet_sim::{DayTotals, TraceRow};
 use vertifleet_study::ResolvedPolicy;
 
@@ -212,7 +212,7 @@ fn upper_bound_usd(live: &mut LiveDay) -> Result<Option<f64>, Error> {
     let Some(&(_, minutes)) = STEPS.iter().find(|(most, _)| size <= *most) else {
         return Ok(None);
     };
-    let Some(WhatIsLeft { day, ready }) = live.what_is_left()? else { return Ok(Some(so_far)) };
+    let Some(RemainingDay { day, ready }) = live.what_is_left()? else { return Ok(Some(so_far)) };
     let internal = |error: vertifleet_optimize::Error| Error::Internal { cause: error.to_string() };
     let step = Step::from_minutes(minutes).map_err(internal)?;
     let bound = upper_bound_of_rest(&Stop::default(), &day, &ready, step).map_err(internal)?;

@@ -191,7 +191,7 @@ impl Policies {
         Ok(PolicyInfo::of(name, WeightsInfo::of(&model)))
     }
 
-    /// Keeps weights under a name, which means these weights for good: whoever reads the name in the log of a day knows
+    /// Keeps weights under a name, which means these weights for good: a reader of the log of a day knows
     /// what decided.
     ///
     /// # Errors
@@ -220,7 +220,7 @@ impl Policies {
     }
 }
 
-/// Describes weights that somebody brings.
+/// Describes weights that are uploaded.
 ///
 /// # Errors
 /// Returns an error if the bytes are no weight file.

@@ -52,7 +52,7 @@ impl IntoResponse for Error {
         }
         let body = serde_json::to_string(&Problem::of(&self)).expect("plain data can be written");
         let kind = [(header::CONTENT_TYPE, "application/problem+json")];
-        // The code is there for whoever measures requests.
+        // The code is there for the metrics of requests.
         let mut answer = (status, Extension(self.code()), kind, body).into_response();
         let told = match status {
             StatusCode::UNAUTHORIZED => Some((header::WWW_AUTHENTICATE, "Bearer")),

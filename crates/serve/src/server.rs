@@ -19,9 +19,9 @@ use crate::spans::Spans;
 use crate::store::{Location, Store};
 
 /// How often the request to stop is looked for.
-const LOOK: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 /// After a request to stop, requests that are being carried out have this long to end.
-const PATIENCE: Duration = Duration::from_secs(10);
+const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// How the service runs.
 #[derive(Debug, Clone)]
@@ -106,15 +106,15 @@ pub fn serve(
             () = serving => {}
             () = async {
                 drop(heard.wait_for(|&stops| stops).await);
-                tokio::time::sleep(PATIENCE).await;
+                tokio::time::sleep(SHUTDOWN_TIMEOUT).await;
             } => {}
         }
-        // Nobody may be answered any more, and what waits to be stored has been or never will be.
-        let _ = tokio::time::timeout(PATIENCE, closing.close()).await;
+        // No request may be answered any more, and what waits to be stored has been or never will be.
+        let _ = tokio::time::timeout(SHUTDOWN_TIMEOUT, closing.close()).await;
         Ok(())
     });
     // A policy that still thinks is not waited for.
-    runtime.shutdown_timeout(LOOK);
+    runtime.shutdown_timeout(POLL_INTERVAL);
     if let Some(spans) = spans {
         spans.flush();
     }
@@ -162,7 +162,7 @@ async fn follow_others(service: Arc<Service>) {
 /// Passes the request to stop on to everything that waits.
 async fn pass_on(stop: Stop, stopping: watch::Sender<bool>) {
     while !stop.is_requested() {
-        tokio::time::sleep(LOOK).await;
+        tokio::time::sleep(POLL_INTERVAL).await;
     }
     stopping.send_replace(true);
 }

@@ -135,7 +135,7 @@ impl Service {
 }
 
 impl Sender {
-    /// Whoever sent a request as somebody who writes, with `If-Match`.
+    /// The sender of a request as a writer, with `If-Match`.
     pub(crate) fn writer(&self) -> Result<Writer, Error> {
         let if_match = if_match(&self.headers)?;
         Ok(Writer { actor: self.actor.clone(), if_match, idempotency: None, busy: None })

@@ -2,7 +2,7 @@
 //!
 //! A span says the method, the path as it is described, and the status. Of what a client wrote it has the number of the
 //! trace that the request belongs to (`traceparent`, W3C) and nothing else: no ids, no tokens, no bodies. A thread of the
-//! library sends spans in batches, so a collector that has gone holds up nobody; spans that nobody takes are dropped.
+//! library sends spans in batches, so a collector that has gone holds up no request; spans that are not taken are dropped.
 
 use std::env;
 use std::future::{Future, ready};
@@ -30,7 +30,7 @@ use crate::error::Error;
 const NAME: &str = "vertifleet";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The collector has so long to take a batch.
-const PATIENCE: Duration = Duration::from_secs(10);
+const EXPORT_TIMEOUT: Duration = Duration::from_secs(10);
 /// When the service stops, the collector has so long to take what is left.
 const LAST_PATIENCE: Duration = Duration::from_secs(3);
 /// The longest answer of a collector that is read.
@@ -131,7 +131,7 @@ fn described() -> Resource {
     }
 }
 
-/// The trace that a request belongs to, from its headers. `tracestate` beside it may be long, is sent on to nobody, and
+/// The trace that a request belongs to, from its headers. `tracestate` beside it may be long, is not sent on, and
 /// stays out.
 struct Caller<'a>(&'a HeaderMap);
 
@@ -158,7 +158,7 @@ impl Collector {
     fn new() -> Self {
         let agent = Agent::config_builder()
             .http_status_as_error(false)
-            .timeout_global(Some(PATIENCE))
+            .timeout_global(Some(EXPORT_TIMEOUT))
             .user_agent(format!("{NAME}/{VERSION}"))
             .build();
         Self { agent: agent.into(), is_away: AtomicBool::new(false) }

@@ -103,7 +103,7 @@ impl Turns {
             state.waiting.push(Waiting { actor: actor.to_owned(), turn });
             wait
         };
-        wait.await.expect("whoever has a turn passes it on")
+        wait.await.expect("a turn is passed on when it ends")
     }
 
     fn turn(&self, state: &mut State, actor: &str) -> Turn {
@@ -233,7 +233,10 @@ mod tests {
             let running: usize = state.running.values().sum();
             assert_eq!(state.free + running, free, "no turn is lost or given twice: {choices:?}");
             let is_awaited = state.waiting.iter().any(|waiting| !waiting.turn.is_closed());
-            assert!(state.free == 0 || !is_awaited, "nobody waits for a free turn: {choices:?}");
+            assert!(
+                state.free == 0 || !is_awaited,
+                "no request waits while a turn is free: {choices:?}"
+            );
         }
         assert!(turns.state().running.is_empty() && !turns.are_awaited());
     }

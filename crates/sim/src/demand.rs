@@ -10,7 +10,7 @@ use crate::room::clone_into_room;
 /// later ones. A flight takes its passengers at the moment it is decided.
 ///
 /// On days whose passengers wait, those who are left when a period ends are counted in the next period from then on,
-/// until they leave ([`Demand::leave`]). Everybody is counted in one period at every moment.
+/// until they leave ([`Demand::leave`]). Every passenger is counted in one period at every moment.
 #[derive(Debug)]
 pub(crate) struct Demand {
     vertiports: usize,

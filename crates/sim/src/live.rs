@@ -16,9 +16,9 @@ use vertifleet_core::{AircraftIx, Closure, Route, Scenario, Time, VertiportIx};
 
 use crate::{DayTotals, Decision, Imagined, Simulation, Trace, TraceRow, View};
 
-pub use report::{Booking, Notice, Report, Routes, Unfit};
+pub use report::{Booking, Notice, Report, ReportError, Routes};
 pub use reporter::Reporter;
-pub use what_is_left::WhatIsLeft;
+pub use what_is_left::RemainingDay;
 
 /// An aircraft that should have departed or landed so long ago is overdue, seconds.
 const LATE_S: u32 = 300;
@@ -223,29 +223,30 @@ impl LiveDay {
     /// The decision of an aircraft at a time, or now if that is later.
     ///
     /// # Errors
-    /// Returns an [`Unfit`] if the aircraft is not ready then, or if no decisions are taken any more.
-    pub fn decision(&self, aircraft: AircraftIx, time: Time) -> Result<Decision, Unfit> {
-        let id = self.scenario().aircraft.get(aircraft.at()).ok_or(Unfit::Unknown("aircraft"))?;
+    /// Returns an [`ReportError`] if the aircraft is not ready then, or if no decisions are taken any more.
+    pub fn decision(&self, aircraft: AircraftIx, time: Time) -> Result<Decision, ReportError> {
+        let id =
+            self.scenario().aircraft.get(aircraft.at()).ok_or(ReportError::Unknown("aircraft"))?;
         let time = time.max(self.now);
         let end = self.scenario().operations.end;
         if time > end {
-            return Err(Unfit::Over { end });
+            return Err(ReportError::Over { end });
         }
         let state = &self.aircraft[aircraft.at()];
         let ready = self.known.queue.ready_at(aircraft);
         let aircraft_id = || id.id.clone();
         if let Some(is) = state.phase.on_its_way() {
-            return Err(Unfit::OnItsWay { aircraft: aircraft_id(), is });
+            return Err(ReportError::OnItsWay { aircraft: aircraft_id(), is });
         }
         if Self::is_out(*state, time) {
             let until = match state.out {
                 Some(OutOfService::Until(until)) => Some(until),
                 _ => None,
             };
-            return Err(Unfit::OutOfService { aircraft: aircraft_id(), until });
+            return Err(ReportError::OutOfService { aircraft: aircraft_id(), until });
         }
         if ready > time {
-            return Err(Unfit::NotReady { aircraft: aircraft_id(), ready, time });
+            return Err(ReportError::NotReady { aircraft: aircraft_id(), ready, time });
         }
         let index = u32::try_from(self.decisions.len()).unwrap_or(u32::MAX);
         Ok(Decision { time, aircraft, at: self.known.place[aircraft.at()], index })

@@ -91,7 +91,7 @@ impl Account {
         self.periods.iter().map(|one| one.demand.spilled_margin_usd).sum()
     }
 
-    /// How much of the money that is spilled no aircraft can earn, as the end of a sentence; empty if nobody is spilled there.
+    /// How much of the money that is spilled no aircraft can earn, as the end of a sentence; empty if no passenger is spilled there.
     pub(crate) fn spilled_out_of_reach(&self, dollars: impl Fn(f64) -> String) -> String {
         let Loss { spilled, spilled_margin_usd, .. } = self.cannot_be_flown;
         if spilled == 0 {
@@ -106,6 +106,6 @@ impl Account {
 
     /// The account as a page: ledger, map, aircraft, stands, demand, all tables, and the replay of the day.
     pub fn page(&self) -> String {
-        page::text(self, &page::Beside::default())
+        page::text(self, &page::PageExtras::default())
     }
 }

@@ -38,7 +38,7 @@ fn style() -> String {
 }
 
 /// The only script of a page of this crate: an address that leads to a moment of the replay leads to the frame of the
-/// replay, which is loaded when it is looked at. Whoever serves a page names it in the policy of what the page may run.
+/// replay, which is loaded when it is looked at. A server of the page names it in the policy of what the page may run.
 pub const REPLAY_FRAME_SCRIPT: &str =
     "if (/[#&]at=/.test(location.hash)) document.querySelector('iframe.replay').scrollIntoView()";
 

@@ -116,7 +116,7 @@ impl Sizing {
         let fingerprint = String::new();
         let mut sizing =
             Self { space, goal, competitor, drawn, again, bound_step, designs, fingerprint };
-        sizing.fingerprint = sizing.print();
+        sizing.fingerprint = sizing.fingerprint();
         sizing.competitor.check_fits(&sizing.first_day()?)?;
         Ok(sizing)
     }
@@ -135,7 +135,7 @@ impl Sizing {
     }
 
     /// A number that changes when anything changes that the results depend on.
-    fn print(&self) -> String {
+    fn fingerprint(&self) -> String {
         let dimension = |one: &space::Dimension| json!([one.path, one.low, one.step, one.steps]);
         let policy = &self.competitor;
         let text = json!({

@@ -44,7 +44,7 @@ pub use cell::Cell;
 pub use design::{Design, Factor, Levels, MOST_CELLS};
 pub use effects::{Effect, LevelEffect};
 pub use record::{CellRecord, Size};
-pub(crate) use summary::shown;
+pub(crate) use summary::format_value;
 pub use summary::{CellResult, CellSummary, FORMAT, SweepReport};
 
 /// The name of the journal in the folder of a sweep.
@@ -126,7 +126,7 @@ impl Sweep {
             bound_step,
             fingerprint: String::new(),
         };
-        sweep.fingerprint = sweep.print();
+        sweep.fingerprint = sweep.fingerprint();
         if let Some(day) = sweep.first_day()? {
             sweep.competitors.iter().try_for_each(|competitor| competitor.check_fits(&day))?;
         }
@@ -163,7 +163,7 @@ impl Sweep {
     }
 
     /// A number that changes when anything changes that the results depend on.
-    fn print(&self) -> String {
+    fn fingerprint(&self) -> String {
         let settings: Vec<&Vec<Value>> = self.cells.iter().map(|cell| &cell.settings).collect();
         let policies: Vec<Value> = self
             .competitors

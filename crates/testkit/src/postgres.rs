@@ -9,7 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 /// A server has so long to start, also after a crash.
-const PATIENCE: Duration = Duration::from_secs(20);
+const START_TIMEOUT: Duration = Duration::from_secs(20);
 
 /// A database server of its own, on a port of its own. It ends when it is dropped.
 #[derive(Debug)]
@@ -156,7 +156,7 @@ fn serve(folder: &Path, port: u16) -> Child {
         .expect("it starts");
     let begun = Instant::now();
     while TcpStream::connect(("127.0.0.1", port)).is_err() {
-        assert!(begun.elapsed() < PATIENCE, "PostgreSQL starts");
+        assert!(begun.elapsed() < START_TIMEOUT, "PostgreSQL starts");
         thread::sleep(Duration::from_millis(50));
     }
     server

@@ -219,7 +219,7 @@ def test_a_warning_of_many_tasks_is_said_once(paper):
 @pytest.mark.usefixtures("stage")
 def test_an_error_of_a_task_is_an_error_of_the_call(paper):
     with pytest.raises(vertifleet.Error) as refused:
-        vertifleet.ray.compare(paper, ["greedy", "nobody"], days=4)
+        vertifleet.ray.compare(paper, ["greedy", "unknown"], days=4)
     assert refused.value.code == "V307"
     assert refused.value.hint is not None
 

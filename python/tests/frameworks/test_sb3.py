@@ -417,7 +417,7 @@ def test_what_is_not_feasible_is_not_chosen_without_masks_either(kind):
 
 
 def test_evaluations_tell_the_reward_of_the_day_with_masks_or_without(tmp_path):
-    day = NETWORK.draw(1)
+    day = NETWORK.draw(1, "validation")
     model = learned(days=FleetVecEnv(NETWORK, 2, "dense", reward_scale=100.0))
     export(model, tmp_path / "mine.safetensors")
     expected = vertifleet.simulate(day, "mlp", model=tmp_path / "mine.safetensors").summary["reward"]

@@ -32,7 +32,7 @@ Role: TypeAlias = Literal["read", "dispatch", "admin"]
 
 
 class ServiceInfo(TypedDict):
-    """What the service is, and what whoever asks may do."""
+    """What the service is, and what the sender may do."""
 
     version: str
     """The version of the program."""
@@ -121,8 +121,8 @@ class NewDay(TypedDict):
     date: NotRequired[str | None]
     """Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601."""
     forecast: NotRequired[list[ForecastRow] | None]
-    """The passengers who are expected, in place of those of the network or the scenario. Nobody flies where
-    no row is.
+    """The passengers who are expected, in place of those of the network or the scenario. A pair without a row
+    has no passengers.
     """
     name: NotRequired[str | None]
     """What people call the day; without it, the name of its scenario, or of its network with the date."""
@@ -896,7 +896,7 @@ class NetworkList(TypedDict):
 
 
 class NewNetwork(TypedDict):
-    """A network that somebody brings."""
+    """A network that is uploaded."""
 
     toml: str
     """The text of its network file, with its table of demand in it."""
@@ -950,19 +950,6 @@ StudyState: TypeAlias = Literal["waiting", "playing", "finished", "failed"]
 """How far a study is."""
 
 
-class StudyProgress(TypedDict):
-    """How far a study has come."""
-
-    share: float
-    """The share of all that is to be played that has been, 0 to 1; every policy counts the same."""
-    doing: NotRequired[str | None]
-    """The policy that plays, or `bounds` while days are bounded; absent while days are drawn."""
-    left_s: NotRequired[float | None]
-    """How much longer it is likely to play, seconds: the rest of this policy as quick as its days so far, the
-    others as quick as those before them on the mean. Absent until a day has been played.
-    """
-
-
 class Estimate(TypedDict):
     """A mean with its interval."""
 
@@ -972,6 +959,30 @@ class Estimate(TypedDict):
     """Half the width of the 95 % interval of the mean (Student's t); null with one day."""
     standard_deviation: NotRequired[float | None]
     """The sample standard deviation between days; null with one day."""
+
+
+class PlayedPolicy(TypedDict):
+    """What came out for a policy while others still play."""
+
+    name: str
+    """Its name."""
+    profit_usd: Estimate
+    """Profit of a day, dollars."""
+
+
+class StudyProgress(TypedDict):
+    """How far a study has come."""
+
+    share: float
+    """The share of all that is to be played that has been, 0 to 1; every policy counts the same."""
+    played: list[PlayedPolicy]
+    """What came out for the policies that have played all their days."""
+    doing: NotRequired[str | None]
+    """The policy that plays, or `bounds` while days are bounded; absent while days are drawn."""
+    left_s: NotRequired[float | None]
+    """How much longer it is likely to play, seconds: the rest of this policy as quick as its days so far, the
+    others as quick as those before them on the mean. Absent until a day has been played.
+    """
 
 
 class Difference(TypedDict):

@@ -128,7 +128,7 @@ class GcapsFull(Gcaps):
 
 def encoder_of(features: int, width: int, heads: int, graph: Graph) -> nn.Module:
     """The encoder of a graph, from the features of nodes."""
-    if graph.encoder_is_of_the_paper:
+    if graph.uses_paper_encoder:
         return Encoder(features, width)
     if graph.encoder == "transformer":
         return AttentionEncoder(features, width, heads, graph.layers)

@@ -79,7 +79,7 @@ class Graph:
         return self == Graph()
 
     @property
-    def encoder_is_of_the_paper(self) -> bool:
+    def uses_paper_encoder(self) -> bool:
         """Whether the encoder is the paper's, whatever the decoder is."""
         return replace(self, attention=True, aircraft_graph=False).is_of_the_paper
 

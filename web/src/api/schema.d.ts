@@ -79,7 +79,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Says what the service is, and what whoever asks may do. */
+        /** Returns what the service is, and what the sender may do. */
         get: operations["service_info"];
         put?: never;
         post?: never;
@@ -1077,7 +1077,7 @@ export interface components {
             };
             /** @description Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601. */
             date?: string | null;
-            /** @description The passengers who are expected, in place of those of the network or the scenario. Nobody flies where no row is. */
+            /** @description The passengers who are expected, in place of those of the network or the scenario. A pair without a row has no passengers. */
             forecast?: components["schemas"]["ForecastRow"][] | null;
             /** @description What people call the day; without it, the name of its scenario, or of its network with the date. */
             name?: string | null;
@@ -1113,7 +1113,7 @@ export interface components {
             /** @description The vertiport, if a person chooses; without it, the policy does. */
             to?: string | null;
         };
-        /** @description A network that somebody brings. */
+        /** @description A network that is uploaded. */
         NewNetwork: {
             /** @description The text of its network file, with its table of demand in it. */
             toml: string;
@@ -1413,7 +1413,7 @@ export interface components {
          * @enum {string}
          */
         RuleName: "out_of_range" | "no_corridor" | "closed" | "no_stand_free";
-        /** @description What the service is, and what whoever asks may do. */
+        /** @description What the service is, and what the sender may do. */
         ServiceInfo: {
             /** @description The policy that decides on a day if none is named. */
             policy: string;
@@ -1702,7 +1702,7 @@ export interface operations {
                     "text/plain": string;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1731,7 +1731,7 @@ export interface operations {
                     "application/openmetrics-text": string;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1760,7 +1760,7 @@ export interface operations {
                     "application/json": Record<string, never>;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1789,7 +1789,7 @@ export interface operations {
                     "text/plain": string;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1818,7 +1818,7 @@ export interface operations {
                     "application/json": components["schemas"]["ServiceInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1857,7 +1857,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1895,7 +1895,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1928,7 +1928,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1960,7 +1960,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2003,7 +2003,7 @@ export interface operations {
                     "application/json": components["schemas"]["Proposal"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2035,7 +2035,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2077,7 +2077,7 @@ export interface operations {
                     "application/json": components["schemas"]["TakenDecision"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2115,7 +2115,7 @@ export interface operations {
                     "application/json": components["schemas"]["PeriodDemand"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2153,7 +2153,7 @@ export interface operations {
                     "application/json": components["schemas"]["EventList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2195,7 +2195,7 @@ export interface operations {
                     "application/json": components["schemas"]["Taken"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2231,7 +2231,7 @@ export interface operations {
                     "application/json": components["schemas"]["Ledger"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2274,7 +2274,7 @@ export interface operations {
                     "application/json": components["schemas"]["Outlook"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2305,7 +2305,7 @@ export interface operations {
                     "application/json": Record<string, never>;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2346,7 +2346,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayState"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2388,7 +2388,7 @@ export interface operations {
                     "text/event-stream": components["schemas"]["TakenEvent"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2419,7 +2419,7 @@ export interface operations {
                     "text/csv": unknown;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2451,7 +2451,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2489,7 +2489,7 @@ export interface operations {
                     "application/json": components["schemas"]["Comparison"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2518,7 +2518,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2551,7 +2551,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2582,7 +2582,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2617,7 +2617,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2646,7 +2646,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2675,7 +2675,7 @@ export interface operations {
                     "application/json": components["schemas"]["PolicyList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2708,7 +2708,7 @@ export interface operations {
                     "application/json": components["schemas"]["WeightsInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2739,7 +2739,7 @@ export interface operations {
                     "application/json": components["schemas"]["PolicyInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2774,7 +2774,7 @@ export interface operations {
                     "application/json": components["schemas"]["PolicyInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2803,7 +2803,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2832,7 +2832,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2868,7 +2868,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2899,7 +2899,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2928,7 +2928,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2959,7 +2959,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyReplay"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2990,7 +2990,7 @@ export interface operations {
                     "text/html": string;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description EventKind is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;

@@ -133,7 +133,7 @@ async function bodyOf(response: Response): Promise<unknown> {
   }
 }
 
-/** Ends a connection that has been silent for too long, or that nobody wants any more. */
+/** Ends a connection that has been silent for too long, or that is no longer wanted. */
 class Silence {
   readonly #ending = new AbortController()
   readonly #stop: AbortSignal

@@ -1,5 +1,5 @@
 // Names of vertiports on the map: each stands beside its ring where it covers neither another ring nor another name. A name for
-// which there is no room is left out; whoever points at the ring reads it there.
+// which there is no room is left out; a user who points at the ring reads it there.
 
 import type { Size } from '../parts/sheet'
 

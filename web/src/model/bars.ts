@@ -13,7 +13,7 @@ export type BarKind = 'flight' | 'charge' | 'hold' | 'delay' | 'outage' | 'promi
 export interface Bar {
   kind: BarKind
   begins: Seconds
-  /** Infinity where nobody knows. */
+  /** Infinity where it is not known. */
   ends: Seconds
   aircraft: number
   /** Position in the record's legs, or NONE: an outage, or a stand before the first flight. */

@@ -65,7 +65,7 @@ export function expectedNext(
   return next.map((leg) => ({ id: `${leg.aircraft} ${leg.decided}`, leg }))
 }
 
-/** A list that does not move while somebody points at it: what is gone stays, what is new comes last. */
+/** A list that does not move while a user points at it: what is gone stays, what is new comes last. */
 export class Steady<T extends { id: string }> {
   #shown: readonly T[] = []
 

@@ -30,7 +30,7 @@ function record(...legs: LegRecord[]): DayRecord {
   } as unknown as DayRecord
 }
 
-it('nobody is hit where both rests go on alike for two hours', () => {
+it('equal rests of a day affect no one for two hours', () => {
   const asItIs = record(leg(0, 1, 5), leg(1, 2, 10, { is_expected: false }), leg(0, 1, 130))
   const whatIf = record(leg(0, 1, 5), leg(1, 1, 10, { is_expected: false }), leg(0, 2, 130))
   const hit = hitOf(asItIs, whatIf, NOW)
@@ -62,7 +62,7 @@ it('an aircraft that does nothing more in one of the rests is hit', () => {
   expect(hit.aircraft).toMatchObject([{ id: 'A01', asItIs: { to: 2 }, whatIf: undefined }])
 })
 
-it('a leg that moves over the end of the two hours hits nobody', () => {
+it('a leg that moves over the end of the two hours affects no one', () => {
   const hit = hitOf(record(leg(0, 1, 5), leg(0, 2, 119)), record(leg(0, 1, 5), leg(0, 2, 121)), NOW)
   expect(hit.aircraft).toEqual([])
 })

@@ -22,7 +22,7 @@ describe('the log', () => {
     expect(wanted({ vertiport: 'South' })).toEqual([3, 10, 11, 14, 15])
     expect(wanted({ vertiport: 'South', type: 'closed' })).toEqual([10, 15])
     expect(wanted({ vertiport: 'East', type: 'landed' })).toEqual([12])
-    expect(wanted({ actor: 'somebody' })).toEqual([])
+    expect(wanted({ actor: 'another' })).toEqual([])
   })
 
   it('finds every word of a text, wherever it stands', () => {

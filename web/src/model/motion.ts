@@ -9,7 +9,7 @@ import { isHold } from './record'
 
 /** What an aircraft does. */
 export const Phase = {
-  /** It is ready, and nobody has decided where it goes. */
+  /** It is ready, and its next flight is not decided. */
   waiting: 0,
   charging: 1,
   holding: 2,

@@ -15,7 +15,7 @@ export function isOver({ now, aircraft }: Known, end: Seconds): boolean {
 
 /**
  * Whether something else could be decided in the place of an aircraft's latest decision. A flight that has not departed can be called
- * off at any time; a hold that is taken back after the end of operations would leave an aircraft that nobody can decide.
+ * off at any time; a hold that is taken back after the end of operations would leave an aircraft that can no longer be decided.
  */
 export function canBeDecidedAnew(state: Known, aircraft: AircraftState, end: Seconds): boolean {
   if (aircraft.needs_decision || isOver(state, end)) return false

@@ -78,7 +78,7 @@ export interface LegRecord {
 /** Routes that are closed to new flights: one way between two vertiports, or all of a vertiport. */
 export type ClosureRecord = (RouteRecord | { vertiport: number }) & {
   since: Seconds
-  /** Absent if nobody knows. */
+  /** Absent if it is not known. */
   until?: Seconds
   reason?: string
 }

@@ -1,4 +1,4 @@
-// Addresses within the console, as the hash of its page: `#/day/ID/now?at=07:10:00`. Whoever has a link sees the same moment;
+// Addresses within the console, as the hash of its page: `#/day/ID/now?at=07:10:00`. A user with a link sees the same moment;
 // a token is never part of one.
 
 export const dayViews = ['now', 'timeline', 'what-if', 'log', 'replay'] as const

@@ -102,7 +102,7 @@ describe('of several plays', () => {
     expect(chosenPlays(plays.slice(0, 1), undefined, undefined).other).toBeUndefined()
   })
 
-  it('the first ones are where nobody knows what they earned', () => {
+  it('the first ones are where it is not known what they earned', () => {
     const unknown = ['as-it-was', 'greedy'].map((policy) => ({ policy, trace: '' }))
     expect(chosenPlays(unknown, undefined, undefined).play?.policy).toBe('as-it-was')
   })

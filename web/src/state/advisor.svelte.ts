@@ -1,4 +1,4 @@
-// Advice for one aircraft, as a person reads and takes it. What is shown never changes while somebody works with it: if the
+// Advice for one aircraft, as a person reads and takes it. What is shown never changes while the user works with it: if the
 // day moves on meanwhile, the newer advice waits until it is asked for.
 
 import { ProblemError } from '../api/problem'
@@ -33,9 +33,9 @@ export class Advisor {
   isBusy = $state(false)
   /** Whether a decision was sent a while ago and has no answer yet. */
   isUnanswered = $state(false)
-  /** Whether somebody points at the advice or has the focus in it. */
+  /** Whether the user points at the advice or has the focus in it. */
   isEngaged = $state(false)
-  /** Whether the advice has been shown for long enough to be meant by whoever takes it. */
+  /** Whether the advice has been shown for long enough to be meant by a user who takes it. */
   #isSeen = $state(false)
   #seeing: ReturnType<typeof setTimeout> | undefined
   #asked = 0

@@ -60,13 +60,13 @@ async function dayMovesOn(to = service.to): Promise<void> {
 }
 
 describe('advice', () => {
-  it('gives way to newer advice while nobody works with it', async () => {
+  it('gives way to newer advice while the user does not work with it', async () => {
     await dayMovesOn('V3')
     expect(advisor.proposal?.to).toBe('V3')
     expect(advisor.newer).toBeUndefined()
   })
 
-  it('stays while somebody works with it, and says that there is newer', async () => {
+  it('stays while the user works with it, and says that there is newer', async () => {
     advisor.isEngaged = true
     await dayMovesOn('V3')
     expect(advisor.proposal?.to).toBe('V2')

@@ -1,4 +1,4 @@
-// The clock of a live day, shown at every frame. It stops while the connection is away: nobody knows what happens then.
+// The clock of a live day, shown at every frame. It stops while the connection is away: it is not known what happens then.
 
 import { Pace } from '../model/pace'
 import type { Seconds } from '../model/record'

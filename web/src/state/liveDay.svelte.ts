@@ -296,7 +296,7 @@ export class LiveDay {
     this.#hear(events)
   }
 
-  /** Events that were taken while nobody looked still say how fast the day passes. */
+  /** Events that were taken while the page was closed still tell how fast the day passes. */
   #hear(events: TakenEvent[]): void {
     const now = Date.now()
     for (const { event, at_ms } of events) {

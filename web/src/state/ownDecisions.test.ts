@@ -18,7 +18,7 @@ it('what was decided here is known after a reload, and on this day only', () => 
   expect(new OwnDecisions('d2', storage).has(7)).toBe(false)
 })
 
-it('numbers that a day has lost are nobody’s', () => {
+it('numbers that a day has lost belong to no user', () => {
   const own = new OwnDecisions('d1', storage)
   for (const seq of [3, 9]) own.add(seq)
   own.forgetAfter(5)

@@ -28,7 +28,7 @@ class Session {
     return this.info?.role === 'admin'
   }
 
-  /** Asks the service who it is and what whoever asks may do. */
+  /** Asks the service what it is and what the user may do. */
   async begin(): Promise<void> {
     try {
       this.info = await this.service.info()

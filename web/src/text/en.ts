@@ -15,7 +15,7 @@ export const en = {
     menu: 'Commands and settings',
     palette: 'Find a command',
     paletteHint: 'Find a command, an aircraft or a vertiport',
-    paletteEmpty: 'Nothing is called that.',
+    paletteEmpty: 'No matches.',
     help: 'Keys',
     helpSingleKeys:
       'Single keys do something. Switch them off if you speak to your computer or hit keys by accident.',
@@ -178,7 +178,7 @@ export const en = {
 
   queue: {
     title: 'Needs a decision',
-    nobody: 'Nobody waits.',
+    none: 'No one is waiting.',
     next: 'Ready next',
     ready: (time: string) => `ready ${time}`,
     waits: (duration: string) => `waits ${duration}`,
@@ -192,7 +192,7 @@ export const en = {
 
   decision: {
     title: 'Decision',
-    nobody: 'No aircraft waits for a decision. The next one comes up here.',
+    none: 'No aircraft waits for a decision. The next one comes up here.',
     asking: (aircraft: string) => `Asking about ${aircraft}…`,
     at: (vertiport: string) => `at ${vertiport}`,
     readySince: (time: string) => `ready since ${time}`,
@@ -281,10 +281,10 @@ export const en = {
     none: 'Nothing was decided yet.',
     hold: 'hold',
     you: 'you',
-    somebody: 'a person',
+    person: 'a person',
     asAdvised: (policy: string) => `as ${policy} advised`,
     nobodyHint:
-      'The service asks for no tokens, so it does not know who this was: somebody who accepted the advice, or a program.',
+      'The service asks for no tokens, so it does not know who this was: a person who accepted the advice, or a program.',
     insteadOf: (to: string) => `instead of ${to}`,
   },
 
@@ -331,7 +331,7 @@ export const en = {
     search: 'Search',
     clear: 'Clear the filter',
     all: 'all',
-    none: 'No event is like that.',
+    none: 'No matching events.',
     saveTrace: 'Save the trace',
     kept: (number: string) => `The latest ${number} events are kept here; the service has all of them.`,
     event: (seq: number) => `Event ${seq}`,

@@ -1,4 +1,4 @@
-// When something was done, on the clock of whoever reads it, with the time zone of that clock: a day has another one.
+// When something was done, on the clock of the reader, with the time zone of that clock: a day has another one.
 
 import { text } from './text'
 

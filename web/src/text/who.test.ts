@@ -6,7 +6,7 @@ it('names the person by the token, and the policy whose advice was taken', () =>
   expect(whoDecided({ actor: 'anna', policy: undefined, isOwn: true })).toBe('anna')
 })
 
-it('does not say who took the advice where nobody can know', () => {
+it('does not say who took the advice where it cannot be known', () => {
   expect(whoDecided({ actor: '', policy: 'prices' })).toBe('as prices advised')
   expect(whyNobody({ actor: '', policy: 'prices' })).toMatch(/asks for no tokens/)
 })

@@ -1,5 +1,5 @@
 // Who did something, in words that claim no more than the service knows: the person, by the name of the token, and the policy whose
-// advice was taken. Without tokens nobody has a name, and an acceptance by a person looks like that of a program; only what was done at
+// advice was taken. Without tokens no user has a name, and an acceptance by a person looks like that of a program; only what was done at
 // this console is known to be the reader's own.
 
 import { text } from './text'
@@ -7,7 +7,7 @@ import { text } from './text'
 export interface Doing {
   /** The name of the token; empty without tokens. */
   actor: string
-  /** The policy whose advice was taken; absent where somebody chose, and for what is no decision. */
+  /** The policy whose advice was taken; absent where a person chose, and for what is no decision. */
   policy?: string | null | undefined
   /** Whether it was done at this console. */
   isOwn?: boolean
@@ -22,10 +22,10 @@ export function whoDid({ actor, policy, isOwn = false }: Doing): string {
 
 /** The same of a decision: where no policy advised it, a person chose. */
 export function whoDecided(doing: Doing): string {
-  return whoDid(doing) || text.decided.somebody
+  return whoDid(doing) || text.decided.person
 }
 
-/** Why nobody is named, if that is so. */
+/** Why no name is given, if that is so. */
 export function whyNobody({ actor, isOwn = false }: Doing): string | undefined {
   return actor === '' && !isOwn ? text.decided.nobodyHint : undefined
 }

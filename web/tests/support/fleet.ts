@@ -92,7 +92,7 @@ export class Fleet {
     return new Fleet(url, day.id, token)
   }
 
-  /** The day that somebody else makes, as soon as it is there. */
+  /** The day that another user makes, as soon as it is there. */
   static async onDayOfOthers(url: string): Promise<Fleet> {
     for (;;) {
       const { days } = (await new Fleet(url, '').ask('GET', '/v1/days')) as DayList
@@ -136,7 +136,7 @@ export class Fleet {
     return aircraft.filter((one) => one.needs_decision).map((one) => one.id)
   }
 
-  /** Goes on and takes the policy's decisions until a time, at which nobody waits. */
+  /** Goes on and takes the policy's decisions until a time, at which no aircraft waits. */
   async playUntil(time: string): Promise<void> {
     while (await this.goOn()) {
       const { now } = await this.state()
@@ -154,7 +154,7 @@ export class Fleet {
     await this.ask('POST', `/v1/days/${this.day}/decisions`, { aircraft, ...more })
   }
 
-  /** Goes on until somebody waits for a decision; false when nobody will any more. */
+  /** Goes on until an aircraft waits for a decision; false when none will any more. */
   async goOn(): Promise<boolean> {
     for (;;) {
       const state = await this.state()

@@ -1,4 +1,4 @@
-// A day of New York to be looked at: a morning with a closure and an aircraft out of service, on which somebody waits for a
+// A day of New York to be looked at: a morning with a closure and an aircraft out of service, on which an aircraft waits for a
 // decision.
 
 import type { Page } from '@playwright/test'
@@ -21,7 +21,7 @@ export async function morning(program: Program): Promise<Fleet> {
   return fleet
 }
 
-/** Shows a day without a clock that goes on: for whoever looks ten minutes later, nothing has happened for long. */
+/** Shows a day without a clock that goes on: for a user who looks ten minutes later, nothing has happened for long. */
 export async function standStill(page: Page): Promise<void> {
   await page.clock.setFixedTime(Date.now() + 600_000)
 }

@@ -76,7 +76,7 @@ export class Program {
     return new Promise((ends) => child.once('close', (code) => ends(code === 0 ? '' : `${code}: ${said}`)))
   }
 
-  /** Makes a token, after which the service wants one of everybody. */
+  /** Makes a token, after which every request needs one. */
   token(role: 'read' | 'dispatch' | 'admin'): string {
     const args = [
       'serve',

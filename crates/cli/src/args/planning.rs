@@ -45,7 +45,7 @@ pub(crate) struct SweepArguments {
     /// Prove an upper bound of every day
     #[arg(long)]
     pub(crate) bound: bool,
-    /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer never give looser bounds, and take longer
+    /// Longest price interval of the bounds, minutes, 1 to 60; shorter is never looser and takes longer
     #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     /// Folder of the sweep: finished cells, tables, figures and a report page; a sweep that ended early goes on in it
@@ -87,7 +87,7 @@ pub(crate) struct SizeArguments {
     /// Weights of a learned policy [default: the shipped ones of the network]
     #[arg(long, value_name = "PATH", value_parser = PathBufValueParser::new().map(PolicySource::File))]
     pub(crate) model: Option<PolicySource>,
-    /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer give a tighter certificate, and take longer
+    /// Longest price interval of the bounds, minutes, 1 to 60; shorter gives a tighter certificate and takes longer
     #[arg(long, value_name = "MIN", default_value_t = 60, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     /// The most designs to play
@@ -193,7 +193,7 @@ pub(crate) struct ExplainArguments {
     /// Weights of a learned policy [default: the shipped ones of the scenario's network]
     #[arg(long, value_name = "PATH", value_parser = PathBufValueParser::new().map(PolicySource::File))]
     pub(crate) model: Option<PolicySource>,
-    /// Minutes for which the bounds' prices stay the same at most, 1 to 60; fewer never give looser bounds, and take longer
+    /// Longest price interval of the bounds, minutes, 1 to 60; shorter is never looser and takes longer
     #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     /// Write the page of the day with its bound and what changes are worth to this HTML file

@@ -10,7 +10,7 @@ use vertifleet_optimize::{Bound, Error, Step, bound_without_foresight, upper_bou
 use vertifleet_study::OwnDays;
 
 use crate::args::BoundArguments;
-use crate::commands::{read_scenario, warn_of_days};
+use crate::commands::{read_scenario, warn_unserved_days};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::mean_shadow_prices::{self, Mean};
@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
         }
         several => {
             let days = OwnDays::read(several)?;
-            warn_of_days(days.days());
+            warn_unserved_days(days.days());
             let scenarios: Vec<&Scenario> = days.days().collect();
             let bounded = scenarios.into_par_iter().map(bounded).collect::<Result<Vec<_>, _>>()?;
             (numbers_of_days(&bounded), lines_of_days(&bounded))

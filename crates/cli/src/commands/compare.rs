@@ -10,7 +10,9 @@ use vertifleet_study::comparison::{Comparison, DrawnDays};
 use vertifleet_study::competitor::Selection;
 
 use crate::args::CompareArguments;
-use crate::commands::{claim_report, command, find_network, present, reads_models, warn_of_days};
+use crate::commands::{
+    claim_report, command, find_network, present, reads_models, warn_unserved_days,
+};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::warn;
@@ -28,7 +30,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     let comparison = comparison(arguments, &mut outputs, &never)?;
     reads_models(arguments.models.iter().map(|(_, model)| model), &mut outputs);
     claim_report(&arguments.presented, &mut outputs)?;
-    warn_of_days(comparison.days());
+    warn_unserved_days(comparison.days());
     for warning in comparison.warnings() {
         warn(Code(310), &warning);
     }

@@ -117,7 +117,7 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses flags that would change nothing, which nobody would notice.
+/// Refuses flags that would change nothing without notice.
 fn refuse_flags_of_trips_without_trips(arguments: &ImportArguments) -> Result<(), Failure> {
     let flags = arguments.flags_of_trips();
     if !arguments.trips.is_empty() || flags.is_empty() {
@@ -274,7 +274,7 @@ fn ask_vertiport(text: &str) -> Result<Option<NewVertiport>, String> {
 fn ask<T>(flag: &str, what: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<T, Failure> {
     loop {
         if !stdin().is_terminal() {
-            let message = format!("{flag} is not given, and there is nobody to ask");
+            let message = format!("{flag} is not given, and there is no terminal to ask on");
             return Err(Failure::usage(message, "give the flag, or run the command in a terminal"));
         }
         eprint!("{what}: ");

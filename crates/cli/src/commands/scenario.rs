@@ -7,7 +7,7 @@ use vertifleet_core::{DaySeed, Network, Outputs, Scenario};
 use vertifleet_progress::Bar;
 
 use crate::args::ScenarioArguments;
-use crate::commands::{find_network, warn_of_days};
+use crate::commands::{find_network, warn_unserved_days};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::print;
@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &ScenarioArguments) -> Result<ExitCode, Failure> {
     if let Some(file) = &arguments.output {
         outputs.writes(file, &Scenario::FILE)?;
     }
-    warn_of_days([&day]);
+    warn_unserved_days([&day]);
     match &arguments.output {
         None => print(&day.to_json())?,
         Some(file) => day.write(file)?,
@@ -49,7 +49,7 @@ fn draw_days(
         }
     }
     vertifleet_core::create_folder(folder)?;
-    warn_of_days([&network.draw(DaySeed::comparison(seed)?)]);
+    warn_unserved_days([&network.draw(DaySeed::comparison(seed)?)]);
     let progress = Bar::new(u64::from(days), "days");
     for day in 0..u64::from(days) {
         let scenario = network.draw(DaySeed::comparison(seed + day)?);

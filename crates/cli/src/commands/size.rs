@@ -12,7 +12,7 @@ use vertifleet_study::report::Records as _;
 use vertifleet_study::size::{SizeRequest, Sizing};
 
 use crate::args::SizeArguments;
-use crate::commands::{command, find_network, reads_models, warn_of_days, warn_of_demand};
+use crate::commands::{command, find_network, reads_models, warn_of_demand, warn_unserved_days};
 use crate::failure::Failure;
 use crate::interrupt::end_study_on_interrupt;
 use crate::output::print;
@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &SizeArguments) -> Result<ExitCode, Failure> {
         designs: arguments.designs,
     })?;
     warn_of_demand(&network);
-    warn_of_days(Some(&sizing.first_day()?));
+    warn_unserved_days(Some(&sizing.first_day()?));
     // Ctrl-C ends the program itself; what was found out of designs is on the disk.
     let (stop, folder) = (Stop::default(), &arguments.out);
     let bar = Bar::new(sizing.designs() as u64, "designs");

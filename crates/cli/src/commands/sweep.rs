@@ -12,7 +12,7 @@ use vertifleet_study::report::Records as _;
 use vertifleet_study::sweep::{Design, Sweep, SweepRequest};
 
 use crate::args::SweepArguments;
-use crate::commands::{command, find_network, reads_models, warn_of_days, warn_of_demand};
+use crate::commands::{command, find_network, reads_models, warn_of_demand, warn_unserved_days};
 use crate::failure::Failure;
 use crate::interrupt::end_study_on_interrupt;
 use crate::output::print;
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &SweepArguments) -> Result<ExitCode, Failure> {
         bound_step: arguments.bound.then(|| Step::from_minutes(arguments.step)).transpose()?,
     })?;
     warn_of_demand(&network);
-    warn_of_days(sweep.first_day()?.as_ref());
+    warn_unserved_days(sweep.first_day()?.as_ref());
     // Ctrl-C ends the program itself; the cells that are finished are on the disk.
     let (stop, folder) = (Stop::default(), &arguments.out);
     let records = sweep.run(folder, command(), arguments.force, &stop, |done, all| {

@@ -10,17 +10,17 @@ use vertifleet_learn::{
 use vertifleet_progress::Bar;
 
 use crate::args::TrainArguments;
-use crate::commands::{find_world, warn_of_days};
+use crate::commands::{resolve_network, warn_unserved_days};
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
 
 pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     let mut outputs = Outputs::new(arguments.force);
-    let world = find_world(&arguments.network, &mut outputs)?;
+    let world = resolve_network(&arguments.network, &mut outputs)?;
     // The first training day stands for all of them in the warnings.
     let seed = DaySeed::training(arguments.seed, 0)?;
-    warn_of_days([&world.network(Purpose::Training, seed.get()).draw(seed)]);
+    warn_unserved_days([&world.network(Purpose::Training, seed.get()).draw(seed)]);
     let plan = plan(arguments, world, &mut outputs)?;
     let folder = RunFolder::of(&plan.policy, &arguments.out);
     let mut run = folder.begin(plan, arguments.resume, &mut outputs)?;
@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     let shown = Shown::of(run.as_ref());
     folder.train(run.as_mut(), &stop, &shown)?;
     drop(shown);
-    tell(run.as_ref(), &folder)?;
+    print_summary(run.as_ref(), &folder)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -109,7 +109,7 @@ impl TrainingWatch for Shown {
 }
 
 /// Prints the results of the run as they stand in its files.
-fn tell(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failure> {
+fn print_summary(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failure> {
     let curve = run.curve();
     let mut rewards = curve.validation_rewards().into_iter().map(|(_, reward)| reward);
     // The validation reward of the weights that were kept.

@@ -223,7 +223,7 @@ fn a_report_is_a_folder_with_a_page_figures_and_tables() {
     let page = fs::read_to_string(folder.path().join("out/report.html")).expect("a page");
     assert!(page.contains("The first 3 days as each policy played them"), "{page}");
     let replay = fs::read_to_string(folder.path().join("out/replay.html")).expect("a page");
-    assert_eq!(framed(&page), replay, "the page can be sent to somebody by itself");
+    assert_eq!(framed(&page), replay, "the page can be sent alone");
     for figure in ["figure-3-learning-curves", "figure-4-reward", "figure-5-profit"] {
         for kind in ["svg", "png"] {
             let name = format!("{figure}.{kind}");

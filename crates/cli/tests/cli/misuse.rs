@@ -40,7 +40,7 @@ fn prepared() -> tempfile::TempDir {
         file(empty, b"");
     }
     file("garbage", &[0xff, 0, 0x80, b'{', 0xfe]);
-    file("notes.txt", b"dear to somebody");
+    file("notes.txt", b"dear to its owner");
     for folder in ["folder", "none", "strange", "twice", "taken", "run", "rest", "foreign"] {
         fs::create_dir(at.join(folder)).expect("a folder");
     }

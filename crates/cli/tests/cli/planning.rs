@@ -317,9 +317,9 @@ fn a_new_network_says_what_is_assumed_and_can_be_used_at_once() {
     let text = fs::read_to_string(here.join("bay.toml")).expect("it is there");
     assert!(text.contains("# assumption") && text.contains("id = \"OAK\""), "{text}");
     assert!(stdout(here, &["network", "check", "bay.toml"]).contains("can be used"));
-    let nobody = vertifleet(here, &[&flags[..8], &["--output", "other.toml"]].concat());
-    assert_eq!(nobody.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&nobody.stderr).contains("--aircraft is not given"));
+    let not_asked = vertifleet(here, &[&flags[..8], &["--output", "other.toml"]].concat());
+    assert_eq!(not_asked.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&not_asked.stderr).contains("--aircraft is not given"));
     assert!(!here.join("other.toml").exists());
 }
 

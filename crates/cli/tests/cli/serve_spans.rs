@@ -45,7 +45,7 @@ fn spans_go_where_the_command_line_or_else_the_environment_says() {
         } else {
             serve.env(VARIABLE, &asked_url);
         }
-        // Every request at once, so that nobody waits for a batch.
+        // Every request at once, so that no request waits for a batch.
         serve.env("OTEL_BSP_SCHEDULE_DELAY", "50");
         let service = Service::start(&mut serve).expect("it starts");
         ureq::get(format!("http://{}/healthz", service.address)).call().expect("it answers");

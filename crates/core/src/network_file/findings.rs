@@ -88,8 +88,9 @@ impl RawNetwork {
             uniform: self.uniform_demand,
         };
         let is_given = models.count() > 0;
-        if let Some(demand) =
-            is_given.then(|| found.check(models.the_one(&vertiports, &places, origin))).flatten()
+        if let Some(demand) = is_given
+            .then(|| found.check(models.single_table(&vertiports, &places, origin)))
+            .flatten()
         {
             found.check(self.tariffs.check(demand.periods.len(), &places, origin));
         }

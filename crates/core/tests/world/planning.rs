@@ -114,7 +114,7 @@ fn a_reference_that_is_given_is_kept() {
     let elastic =
         changed(&network(PAPER), &json!({"market": {"elasticity": 0.8, "reference": {}}}));
     assert_mean_is(&changed(&elastic, &moved), &elastic, |_| 1.0);
-    // Where nobody responds, nothing is written.
+    // Without elasticity nothing is written.
     let dull = changed(&network(PAPER), &json!({"tariffs.fare_usd_per_mi": 1.5}));
     assert!(!dull.toml().contains("reference"));
 }

@@ -1,5 +1,5 @@
 //! The networks of cities are what their sources say: positions are those of OurAirports (`networks/sources`), and every pair
-//! that somebody wants to fly is within range.
+//! with demand is within range.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -92,7 +92,7 @@ impl EvolutionRun {
     }
 
     fn generations_done(&self) -> u32 {
-        u32::try_from(self.progress.curve.len()).expect("a run has few generations")
+        u32::try_from(self.progress.curve.len()).expect("a run has saturating_count generations")
     }
 
     /// Plays a generation and takes a step. After [`Error::Stopped`], nothing is undone.

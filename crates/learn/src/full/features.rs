@@ -9,9 +9,9 @@ use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 use crate::full::board::{Board, Boards, Onward};
-use crate::gcaps_x::features::few;
+use crate::gcaps_x::features::saturating_count;
 use crate::nn::{AIRCRAFT_SHOWN, Adjacency, Architecture, FLEET_FEATURES, Shape};
-use crate::rows::{Beside, Row, Rows};
+use crate::rows::{ExtraInputs, Row, Rows};
 
 /// F, the number of node features.
 pub(crate) const NODE_FEATURES: usize = 37;
@@ -111,7 +111,7 @@ pub(crate) fn shape(vertiports: usize) -> Shape {
 #[derive(Debug, Clone)]
 pub(crate) struct Writer {
     adjacency: Adjacency,
-    beside: Beside,
+    beside: ExtraInputs,
     boards: Boards,
     /// What the row being written says of each vertiport.
     seen: Vec<Seen>,
@@ -145,14 +145,19 @@ pub(crate) struct Scene<'a> {
 impl Writer {
     /// A writer of what a policy's network reads.
     pub(crate) fn of(policy: &Architecture) -> Self {
-        let (adjacency, beside) = (policy.adjacency(), Beside::of(policy));
+        let (adjacency, beside) = (policy.adjacency(), ExtraInputs::of(policy));
         Self { adjacency, beside, ..Self::of_features() }
     }
 
     /// A writer of the features of vertiports and aircraft alone.
     pub(crate) fn of_features() -> Self {
         let adjacency = Adjacency::Complete;
-        Self { adjacency, beside: Beside::default(), boards: Boards::default(), seen: Vec::new() }
+        Self {
+            adjacency,
+            beside: ExtraInputs::default(),
+            boards: Boards::default(),
+            seen: Vec::new(),
+        }
     }
 
     /// No rows yet, for days with so many vertiports.
@@ -170,7 +175,7 @@ impl Writer {
         let kind = view.kind(decision.aircraft);
         let unit_usd = self.boards.of(view).unit_usd(kind);
         let scene = Scene { view, decision, kind, unit_usd };
-        self.look_around(scene);
+        self.write_vertiport_features(scene);
         let (adjacency, seen) = (self.adjacency, &self.seen);
         let board = self.boards.latest();
         rows.push(|row| {
@@ -191,7 +196,7 @@ impl Writer {
     }
 
     /// Looks at the flights from each vertiport, and counts the other aircraft there.
-    fn look_around(&mut self, Scene { view, decision, kind, .. }: Scene<'_>) {
+    fn write_vertiport_features(&mut self, Scene { view, decision, kind, .. }: Scene<'_>) {
         let legs = view.legs_from(kind, decision.at);
         let board = self.boards.of(view);
         self.seen.resize(legs.len(), Seen::default());
@@ -331,9 +336,9 @@ impl Scene<'_> {
             (left_h / 2.0).min(1.0),
             (left_h / 4.0).min(1.0),
             hours(period_left_s).min(1.0),
-            few(own.within[1], 4.0),
-            few(own.within[2], 4.0),
-            few(own.within[3], 4.0),
+            saturating_count(own.within[1], 4.0),
+            saturating_count(own.within[2], 4.0),
+            saturating_count(own.within[3], 4.0),
             (choices as f64 / 8.0).min(4.0),
             (fleet / view.vertiports() as f64 / 8.0).min(2.0),
             (fleet / f64::from(stands.max(1))).min(2.0),
@@ -375,15 +380,15 @@ impl Scene<'_> {
             f64::from(waiting.saturating_sub(seats).min(seats)) / f64::from(seats),
             flights(waiting),
             flights(later),
-            few(stands.saturating_sub(taken), 4.0),
+            saturating_count(stands.saturating_sub(taken), 4.0),
             (f64::from(taken) / f64::from(stands.max(1))).min(2.0),
-            few(seen.before, 4.0),
-            few(seen.near, 4.0),
-            few(seen.within[0], 4.0),
-            few(seen.within[1], 4.0),
-            few(seen.within[2], 4.0),
-            few(seen.within[3], 4.0),
-            few(seen.within[4], 4.0),
+            saturating_count(seen.before, 4.0),
+            saturating_count(seen.near, 4.0),
+            saturating_count(seen.within[0], 4.0),
+            saturating_count(seen.within[1], 4.0),
+            saturating_count(seen.within[2], 4.0),
+            saturating_count(seen.within[3], 4.0),
+            saturating_count(seen.within[4], 4.0),
             self.share_of_day(seen.ready),
             left_h.min(1.0),
             (left_h / 2.0).min(1.0),

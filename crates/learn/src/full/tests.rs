@@ -144,7 +144,7 @@ fn what_is_remembered_is_what_is_seen_anew() {
 fn the_other_aircraft_that_are_ready_first_are_shown_with_their_vertiports() {
     let seed = DaySeed::validation(3).expect("a seed");
     let large = Arc::new(Network::shipped("large").expect("shipped").draw(seed));
-    assert!(large.aircraft.len() > AIRCRAFT_SHOWN + 1, "not everybody is shown");
+    assert!(large.aircraft.len() > AIRCRAFT_SHOWN + 1, "not all aircraft are shown");
     for day in days().into_iter().chain([large]) {
         let mut simulation = Simulation::new(Arc::clone(&day));
         let mut writer = Writer::of(&with_aircraft());
@@ -176,7 +176,7 @@ fn assert_fleet_is_shown(
     assert_eq!(shown.len(), AIRCRAFT_SHOWN);
     for (at, shown) in shown.enumerate() {
         let Some(&(ready, other)) = others.get(at) else {
-            assert!(shown.iter().all(|number| *number == 0.0), "nobody is there");
+            assert!(shown.iter().all(|number| *number == 0.0), "no aircraft is there");
             continue;
         };
         let place = view.places()[other.at()];

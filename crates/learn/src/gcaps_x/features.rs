@@ -125,7 +125,7 @@ impl Writer {
     /// Adds the row of a decision between the choices of a list, which starts with the best and has the worth of each
     /// at the prices.
     pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice], rows: &mut Rows) {
-        let queue = self.look_around(scene);
+        let queue = self.write_vertiport_features(scene);
         let best_usd = listed[0].worth_usd;
         let second_usd = listed.get(1).map_or(f64::NEG_INFINITY, |second| second.worth_usd);
         let lead = (best_usd - second_usd) / scene.unit_usd;
@@ -152,7 +152,7 @@ impl Writer {
 
     /// Counts the other aircraft at each vertiport. Returns how many of them are ready at the deciding aircraft's own
     /// vertiport within each time of [`QUEUE_S`].
-    fn look_around(&mut self, scene: Scene<'_>) -> [u16; 3] {
+    fn write_vertiport_features(&mut self, scene: Scene<'_>) -> [u16; 3] {
         let Scene { view, decision, .. } = scene;
         let kind = view.kind(decision.aircraft);
         let legs = view.legs_from(kind, decision.at);
@@ -237,9 +237,9 @@ fn aircraft(
     [
         f64::from(view.day_end().since(time)) / f64::from(day_s),
         (f64::from(period_left_s) / 3_600.0).min(1.0),
-        few(queue[0], 4.0),
-        few(queue[1], 4.0),
-        few(queue[2], 4.0),
+        saturating_count(queue[0], 4.0),
+        saturating_count(queue[1], 4.0),
+        saturating_count(queue[2], 4.0),
         (prices.rent_usd(at, time, time + 900) / unit_usd).min(2.0),
         (SHARPER * lead).min(1.0),
         listed as f64 / 4.0,
@@ -297,17 +297,17 @@ fn node(
         units(prices.rent_usd(to, ready, ready + 3_600)).min(2.0),
         units(worth_usd - prices.worth_usd(kind, from, ready)).clamp(-2.0, 2.0),
         units(worth_usd - prices.worth_usd(kind, to, ready + 900)).clamp(-1.0, 1.0),
-        few(stands.saturating_sub(taken), 4.0),
+        saturating_count(stands.saturating_sub(taken), 4.0),
         f64::from(taken) / f64::from(stands),
-        few(seen.before, 4.0),
-        few(seen.near, 4.0),
-        few(seen.competitors, 4.0),
+        saturating_count(seen.before, 4.0),
+        saturating_count(seen.near, 4.0),
+        saturating_count(seen.competitors, 4.0),
         (2.0 * seen.contention).min(2.0),
         f64::from(view.day_end().since(ready)) / f64::from(day_s),
     ]
 }
 
 /// A small count as a multiple of its usual value, at most 2.
-pub(crate) fn few(count: u16, usual: f64) -> f64 {
+pub(crate) fn saturating_count(count: u16, usual: f64) -> f64 {
     (f64::from(count) / usual).min(2.0)
 }

@@ -5,7 +5,7 @@ use vertifleet_sim::{Decision, View};
 
 use crate::gcaps_x::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Scene, Writer, shape};
 use crate::gcaps_x::scorer::LOGITS_A_UNIT;
-use crate::rows::{Beside, Rows};
+use crate::rows::{ExtraInputs, Rows};
 
 /// Shows decisions as `gcaps-x` sees them. It remembers the bid prices of the day that it showed last, so each day that
 /// is played side by side with others should have an observer of its own.
@@ -36,7 +36,7 @@ impl Default for PricedObserver {
             prices: PriceMemory::default(),
             shortlist: Shortlist::default(),
             writer: Writer::default(),
-            rows: Rows::new(shape(0), Beside::default()),
+            rows: Rows::new(shape(0), ExtraInputs::default()),
             worth: Vec::new(),
         }
     }
@@ -57,7 +57,7 @@ impl PricedObserver {
         let scene = Scene::of(view, decision, prices);
         let vertiports = view.vertiports();
         if self.rows.vertiports() != vertiports {
-            self.rows = Rows::new(shape(vertiports), Beside::default());
+            self.rows = Rows::new(shape(vertiports), ExtraInputs::default());
         }
         self.rows.clear();
         self.writer.push(scene, listed, &mut self.rows);

@@ -17,7 +17,7 @@ use crate::gcaps_x::features::{Scene, Writer, shape};
 use crate::header::network;
 use crate::nn::{self, Architecture, Weights, Workspace};
 use crate::rollouts::{MOST_ROWS, Scores};
-use crate::rows::{Beside, Rows};
+use crate::rows::{ExtraInputs, Rows};
 
 /// A logit of 1 is worth the unit divided by this.
 pub(crate) const LOGITS_A_UNIT: f64 = 20.0;
@@ -43,7 +43,7 @@ impl Scorer {
     ) -> Self {
         let net = network(architecture, vertiports);
         let workspace = net.workspace(MOST_ROWS);
-        let rows = Rows::new(shape(vertiports), Beside::default());
+        let rows = Rows::new(shape(vertiports), ExtraInputs::default());
         Self {
             net,
             weights,

@@ -9,7 +9,7 @@ use vertifleet_core::VertiportIx;
 
 use crate::header::shape_of;
 use crate::nn::{Architecture, Inputs, Shape};
-use crate::rows::{Beside, Rows};
+use crate::rows::{ExtraInputs, Rows};
 use crate::run::checkpoint::tensor;
 
 /// Samples from days with one number of vertiports.
@@ -25,7 +25,7 @@ pub(crate) struct Samples {
 
 /// A choice as the teacher judges it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Judged {
+pub(crate) struct LabelledChoice {
     pub(crate) to: VertiportIx,
     /// What it is worth at the prices, dollars.
     pub(crate) worth_usd: f64,
@@ -41,13 +41,13 @@ impl Samples {
 
     /// Adds what the teacher thinks of the decision whose row was added last. `unit_usd` is the unit of the network's
     /// logits.
-    pub(crate) fn judge(&mut self, unit_usd: f64, choices: &[Judged]) {
+    pub(crate) fn judge(&mut self, unit_usd: f64, choices: &[LabelledChoice]) {
         let first = self.priced.len();
         self.priced.resize(first + self.rows.vertiports(), 0.0);
         self.values.resize(first + self.rows.vertiports(), 0.0);
         let best_usd = choices.iter().map(|one| one.worth_usd).fold(f64::NEG_INFINITY, f64::max);
         let mean_usd = choices.iter().map(|one| one.value_usd).sum::<f64>() / choices.len() as f64;
-        for &Judged { to, worth_usd, value_usd } in choices {
+        for &LabelledChoice { to, worth_usd, value_usd } in choices {
             self.priced[first + to.at()] = ((worth_usd - best_usd) / unit_usd) as f32;
             self.values[first + to.at()] = ((value_usd - mean_usd) / unit_usd) as f32;
         }
@@ -164,7 +164,7 @@ impl Samples {
         let rows = numbers / aircraft_features;
         let tensor = |name: &str, entries: usize| tensor(file, name, entries);
         let masks = has_masks(policy).then(|| tensor(&masks, rows * vertiports));
-        let beside = Beside::of(policy);
+        let beside = ExtraInputs::of(policy);
         let [of_edges, of_fleet] = beside.widths(vertiports);
         let optional = |name: &str, width: usize| {
             if width == 0 { Ok(Vec::new()) } else { tensor(name, rows * width) }

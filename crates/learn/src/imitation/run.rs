@@ -154,7 +154,7 @@ impl ImitationRun {
     }
 
     fn rounds_done(&self) -> u32 {
-        u32::try_from(self.curve.len()).expect("a run has few rounds")
+        u32::try_from(self.curve.len()).expect("a run has saturating_count rounds")
     }
 
     /// The days of the next round.

@@ -17,11 +17,11 @@ use crate::full::features as full;
 use crate::gcaps_x::features::{self as priced, Scene};
 use crate::gcaps_x::scorer::Scorer;
 use crate::header::{network, shape_of};
-use crate::imitation::dataset::{Judged, Samples};
+use crate::imitation::dataset::{LabelledChoice, Samples};
 use crate::learned::Learned;
 use crate::nn::{Architecture, Weights};
 use crate::rollouts::RolloutPlayer;
-use crate::rows::{Beside, Rows};
+use crate::rows::{ExtraInputs, Rows};
 
 /// Why a learned policy has an answer.
 const CHOOSES: &str = "every decision has a choice";
@@ -33,7 +33,7 @@ pub(super) struct Teacher {
     evaluator: RolloutEvaluator,
     player: RolloutPlayer,
     writer: Writer,
-    judged: Vec<Judged>,
+    judged: Vec<LabelledChoice>,
 }
 
 /// Writes what the policy sees.
@@ -64,7 +64,7 @@ impl Teacher {
         vertiports: usize,
         settings: RolloutSettings,
     ) -> (Self, Samples) {
-        let rows = Rows::new(shape_of(policy, vertiports), Beside::of(policy));
+        let rows = Rows::new(shape_of(policy, vertiports), ExtraInputs::of(policy));
         let writer = match scales {
             Some(scales) => Writer::Paper(scales),
             None if policy.sees_prices() => Writer::Priced(priced::Writer::default()),
@@ -101,7 +101,7 @@ impl Teacher {
         self.judged.clear();
         let rolled_out = listed.iter().zip(values_usd);
         self.judged.extend(rolled_out.map(|(&PricedChoice { worth_usd, to }, &value_usd)| {
-            Judged { to, worth_usd, value_usd }
+            LabelledChoice { to, worth_usd, value_usd }
         }));
         match &mut self.writer {
             Writer::Priced(writer) => writer.push(scene, listed, &mut samples.rows),
@@ -125,9 +125,10 @@ fn judge_the_others(
     prices: &DayPrices,
     view: View<'_>,
     decision: &Decision,
-    judged: &mut Vec<Judged>,
+    judged: &mut Vec<LabelledChoice>,
 ) {
-    let least = |of: fn(&Judged) -> f64| judged.iter().map(of).fold(f64::INFINITY, f64::min);
+    let least =
+        |of: fn(&LabelledChoice) -> f64| judged.iter().map(of).fold(f64::INFINITY, f64::min);
     let least_worth_usd = least(|one| one.worth_usd);
     let least_value_usd = least(|one| one.value_usd);
     let rolled_out = judged.len();
@@ -135,7 +136,7 @@ fn judge_the_others(
         if judged[..rolled_out].iter().all(|one| one.to != to) {
             let worth_usd = prices.choice_usd(view, decision, to);
             let value_usd = least_value_usd - (least_worth_usd - worth_usd).max(0.0);
-            judged.push(Judged { to, worth_usd, value_usd });
+            judged.push(LabelledChoice { to, worth_usd, value_usd });
         }
     }
 }

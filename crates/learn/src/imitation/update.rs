@@ -22,7 +22,7 @@ use crate::gcaps_x::scorer::LOGITS_A_UNIT;
 use crate::header::network;
 use crate::imitation::dataset::{Dataset, Samples};
 use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
-use crate::rows::{Beside, Rows};
+use crate::rows::{ExtraInputs, Rows};
 
 /// Vertiports per forward and backward pass: as many as the second-level cache holds. The aircraft of a graph of them
 /// come on top; they are not counted, so that the steps of a run do not depend on whether there is such a graph.
@@ -168,7 +168,7 @@ impl Lane {
         if sized.as_ref().is_none_or(|(_, _, rows)| rows.vertiports() != vertiports) {
             let net = network(architecture, vertiports);
             let workspace = net.workspace(chunk_rows(vertiports));
-            let rows = Rows::new(samples.rows.shape(), Beside::of(architecture));
+            let rows = Rows::new(samples.rows.shape(), ExtraInputs::of(architecture));
             *sized = Some((net, workspace, rows));
         }
         let (net, workspace, chosen) = sized.as_mut().expect("made above");

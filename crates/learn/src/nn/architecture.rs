@@ -158,7 +158,7 @@ impl GraphSettings {
     }
 
     /// Whether the encoder is the paper's, whatever the decoder is.
-    pub(crate) fn encoder_is_of_the_paper(&self) -> bool {
+    pub(crate) fn uses_paper_encoder(&self) -> bool {
         Self { attention: true, aircraft_graph: false, ..*self }.is_of_the_paper()
     }
 

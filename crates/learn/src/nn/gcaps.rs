@@ -113,7 +113,7 @@ impl Gcaps {
         let mut layout = Layout::starting_at(0);
         let square = (width, width);
         let plain = Init::Uniform { inputs: width, gain: 1.0 };
-        let is_of_the_paper = graph.encoder_is_of_the_paper();
+        let is_of_the_paper = graph.uses_paper_encoder();
         let hops = is_of_the_paper.then(|| paper_hops(&mut layout, width));
         let capsule = match graph.encoder {
             EncoderKind::Capsules => graph.moments * width,

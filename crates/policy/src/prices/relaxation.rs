@@ -149,7 +149,7 @@ impl Relaxation {
         self.offer_usd() + self.send_fleet()
     }
 
-    /// Deducts the prices of passengers from flights. Where nobody has asked for any, their price is still zero.
+    /// Deducts the prices of passengers from flights. Where no flight has asked for any, their price is still zero.
     pub(super) fn charge(&mut self) {
         let pairs = self.vertiports * self.vertiports;
         let mut period = self.first_period;

@@ -12,7 +12,7 @@ const MEAN_WEIGHT: f64 = 0.1;
 /// Distance of the aim of the prices below the lowest value so far, as a share of it.
 const AIM: f64 = 0.05;
 /// Number of passes without a lower value after which steps get shorter, and the factor by which they do.
-const PATIENCE: u32 = 20;
+const STALLED_PASSES: u32 = 20;
 const SHORTER: f64 = 0.7;
 /// The least number of passes, in which prices settle on large days too.
 const LEAST_PASSES: usize = 10;
@@ -67,7 +67,7 @@ impl Volume {
                 self.keep(relaxation);
             } else {
                 failures += 1;
-                if failures == PATIENCE {
+                if failures == STALLED_PASSES {
                     failures = 0;
                     step *= SHORTER;
                 }

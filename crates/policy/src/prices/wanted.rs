@@ -2,7 +2,7 @@
 //! moved away from where it rests.
 //!
 //! A fleet asks for a small share of all passengers (a tenth of the pairs, on a day of 100 vertiports). As long as
-//! nobody asks for the passengers of a pair, their price is zero, the mean of their excess is minus their number to the
+//! no flight asks for the passengers of a pair, their price is zero, the mean of their excess is minus their number to the
 //! last bit, and a pass changes neither. So a search looks only at the pairs that are listed here, in the order of all
 //! pairs, and every sum over them is the sum over all.
 

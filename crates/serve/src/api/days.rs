@@ -12,7 +12,7 @@ use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::{LiveDay, Phase};
 
 use super::answer::{Times, again, at_event, json, written};
-use super::extract::{Asked, EventNumber, Named, PageSize, Sender, Upload};
+use super::extract::{EventNumber, Named, PageSize, Sender, Upload, Validated};
 use super::new_day::NewDay;
 use crate::api::Totals;
 use crate::days::{DayCell, now_ms};
@@ -212,7 +212,7 @@ impl DayProgress {
 #[utoipa::path(operation_id = "list_days", get, path = "/v1/days", tag = "days", params(Listed), responses((status = 200, body = DayList)))]
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
-    Asked(Listed { after, limit, progress }): Asked<Listed>,
+    Validated(Listed { after, limit, progress }): Validated<Listed>,
 ) -> Result<Response, Error> {
     let PageSize(limit) = limit.unwrap_or(PageSize(100));
     let stored = service.days.store().days(&after, limit).await?;
@@ -226,7 +226,7 @@ pub(super) async fn list(
     Ok(json(StatusCode::OK, &DayList { days, next }))
 }
 
-/// How far a day is; `None` if somebody has deleted it meanwhile, or if it is damaged, which its own address answers.
+/// How far a day is; `None` if it was deleted meanwhile, or if it is damaged, which its own address answers.
 async fn progress_of(service: &Service, id: &str) -> Result<Option<DayProgress>, Error> {
     let day = match service.days.get(id).await {
         Err(Error::NotFound { .. } | Error::BadData { .. }) => return Ok(None),
@@ -360,7 +360,7 @@ pub(super) async fn state(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
     sender: Sender,
-    Asked(at): Asked<At>,
+    Validated(at): Validated<At>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let state = match at.seq {

@@ -11,18 +11,18 @@ use utoipa::{IntoParams, ToSchema};
 use vertifleet_core::Stop;
 
 use super::answer::{Times, again, at_event};
-use super::extract::{Asked, Body, Named, Sender};
+use super::extract::{Body, Named, Sender, Validated};
 use crate::days::{DayCell, Writer};
 use crate::decide::Proposal;
 use crate::error::Error;
-use crate::event::{Event, What, reason};
+use crate::event::{Event, EventKind, reason};
 use crate::moment::{Moment, by_calendar};
 use crate::service::{Service, Write, parse};
 
 /// A policy is asked so often when events come in between.
 const TRIES: u32 = 5;
 /// The policy that a person overrules has so long to say what it would have done.
-const PATIENCE_WITH_OVERRULED: Duration = Duration::from_millis(100);
+const OVERRULED_TIMEOUT: Duration = Duration::from_millis(100);
 /// Decides when the policy that was asked is late.
 pub(super) const QUICK_POLICY: &str = "greedy";
 
@@ -30,7 +30,7 @@ pub(super) const QUICK_POLICY: &str = "greedy";
 #[derive(Debug, Clone, Default, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct HowAsked {
+pub(crate) struct DecisionQuery {
     /// The policy; without it, the day's.
     policy: Option<String>,
     /// The time of the decision; without it, or before what has happened, now.
@@ -89,17 +89,17 @@ pub(crate) struct TakenDecision {
 /// Proposes a decision for an aircraft that is ready, with reasons. Nothing changes.
 #[utoipa::path(
     operation_id = "propose_decision", get, path = "/v1/days/{day}/aircraft/{aircraft}/decision", tag = "decisions",
-    params(("day" = String, Path), ("aircraft" = String, Path), HowAsked),
+    params(("day" = String, Path), ("aircraft" = String, Path), DecisionQuery),
     responses((status = 200, body = Proposal))
 )]
 pub(super) async fn propose(
     State(service): State<Arc<Service>>,
     Named((day, aircraft)): Named<(String, String)>,
     sender: Sender,
-    Asked(asked): Asked<HowAsked>,
+    Validated(asked): Validated<DecisionQuery>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
-    let HowAsked { policy, time, deadline_ms, times } = asked;
+    let DecisionQuery { policy, time, deadline_ms, times } = asked;
     let time = time.map(|text| by_calendar(day.calendar(), || Moment::parse(&text))).transpose();
     let time = time.map_err(|rule| Error::BadRequest { rule })?;
     let question = Question { actor: sender.actor, aircraft, policy, time, deadline_ms };
@@ -129,7 +129,7 @@ pub(super) async fn decide(
     };
     let day = service.days.get(&day).await?;
     let asked: NewDecision = by_calendar(day.calendar(), || parse(&body))?;
-    // What has moved on need not be thought about.
+    // Skip the evaluation if the day has advanced.
     writer.check(day.state().seq())?;
     let taken = match asked.to.clone() {
         Some(to) => by_hand(&service, &day, writer, asked, to).await?,
@@ -148,13 +148,12 @@ async fn by_hand(
 ) -> Result<TakenDecision, Error> {
     let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
     // For the record only, so it must not hold a person up, and whatever goes wrong shows when the event is taken.
-    let deadline =
-        deadline_ms.map_or(PATIENCE_WITH_OVERRULED, |ms| Duration::from_millis(ms.into()));
+    let deadline = deadline_ms.map_or(OVERRULED_TIMEOUT, |ms| Duration::from_millis(ms.into()));
     let overruled = ask(service, day, (&writer.actor, &aircraft), policy, time);
     let overruled = tokio::time::timeout(deadline, overruled).await;
     let instead_of = overruled.ok().and_then(Result::ok).map(|proposal| proposal.to);
     let instead_of = instead_of.filter(|proposed| *proposed != to);
-    let what = What::Decided { aircraft, to, policy: None, instead_of, reason };
+    let what = EventKind::Decided { aircraft, to, policy: None, instead_of, reason };
     let now = day.state().live().now();
     let time = time.filter(|time| time.time() >= now);
     take(service, day, writer, Event { time, what }, None).await
@@ -175,7 +174,7 @@ async fn by_policy(
         tries += 1;
         let day = service.days.get(day.id()).await?;
         let proposal = proposed(service, &day, question.clone()).await?;
-        let what = What::Decided {
+        let what = EventKind::Decided {
             aircraft: aircraft.clone(),
             to: proposal.to.clone(),
             policy: Some(proposal.policy.clone()),
@@ -200,7 +199,7 @@ async fn take(
     event: Event,
     proposal: Option<Proposal>,
 ) -> Result<TakenDecision, Error> {
-    let What::Decided { to, .. } = &event.what else { unreachable!("it is a decision") };
+    let EventKind::Decided { to, .. } = &event.what else { unreachable!("it is a decision") };
     let to = to.clone();
     let answer = |appended: &crate::days::Appended| TakenDecision {
         seq: appended.seq,
@@ -238,7 +237,7 @@ async fn proposed(
 }
 
 /// Asks a policy on a thread of its own, since it may take a while. Nothing takes a thread while it waits for its turn, so
-/// that whoever gives up waiting leaves no work behind that has not begun.
+/// that a client that gives up leaves no work behind that has not begun.
 async fn ask(
     service: &Service,
     day: &Arc<DayCell>,

@@ -10,7 +10,7 @@ use utoipa::{IntoParams, ToSchema};
 use vertifleet_core::VertiportIx;
 
 use super::answer::{Times, at_event};
-use super::extract::{Asked, Named};
+use super::extract::{Named, Validated};
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::event::PairDemand;
@@ -48,7 +48,7 @@ pub(crate) struct PeriodDemand {
 pub(super) async fn demand(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Asked(asked): Asked<InPeriod>,
+    Validated(asked): Validated<InPeriod>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let parse = |text: String| by_calendar(day.calendar(), || Moment::parse(&text));

@@ -37,7 +37,7 @@ use crate::problem::Problem;
     tags(
         (name = "service", description = "The service itself"),
         (name = "days", description = "Days and their state"),
-        (name = "events", description = "What happens on a day"),
+        (name = "events", description = "EventKind happens on a day"),
         (name = "decisions", description = "Where an aircraft flies next, and why"),
         (name = "outlooks", description = "How a day goes on, and what it would be otherwise"),
         (name = "networks", description = "Networks from which days are made"),
@@ -101,7 +101,7 @@ impl Modify for Everywhere {
 /// an event is put together from two parts, and neither part could say so without forbidding the other.
 fn close_events(schemas: &mut BTreeMap<String, RefOr<Schema>>) {
     let (Some(RefOr::T(Schema::AllOf(parts))), Some(RefOr::T(Schema::OneOf(mut kinds)))) =
-        (schemas.get("Event").cloned(), schemas.remove("What"))
+        (schemas.get("Event").cloned(), schemas.remove("EventKind"))
     else {
         unreachable!("an event has a time and is one of several kinds")
     };
@@ -141,7 +141,7 @@ fn objects(one_of: &mut OneOf) -> impl Iterator<Item = &mut Object> {
 fn complete(operation: &mut Operation) {
     let problem = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem"))).build();
     let default = ResponseBuilder::new()
-        .description("What is wrong (RFC 9457)")
+        .description("EventKind is wrong (RFC 9457)")
         .content("application/problem+json", problem)
         .build();
     operation.responses.responses.insert("default".to_owned(), RefOr::T(default));

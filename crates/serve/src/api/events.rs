@@ -10,10 +10,10 @@ use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 
 use super::answer::{Times, again, at_event, json};
-use super::extract::{Asked, Body, EventNumber, Named, PageSize, Sender};
+use super::extract::{Body, EventNumber, Named, PageSize, Sender, Validated};
 use crate::days::Appended;
 use crate::error::Error;
-use crate::event::{Event, What};
+use crate::event::{Event, EventKind};
 use crate::moment::by_calendar;
 use crate::service::{Service, Write, parse};
 use crate::store::StoredEvent;
@@ -64,10 +64,10 @@ impl OneOrMore {
     }
 }
 
-/// Checks that nobody but the service says that a policy has decided.
+/// Checks that a client does not claim that a policy has decided; only the service records that.
 fn check_who_decided(events: &[Event]) -> Result<(), Error> {
     let claims = |event: &Event| match &event.what {
-        What::Decided { policy, instead_of, .. } => policy.is_some() || instead_of.is_some(),
+        EventKind::Decided { policy, instead_of, .. } => policy.is_some() || instead_of.is_some(),
         _ => false,
     };
     if events.iter().any(claims) {
@@ -206,7 +206,7 @@ pub(super) async fn list(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
     sender: Sender,
-    Asked(Page { after: EventNumber(after), limit, times }): Asked<Page>,
+    Validated(Page { after: EventNumber(after), limit, times }): Validated<Page>,
 ) -> Result<Response, Error> {
     let PageSize(limit) = limit.unwrap_or(PageSize(1_000));
     let day = service.days.get(&day).await?;

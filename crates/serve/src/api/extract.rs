@@ -22,9 +22,9 @@ use crate::error::Error;
 use crate::service::{Service, in_words_of_json};
 
 /// What stands after the question mark.
-pub(super) struct Asked<T>(pub(super) T);
+pub(super) struct Validated<T>(pub(super) T);
 
-impl<S: Send + Sync, T: DeserializeOwned> FromRequestParts<S> for Asked<T> {
+impl<S: Send + Sync, T: DeserializeOwned> FromRequestParts<S> for Validated<T> {
     type Rejection = Error;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Error> {
@@ -99,7 +99,7 @@ impl<S: Send + Sync, T: DeserializeOwned + Send> FromRequestParts<S> for Named<T
     }
 }
 
-/// Whoever asks, and how.
+/// The sender of a request, and its headers.
 pub(crate) struct Sender {
     /// The name of the token; empty without tokens.
     pub(crate) actor: String,

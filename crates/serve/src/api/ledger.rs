@@ -11,7 +11,7 @@ use vertifleet_core::VertiportIx;
 use vertifleet_sim::DayTotals;
 
 use super::answer::{Times, Totals, at_event};
-use super::extract::{Asked, Named};
+use super::extract::{Named, Validated};
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::moment::Moment;
@@ -73,7 +73,7 @@ pub(crate) struct Entry {
 pub(super) async fn ledger(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Asked(how): Asked<How>,
+    Validated(how): Validated<How>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let ledger = Ledger::of(&mut day.state());

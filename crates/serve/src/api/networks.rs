@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::networks::{self, NetworkInfo};
 use crate::service::{Service, parse};
 
-/// A network that somebody brings.
+/// A network that is uploaded.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NewNetwork {

@@ -27,7 +27,7 @@ pub(crate) struct NewDay {
     /// A whole scenario, as a scenario file has it.
     #[schema(value_type = Option<Object>)]
     scenario: Option<Box<RawValue>>,
-    /// The passengers who are expected, in place of those of the network or the scenario. Nobody flies where no row is.
+    /// The passengers who are expected, in place of those of the network or the scenario. A pair without a row has no passengers.
     forecast: Option<Vec<ForecastRow>>,
     /// Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The others stand where the
     /// network or the scenario has them.

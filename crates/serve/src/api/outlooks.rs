@@ -13,7 +13,7 @@ use vertifleet_core::Stop;
 use super::answer::{Times, Written, at_event, json};
 use super::decisions::QUICK_POLICY;
 use super::events::MOST_EVENTS;
-use super::extract::{Asked, Body, EventNumber, Named, Sender};
+use super::extract::{Body, EventNumber, Named, Sender, Validated};
 use crate::days::DayCell;
 use crate::error::Error;
 use crate::moment::by_calendar;
@@ -45,7 +45,7 @@ pub(super) async fn outlook(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
     sender: Sender,
-    Asked(By { policy, seq, times }): Asked<By>,
+    Validated(By { policy, seq, times }): Validated<By>,
 ) -> Result<Response, Error> {
     let until = patience(&service);
     let day = service.days.get(&day).await?;
@@ -90,7 +90,7 @@ pub(super) async fn what_if(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
     sender: Sender,
-    Asked(Written { times }): Asked<Written>,
+    Validated(Written { times }): Validated<Written>,
     Body(body): Body,
 ) -> Result<Response, Error> {
     let until = patience(&service);

@@ -15,7 +15,7 @@ use crate::access::Role;
 use crate::error::Error;
 use crate::service::Service;
 
-/// What the service is, and what whoever asks may do.
+/// What the service is, and what the sender may do.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct ServiceInfo {
     /// The version of the program.
@@ -28,7 +28,7 @@ pub(crate) struct ServiceInfo {
     policy: &'static str,
 }
 
-/// Says what the service is, and what whoever asks may do.
+/// Returns what the service is, and what the sender may do.
 #[utoipa::path(operation_id = "service_info", get, path = "/v1", tag = "service", responses((status = 200, body = ServiceInfo)))]
 pub(super) async fn info(
     State(service): State<Arc<Service>>,

@@ -20,9 +20,9 @@ use utoipa::IntoParams;
 use self::position::Position;
 use super::answer::Times;
 use super::events::TakenEvent;
-use super::extract::{Asked, EventNumber, Named};
+use super::extract::{EventNumber, Named, Validated};
 use crate::access::Role;
-use crate::days::{DayCell, Told};
+use crate::days::{DayCell, Published};
 use crate::error::Error;
 use crate::mark::EventMark;
 use crate::service::Service;
@@ -32,11 +32,11 @@ use crate::store::{Store, StoredEvent};
 const PAGE: u32 = 250;
 
 /// How often a reader looks whether its token is still in force and its day is still in memory.
-const LOOK: Duration = Duration::from_millis(250);
+const POLL_INTERVAL: Duration = Duration::from_millis(250);
 
 /// After so long without an event a reader is sent an empty line, by which it knows that the service lives, and proxies do not end
 /// the stream.
-const SIGN_OF_LIFE: Duration = Duration::from_secs(2);
+const KEEP_ALIVE: Duration = Duration::from_secs(2);
 
 /// Where the stream begins.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -57,7 +57,7 @@ pub(crate) struct From {
 struct Reader {
     day: Arc<DayCell>,
     store: Store,
-    fresh: Receiver<Arc<Told>>,
+    fresh: Receiver<Arc<Published>>,
     position: Position,
     stopping: watch::Receiver<bool>,
     service: Arc<Service>,
@@ -93,7 +93,7 @@ impl Drop for Reader {
 pub(super) async fn stream(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Asked(From { after, times }): Asked<From>,
+    Validated(From { after, times }): Validated<From>,
     headers: HeaderMap,
 ) -> Result<Response, Error> {
     let most = service.limits.streams;
@@ -134,8 +134,8 @@ impl Reader {
     /// The next events as text, all that are there; `None` if the day can no longer be read.
     async fn next(&mut self) -> Option<Bytes> {
         loop {
-            if self.looked.elapsed() >= LOOK {
-                self.look_around().await?;
+            if self.looked.elapsed() >= POLL_INTERVAL {
+                self.renew().await?;
             }
             let mut text = BytesMut::new();
             if self.position.is_behind() {
@@ -148,7 +148,7 @@ impl Reader {
             } else {
                 let fresh = tokio::select! {
                     fresh = self.fresh.recv() => Some(fresh),
-                    () = tokio::time::sleep(LOOK) => None,
+                    () = tokio::time::sleep(POLL_INTERVAL) => None,
                     _ = self.stopping.wait_for(|&stops| stops) => return None,
                 };
                 if let Some(fresh) = fresh {
@@ -161,7 +161,7 @@ impl Reader {
                     self.take(Ok(event), &mut text)?;
                 }
             }
-            if text.is_empty() && self.said.elapsed() >= SIGN_OF_LIFE {
+            if text.is_empty() && self.said.elapsed() >= KEEP_ALIVE {
                 text.extend_from_slice(b":\n\n");
             }
             if !text.is_empty() {
@@ -172,7 +172,11 @@ impl Reader {
     }
 
     /// Takes what the day tells its readers; `None` if it tells them nothing any more.
-    fn take(&mut self, fresh: Result<Arc<Told>, RecvError>, text: &mut BytesMut) -> Option<()> {
+    fn take(
+        &mut self,
+        fresh: Result<Arc<Published>, RecvError>,
+        text: &mut BytesMut,
+    ) -> Option<()> {
         match fresh {
             Ok(told) if self.position.take(&told.event) => match self.times {
                 Times::Clock => {
@@ -196,7 +200,7 @@ impl Reader {
 
     /// Sees whether the reader may still read. If the day in memory was thrown away, goes on with the one that took its place;
     /// `None` if there is none, or if its log is another one.
-    async fn look_around(&mut self) -> Option<()> {
+    async fn renew(&mut self) -> Option<()> {
         self.looked = Instant::now();
         self.service.access.may(&self.headers, Role::Read).await.ok()?;
         if self.day.is_spoilt() {

@@ -58,7 +58,7 @@ impl Days {
         Err(Error::Conflict)
     }
 
-    /// Has everybody read a day again, those who read its stream or are about to write to it among them.
+    /// Has all users of a day read it again, also readers of its stream and writers.
     pub(super) fn drop_from_memory(&self, day: &DayCell) {
         day.fail();
         let mut cells = self.cells();

@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::store::{DayNotice, PAGE};
 
 /// How often the days whose streams are read are looked at, in case a notice was missed.
-const LOOK: Duration = Duration::from_secs(2);
+const POLL_INTERVAL: Duration = Duration::from_secs(2);
 
 impl Days {
     /// Takes in what other services have added to a day. Returns false if memory does not go on as the store does: an event of
@@ -60,7 +60,7 @@ impl Days {
             if let Err(error) = self.listen().await {
                 tracing::warn!(%error, "cannot listen for changes of other services; trying again soon");
             }
-            sleep(LOOK).await;
+            sleep(POLL_INTERVAL).await;
         }
     }
 
@@ -70,7 +70,7 @@ impl Days {
             // At first for what happened before it listened, then for notices that were missed.
             self.check_followed_days().await?;
             let checked = Instant::now();
-            while let Some(left) = LOOK.checked_sub(checked.elapsed()) {
+            while let Some(left) = POLL_INTERVAL.checked_sub(checked.elapsed()) {
                 match listener.next(left).await? {
                     Some(notice) => self.apply_notice(&notice).await?,
                     None => break,

@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::moment::Moment;
 
 /// How often the operator looks whether others have done something.
-const LOOK: Duration = Duration::from_millis(20);
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Those who decide, and the day that follows them.
 pub(super) struct People<'a> {
@@ -64,7 +64,7 @@ impl<'a> People<'a> {
     ) -> Result<Result<(), Stopped>, Error> {
         let start = self.operation.day.operations.start;
         let mut now = None;
-        // The clock of the day as it would run if nobody were waited for.
+        // The clock of the day as it would run if it waited for no decision.
         let mut begun = Instant::now();
         let mut asked = begun;
         while let Some(decision) = reporter.next_decision() {
@@ -74,7 +74,7 @@ impl<'a> People<'a> {
             let at = now.unwrap_or(start);
             if now == Some(decision.time) {
                 let look = Instant::now();
-                thread::sleep(LOOK);
+                thread::sleep(POLL_INTERVAL);
                 if self.follow(reporter, at)? {
                     watch(at, asked.elapsed());
                     asked = Instant::now();
@@ -84,7 +84,7 @@ impl<'a> People<'a> {
             }
             // While time goes on to the next decision, those before can still be taken back.
             if !self.is_due(begun, decision.time.since(start)) {
-                thread::sleep(LOOK);
+                thread::sleep(POLL_INTERVAL);
                 if now.is_some() {
                     self.follow(reporter, at)?;
                 }

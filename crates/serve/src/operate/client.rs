@@ -17,10 +17,10 @@ use vertifleet_sim::live::Reporter;
 
 use super::Operation;
 use crate::error::Error;
-use crate::event::{Event, Ids, What};
+use crate::event::{Event, EventKind, Ids};
 
 /// A write is tried again for this long when the service does not answer.
-const PATIENCE: Duration = Duration::from_secs(30);
+const REQUEST_TIMEOUT: Duration = Duration::from_secs(30);
 /// Events that are sent at once.
 const MOST_EVENTS: usize = 1_000;
 
@@ -67,7 +67,10 @@ pub(super) enum Heard {
 fn events_until(reporter: &mut Reporter, until: Time) -> Vec<Event> {
     let scenario = Arc::clone(reporter.day().scenario());
     std::iter::from_fn(|| reporter.next_report(until))
-        .map(|(time, report)| Event { time: Some(time.into()), what: What::of(&report, &scenario) })
+        .map(|(time, report)| Event {
+            time: Some(time.into()),
+            what: EventKind::of(&report, &scenario),
+        })
         .collect()
 }
 
@@ -121,10 +124,10 @@ impl Client {
             .tls_config(tls.build())
             .http_status_as_error(false)
             // Not for the whole request: that would take a thread for looking the address up each time.
-            .timeout_connect(Some(PATIENCE))
-            .timeout_send_body(Some(PATIENCE))
+            .timeout_connect(Some(REQUEST_TIMEOUT))
+            .timeout_send_body(Some(REQUEST_TIMEOUT))
             .timeout_recv_response(Some(Duration::from_mins(1)))
-            .timeout_recv_body(Some(PATIENCE))
+            .timeout_recv_body(Some(REQUEST_TIMEOUT))
             .build();
         let run = std::hash::BuildHasher::hash_one(&std::hash::RandomState::new(), 0_u8);
         Ok(Self {
@@ -162,7 +165,7 @@ impl Client {
         until: Time,
     ) -> Result<bool, Error> {
         let mut events = events_until(reporter, until);
-        events.push(Event { time: Some(until.into()), what: What::Clock });
+        events.push(Event { time: Some(until.into()), what: EventKind::Clock });
         let path = format!("/v1/days/{day}/events");
         let mut heard = Some(self.heard);
         for events in events.chunks(MOST_EVENTS) {
@@ -198,8 +201,8 @@ impl Client {
                 continue;
             }
             heard.push(match event.what {
-                What::Decided { aircraft, to, .. } => Heard::Decided { aircraft, to },
-                What::Undone { aircraft, .. } => Heard::Undone { aircraft },
+                EventKind::Decided { aircraft, to, .. } => Heard::Decided { aircraft, to },
+                EventKind::Undone { aircraft, .. } => Heard::Undone { aircraft },
                 _ => Heard::Other,
             });
         }
@@ -258,7 +261,7 @@ impl Client {
             match sent.and_then(|mut answer| {
                 Ok((answer.status().as_u16(), answer.body_mut().read_to_vec()?))
             }) {
-                Ok((409 | 503, _)) | Err(_) if begun.elapsed() < PATIENCE => {
+                Ok((409 | 503, _)) | Err(_) if begun.elapsed() < REQUEST_TIMEOUT => {
                     self.sent_again += 1;
                     thread::sleep(Duration::from_millis(50));
                 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use sqlx::postgres::{PgConnectOptions, PgListener, PgPoolOptions};
 use sqlx::{Any, AssertSqlSafe, Transaction, query};
 
-use super::{PATIENCE, Store};
+use super::{STORE_TIMEOUT, Store};
 use crate::error::Error;
 
 /// The channel of the database.
@@ -88,7 +88,7 @@ impl Store {
         let Some(url) = &self.shared else { return Ok(None) };
         let pool = PgPoolOptions::new()
             .max_connections(1)
-            .acquire_timeout(PATIENCE)
+            .acquire_timeout(STORE_TIMEOUT)
             .connect_with(PgConnectOptions::from_str(&url.0)?)
             .await?;
         let mut listener = PgListener::connect_with(&pool).await?;

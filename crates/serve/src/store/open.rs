@@ -7,7 +7,7 @@ use sqlx::any::{AnyPoolOptions, install_default_drivers};
 use sqlx::{Any, AnyConnection, Connection as _, Executor as _, Transaction, query, query_scalar};
 use tokio::time::sleep;
 
-use super::{DATABASE, Location, PATIENCE, SharedUrl, Store, VERSION};
+use super::{DATABASE, Location, STORE_TIMEOUT, SharedUrl, Store, VERSION};
 use crate::error::Error;
 
 /// Between two tries to reach a server.
@@ -86,7 +86,7 @@ async fn connect(url: &str, is_shared: bool) -> Result<AnyConnection, sqlx::Erro
     let begun = Instant::now();
     loop {
         match AnyConnection::connect(url).await {
-            Err(_) if is_shared && begun.elapsed() < PATIENCE => sleep(PAUSE).await,
+            Err(_) if is_shared && begun.elapsed() < STORE_TIMEOUT => sleep(PAUSE).await,
             outcome => return outcome,
         }
     }
@@ -154,11 +154,11 @@ impl Store {
             return Err(Error::BadDatabase);
         }
         install_default_drivers();
-        // What fails in a transaction may leave a connection in a state that nobody wants: when a disk is full, SQLite ends
+        // What fails in a transaction may leave a connection in an unusable state: when a disk is full, SQLite ends
         // the transaction by itself, and all that came after would be part of one that is never committed.
         let mut options = AnyPoolOptions::new()
             .max_connections(8)
-            .acquire_timeout(PATIENCE)
+            .acquire_timeout(STORE_TIMEOUT)
             .before_acquire(|connection, _| {
                 let is_free = !connection.is_in_transaction();
                 Box::pin(async move { Ok(is_free) })

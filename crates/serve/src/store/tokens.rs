@@ -60,7 +60,7 @@ impl Store {
         Ok(done.rows_affected() > 0)
     }
 
-    /// Records what somebody did beside the events of days.
+    /// Records an action other than an event of a day.
     pub(crate) async fn record(
         &self,
         actor: &str,
@@ -73,7 +73,7 @@ impl Store {
     }
 }
 
-/// Records what somebody does in a transaction, so that neither is there without the other.
+/// Records an action in a transaction, so that neither is there without the other.
 pub(super) async fn record(
     connection: &mut AnyConnection,
     actor: &str,

@@ -1,4 +1,4 @@
-//! What a study is asked for, and the checks before it waits for its turn: whoever asks hears at once what is wrong.
+//! What a study is asked for, and the checks before it waits for its turn, so that errors are reported at once.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;

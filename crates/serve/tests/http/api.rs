@@ -124,7 +124,7 @@ fn what_reality_forces_is_taken_with_a_notice_that_stays() {
     );
     let state = service.get(&format!("{day}/state")).json;
     assert_eq!(state["notices"].as_array().map(Vec::len), Some(2), "with its event, and now");
-    // Nobody can fly there, and the reason has the numbers.
+    // No aircraft can fly there, and the reason has the numbers.
     let proposal = service.get(&format!("{day}/aircraft/A40/decision")).json;
     let to =
         proposal["alternatives"].as_array().expect("a list").iter().find(|one| one["to"] == "V1");

@@ -74,7 +74,7 @@ fn an_archived_day_goes_on_where_it_was_when_it_is_opened_again() {
     }
     let taken = clock(&service, &day);
     assert_eq!((taken.status, &taken.json["seq"]), (201, &json!(2)));
-    assert_eq!(next(), 2, "whoever reads the stream goes on reading");
+    assert_eq!(next(), 2, "readers of the stream go on reading");
     drop(service);
     let service = Running::start(folder.path());
     assert_eq!(service.get(&day).json["archived"], json!(false));

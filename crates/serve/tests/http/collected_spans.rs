@@ -142,7 +142,7 @@ fn requests_become_spans_within_the_traces_of_their_callers() {
     assert_eq!(told(made, "http.response.status_code").as_deref(), Some("201"));
     assert_eq!(told(made, "error.type"), None);
     assert_ne!(hexadecimal(&refused.trace_id), TRACE);
-    assert!(refused.parent_span_id.is_empty(), "nobody called it");
+    assert!(refused.parent_span_id.is_empty(), "it has no caller");
     assert_eq!(told(refused, "http.response.status_code").as_deref(), Some("422"));
     assert_eq!(told(refused, "error.type").as_deref(), Some("V604"));
     let status = refused.status.clone().unwrap_or_default().code;

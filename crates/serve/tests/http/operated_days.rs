@@ -26,7 +26,7 @@ pub(crate) fn simulated(day: &Arc<Scenario>, policy: &str) -> DayTotals {
 
 pub(crate) fn operated(service: &Running, day: &Arc<Scenario>, policy: &str) -> OperationReport {
     let report = operate(&operation(service, day, policy), &Stop::default(), |_, _| ());
-    report.expect("the service answers").expect("nobody stops it")
+    report.expect("the service answers").expect("it is not stopped")
 }
 
 fn operation(service: &Running, day: &Arc<Scenario>, policy: &str) -> Operation {
@@ -83,7 +83,7 @@ fn a_list_of_days_says_how_far_each_is() {
     assert_eq!(progress(1)["now"], "06:00:00");
     assert_eq!(days["days"][2].get("progress"), None, "an archived day");
     let plain = service.get("/v1/days").json;
-    assert_eq!(plain["days"][0].get("progress"), None, "nobody asked");
+    assert_eq!(plain["days"][0].get("progress"), None, "it was not asked for");
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn a_day_that_others_decide_is_the_simulated_day_to_the_cent() {
         }
         operator.join().expect("no panic")
     });
-    let report = report.expect("the service answers").expect("nobody stops it");
+    let report = report.expect("the service answers").expect("it is not stopped");
     assert_eq!(report.totals, simulated(&day, "greedy"));
 }
 
@@ -124,7 +124,7 @@ fn people_decide_in_an_order_of_their_own_and_change_their_minds() {
         }
         operator.join().expect("no panic")
     });
-    let report = report.expect("the service answers").expect("nobody stops it");
+    let report = report.expect("the service answers").expect("it is not stopped");
     assert!(report.totals.flights > 100, "{report:?}");
     let state = service.get(&format!("/v1/days/{}/state", report.day)).json;
     assert_eq!(state["notices"], json!([]), "every flight departed and landed as it should");

@@ -61,7 +61,7 @@ fn it_speaks_tls_with_a_certificate_of_ones_own() {
         by_hand: false,
     };
     let report = operate(&operation(Some(certificate.clone())), &Stop::default(), |_, _| ());
-    let report = report.expect("the service answers").expect("nobody stopped it");
+    let report = report.expect("the service answers").expect("it was not stopped");
     assert!(report.totals.profit_usd > 0.0);
     // Speaking without TLS leads nowhere, and does no harm.
     let mut plain = TcpStream::connect((Ipv4Addr::LOCALHOST, port)).expect("it listens");

@@ -15,12 +15,12 @@ pub(super) fn check(scenario: &Scenario, events: &[Event<'_>], findings: &mut Fi
         let period = period_of(scenario, decided_s);
         let (before, from_now) = demand_left.split_at_mut(period);
         let own = &mut from_now[0][event.pair()];
-        let mut nobody = 0;
+        let mut none = 0;
         let patient = match before.last_mut() {
             Some(table) if decided_s < patience_ends_s(scenario, period) => {
                 &mut table[event.pair()]
             }
-            _ => &mut nobody,
+            _ => &mut none,
         };
         boards(event, *patient + *own, findings);
         let boarded = u32::from(event.row.passengers);
@@ -30,7 +30,7 @@ pub(super) fn check(scenario: &Scenario, events: &[Event<'_>], findings: &mut Fi
     }
 }
 
-/// The first second of a period at which nobody is left who has come for the period before.
+/// The first second of a period at which all passengers of the period before have left.
 fn patience_ends_s(scenario: &Scenario, period: usize) -> u64 {
     let wait_s = u64::from(scenario.operations.passenger_wait_s);
     u64::from(scenario.periods[period].seconds()) + wait_s

@@ -164,16 +164,20 @@ pub enum Notice {
         stands: u16,
     },
     /// An aircraft left for a vertiport that no decision could have sent it to.
-    #[error("{0}; it has departed all the same")]
+    #[error("{0}; the departure is recorded despite the violation")]
     AgainstTheRules(Refusal),
     /// An aircraft left that was reported out of service.
-    #[error("aircraft {aircraft:?} is out of service; it has departed all the same")]
+    #[error(
+        "aircraft {aircraft:?} is out of service; the departure is recorded despite the violation"
+    )]
     DepartedOutOfService {
         /// The aircraft.
         aircraft: String,
     },
     /// An aircraft left before it was expected to be charged, or to end its hold.
-    #[error("aircraft {aircraft:?} is not ready before {ready}; it has departed all the same")]
+    #[error(
+        "aircraft {aircraft:?} is not ready before {ready}; the departure is recorded despite the violation"
+    )]
     DepartedUnready {
         /// The aircraft.
         aircraft: String,
@@ -212,7 +216,7 @@ pub enum Notice {
 
 /// The reason why a report is refused. Nothing has changed then.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Unfit {
+pub enum ReportError {
     /// The decision breaks a rule.
     #[error(transparent)]
     Refused(#[from] Refusal),
@@ -236,7 +240,7 @@ pub enum Unfit {
     },
     /// The report is far ahead of all others.
     #[error(
-        "{time} is more than 4 h after {now}, the latest time of the day; if it is no slip of the pen, send an event of the type `clock` first"
+        "{time} is more than 4 h after {now}, the latest time of the day; if the time is correct, send a `clock` event first"
     )]
     TooFarAhead {
         /// The time of the report.
@@ -338,7 +342,7 @@ pub enum Unfit {
     },
     /// More passengers than there are.
     #[error("{cancelled} passengers cannot be cancelled: {left} want to fly")]
-    NotSoMany {
+    TooFewPassengers {
         /// Passengers to be cancelled.
         cancelled: u32,
         /// Passengers who want to fly.

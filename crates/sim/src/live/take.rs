@@ -5,7 +5,7 @@ mod flights;
 
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 
-use super::report::{Notice, Report, Unfit};
+use super::report::{Notice, Report, ReportError};
 use super::{Before, LiveAircraft, LiveDay, LiveDecision, OutOfService, Phase};
 use crate::TraceRow;
 
@@ -18,19 +18,19 @@ impl LiveDay {
     /// its place any more. Since the clock never runs back, the first does harm that cannot be undone.
     ///
     /// # Errors
-    /// Returns [`Unfit::TooFarAhead`], [`Unfit::AfterTheDay`], [`Unfit::Backwards`], [`Unfit::BeforeDeparture`] or [`Unfit::Over`].
-    pub fn check_times(&self, time: Time, report: &Report) -> Result<(), Unfit> {
+    /// Returns [`ReportError::TooFarAhead`], [`ReportError::AfterTheDay`], [`ReportError::Backwards`], [`ReportError::BeforeDeparture`] or [`ReportError::Over`].
+    pub fn check_times(&self, time: Time, report: &Report) -> Result<(), ReportError> {
         match *report {
             // The clock itself may jump, but not to where no aircraft of the day is any more.
             Report::Clock => {
                 let latest = self.now.max(self.scenario().operations.end);
                 if time > latest + LONGEST_STEP_S {
-                    return Err(Unfit::AfterTheDay { time, latest });
+                    return Err(ReportError::AfterTheDay { time, latest });
                 }
                 Ok(())
             }
             _ if time > self.now + LONGEST_STEP_S => {
-                Err(Unfit::TooFarAhead { time, now: self.now })
+                Err(ReportError::TooFarAhead { time, now: self.now })
             }
             Report::Delayed { until, .. }
             | Report::Charging { ready: until, .. }
@@ -38,7 +38,7 @@ impl LiveDay {
             | Report::Closed { until: Some(until), .. }
                 if until < time =>
             {
-                Err(Unfit::Backwards { time, until })
+                Err(ReportError::Backwards { time, until })
             }
             Report::Landed { aircraft, .. } => {
                 let departed = match self.state(aircraft)?.phase {
@@ -50,14 +50,18 @@ impl LiveDay {
                     return Ok(());
                 }
                 let aircraft = self.id(aircraft);
-                Err(Unfit::BeforeDeparture { aircraft, time, departed })
+                Err(ReportError::BeforeDeparture { aircraft, time, departed })
             }
             Report::Undone { aircraft } => {
                 let end = self.scenario().operations.end;
                 let latest =
                     self.state(aircraft)?.undoable.map(|latest| &self.decisions[latest].row);
                 let is_hold = latest.is_some_and(|row| row.from == row.to);
-                if is_hold && time.max(self.now) > end { Err(Unfit::Over { end }) } else { Ok(()) }
+                if is_hold && time.max(self.now) > end {
+                    Err(ReportError::Over { end })
+                } else {
+                    Ok(())
+                }
             }
             _ => Ok(()),
         }
@@ -67,8 +71,8 @@ impl LiveDay {
     /// Returns what people should look at.
     ///
     /// # Errors
-    /// Returns an [`Unfit`] if the report makes no sense or is a decision that breaks a rule. Nothing has changed then.
-    pub fn take(&mut self, time: Time, report: &Report) -> Result<Vec<Notice>, Unfit> {
+    /// Returns an [`ReportError`] if the report makes no sense or is a decision that breaks a rule. Nothing has changed then.
+    pub fn take(&mut self, time: Time, report: &Report) -> Result<Vec<Notice>, ReportError> {
         let mut notices = Vec::new();
         match *report {
             Report::Decided { aircraft, to } => self.decide(aircraft, time, to)?,
@@ -86,7 +90,7 @@ impl LiveDay {
             }
             Report::BackInService { aircraft } => {
                 if self.state(aircraft)?.out.is_none() {
-                    return Err(Unfit::InService { aircraft: self.id(aircraft) });
+                    return Err(ReportError::InService { aircraft: self.id(aircraft) });
                 }
                 self.set_out(aircraft, None)?;
             }
@@ -108,13 +112,13 @@ impl LiveDay {
         Ok(notices)
     }
 
-    fn state(&self, aircraft: AircraftIx) -> Result<LiveAircraft, Unfit> {
-        self.aircraft.get(aircraft.at()).copied().ok_or(Unfit::Unknown("aircraft"))
+    fn state(&self, aircraft: AircraftIx) -> Result<LiveAircraft, ReportError> {
+        self.aircraft.get(aircraft.at()).copied().ok_or(ReportError::Unknown("aircraft"))
     }
 
-    fn check_vertiport(&self, vertiport: VertiportIx) -> Result<(), Unfit> {
+    fn check_vertiport(&self, vertiport: VertiportIx) -> Result<(), ReportError> {
         let is_known = vertiport.at() < self.scenario().vertiports.len();
-        is_known.then_some(()).ok_or(Unfit::Unknown("vertiport"))
+        is_known.then_some(()).ok_or(ReportError::Unknown("vertiport"))
     }
 
     fn id(&self, aircraft: AircraftIx) -> String {
@@ -125,13 +129,13 @@ impl LiveDay {
         self.scenario().vertiports[vertiport.at()].id.clone()
     }
 
-    fn wrong_place(&self, aircraft: AircraftIx, report: &'static str) -> Unfit {
+    fn wrong_place(&self, aircraft: AircraftIx, report: &'static str) -> ReportError {
         let is = match self.aircraft[aircraft.at()].phase {
             Phase::Standing => "stands at its vertiport",
             Phase::SentOff { .. } => "has been sent off and has not departed",
             Phase::InTheAir { .. } => "is in the air",
         };
-        Unfit::WrongPlace { aircraft: self.id(aircraft), is, report }
+        ReportError::WrongPlace { aircraft: self.id(aircraft), is, report }
     }
 
     /// Sets when an aircraft is charged, and with it when it is ready.
@@ -141,10 +145,15 @@ impl LiveDay {
         self.known.queue.set(aircraft, self.in_service(&state, charged));
     }
 
-    fn decide(&mut self, aircraft: AircraftIx, time: Time, to: VertiportIx) -> Result<(), Unfit> {
+    fn decide(
+        &mut self,
+        aircraft: AircraftIx,
+        time: Time,
+        to: VertiportIx,
+    ) -> Result<(), ReportError> {
         self.state(aircraft)?;
         if time < self.now {
-            return Err(Unfit::Past { time, now: self.now });
+            return Err(ReportError::Past { time, now: self.now });
         }
         let decision = self.decision(aircraft, time)?;
         let before = self.before(aircraft);
@@ -195,9 +204,9 @@ impl LiveDay {
         self.is_stale = true;
     }
 
-    fn undo(&mut self, aircraft: AircraftIx) -> Result<(), Unfit> {
+    fn undo(&mut self, aircraft: AircraftIx) -> Result<(), ReportError> {
         let state = self.state(aircraft)?;
-        let nothing = || Unfit::NothingToUndo { aircraft: self.id(aircraft) };
+        let nothing = || ReportError::NothingToUndo { aircraft: self.id(aircraft) };
         let latest = state.undoable.ok_or_else(nothing)?;
         let LiveDecision { row, before, .. } = self.decisions[latest];
         self.decisions[latest].is_undone = true;
@@ -225,7 +234,11 @@ impl LiveDay {
         }
     }
 
-    fn set_out(&mut self, aircraft: AircraftIx, out: Option<OutOfService>) -> Result<(), Unfit> {
+    fn set_out(
+        &mut self,
+        aircraft: AircraftIx,
+        out: Option<OutOfService>,
+    ) -> Result<(), ReportError> {
         let state = self.state(aircraft)?;
         self.aircraft[aircraft.at()].out = out;
         self.set_charged(aircraft, state.charged);

@@ -6,7 +6,7 @@ use super::LiveDay;
 
 /// What is left of a day as far as it is known. A schedule of it earns what the flights earn that are still to be decided.
 #[derive(Debug, Clone)]
-pub struct WhatIsLeft {
+pub struct RemainingDay {
     /// The day from now on: who still wants to fly, and every aircraft at the vertiport where it stands or will land. Where
     /// more aircraft are than there are stands, there are as many stands. The fleet itself costs nothing.
     pub day: Scenario,
@@ -19,7 +19,7 @@ impl LiveDay {
     ///
     /// # Errors
     /// Returns an error if what has been reported does not make a day, such as closures beyond the bounds of the format.
-    pub fn what_is_left(&mut self) -> Result<Option<WhatIsLeft>, Error> {
+    pub fn what_is_left(&mut self) -> Result<Option<RemainingDay>, Error> {
         let now = self.now;
         if now >= self.scenario().operations.end {
             return Ok(None);
@@ -63,7 +63,7 @@ impl LiveDay {
         let ready = vertifleet_core::AircraftIx::all(ready)
             .map(|aircraft| expected.queue.ready_at(aircraft))
             .collect();
-        Ok(Some(WhatIsLeft { day: day.check("what is left of the day")?, ready }))
+        Ok(Some(RemainingDay { day: day.check("what is left of the day")?, ready }))
     }
 
     /// The closures from now on. One that only a report ends is taken to last.

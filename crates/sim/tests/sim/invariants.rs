@@ -91,7 +91,7 @@ proptest! {
                 let waits = if wait_s > 0 { before } else { 0 };
                 (all_carried, all_demand, before) = (all_carried + carried, all_demand + demand, demand);
                 prop_assert!(carried <= demand + waits && carried_late[period][pair] <= demand);
-                prop_assert!(all_carried <= all_demand, "nobody is carried twice");
+                prop_assert!(all_carried <= all_demand, "no passenger is carried twice");
             }
         }
     }

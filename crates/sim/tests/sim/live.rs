@@ -9,7 +9,7 @@ use proptest::prelude::{
 };
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 use vertifleet_sim::Simulation;
-use vertifleet_sim::live::{Booking, LiveDay, Phase, Report, Reporter, Routes, Unfit};
+use vertifleet_sim::live::{Booking, LiveDay, Phase, Report, ReportError, Reporter, Routes};
 use vertifleet_testkit::{extended_day, paper_day};
 
 /// Plays a day by a rule and tells it to a live day. At every decision both show the same.
@@ -224,7 +224,7 @@ proptest! {
             live.take(decision.time, &Report::Undone { aircraft }).expect("it has not departed");
             prop_assert_eq!(all_of(&live), before);
             let undone = live.take(decision.time, &Report::Undone { aircraft });
-            let nothing = matches!(undone, Err(Unfit::NothingToUndo { .. }));
+            let nothing = matches!(undone, Err(ReportError::NothingToUndo { .. }));
             prop_assert!(nothing);
         }
     }

@@ -8,7 +8,7 @@ use vertifleet_core::{
     Time, TypeIx, Vertiport, VertiportIx,
 };
 use vertifleet_sim::check::check;
-use vertifleet_sim::live::{Booking, LiveDay, Report, Unfit};
+use vertifleet_sim::live::{Booking, LiveDay, Report, ReportError};
 use vertifleet_sim::{Boarded, Simulation, Trace};
 
 const A: VertiportIx = VertiportIx(0);
@@ -78,7 +78,7 @@ fn day(passenger_wait_s: u32) -> Arc<Scenario> {
     Arc::new(day.check("waiting").expect("a day within the rules"))
 }
 
-/// Everybody is counted in the period in which they wanted to fly, nobody twice, and who is left is who the checker knows.
+/// Every passenger is counted once, in the period in which they wanted to fly, and the checker finds the same ones left.
 fn account_for(day: &Scenario, trace: &Trace) {
     let (mut boarded, mut carried) = (Boarded::of(day), [0_u32; 3]);
     for row in &trace.rows {
@@ -267,10 +267,10 @@ fn passengers_who_wait_may_cancel_until_they_have_left() {
     tell(&mut live, HOUR, &Report::Booked { booking: of(1, 2) });
     assert_eq!(left(&mut live), [0, 9, 1]);
     let too_many = live.take(time(HOUR), &cancelled(1, 6));
-    assert_eq!(too_many, Err(Unfit::NotSoMany { cancelled: 6, left: 5 }));
+    assert_eq!(too_many, Err(ReportError::TooFewPassengers { cancelled: 6, left: 5 }));
     tell(&mut live, HOUR + 600, &Report::Clock);
     let over = live.take(time(HOUR + 600), &cancelled(0, 1));
-    assert_eq!(over, Err(Unfit::PeriodOver { start: time(0), now: time(HOUR + 600) }));
+    assert_eq!(over, Err(ReportError::PeriodOver { start: time(0), now: time(HOUR + 600) }));
 }
 
 #[test]

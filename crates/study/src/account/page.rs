@@ -18,7 +18,7 @@ const MOST_PAIRS: usize = 40;
 const MOST_CELLS: usize = 20;
 
 /// What a page says beside the account of the day.
-pub(crate) struct Beside {
+pub(crate) struct PageExtras {
     /// The beginning of the page up to its version.
     pub(crate) opening: &'static str,
     /// What the page is about, in a few words.
@@ -31,7 +31,7 @@ pub(crate) struct Beside {
     pub(crate) sections: Markup,
 }
 
-impl Default for Beside {
+impl Default for PageExtras {
     fn default() -> Self {
         Self {
             opening: PAGE.opening,
@@ -44,7 +44,7 @@ impl Default for Beside {
 }
 
 /// The page as HTML.
-pub(crate) fn text(account: &Account, beside: &Beside) -> String {
+pub(crate) fn text(account: &Account, beside: &PageExtras) -> String {
     let body = html! {
         (head(account, beside))
         (figures(account))
@@ -56,7 +56,7 @@ pub(crate) fn text(account: &Account, beside: &Beside) -> String {
     page.replacen("<!DOCTYPE html>", &format!("{}1 -->\n", beside.opening), 1)
 }
 
-fn head(account: &Account, beside: &Beside) -> Markup {
+fn head(account: &Account, beside: &PageExtras) -> Markup {
     let totals = &account.totals;
     let (carried, spilled) = (totals.passengers as f64, totals.spilled_passengers as f64);
     html! {

@@ -268,7 +268,7 @@ impl ComparisonReport {
         !self.published.is_empty()
     }
 
-    /// The policy with the highest mean profit. An reference counts only if there is nothing else.
+    /// The policy with the highest mean profit. References are considered only when there are no other policies.
     ///
     /// # Panics
     /// Never panics: a summary has at least one policy.

@@ -4,7 +4,7 @@ use maud::html;
 use vertifleet_picture::numbers::{dollars, grouped, minutes};
 
 use super::{Explanation, PAGE, table};
-use crate::account::page::{self, Beside, section};
+use crate::account::page::{self, PageExtras, section};
 use crate::record::bound_share;
 
 /// The page as HTML.
@@ -12,7 +12,7 @@ pub(super) fn text(explanation: &Explanation) -> String {
     let bound_usd = explanation.upper_bound_usd;
     let share = 100.0 * bound_share(&explanation.account.totals, bound_usd);
     let slices = minutes(explanation.bound_step_s);
-    let beside = Beside {
+    let beside = PageExtras {
         opening: PAGE.opening,
         subject: "where a day’s money is, and where it is lost",
         share: format!(", {} % of what no schedule can pass", grouped(share, 1)),

@@ -31,7 +31,8 @@ pub(super) fn figure(report: &SweepReport) -> Option<Figure> {
     if !fits(&columns) || !fits(&rows) {
         return None;
     }
-    let label = |cell: &CellSummary, factor: usize| crate::sweep::shown(&cell.settings[factor]);
+    let label =
+        |cell: &CellSummary, factor: usize| crate::sweep::format_value(&cell.settings[factor]);
     let cell_mean = |row: &String, column: &String| {
         let cells = report.cells.iter().filter(|cell| !cell.results.is_empty());
         let here = cells.filter(|cell| label(cell, down) == *row && label(cell, across) == *column);
@@ -86,7 +87,7 @@ fn values(report: &SweepReport, factor: usize) -> Vec<String> {
         let number = |value: &serde_json::Value| value.as_f64().unwrap_or_default();
         values.sort_by(|one, other| number(one).total_cmp(&number(other)));
     }
-    values.into_iter().map(crate::sweep::shown).collect()
+    values.into_iter().map(crate::sweep::format_value).collect()
 }
 
 fn draw(canvas: &mut Canvas, table: &[Vec<Option<f64>>], columns: &[String], rows: &[String]) {

@@ -1,4 +1,4 @@
-//! What no design can pass: the least of several bounds, each of which holds for all designs and is near the truth for one.
+//! An upper bound on the value of every design: the minimum of several valid bounds, each of which is tight near one design.
 //!
 //! The highest value of the least of some sums over a box is a linear programme. Its solver works in floating-point
 //! numbers and is not trusted: only the weights that it gives the bounds are used, and the price of room for aircraft. Any
@@ -25,7 +25,7 @@ impl Cut {
 
 /// The rule that every aircraft has a stand: how much room one more thing takes by dimension, and how much there is.
 #[derive(Debug, Clone)]
-pub(super) struct Room {
+pub(super) struct Headroom {
     pub(super) takes: Vec<f64>,
     pub(super) there_is: f64,
 }
@@ -33,9 +33,9 @@ pub(super) struct Room {
 /// The least of several cuts over a box of designs, within which aircraft have room.
 #[derive(Debug, Clone)]
 pub(super) struct Ceiling {
-    /// The most things above the lowest numbers, by dimension.
+    /// Largest increase over each dimension's minimum.
     most: Vec<f64>,
-    room: Room,
+    room: Headroom,
     cuts: Vec<Cut>,
     /// The size of the numbers, by which the solver's are divided.
     scale: f64,
@@ -43,7 +43,7 @@ pub(super) struct Ceiling {
 
 impl Ceiling {
     /// A ceiling without cuts over designs of at most so many things above the lowest numbers.
-    pub(super) fn new(most: impl IntoIterator<Item = u32>, room: Room) -> Self {
+    pub(super) fn new(most: impl IntoIterator<Item = u32>, room: Headroom) -> Self {
         let most = most.into_iter().map(f64::from).collect();
         Self { most, room, cuts: Vec::new(), scale: 1.0 }
     }
@@ -253,7 +253,7 @@ fn values(solution: &Solution, variables: &[Variable]) -> Option<Vec<f64>> {
 mod tests {
     use proptest::prelude::{Strategy, prop_assert, proptest};
 
-    use super::{Ceiling, Cut, Room};
+    use super::{Ceiling, Cut, Headroom};
 
     const MOST: [u32; 3] = [5, 4, 3];
     /// The first dimension is a fleet, the second one has the stands.
@@ -263,7 +263,7 @@ mod tests {
         let cut = (0.0..1e5, proptest::array::uniform3(-3e4..3e4));
         let cuts = proptest::collection::vec(cut, 1..7);
         (cuts, 0.0..6.0).prop_map(|(cuts, there_is)| {
-            let mut ceiling = Ceiling::new(MOST, Room { takes: TAKES.to_vec(), there_is });
+            let mut ceiling = Ceiling::new(MOST, Headroom { takes: TAKES.to_vec(), there_is });
             for (constant, slopes) in cuts {
                 ceiling.add(Cut { constant, slopes: slopes.to_vec() });
             }

@@ -48,14 +48,14 @@ fn found(report: &SizeReport) -> String {
 
 fn again(report: &SizeReport) -> String {
     let days = counted(report.days as usize, "further day", "further days");
-    let best = &report.best_again;
+    let best = &report.best_on_holdout;
     let does = format!("{}, {} carried", earns(best), carries(best));
-    match &report.again_minus_now_usd {
+    match &report.holdout_gain_usd {
         Some(more) => {
             let half = more
                 .half_width_95
                 .map_or_else(String::new, |half| format!(" ± {}", grouped(half, 0)));
-            let than = report.now_again.served_share;
+            let than = report.now_on_holdout.served_share;
             format!(
                 "On {days}, which the search has not seen: {does}; that is {}{half} $ a day against the network {}, \
                  which carries {:.1} %.",
@@ -77,7 +77,7 @@ fn again(report: &SizeReport) -> String {
 pub(super) fn certificate(report: &SizeReport) -> String {
     match report.certificate {
         Certificate::MostProfit { no_design_earns_more_than_usd: most, gap } => format!(
-            "No design within these limits earns more than {} a day on the days of the search, whoever decides: this one, with {}, \
+            "No design within these limits earns more than {} a day on the days of the search, under any policy: this one, with {}, \
              is {:.1} % below that, and the bound of its own design {:.1} %.",
             dollars(most),
             report.policy,
@@ -85,7 +85,7 @@ pub(super) fn certificate(report: &SizeReport) -> String {
             100.0 * vertifleet_optimize::gap(most, report.found().ceiling)
         ),
         Certificate::MostPassengers { no_design_carries_more_than: most, gap } => format!(
-            "No design within these limits carries more than {} passengers a day on the days of the search, whoever decides, so that \
+            "No design within these limits carries more than {} passengers a day on the days of the search, under any policy, so that \
              at least {} are left behind: this one, with {}, carries {:.1} % less.",
             grouped(most, 1),
             grouped((report.wanted_passengers - most).max(0.0), 1),
@@ -96,7 +96,7 @@ pub(super) fn certificate(report: &SizeReport) -> String {
             if !report.goal_is_reached =>
         {
             format!(
-                "No design that carries enough on the days of the search costs less than {} a day, whoever decides.",
+                "No design that carries enough on the days of the search costs less than {} a day, under any policy.",
                 dollars(least)
             )
         }
@@ -104,23 +104,23 @@ pub(super) fn certificate(report: &SizeReport) -> String {
             if !report.goal_is_reached =>
         {
             format!(
-                "No design that carries enough on the days of the search has fewer than {least} aircraft, whoever decides.",
+                "No design that carries enough on the days of the search has fewer than {least} aircraft, under any policy.",
             )
         }
         Certificate::LeastCost { no_design_costs_less_than_usd: least } => format!(
-            "No design that carries enough on the days of the search costs less than {} a day, whoever decides; this one costs {}, \
+            "No design that carries enough on the days of the search costs less than {} a day, under any policy; this one costs {}, \
              {:.0} % more.",
             dollars(least),
             dollars(report.found().size.fixed_cost_usd),
             100.0 * (report.found().size.fixed_cost_usd / least.max(1e-9) - 1.0)
         ),
         Certificate::FewestAircraft { no_design_has_fewer_than: least } => format!(
-            "No design that carries enough on the days of the search has fewer than {least} aircraft, whoever decides; this one has {}.",
+            "No design that carries enough on the days of the search has fewer than {least} aircraft, under any policy; this one has {}.",
             report.found().size.aircraft
         ),
         Certificate::OutOfReach { no_design_carries_more_than: most } => format!(
             "No design within these limits carries more than {} of the {} passengers a day who would have to be carried on the days \
-             of the search, whoever decides.",
+             of the search, under any policy.",
             grouped(most, 1),
             grouped(report.needed_passengers.unwrap_or(0.0), 1)
         ),

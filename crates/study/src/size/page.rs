@@ -11,7 +11,7 @@ use crate::page::{self, estimate};
 pub(super) fn text(report: &SizeReport, figures: &[Figure]) -> String {
     let body = html! {
         (opening(report))
-        h2 { "What was found" }
+        h2 { "DimensionKind was found" }
         (dimensions(report))
         @for figure in figures { (page::picture(figure)) }
         (designs(report))
@@ -42,7 +42,7 @@ fn opening(report: &SizeReport) -> Markup {
 fn dimensions(report: &SizeReport) -> Markup {
     let is_money = report.goal == "profit";
     html! {
-        p.lead { "What one more adds is proven by the bound: with one more of it, and the rest as found, no schedule of the days "
+        p.lead { "DimensionKind one more adds is proven by the bound: with one more of it, and the rest as found, no schedule of the days "
             @if is_money { "earns more, after its cost, than the bound of this design plus this amount." }
             @else { "carries more than the bound of this design plus this number of passengers." } }
         div.wide { table {
@@ -67,7 +67,7 @@ fn designs(report: &SizeReport) -> Markup {
         h2 { "Designs" }
         p.lead { (counted(report.designs.len(), "design was", "designs were")) " played, in this order. ± is the 95 % interval of the mean over the days. "
             "Fixed cost is what fleet, stands and chargers cost a day whatever is flown; profits are after it. The bound holds for "
-            "the design whoever decides." }
+            "the design under any policy." }
         div.wide { table {
             thead { tr {
                 th scope="col" { "design" }
@@ -80,8 +80,8 @@ fn designs(report: &SizeReport) -> Markup {
                 @for (number, design) in report.designs.iter().enumerate() {
                     tr.best[number == report.best] { (row(report, &name(report, number), design)) }
                 }
-                tr { (row(report, &format!("{}, further days", report.name_of_start()), &report.now_again)) }
-                tr { (row(report, &format!("{}, further days", report.name_of_best()), &report.best_again)) }
+                tr { (row(report, &format!("{}, further days", report.name_of_start()), &report.now_on_holdout)) }
+                tr { (row(report, &format!("{}, further days", report.name_of_best()), &report.best_on_holdout)) }
             }
         } }
     }

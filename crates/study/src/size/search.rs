@@ -6,7 +6,7 @@
 //!
 //! *Then days.* A policy plays the days of single designs: first of the best by the ceiling, then of designs around the best
 //! so far, from large steps to small ones (a pattern search: R. Hooke, T. Jeeves, Journal of the ACM 8, 1961). What a design
-//! will be found to earn is foretold from the slopes of the ceiling. A policy does not make of a further stand what the best
+//! will be found to earn is predicted from the slopes of the ceiling. A policy does not make of a further stand what the best
 //! schedule makes of it, so every design that is played corrects the slopes of what it changed (S. Kaczmarz, 1937). What is
 //! played next depends on the goal: `most.rs` looks for the highest value, `enough.rs` for the least cost of enough.
 
@@ -17,13 +17,13 @@ use std::collections::BTreeMap;
 
 use super::ceiling::{Ceiling, Cut};
 use super::goal::Goal;
-use super::space::{Design, Space, What};
+use super::space::{Design, DimensionKind, Space};
 use crate::error::Error;
 
 /// The most bounds that the ceiling is made of before days are played.
 const MOST_BOUNDS: usize = 14;
-/// A step in one dimension is worth playing if it is foretold to be worse than the best by no more than this share, because
-/// what is foretold of a policy may be wrong by as much. Steps in two dimensions have to be foretold to be better.
+/// A step in one dimension is worth playing if it is predicted to be worse than the best by no more than this share, because
+/// what is predicted of a policy may be wrong by as much. Steps in two dimensions have to be predicted to be better.
 const WORTH_PLAYING: f64 = 0.05;
 /// As many designs in a row may be played in vain before the steps become smaller. With single steps, each dimension may be
 /// tried both ways.
@@ -149,21 +149,21 @@ impl<'a, S: Solver> Search<'a, S> {
     /// Corrects the slopes of what two designs that were played differ in.
     fn correct(&mut self, from: &Design, to: &Design) {
         let changes = changes(from, to);
-        let wrong = self.played[to] - self.foretold(from, to);
+        let wrong = self.played[to] - self.predicted(from, to);
         let size: f64 = changes.iter().map(|change| change * change).sum();
         for (correction, change) in self.corrections.iter_mut().zip(changes) {
             *correction += CORRECTED * wrong * change / size;
         }
     }
 
-    /// The value that a design will be found to have, foretold from one that was played.
-    fn foretold(&self, from: &Design, to: &Design) -> f64 {
+    /// The value that a design will be found to have, predicted from one that was played.
+    fn predicted(&self, from: &Design, to: &Design) -> f64 {
         let corrections = self.corrections.iter().zip(changes(from, to));
         let corrected: f64 = corrections.map(|(correction, change)| correction * change).sum();
         self.played[from] + self.ceiling_at(to) - self.ceiling_at(from) + corrected
     }
 
-    /// The values that designs will be found to have, foretold from one that was played, as a ceiling with other slopes.
+    /// The values that designs will be found to have, predicted from one that was played, as a ceiling with other slopes.
     fn expected(&self, from: &Design) -> Ceiling {
         let steps = self.space.dimensions.iter().map(|one| f64::from(one.step));
         let corrections = self.corrections.iter().zip(steps);
@@ -240,8 +240,8 @@ impl<'a, S: Solver> Search<'a, S> {
             let more = (0..design.len())
                 .filter(|&at| none == is_aircraft(at) && design[at] < space.dimensions[at].steps);
             // An aircraft that is on the ground when the day begins needs a stand, whatever chargers there are.
-            let more =
-                more.min_by_key(|&at| matches!(space.dimensions[at].what, What::Chargers(_)));
+            let more = more
+                .min_by_key(|&at| matches!(space.dimensions[at].what, DimensionKind::Chargers(_)));
             match (least_lost, more) {
                 (Some(at), _) => design[at] -= 1,
                 (None, Some(at)) => design[at] += 1,
@@ -252,8 +252,8 @@ impl<'a, S: Solver> Search<'a, S> {
     }
 }
 
-/// By what share the design after a step may be foretold to be worse, and be worth playing.
-fn doubt(from: &Design, to: &Design) -> f64 {
+/// By what share the design after a step may be predicted to be worse, and be worth playing.
+fn prediction_margin(from: &Design, to: &Design) -> f64 {
     let moved = from.iter().zip(to).filter(|(from, to)| from != to).count();
     if moved == 1 { WORTH_PLAYING } else { 0.0 }
 }

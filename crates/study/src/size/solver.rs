@@ -13,7 +13,7 @@ use super::ceiling::Cut;
 use super::goal::Goal;
 use super::journal::{Finding, Part};
 use super::search::{Played, Solver};
-use super::space::{Design, Dimension, Space, What};
+use super::space::{Design, Dimension, DimensionKind, Space};
 use crate::comparison::DrawnDays;
 use crate::error::Error;
 use crate::journal::Journal;
@@ -150,8 +150,10 @@ fn cut_of(space: &Space, bound: &DesignBound, days: f64, after_costs: bool) -> C
     let counts = space.counts(&lowest);
     let mut constant = bound.upper_bound_usd(&counts.aircraft, &counts.places()) / days;
     let slope = |one: &Dimension| match one.what {
-        What::Aircraft(kind) => bound.aircraft_shadow_price_usd(kind) / days,
-        What::Stands(at) | What::Chargers(at) => bound.place_shadow_price_usd(at) / days,
+        DimensionKind::Aircraft(kind) => bound.aircraft_shadow_price_usd(kind) / days,
+        DimensionKind::Stands(at) | DimensionKind::Chargers(at) => {
+            bound.place_shadow_price_usd(at) / days
+        }
     };
     let mut slopes: Vec<f64> = space.dimensions.iter().map(slope).collect();
     if after_costs {

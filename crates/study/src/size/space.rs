@@ -3,7 +3,7 @@
 use serde_json::Value;
 use vertifleet_core::{Network, TypeIx, VertiportIx};
 
-use super::ceiling::Room;
+use super::ceiling::Headroom;
 use super::goal::Goal;
 use crate::error::Error;
 use crate::sweep::{Factor, Levels};
@@ -16,7 +16,7 @@ pub(super) type Design = Vec<u32>;
 pub(super) struct Dimension {
     /// The member of the network file.
     pub(super) path: String,
-    pub(super) what: What,
+    pub(super) what: DimensionKind,
     /// The lowest number.
     pub(super) low: u32,
     /// From one number to the next.
@@ -29,7 +29,7 @@ pub(super) struct Dimension {
 
 /// What a dimension counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum What {
+pub(super) enum DimensionKind {
     Aircraft(TypeIx),
     Stands(VertiportIx),
     Chargers(VertiportIx),
@@ -38,7 +38,7 @@ pub(super) enum What {
 impl Dimension {
     /// Whether it counts aircraft, and not places for them.
     pub(super) fn is_aircraft(&self) -> bool {
-        matches!(self.what, What::Aircraft(_))
+        matches!(self.what, DimensionKind::Aircraft(_))
     }
 
     /// The number at some steps above the lowest.
@@ -85,11 +85,11 @@ impl Counts {
         }
     }
 
-    fn of_what(&mut self, what: What) -> &mut u32 {
+    fn of_what(&mut self, what: DimensionKind) -> &mut u32 {
         match what {
-            What::Aircraft(kind) => &mut self.aircraft[kind.at()],
-            What::Stands(at) => &mut self.stands[at.at()],
-            What::Chargers(at) => &mut self.chargers[at.at()],
+            DimensionKind::Aircraft(kind) => &mut self.aircraft[kind.at()],
+            DimensionKind::Stands(at) => &mut self.stands[at.at()],
+            DimensionKind::Chargers(at) => &mut self.chargers[at.at()],
         }
     }
 
@@ -121,7 +121,7 @@ impl Space {
             }
         }
         if dimensions.is_empty() {
-            dimensions = by_itself(&network, goal)?;
+            dimensions = default_dimensions(&network, goal)?;
         }
         let mut fixed = Counts::of(&network);
         for dimension in &dimensions {
@@ -187,15 +187,15 @@ impl Space {
     }
 
     /// The stands that designs have for aircraft, and must have.
-    pub(super) fn room(&self) -> Room {
+    pub(super) fn room(&self) -> Headroom {
         let lowest = self.counts(&vec![0; self.dimensions.len()]);
         let takes = |one: &Dimension| match one.what {
-            What::Aircraft(_) => 1.0,
-            What::Stands(_) => -1.0,
-            What::Chargers(_) => 0.0,
+            DimensionKind::Aircraft(_) => 1.0,
+            DimensionKind::Stands(_) => -1.0,
+            DimensionKind::Chargers(_) => 0.0,
         };
         let sum = |numbers: &[u32]| f64::from(numbers.iter().sum::<u32>());
-        Room {
+        Headroom {
             takes: self.dimensions.iter().map(takes).collect(),
             there_is: sum(&lowest.stands) - sum(&lowest.aircraft),
         }
@@ -244,9 +244,9 @@ impl Space {
     pub(super) fn costs_of_one_usd(&self) -> Vec<f64> {
         let day = self.network.mean_day();
         let cost = |one: &Dimension| match one.what {
-            What::Aircraft(_) => day.aircraft_cost_usd,
-            What::Stands(at) => day.vertiports[at.at()].stand_cost_usd,
-            What::Chargers(at) => day.vertiports[at.at()].charger_cost_usd,
+            DimensionKind::Aircraft(_) => day.aircraft_cost_usd,
+            DimensionKind::Stands(at) => day.vertiports[at.at()].stand_cost_usd,
+            DimensionKind::Chargers(at) => day.vertiports[at.at()].charger_cost_usd,
         };
         self.dimensions.iter().map(cost).collect()
     }
@@ -327,12 +327,20 @@ fn dimension(network: &Network, path: String, value: &Value) -> Result<Dimension
     let what = match (section, member) {
         ("fleet", "count") => id("type").and_then(|id| {
             let kinds = network.aircraft_types();
-            kinds.iter().position(|kind| kind.id == id).map(TypeIx::new).map(What::Aircraft)
+            kinds
+                .iter()
+                .position(|kind| kind.id == id)
+                .map(TypeIx::new)
+                .map(DimensionKind::Aircraft)
         }),
         ("vertiports", "stands" | "chargers") => id("id").and_then(|id| {
             let at = network.vertiports().iter().position(|one| one.id == id)?;
             let at = VertiportIx::new(at);
-            Some(if member == "stands" { What::Stands(at) } else { What::Chargers(at) })
+            Some(if member == "stands" {
+                DimensionKind::Stands(at)
+            } else {
+                DimensionKind::Chargers(at)
+            })
         }),
         _ => None,
     };
@@ -343,7 +351,7 @@ fn dimension(network: &Network, path: String, value: &Value) -> Result<Dimension
 
 /// What varies where nothing is said: chargers, or stands where there are none, and the fleet unless the goal is the spill
 /// of a given one.
-fn by_itself(network: &Network, goal: Goal) -> Result<Vec<Dimension>, Error> {
+fn default_dimensions(network: &Network, goal: Goal) -> Result<Vec<Dimension>, Error> {
     let mut dimensions = Vec::new();
     if goal != Goal::LeastSpill {
         dimensions.extend(dimensions_of(network, "fleet.*.count")?);

@@ -7,7 +7,7 @@ use vertifleet_sim::DayTotals;
 use super::goal::Goal;
 use super::search::{Aim, Found};
 use super::solver::KnownDesigns;
-use super::space::{Design, What};
+use super::space::{Design, DimensionKind};
 use super::{Sizing, search};
 use crate::error::Error;
 use crate::statistics::{Estimate, mean};
@@ -58,11 +58,11 @@ pub struct SizeReport {
     /// The designs that were played, in this order.
     pub designs: Vec<DesignSummary>,
     /// The design that was found, on days that the search has not seen.
-    pub best_again: DesignSummary,
+    pub best_on_holdout: DesignSummary,
     /// The one that is nearest to the network file, on the same days.
-    pub now_again: DesignSummary,
+    pub now_on_holdout: DesignSummary,
     /// By how much the first earns more than the second on these days, dollars.
-    pub again_minus_now_usd: Option<Estimate>,
+    pub holdout_gain_usd: Option<Estimate>,
     /// How far the design that was found can be from the best.
     pub certificate: Certificate,
 }
@@ -117,7 +117,7 @@ pub struct DesignSummary {
     pub ceiling: f64,
 }
 
-/// How far the design that was found can be from the best of all, on the days of the search, whoever decides.
+/// How far the design that was found can be from the best of all, on the days of the search, under any policy.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "of", rename_all = "snake_case")]
 pub enum Certificate {
@@ -183,11 +183,11 @@ impl SizeReport {
         } else {
             None
         };
-        let now_again = solver.again(start)?.to_vec();
-        let best_again = solver.again(&found.best)?.to_vec();
-        let differences: Vec<f64> = best_again
+        let now_on_holdout = solver.again(start)?.to_vec();
+        let best_on_holdout = solver.again(&found.best)?.to_vec();
+        let differences: Vec<f64> = best_on_holdout
             .iter()
-            .zip(&now_again)
+            .zip(&now_on_holdout)
             .map(|(best, now)| best.profit_usd - now.profit_usd)
             .collect();
         Ok(Self {
@@ -210,9 +210,9 @@ impl SizeReport {
             now: 0,
             left_out,
             certificate: certificate(sizing, aim, found, &designs[best]),
-            best_again: summary(&found.best, &best_again)?,
-            now_again: summary(start, &now_again)?,
-            again_minus_now_usd: (best != 0).then(|| Estimate::of(&differences)),
+            best_on_holdout: summary(&found.best, &best_on_holdout)?,
+            now_on_holdout: summary(start, &now_on_holdout)?,
+            holdout_gain_usd: (best != 0).then(|| Estimate::of(&differences)),
             designs,
         })
     }
@@ -340,8 +340,8 @@ fn certificate(
         Goal::Served(_) => {
             let dimensions = sizing.space.dimensions.iter();
             let aircraft = dimensions.map(|one| match one.what {
-                What::Aircraft(_) => 1.0,
-                What::Stands(_) | What::Chargers(_) => 0.0,
+                DimensionKind::Aircraft(_) => 1.0,
+                DimensionKind::Stands(_) | DimensionKind::Chargers(_) => 0.0,
             });
             let least = found.ceiling.least_cost(&aircraft.collect::<Vec<f64>>(), aim.need);
             let lowest =

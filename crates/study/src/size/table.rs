@@ -58,7 +58,7 @@ fn designs(report: &SizeReport) -> Vec<Vec<String>> {
         head.map(str::to_owned).to_vec(),
         row(start, report.as_it_is()),
         row(found, report.found()),
-        row(&format!("{start}, further days"), &report.now_again),
-        row(&format!("{found}, further days"), &report.best_again),
+        row(&format!("{start}, further days"), &report.now_on_holdout),
+        row(&format!("{found}, further days"), &report.best_on_holdout),
     ]
 }

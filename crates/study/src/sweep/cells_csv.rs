@@ -1,7 +1,7 @@
 //! `cells.csv`: one row for every cell and policy.
 
 use super::SweepReport;
-use super::summary::shown;
+use super::summary::format_value;
 use crate::statistics::Estimate;
 
 const TO_MEMORY: &str = "memory takes every row";
@@ -32,7 +32,7 @@ pub(super) fn text(report: &SweepReport) -> String {
     writer.write_record(head).expect(TO_MEMORY);
     for cell in &report.cells {
         let mut start = vec![cell.cell.to_string()];
-        start.extend(cell.settings.iter().map(shown));
+        start.extend(cell.settings.iter().map(format_value));
         match cell.size {
             Some(size) => start.extend([
                 size.aircraft.to_string(),

@@ -3,7 +3,7 @@
 use vertifleet_sim::{DayNumber, DayTotals};
 
 use super::SweepRecords;
-use super::summary::shown;
+use super::summary::format_value;
 
 const TO_MEMORY: &str = "memory takes every row";
 
@@ -20,7 +20,7 @@ pub(super) fn text(records: &SweepRecords<'_>) -> String {
         for (policy, days) in sweep.policies.iter().zip(&record.totals) {
             for (at, day) in days.iter().enumerate() {
                 let mut row = vec![record.cell.to_string()];
-                row.extend(settings.iter().map(shown));
+                row.extend(settings.iter().map(format_value));
                 row.extend([policy.clone(), (sweep.drawn.first + at as u64).to_string()]);
                 row.extend(day.numbers().map(|(_, number)| match number {
                     DayNumber::Amount(amount) => amount.to_string(),

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::Sweep;
 use super::additive::{level_means, plain_means};
 use super::record::CellRecord;
-use super::summary::shown;
+use super::summary::format_value;
 use crate::statistics::Estimate;
 
 /// A factor with more values than this is shown in groups of neighbouring values.
@@ -113,9 +113,9 @@ impl LevelEffect {
         };
         Self {
             label: if first == last {
-                shown(first)
+                format_value(first)
             } else {
-                format!("{} to {}", shown(first), shown(last))
+                format!("{} to {}", format_value(first), format_value(last))
             },
             value: numbers.map(number),
             cells: values.len(),

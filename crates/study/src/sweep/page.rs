@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use vertifleet_picture::numbers::{counted, dollars, grouped, minutes, typeset};
 
-use super::summary::shown;
+use super::summary::format_value;
 use super::{CellSummary, SweepReport, headline};
 use crate::figure::Figure;
 use crate::page::{self, estimate};
@@ -77,7 +77,7 @@ fn row(report: &SweepReport, cell: &CellSummary) -> Markup {
     html! {
         tr.best[cell.cell == report.best] {
             td { (cell.cell) @if cell.cell == report.cheapest { " " small { "cheapest within 1 %" } } }
-            @for value in &cell.settings { td { (shown(value)) } }
+            @for value in &cell.settings { td { (format_value(value)) } }
             @if let Some(size) = cell.size {
                 td { (size.aircraft) }
                 td { (size.stands) @if size.chargers > 0 { " + " (size.chargers) " chargers" } }

@@ -78,7 +78,7 @@ impl Sweep {
             bound_step,
             fingerprint: String::new(),
         };
-        sweep.fingerprint = sweep.print();
+        sweep.fingerprint = sweep.fingerprint();
         Ok((sweep, records))
     }
 }

@@ -202,8 +202,9 @@ impl SweepReport {
     pub fn settings(&self, cell: &CellSummary) -> String {
         let pairs = self.effects.iter().zip(&cell.settings);
         let varied = pairs.filter(|(effect, _)| effect.levels.len() > 1);
-        let pairs: Vec<String> =
-            varied.map(|(effect, value)| format!("{} = {}", effect.factor, shown(value))).collect();
+        let pairs: Vec<String> = varied
+            .map(|(effect, value)| format!("{} = {}", effect.factor, format_value(value)))
+            .collect();
         if pairs.is_empty() { "the only design".to_owned() } else { pairs.join(", ") }
     }
 
@@ -214,7 +215,7 @@ impl SweepReport {
 }
 
 /// A value as people write it: a text without quotes.
-pub(crate) fn shown(value: &Value) -> String {
+pub(crate) fn format_value(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 

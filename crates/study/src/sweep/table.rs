@@ -2,7 +2,7 @@
 
 use vertifleet_picture::numbers::{counted, grouped, signed};
 
-use super::summary::shown;
+use super::summary::format_value;
 use super::{SweepReport, headline};
 use crate::table::{append_aligned, estimate};
 
@@ -24,7 +24,7 @@ pub(super) fn text(report: &SweepReport) -> String {
     for cell in cells.iter().take(MOST_ROWS) {
         let size = cell.size.expect("a cell that was played has a network");
         let mut row = vec![cell.cell.to_string()];
-        row.extend(cell.settings.iter().map(shown));
+        row.extend(cell.settings.iter().map(format_value));
         row.extend([
             size.aircraft.to_string(),
             size.stands.to_string(),

@@ -7,7 +7,7 @@ use serde_json::Value;
 use vertifleet_export::{Cells, TypedColumn, typed_table};
 use vertifleet_sim::{DayNumber, DayTotals};
 
-use super::summary::shown;
+use super::summary::format_value;
 use super::{CellResult, CellSummary, SweepRecords, SweepReport};
 
 /// A row of the cells: a cell with the results of one policy, or a cell that was left out.
@@ -178,7 +178,7 @@ impl Kind {
             Self::Whole => Cells::Whole(settings.map(|one| one.as_i64().expect(FITS)).collect()),
             Self::Number => Cells::Number(settings.map(|one| one.as_f64().expect(FITS)).collect()),
             Self::Flag => Cells::Flag(settings.map(|one| one.as_bool().expect(FITS)).collect()),
-            Self::Text => Cells::Text(settings.map(shown).collect()),
+            Self::Text => Cells::Text(settings.map(format_value).collect()),
         }
     }
 }

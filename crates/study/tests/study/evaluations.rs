@@ -148,7 +148,7 @@ fn policies_that_cannot_play_a_suite_are_left_out() {
     let selection = Selection { policies: &policies, models: &[], seed: 1 };
     let suite = Suite::find("random-50").expect("a suite");
     let error =
-        Evaluation::new(suite, &selection, &Stop::default()).err().expect("nobody can play");
+        Evaluation::new(suite, &selection, &Stop::default()).err().expect("no policy can play");
     assert_eq!(error.code().to_string(), "V307");
 }
 

@@ -205,7 +205,7 @@ fn an_outage_is_no_charging() {
 
 #[test]
 fn nothing_is_written_as_minus_zero() {
-    // On a day on which nobody wants to fly, every sum is one of no numbers.
+    // On a day without passengers every sum is empty.
     let mut empty = vertifleet_core::Scenario::clone(&day("paper")).into_day();
     for table in &mut empty.demand {
         *table = vertifleet_core::Matrix::from_fn(table.size(), |_, _| 0);

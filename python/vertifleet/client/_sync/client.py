@@ -67,7 +67,7 @@ class Client:
                 all. Streams come back as often after each loss.
             verify: the path of a PEM file with the certificates that are trusted, in place of those of the
                 Python package certifi, or a context of your own, for example with a certificate of the
-                client. False trusts everybody, and so protects against nobody.
+                client. False trusts every server, and so protects against none.
             transport: a transport of httpx in place of its usual one: for tests, for proxies that need more
                 than environment variables say, or for Unix sockets.
 
@@ -120,7 +120,7 @@ class Client:
                 file has.
             policy: the policy that decides when none is asked for; "gcaps-x" without it.
             forecast: who is expected to fly, in place of what is drawn, for example ``{"period": "07:00:00",
-                "from": "V1", "to": "V2", "passengers": 14}``. Nobody flies where no row is.
+                "from": "V1", "to": "V2", "passengers": 14}``. A pair without a row has no passengers.
             aircraft: where aircraft stand in the morning: ids of vertiports by ids of aircraft. The others
                 stand where the network or the scenario has them.
             name: what people call the day, at most 80 characters.

@@ -40,7 +40,7 @@ export function byPeriod(draft: Draft): number[] {
   return draft.periods.map((_, period) => sum(size, (from) => sum(size, (to) => mean(period, from, to))))
 }
 
-/** The same demand as a table of a day's passengers with shares of the periods, for whoever wants to change single pairs. */
+/** The same demand as a table of a day's passengers with shares of the periods, for users who want to change single pairs. */
 export function asDaily(draft: Draft): { shares: number[]; passengers: number[][] } {
   const { demand } = draft
   if (demand?.model === 'daily') return demand

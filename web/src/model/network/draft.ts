@@ -1,4 +1,4 @@
-// A network file as forms show it: what is there and makes sense, in one shape. A file that somebody is writing has gaps, so
+// A network file as forms show it: what is there and makes sense, in one shape. A file that a user is writing has gaps, so
 // everything may be absent; whether it is a network is for the service to say.
 
 import { parseTime } from '../time'

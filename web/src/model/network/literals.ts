@@ -32,7 +32,7 @@ function pairs(table: Readonly<Record<string, Literal | undefined>>, newline = '
   )
 }
 
-/** The shortest text that reads as the same number; never with an exponent, which nobody writes into such a file. */
+/** The shortest text that reads as the same number; never with an exponent, which is unusual in such a file. */
 function number(value: number): string {
   const text = String(value)
   return text.includes('e') ? value.toFixed(20).replace(/\.?0+$/, '') : text

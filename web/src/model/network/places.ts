@@ -45,7 +45,7 @@ export function moveVertiport(file: TomlFile, vertiport: number, place: Place): 
   ]
 }
 
-/** Adds a vertiport that nobody wants to fly to yet, unless its demand follows from a weight. */
+/** Adds a vertiport without demand, unless its demand follows from a weight. */
 export function addVertiport(file: TomlFile, place: Place): Splice[] {
   const draft = draftOf(file.value)
   const names = placeMembers(draft.isGlobe)

@@ -291,7 +291,7 @@ class Editor {
 
   #refused(cause: unknown, file: TomlFile): void {
     if (!(cause instanceof ProblemError)) throw cause
-    // Whoever may not ask, or gets no answer, has nothing wrong in the text.
+    // Without permission or an answer, nothing is marked wrong in the text.
     const isAboutTheText = cause.status === 400 || cause.status === 422
     this.problem = isAboutTheText ? undefined : cause
     if (isAboutTheText) this.#said = [findingOf(cause, file)]

@@ -130,7 +130,7 @@ impl CapsuleLayers {
                 }
             }
             let capsules = &mut rest[0][..nodes * self.capsule_width()];
-            let room = Room {
+            let room = Scratch {
                 laplacians: &space.laplacians[..nodes * self.graph.nodes],
                 powers: &mut space.powers[..nodes * self.width],
                 power_slopes: &mut space.power_slopes[..nodes * self.width],
@@ -151,12 +151,12 @@ impl CapsuleLayers {
         tensors: Tensors<'_>,
         layer: &CapsuleLayer,
         features: &[f32],
-        room: Room<'_>,
+        room: Scratch<'_>,
         capsules: &mut [f32],
     ) {
         let (width, step) = (self.width, self.capsule_width());
         let rows = features.len() / width;
-        let Room { laplacians, powers, sums: [mut sums, mut next], .. } = room;
+        let Scratch { laplacians, powers, sums: [mut sums, mut next], .. } = room;
         for (p, weights) in layer.weights.iter().enumerate() {
             raise(features, p + 1, powers);
             let from = Matrix::new(powers, rows, width);
@@ -199,7 +199,7 @@ impl CapsuleLayers {
             relu::backward(&space.capsules[at][..slopes.len()], slopes);
             let features = &space.features[at][..nodes * self.width];
             let feature_slopes = &mut space.slopes[..nodes * self.width];
-            let room = Room {
+            let room = Scratch {
                 laplacians: &space.laplacians[..nodes * self.graph.nodes],
                 powers: &mut space.powers[..nodes * self.width],
                 power_slopes: &mut space.power_slopes[..nodes * self.width],
@@ -234,13 +234,13 @@ impl CapsuleLayers {
         layer: &CapsuleLayer,
         features: &[f32],
         slopes: &[f32],
-        room: Room<'_>,
+        room: Scratch<'_>,
         feature_slopes: &mut [f32],
         gradient: &mut [f32],
     ) {
         let (width, step) = (self.width, self.capsule_width());
         let rows = features.len() / width;
-        let Room { laplacians, powers, power_slopes, sums: [mut sums, mut next] } = room;
+        let Scratch { laplacians, powers, power_slopes, sums: [mut sums, mut next] } = room;
         feature_slopes.fill(0.0);
         for (p, weights) in layer.weights.iter().enumerate() {
             for (slopes, sum) in slopes.chunks_exact(step).zip(sums.chunks_exact_mut(width)) {
@@ -270,7 +270,7 @@ impl CapsuleLayers {
 }
 
 /// What a layer's pass works in.
-struct Room<'a> {
+struct Scratch<'a> {
     laplacians: &'a [f32],
     powers: &'a mut [f32],
     power_slopes: &'a mut [f32],

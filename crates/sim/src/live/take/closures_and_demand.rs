@@ -5,7 +5,7 @@ use std::sync::Arc;
 use vertifleet_core::{Closure, Route, Scenario, Time, VertiportIx};
 
 use crate::live::LiveDay;
-use crate::live::report::{Booking, Routes, Unfit};
+use crate::live::report::{Booking, ReportError, Routes};
 
 /// At most this many passengers of a pair wait in a period.
 const MOST_PASSENGERS: u32 = 1_000_000;
@@ -16,7 +16,7 @@ impl LiveDay {
         time: Time,
         routes: Routes,
         until: Option<Time>,
-    ) -> Result<(), Unfit> {
+    ) -> Result<(), ReportError> {
         let size = self.check_routes(routes)?;
         let pairs = routes.pairs(size);
         let Some(end) = until else {
@@ -34,7 +34,7 @@ impl LiveDay {
         Ok(())
     }
 
-    pub(super) fn reopen(&mut self, time: Time, routes: Routes) -> Result<(), Unfit> {
+    pub(super) fn reopen(&mut self, time: Time, routes: Routes) -> Result<(), ReportError> {
         let size = self.check_routes(routes)?;
         let pairs = routes.pairs(size);
         let time = time.max(self.now);
@@ -67,9 +67,9 @@ impl LiveDay {
         self.known.scenario = Arc::new(Scenario::clone(&self.known.scenario));
     }
 
-    fn check_routes(&self, routes: Routes) -> Result<usize, Unfit> {
+    fn check_routes(&self, routes: Routes) -> Result<usize, ReportError> {
         match routes {
-            Routes::Way { from, to } if from == to => return Err(Unfit::Unknown("route")),
+            Routes::Way { from, to } if from == to => return Err(ReportError::Unknown("route")),
             Routes::Way { from, to } => {
                 self.check_vertiport(from)?;
                 self.check_vertiport(to)?;
@@ -79,14 +79,14 @@ impl LiveDay {
         Ok(self.scenario().vertiports.len())
     }
 
-    fn period_start(&self, period: usize) -> Result<Time, Unfit> {
-        self.scenario().periods.get(period).copied().ok_or(Unfit::Unknown("period"))
+    fn period_start(&self, period: usize) -> Result<Time, ReportError> {
+        self.scenario().periods.get(period).copied().ok_or(ReportError::Unknown("period"))
     }
 
-    fn check_period(&self, period: usize) -> Result<(), Unfit> {
+    fn check_period(&self, period: usize) -> Result<(), ReportError> {
         let start = self.period_start(period)?;
         if period < self.known.period && !self.known.demand.waits(period) {
-            return Err(Unfit::PeriodOver { start, now: self.now });
+            return Err(ReportError::PeriodOver { start, now: self.now });
         }
         Ok(())
     }
@@ -95,12 +95,12 @@ impl LiveDay {
         &mut self,
         period: usize,
         pairs: &[(VertiportIx, VertiportIx, u32)],
-    ) -> Result<(), Unfit> {
+    ) -> Result<(), ReportError> {
         self.period_start(period)?;
         for &(from, to, passengers) in pairs {
             self.check_routes(Routes::Way { from, to })?;
             if passengers > MOST_PASSENGERS {
-                return Err(Unfit::TooMany { most: MOST_PASSENGERS });
+                return Err(ReportError::TooMany { most: MOST_PASSENGERS });
             }
         }
         for &(from, to, passengers) in pairs {
@@ -110,24 +110,25 @@ impl LiveDay {
         Ok(())
     }
 
-    pub(super) fn book(&mut self, booking: Booking) -> Result<(), Unfit> {
+    pub(super) fn book(&mut self, booking: Booking) -> Result<(), ReportError> {
         let left = self.left(booking)?;
         self.set_left(booking, left.saturating_add(booking.passengers))
     }
 
-    pub(super) fn cancel(&mut self, booking: Booking) -> Result<(), Unfit> {
+    pub(super) fn cancel(&mut self, booking: Booking) -> Result<(), ReportError> {
         let (left, cancelled) = (self.left(booking)?, booking.passengers);
-        let still = left.checked_sub(cancelled).ok_or(Unfit::NotSoMany { cancelled, left })?;
+        let still =
+            left.checked_sub(cancelled).ok_or(ReportError::TooFewPassengers { cancelled, left })?;
         self.set_left(booking, still)
     }
 
-    fn left(&self, Booking { period, from, to, .. }: Booking) -> Result<u32, Unfit> {
+    fn left(&self, Booking { period, from, to, .. }: Booking) -> Result<u32, ReportError> {
         self.check_period(period)?;
         self.check_routes(Routes::Way { from, to })?;
         Ok(self.known.demand.own(period, from, to))
     }
 
-    fn set_left(&mut self, booking: Booking, left: u32) -> Result<(), Unfit> {
+    fn set_left(&mut self, booking: Booking, left: u32) -> Result<(), ReportError> {
         self.set_demand(booking.period, &[(booking.from, booking.to, left)])
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 
-use crate::live::report::{Notice, Unfit};
+use crate::live::report::{Notice, ReportError};
 use crate::live::{LiveAircraft, LiveDay, LiveDecision, OutOfService, Phase};
 use crate::{Decision, TraceRow};
 
@@ -15,7 +15,7 @@ impl LiveDay {
         time: Time,
         (to, passengers): (Option<VertiportIx>, Option<u16>),
         notices: &mut Vec<Notice>,
-    ) -> Result<(), Unfit> {
+    ) -> Result<(), ReportError> {
         let state = self.state(aircraft)?;
         if let Some(to) = to {
             self.check_vertiport(to)?;
@@ -28,7 +28,7 @@ impl LiveDay {
         let sent_to = (state.phase != Phase::Standing).then(|| self.known.place[aircraft.at()]);
         let to = to.or(sent_to).ok_or_else(|| self.wrong_place(aircraft, "depart"))?;
         if to == from {
-            return Err(Unfit::Unknown("route"));
+            return Err(ReportError::Unknown("route"));
         }
         self.check_seats(aircraft, passengers)?;
         notices.extend(self.not_ready(aircraft, time));
@@ -57,7 +57,7 @@ impl LiveDay {
     /// Why an aircraft should not have departed, whatever its flight.
     fn not_ready(&self, aircraft: AircraftIx, time: Time) -> Option<Notice> {
         let LiveAircraft { phase, charged, out, .. } = self.aircraft[aircraft.at()];
-        // Whoever has been sent off may depart, whatever has happened since.
+        // An aircraft that was sent off may depart, whatever has happened since.
         if phase != Phase::Standing {
             return None;
         }
@@ -73,12 +73,16 @@ impl LiveDay {
             .then(|| Notice::DepartedUnready { aircraft: self.id(aircraft), ready: charged })
     }
 
-    fn check_seats(&self, aircraft: AircraftIx, passengers: Option<u16>) -> Result<(), Unfit> {
+    fn check_seats(
+        &self,
+        aircraft: AircraftIx,
+        passengers: Option<u16>,
+    ) -> Result<(), ReportError> {
         let kind = self.scenario().aircraft[aircraft.at()].kind;
         let seats = self.scenario().aircraft_types[kind.at()].seats;
         match passengers {
             Some(passengers) if passengers > seats => {
-                Err(Unfit::NoSeats { aircraft: self.id(aircraft), passengers, seats })
+                Err(ReportError::NoSeats { aircraft: self.id(aircraft), passengers, seats })
             }
             _ => Ok(()),
         }
@@ -149,7 +153,7 @@ impl LiveDay {
         time: Time,
         at: Option<VertiportIx>,
         notices: &mut Vec<Notice>,
-    ) -> Result<(), Unfit> {
+    ) -> Result<(), ReportError> {
         let state = self.state(aircraft)?;
         if let Some(at) = at {
             self.check_vertiport(at)?;
@@ -217,7 +221,7 @@ impl LiveDay {
         aircraft: AircraftIx,
         ready: Time,
         report: &'static str,
-    ) -> Result<(), Unfit> {
+    ) -> Result<(), ReportError> {
         if self.state(aircraft)?.phase != Phase::Standing {
             return Err(self.wrong_place(aircraft, report));
         }
@@ -236,7 +240,7 @@ impl LiveDay {
         Ok(())
     }
 
-    pub(super) fn delay(&mut self, aircraft: AircraftIx, until: Time) -> Result<(), Unfit> {
+    pub(super) fn delay(&mut self, aircraft: AircraftIx, until: Time) -> Result<(), ReportError> {
         match self.state(aircraft)?.phase {
             Phase::Standing => self.charge(aircraft, until, "be delayed")?,
             Phase::SentOff { flight, departs } => {

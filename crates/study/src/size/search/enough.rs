@@ -4,7 +4,7 @@
 //! enough costs between the two is least. The edge's slope is what one more passenger costs here, at which all designs can
 //! be compared, those that carry too few too. Designs on the edge and around its ends are played.
 
-use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, Space, doubt, rounded};
+use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, Space, prediction_margin, rounded};
 use crate::error::Error;
 use crate::size::ceiling::Ceiling;
 
@@ -114,17 +114,17 @@ impl<S: Solver> Search<'_, S> {
         (is_cheaper && !self.played.contains_key(&found)).then_some(found)
     }
 
-    /// The cheapest design of all that is foretold to carry enough, if it is new and cheaper than the best.
+    /// The cheapest design of all that is predicted to carry enough, if it is new and cheaper than the best.
     fn leap_down(&self) -> Option<Design> {
         let found = self.cheapest(&self.expected(self.best()), self.space, self.aim.need);
         let is_cheaper = self.cost(&found) < self.cost(self.best());
         (is_cheaper && !self.played.contains_key(&found)).then_some(found)
     }
 
-    /// The design around the ends of an edge that is foretold to be best, if one is worth playing, with that end.
+    /// The design around the ends of an edge that is predicted to be best, if one is worth playing, with that end.
     fn cheaper(&self, edge: &Edge, reach: u32) -> Option<(Design, Design)> {
         let saved = |from: &Design, to: &Design| {
-            let more = self.foretold(from, to) - self.aim.need;
+            let more = self.predicted(from, to) - self.aim.need;
             edge.cost + edge.cost_of_one * more - self.cost(to)
         };
         let around = |end: &Design| {
@@ -136,7 +136,7 @@ impl<S: Solver> Search<'_, S> {
         ends.into_iter()
             .flatten()
             .flat_map(around)
-            .filter(|(saved, from, to)| *saved > -doubt(from, to) * edge.cost)
+            .filter(|(saved, from, to)| *saved > -prediction_margin(from, to) * edge.cost)
             .max_by(|one, other| one.0.total_cmp(&other.0))
             .map(|(_, from, to)| (from, to))
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, doubt, rounded};
+use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, prediction_margin, rounded};
 use crate::error::Error;
 
 /// The ceiling is tight enough if it is higher than a bound by this share.
@@ -57,7 +57,7 @@ impl<S: Solver> Search<'_, S> {
         Ok(())
     }
 
-    /// The design that is foretold to be best of all, if it is new and foretold to be better than the best so far.
+    /// The design that is predicted to be best of all, if it is new and predicted to be better than the best so far.
     fn leap(&self, best: &Design) -> Option<Design> {
         let here = self.space.above(best);
         let expected = self.expected(best);
@@ -66,14 +66,16 @@ impl<S: Solver> Search<'_, S> {
         (is_higher && !self.played.contains_key(&found)).then_some(found)
     }
 
-    /// The design around another that is foretold to be best, if one is worth playing.
+    /// The design around another that is predicted to be best, if one is worth playing.
     fn most_promising(&self, best: &Design, reach: u32) -> Option<Design> {
         let value = self.played[best];
         // One gives what the other takes, or an aircraft comes or leaves with its place.
         let untried = self.untried(best, reach, |alike, same_way| alike != same_way);
-        let foretold = untried.map(|one| (self.foretold(best, &one), one));
-        foretold
-            .filter(|(foretold, one)| *foretold > value - doubt(best, one) * value.abs())
+        let predicted = untried.map(|one| (self.predicted(best, &one), one));
+        predicted
+            .filter(|(predicted, one)| {
+                *predicted > value - prediction_margin(best, one) * value.abs()
+            })
             .max_by(|one, other| one.0.total_cmp(&other.0))
             .map(|(_, one)| one)
     }

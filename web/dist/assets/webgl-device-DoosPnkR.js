@@ -1,0 +1,1 @@
+export{t as WebGLDevice}from"./deck-td1YTK9C.js";
