@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::origin::NetworkOrigin;
 use crate::replay::ReplayedDay;
 use crate::sees::Sees;
+use crate::statistics::Estimate;
 
 /// One policy's result on one day.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,6 +43,11 @@ impl DayRecord {
 /// profit.
 pub(crate) fn bound_share(totals: &DayTotals, bound_usd: f64) -> f64 {
     1.0 - gap(bound_usd + totals.fixed_cost_usd(), totals.operating_profit_usd())
+}
+
+/// Mean and interval of the profit of days, in dollars.
+pub fn mean_profit_usd(days: &[DayRecord]) -> Estimate {
+    Estimate::of(&days.iter().map(|day| day.totals.profit_usd).collect::<Vec<f64>>())
 }
 
 /// Time that one decision takes.

@@ -217,7 +217,7 @@ impl Suite {
     /// Returns the errors of [`draw`](Self::draw), and an error if a day is too large for its bound.
     pub fn draw_with_bounds(&self, stop: &Stop) -> Result<Vec<SuiteDay>, Error> {
         let mut days = self.draw(stop)?;
-        if self.table.is_none() {
+        if !self.is_frozen() {
             let scenarios = days.iter().map(|day| Arc::clone(&day.scenario)).collect();
             let bounded = KeptBounds::of_this_user().days(scenarios, self.step()?, stop, &|| ())?;
             for (day, bounded) in days.iter_mut().zip(bounded) {
@@ -225,6 +225,11 @@ impl Suite {
             }
         }
         Ok(days)
+    }
+
+    /// Whether its days and bounds are those of a table.
+    pub(crate) fn is_frozen(&self) -> bool {
+        self.table.is_some()
     }
 
     /// The length of the slices of its bounds.

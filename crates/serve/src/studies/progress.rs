@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use utoipa::ToSchema;
-use vertifleet_study::statistics;
+use vertifleet_study::record::mean_profit_usd;
 use vertifleet_study::{PolicyRecord, Watch};
 
 use super::result::Estimate;
@@ -127,8 +127,7 @@ impl Watch for Watched {
 
     fn played(&self, record: &PolicyRecord) {
         let Stage::Playing(progress) = &mut *lock(&self.0.stage) else { return };
-        let daily_usd: Vec<f64> = record.days.iter().map(|day| day.totals.profit_usd).collect();
-        let profit_usd = statistics::Estimate::of(&daily_usd).into();
+        let profit_usd = mean_profit_usd(&record.days).into();
         progress.played.push(PlayedPolicy { name: record.name.clone(), profit_usd });
     }
 }

@@ -9,7 +9,7 @@ use vertifleet_core::{OutputKind, VertiportIx, read_at_most, write_atomically};
 
 use super::EvaluationRecords;
 use crate::error::Error;
-use crate::record::{DayRecord, LatencySummary, PolicyRecord};
+use crate::record::{DayRecord, LatencySummary, PolicyRecord, mean_profit_usd};
 use crate::sees::Sees;
 use crate::share::{PolicyShare, share};
 use crate::statistics::Estimate;
@@ -106,7 +106,7 @@ impl EvaluationRecords {
             about: about.clone(),
             bound_share: share.bound_share,
             lowest_bound_share: share.lowest_bound_share,
-            profit_usd: profits(&policy.days),
+            profit_usd: mean_profit_usd(&policy.days),
             days: policy.days.iter().zip(&self.hashes).map(result_day).collect(),
         };
         self.policies.iter().zip(shares).map(result).collect()
@@ -121,11 +121,6 @@ fn result_day((day, hash): (&DayRecord, &String)) -> ResultDay {
         profit_usd: day.totals.profit_usd,
         choices: choices_text(&day.choices),
     }
-}
-
-/// Mean and interval of the profits.
-pub(super) fn profits(days: &[DayRecord]) -> Estimate {
-    Estimate::of(&days.iter().map(|day| day.totals.profit_usd).collect::<Vec<f64>>())
 }
 
 /// Mean and interval of the shares of the bounds, and the lowest one.

@@ -2,10 +2,9 @@
 
 use serde::Serialize;
 
-use super::result::profits;
 use super::{EvaluationRecords, LeftOut};
 use crate::error::Error;
-use crate::record::{LatencySummary, PolicyRecord, check_records};
+use crate::record::{LatencySummary, PolicyRecord, check_records, mean_profit_usd};
 use crate::share::PolicyShare;
 use crate::statistics::{Estimate, holm};
 
@@ -99,7 +98,7 @@ impl SuiteReport {
         let p_values: Vec<Option<f64>> =
             shares.iter().map(|share| share.minus_first.as_ref()?.p_value).collect();
         let evaluated = |((share, policy), p_value_holm): ((_, &PolicyRecord), _)| {
-            let (profit_usd, decision_ns) = (profits(&policy.days), policy.decision_ns);
+            let (profit_usd, decision_ns) = (mean_profit_usd(&policy.days), policy.decision_ns);
             EvaluatedPolicy { share, p_value_holm, profit_usd, decision_ns }
         };
         Ok(Self {

@@ -12,9 +12,9 @@ use vertifleet_picture::numbers::{counted, grouped};
 use vertifleet_sim::check::check;
 use vertifleet_sim::{DayTotals, Simulation, Trace};
 
-use super::result::{ResultDay, ResultFile, choices_text, profits, shares};
+use super::result::{ResultDay, ResultFile, choices_text, shares};
 use crate::error::Error;
-use crate::record::DayRecord;
+use crate::record::{DayRecord, mean_profit_usd};
 use crate::statistics::Estimate;
 use crate::suite::{Suite, SuiteDay};
 use crate::table::estimate;
@@ -50,15 +50,17 @@ pub struct Verification {
 /// not the ones that were frozen, and [`Error::Stopped`] soon after `stop` is requested.
 pub fn verify(result: &ResultFile, stop: &Stop) -> Result<Verification, Error> {
     let suite = Suite::find(&result.suite)?;
-    let days = suite.draw_with_bounds(stop)?;
     let mut findings = Vec::new();
-    if result.days.len() != days.len() {
-        findings.push(format!(
-            "days: {} in the file, {} in the suite",
-            result.days.len(),
-            days.len()
-        ));
+    if result.days.len() != suite.days {
+        let (found, expected) = (result.days.len(), suite.days);
+        findings.push(format!("days: {found} in the file, {expected} in the suite"));
     }
+    // A short file must not make the program draw and bound a million random networks.
+    let days = if suite.is_frozen() || findings.is_empty() {
+        suite.draw_with_bounds(stop)?
+    } else {
+        Vec::new()
+    };
     let verified: Vec<Result<DayRecord, String>> =
         days.par_iter().zip(&result.days).map(|(day, claim)| verified_day(day, claim)).collect();
     let mut records = Vec::with_capacity(verified.len());
@@ -68,9 +70,9 @@ pub fn verify(result: &ResultFile, stop: &Stop) -> Result<Verification, Error> {
             Err(finding) => findings.push(finding),
         }
     }
-    let whole = records.len() == days.len();
+    let whole = records.len() == suite.days;
     let (bound_share, lowest) = shares(&records);
-    let profit_usd = profits(&records);
+    let profit_usd = mean_profit_usd(&records);
     if whole {
         if !agree(result.lowest_bound_share, lowest) {
             let claimed = result.lowest_bound_share;
@@ -82,7 +84,7 @@ pub fn verify(result: &ResultFile, stop: &Stop) -> Result<Verification, Error> {
     Ok(Verification {
         suite: result.suite.clone(),
         policy: result.policy.name.clone(),
-        days: days.len(),
+        days: suite.days,
         valid: findings.is_empty(),
         bound_share: whole.then_some(bound_share),
         profit_usd: whole.then_some(profit_usd),

@@ -69,6 +69,10 @@ fn random_networks_are_those_of_the_suite_with_bounds_that_are_proven() {
     let result = records.results(&BTreeMap::new()).remove(0);
     let verification = verify(&result, &Stop::default()).expect("networks by number");
     assert!(verification.valid, "{verification}");
+    let many = ResultFile { suite: "random:1000000".to_owned(), ..result };
+    let refused = verify(&many, &Stop::default()).expect("networks by number");
+    assert_eq!(refused.findings, ["days: 2 in the file, 1000000 in the suite"]);
+    assert!(!refused.valid && refused.bound_share.is_none());
     for name in ["random:0", "random:", "random:x", "random:1000001"] {
         assert_eq!(Suite::find(name).expect_err("no suite").code().to_string(), "V411", "{name}");
     }
