@@ -327,20 +327,6 @@ impl Error {
         Self::Internal { cause: format!("policy {policy:?}: {error}") }
     }
 
-    /// What went wrong when a store was opened.
-    pub(crate) fn of_opening(error: sqlx::Error) -> Self {
-        match &error {
-            sqlx::Error::Database(cause)
-                if ["malformed", "not a database"]
-                    .iter()
-                    .any(|rule| cause.message().contains(rule)) =>
-            {
-                Self::ForeignData { rule: cause.message().to_owned() }
-            }
-            _ => error.into(),
-        }
-    }
-
     /// The same error with the day that it is about.
     pub(crate) fn of_day(self, id: &str) -> Self {
         match self {

@@ -258,7 +258,7 @@ pub fn restore(copy: &Path, folder: &Path) -> Result<Contents, Error> {
     Ok(contents)
 }
 
-/// Checks a copy in a folder of its own, and gives it its name. Only its owner can read it.
+/// Checks a copy in the folder `trial`, which only its owner can read, and moves it to `database`.
 fn put_back(bytes: &[u8], trial: &Path, database: &Path) -> Result<Contents, Error> {
     let failed =
         |error: std::io::Error| Error::Store { cause: format!("{}: {error}", trial.display()) };

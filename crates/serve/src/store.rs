@@ -179,15 +179,17 @@ impl Store {
     ///
     /// # Errors
     /// Returns [`Error::StoreHangs`] if a server has not answered for [`STORE_TIMEOUT`]. It may still do what it was asked for.
-    async fn in_time<T>(
-        &self,
-        outcome: impl Future<Output = Result<T, Error>>,
-    ) -> Result<T, Error> {
+    async fn in_time<T, E>(&self, outcome: impl Future<Output = Result<T, E>>) -> Result<T, Error>
+    where
+        Error: From<E>,
+    {
         if !self.is_shared() {
-            return outcome.await;
+            return Ok(outcome.await?);
         }
-        let outcome = tokio::time::timeout(STORE_TIMEOUT, outcome).await;
-        outcome.unwrap_or(Err(Error::StoreHangs { s: STORE_TIMEOUT.as_secs() }))
+        match tokio::time::timeout(STORE_TIMEOUT, outcome).await {
+            Ok(outcome) => Ok(outcome?),
+            Err(_) => Err(Error::StoreHangs { s: STORE_TIMEOUT.as_secs() }),
+        }
     }
 
     /// Adds a day.
@@ -239,7 +241,7 @@ impl Store {
              ORDER BY id LIMIT $2",
         );
         let select = select.bind(after).bind(i64::from(limit)).fetch_all(&self.pool);
-        let rows = self.in_time(async { Ok(select.await?) }).await?;
+        let rows = self.in_time(select).await?;
         rows.iter().map(stored_day).collect()
     }
 
@@ -253,7 +255,7 @@ impl Store {
              JOIN scenarios ON scenarios.day = days.id WHERE id = $1",
         );
         let select = select.bind(id).fetch_optional(&self.pool);
-        let row = self.in_time(async { Ok(select.await?) }).await?;
+        let row = self.in_time(select).await?;
         let Some(row) = row else { return Ok(None) };
         let (day, scenario): (_, String) = (stored_day(&row)?, row.try_get("scenario")?);
         let sum: i64 = row.try_get("sum")?;
@@ -267,7 +269,7 @@ impl Store {
     /// The number of days.
     pub(crate) async fn number_of_days(&self) -> Result<u64, Error> {
         let count = query_scalar("SELECT COUNT(*) FROM days").fetch_one(&self.pool);
-        self.in_time(async { Ok(as_u64(count.await?)) }).await
+        self.in_time(count).await.map(as_u64)
     }
 
     /// Closes a day to writes or opens it again, if it is at the event that is expected.
@@ -388,7 +390,7 @@ impl Store {
     pub(crate) async fn answer(&self, key: &str) -> Result<Option<StoredAnswer>, Error> {
         let select = query("SELECT request, answer FROM answers WHERE idempotency_key = $1");
         let select = select.bind(key).fetch_optional(&self.pool);
-        let row = self.in_time(async { Ok(select.await?) }).await?;
+        let row = self.in_time(select).await?;
         let answer = |row: AnyRow| {
             Ok(StoredAnswer {
                 key: key.to_owned(),
@@ -421,7 +423,7 @@ impl Store {
     pub(crate) async fn check(&self) -> Result<(), Error> {
         // The same value as before, whichever it is: a newer program may have brought the store up to date by now.
         let update = query("UPDATE meta SET value = value WHERE name = 'version'");
-        self.in_time(async { Ok(update.execute(&self.pool).await.map(drop)?) }).await
+        self.in_time(update.execute(&self.pool)).await.map(drop)
     }
 }
 

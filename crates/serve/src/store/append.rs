@@ -91,7 +91,7 @@ impl Store {
     ) -> Result<bool, Error> {
         let select = query_scalar("SELECT append_id FROM events WHERE day = $1 AND seq = $2");
         let select = select.bind(day).bind(as_i64(seq)).fetch_optional(&self.pool);
-        let found: Option<i64> = self.in_time(async { Ok(select.await?) }).await?;
+        let found: Option<i64> = self.in_time(select).await?;
         Ok(found == Some(append.0))
     }
 }

@@ -38,7 +38,7 @@ impl Store {
     pub(crate) async fn head(&self, day: &str) -> Result<Option<Head>, Error> {
         let select = "SELECT id, seq, chain, archived FROM days WHERE id = $1";
         let select = query(select).bind(day).fetch_optional(self.pool());
-        let row = self.in_time(async { Ok(select.await?) }).await?;
+        let row = self.in_time(select).await?;
         row.map(|row| head(&row).map(|(_, head)| head)).transpose()
     }
 
@@ -50,7 +50,7 @@ impl Store {
             let select = format!("SELECT id, seq, chain, archived FROM days WHERE id IN {places}");
             let select = days.iter().fold(query(AssertSqlSafe(select)), Query::bind);
             let select = select.fetch_all(self.pool());
-            for row in self.in_time(async { Ok(select.await?) }).await? {
+            for row in self.in_time(select).await? {
                 heads.extend(head(&row));
             }
         }
@@ -62,7 +62,7 @@ impl Store {
         let select = "SELECT chain FROM events WHERE day = $1 AND seq = $2";
         let select = query_scalar(select).bind(day).bind(as_i64(seq));
         let select = select.fetch_optional(self.pool());
-        let chain: Option<i64> = self.in_time(async { Ok(select.await?) }).await?;
+        let chain: Option<i64> = self.in_time(select).await?;
         Ok(chain.and_then(|chain| u32::try_from(chain).ok()))
     }
 

@@ -180,12 +180,11 @@ impl Store {
             Location::Postgres(url) => Some(SharedUrl(url.as_str().into())),
         };
         let is_shared = shared.is_some();
-        let mut first = connect(&url, is_shared).await.map_err(Error::of_opening)?;
+        let mut first = connect(&url, is_shared).await.map_err(of_opening)?;
         if !is_shared {
-            first.execute(SQLITE).await.map_err(Error::of_opening)?;
+            first.execute(SQLITE).await.map_err(of_opening)?;
         }
-        let mut transaction =
-            make_tables(&mut first, is_shared).await.map_err(Error::of_opening)?;
+        let mut transaction = make_tables(&mut first, is_shared).await.map_err(of_opening)?;
         bring_up_to_date(&mut transaction).await?;
         query(ONE_NAME).execute(&mut *transaction).await?;
         transaction.commit().await?;
@@ -210,15 +209,29 @@ impl Store {
             }
             install_default_drivers();
             let mut database =
-                AnyConnection::connect(&sqlite_url(&file)).await.map_err(Error::of_opening)?;
+                AnyConnection::connect(&sqlite_url(&file)).await.map_err(of_opening)?;
             let select = "SELECT name FROM sqlite_master WHERE name = 'meta'";
             let found = query(select).fetch_optional(&mut database).await;
             database.close().await?;
-            if found.map_err(Error::of_opening)?.is_none() {
+            if found.map_err(of_opening)?.is_none() {
                 return Err(missing());
             }
         }
         Self::open(location).await
+    }
+}
+
+/// The error of a store that cannot be opened.
+fn of_opening(error: sqlx::Error) -> Error {
+    match &error {
+        sqlx::Error::Database(cause)
+            if ["malformed", "not a database"]
+                .iter()
+                .any(|rule| cause.message().contains(rule)) =>
+        {
+            Error::ForeignData { rule: cause.message().to_owned() }
+        }
+        _ => error.into(),
     }
 }
 

@@ -42,7 +42,7 @@ impl Store {
     pub(crate) async fn tokens(&self) -> Result<Vec<StoredToken>, Error> {
         let select = "SELECT id, name, role, hash, created_ms, revoked_ms FROM tokens ORDER BY created_ms, id";
         let select = query(select).fetch_all(self.pool());
-        let rows = self.in_time(async { Ok(select.await?) }).await?;
+        let rows = self.in_time(select).await?;
         rows.iter().map(stored_token).collect()
     }
 
