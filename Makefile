@@ -36,7 +36,6 @@ lint: prepare python tools console-ready
 	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check . && .venv/bin/mypy
 	cd docs && ../python/.venv/bin/stubtest vertifleet._native
 	python/.venv/bin/typos
-	python/.venv/bin/python python/tools/words.py
 	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
 	shellcheck .ci/run benches/table2/figure $$(find scripts -type f)
 	cd web && npm run check

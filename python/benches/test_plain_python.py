@@ -112,7 +112,7 @@ def test_the_masks_admit_all_that_the_package_chose_and_the_reward_is_its_own(sc
     assert rewards[-1] == pytest.approx(summary["reward"], rel=1e-12)
 
 
-def test_nobody_flies_where_every_stand_is_taken_or_the_battery_does_not_reach() -> None:
+def test_no_aircraft_flies_where_every_stand_is_taken_or_the_battery_does_not_reach() -> None:
     scenario = with_short_range(with_few_stands(draw("paper", 8)))
     reach_mi = 60.0 / scenario["aircraft_types"][0]["energy_kwh_per_mi"]
     environment = PlainPythonEnv([scenario])

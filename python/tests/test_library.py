@@ -166,7 +166,7 @@ def test_days_of_ones_own_earn_what_they_do_alone_wherever_they_come_from(
     assert error.value.code == "V410"
 
 
-def test_what_somebody_else_wrote_is_replaced_by_force_alone(day: Scenario, tmp_path: Path) -> None:
+def test_what_another_program_wrote_is_replaced_by_force_alone(day: Scenario, tmp_path: Path) -> None:
     path = tmp_path / "notes.json"
     path.write_text("dear to its owner", encoding="utf-8")
     with pytest.raises(vertifleet.Error) as error:

@@ -10,8 +10,8 @@ pub(crate) fn survive() -> Result<(), Failure> {
     #[cfg(unix)]
     {
         // A handler that does nothing that anybody looks at: ignoring the signal would take unsafe code.
-        let nobody_looks = std::sync::Arc::default();
-        signal_hook::flag::register(signal_hook::consts::SIGXFSZ, nobody_looks)
+        let not_read = std::sync::Arc::default();
+        signal_hook::flag::register(signal_hook::consts::SIGXFSZ, not_read)
             .map_err(|error| Failure::internal(&error))?;
     }
     Ok(())

@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn whoever_goes_away_gives_the_turn_up_and_the_work_stops() {
+    async fn a_request_that_goes_away_gives_the_turn_up_and_the_work_stops() {
         let turns = Turns::new(1);
         let (begun, has_begun) = mpsc::channel();
         let (ended, has_ended) = mpsc::channel();

@@ -109,7 +109,7 @@ export const en = {
     },
     states: { running: 'Running', over: 'Over', archived: 'Archived' },
     waitingUnit: ' aircraft',
-    nobodyWaits: 'none',
+    noneWaits: 'none',
     madeHint: (zone: string) => `On the clock of this computer, in the time zone ${zone}`,
     network: 'Network',
     seed: 'Seed',
@@ -283,7 +283,7 @@ export const en = {
     you: 'you',
     person: 'a person',
     asAdvised: (policy: string) => `as ${policy} advised`,
-    nobodyHint:
+    noNameHint:
       'The service asks for no tokens, so it does not know who this was: a person who accepted the advice, or a program.',
     insteadOf: (to: string) => `instead of ${to}`,
   },

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { whoDecided, whoDid, whyNobody } from './who'
+import { whoDecided, whoDid, whyNoName } from './who'
 
 it('names the person by the token, and the policy whose advice was taken', () => {
   expect(whoDecided({ actor: 'anna', policy: 'prices' })).toBe('anna · prices')
@@ -8,13 +8,13 @@ it('names the person by the token, and the policy whose advice was taken', () =>
 
 it('does not say who took the advice where it cannot be known', () => {
   expect(whoDecided({ actor: '', policy: 'prices' })).toBe('as prices advised')
-  expect(whyNobody({ actor: '', policy: 'prices' })).toMatch(/asks for no tokens/)
+  expect(whyNoName({ actor: '', policy: 'prices' })).toMatch(/asks for no tokens/)
 })
 
 it('knows what was done at this console', () => {
   expect(whoDecided({ actor: '', policy: 'prices', isOwn: true })).toBe('you · prices')
   expect(whoDecided({ actor: '', policy: undefined, isOwn: true })).toBe('you')
-  expect(whyNobody({ actor: '', isOwn: true })).toBeUndefined()
+  expect(whyNoName({ actor: '', isOwn: true })).toBeUndefined()
 })
 
 it('knows that a decision without a policy is that of a person', () => {

@@ -26,6 +26,6 @@ export function whoDecided(doing: Doing): string {
 }
 
 /** Why no name is given, if that is so. */
-export function whyNobody({ actor, isOwn = false }: Doing): string | undefined {
-  return actor === '' && !isOwn ? text.decided.nobodyHint : undefined
+export function whyNoName({ actor, isOwn = false }: Doing): string | undefined {
+  return actor === '' && !isOwn ? text.decided.noNameHint : undefined
 }

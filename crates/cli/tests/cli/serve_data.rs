@@ -141,7 +141,7 @@ fn a_changed_beginning_of_a_day_is_found() {
 
 #[test]
 #[cfg(unix)]
-fn nobody_else_can_read_copies_and_what_is_put_back() {
+fn only_the_owner_can_read_copies_and_what_is_put_back() {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = tempfile::tempdir().expect("a folder");
     // Marks that mean something in addresses are letters of a name like all others.

@@ -59,7 +59,7 @@ fn a_feed_is_known_by_its_beginning_and_has_no_time_of_writing() {
 }
 
 #[test]
-fn nobody_boards_a_flight_that_repositions_its_aircraft() {
+fn no_passenger_boards_a_flight_that_repositions_its_aircraft() {
     let feed = feed(&tiny());
     let types = |trip: &str| {
         let stops = &feed.trips[trip].stop_times;

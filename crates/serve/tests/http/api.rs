@@ -334,7 +334,7 @@ fn a_slip_of_the_pen_does_not_move_the_clock() {
 }
 
 #[test]
-fn an_aircraft_that_nobody_reports_is_overdue() {
+fn an_aircraft_that_is_not_reported_is_overdue() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     assert_eq!(service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"})).status, 201);
@@ -419,7 +419,7 @@ fn the_dashboard_and_the_alerts_ask_for_what_is_measured() {
 }
 
 #[test]
-fn nobody_else_says_that_a_policy_decided_and_no_member_is_there_twice() {
+fn no_client_says_that_a_policy_decided_and_no_member_is_there_twice() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let path = format!("{day}/events");

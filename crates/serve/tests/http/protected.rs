@@ -74,7 +74,7 @@ fn it_speaks_tls_with_a_certificate_of_ones_own() {
 }
 
 #[test]
-fn a_certificate_that_nobody_vouches_for_is_not_trusted() {
+fn a_certificate_without_a_known_issuer_is_not_trusted() {
     let folder = tempfile::tempdir().expect("a folder");
     let other =
         rcgen::generate_simple_self_signed(["localhost".to_owned()]).expect("a certificate");

@@ -143,7 +143,7 @@ fn passengers_wait_until_the_last_second_before_their_time_is_over() {
 }
 
 #[test]
-fn nobody_waits_through_a_whole_period_into_the_one_after_it() {
+fn no_passenger_waits_through_a_whole_period_into_the_one_after_it() {
     let all_hour = day(HOUR);
     assert_eq!(flights(&all_hour, &[2 * HOUR - 60]), [(9, 4, 80.0)]);
     assert_eq!(flights(&all_hour, &[2 * HOUR]), [(4, 4, 160.0)]);

@@ -1,0 +1,1 @@
+export{t as WebGLDevice}from"./deck-DpLh-V3x.js";

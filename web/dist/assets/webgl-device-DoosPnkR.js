@@ -1,1 +1,0 @@
-export{t as WebGLDevice}from"./deck-td1YTK9C.js";
