@@ -1,1 +1,0 @@
-export{t as WebGLDevice}from"./deck-DpLh-V3x.js";

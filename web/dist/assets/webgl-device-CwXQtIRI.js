@@ -1,0 +1,1 @@
+export{t as WebGLDevice}from"./deck-C-fTYA9y.js";
