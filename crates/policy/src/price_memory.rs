@@ -37,11 +37,19 @@ impl PriceMemory {
     }
 
     /// Whether [`at`](Self::at) would recompute the prices for no other reason than their age, which is less than an hour. A busy
-    /// service may [keep the old ones](Self::keep_old) and recompute them in the background, with a copy of this memory.
+    /// service may [keep the old ones](Self::keep_old) and [refresh](Self::refresh_briefly) a copy of this memory in the background.
     pub fn is_merely_old(&self, view: View<'_>, decision: &Decision) -> bool {
         self.kept.as_ref().is_some_and(|kept| {
             kept.goes_on(view, decision) && kept.prices.is_merely_old(view, decision.time)
         })
+    }
+
+    /// Recomputes the prices for a decision of the day that they are of, with a third of the effort of [`at`](Self::at).
+    pub fn refresh_briefly(&mut self, view: View<'_>, decision: &Decision) {
+        if let Some(kept) = self.kept.as_mut().filter(|kept| kept.goes_on(view, decision)) {
+            kept.prices.refresh_briefly(view, decision.time);
+            kept.decision = decision.index;
+        }
     }
 
     /// Sets whether prices stay in use after a quarter of an hour. At first they do not.
@@ -70,38 +78,29 @@ mod tests {
     use super::PriceMemory;
 
     #[test]
-    fn old_prices_are_kept_while_a_copy_finds_those_that_would_be_found() {
+    fn old_prices_are_kept_while_a_copy_is_refreshed() {
         let network = Network::shipped("paper").expect("it is shipped");
         let day = network.draw(DaySeed::validation(1).expect("a seed"));
         let mut day = Simulation::new(Arc::new(day));
         let mut memory = PriceMemory::default();
-        let mut renewals = 0;
+        let (mut refreshed, mut agreements) = (0, 0);
         while let Some(decision) = day.next_decision() {
             let view = day.view();
             if memory.is_merely_old(view, &decision) {
-                let mut beside = memory.clone();
+                let mut copy = memory.clone();
+                copy.refresh_briefly(view, &decision);
                 memory.keep_old(true);
-                let old = memory.at(view, &decision).made_at();
-                assert!(old < decision.time);
+                assert!(memory.at(view, &decision).made_at() < decision.time);
                 memory.keep_old(false);
                 let choice = memory.at(view, &decision).best_choice(view, &decision);
-                let prices = beside.at(view, &decision);
+                let prices = copy.at(view, &decision);
                 assert_eq!(prices.made_at(), decision.time);
-                assert_eq!(prices.best_choice(view, &decision), choice);
-                for to in view.feasible(&decision).iter() {
-                    let worth = |memory: &mut PriceMemory| {
-                        memory.at(view, &decision).choice_usd(view, &decision, to).to_bits()
-                    };
-                    assert_eq!(worth(&mut memory), worth(&mut beside));
-                }
-                renewals += 1;
+                agreements += usize::from(prices.best_choice(view, &decision) == choice);
+                refreshed += 1;
             }
             let choice = memory.at(view, &decision).best_choice(view, &decision);
             day.apply(choice).expect("it is feasible");
-            if renewals == 3 {
-                return;
-            }
         }
-        panic!("the day has fewer than three quarters of an hour");
+        assert!(refreshed > 30 && agreements > refreshed / 2, "{agreements} of {refreshed}");
     }
 }

@@ -168,6 +168,11 @@ impl Deciders {
 }
 
 impl Decider {
+    /// Whether it has not decided on the day yet.
+    pub(crate) fn is_new(&self) -> bool {
+        self.room.is_none()
+    }
+
     /// Proposes a decision for an aircraft that is ready. If the service is `busy`, prices that are a quarter of an hour old are
     /// recomputed in the background.
     ///

@@ -1,15 +1,24 @@
-//! Recomputes prices in the background while the service is busy: decisions keep the old ones until then. While it is not busy, a
-//! decision recomputes them itself, so that a day that is dispatched alone ends as in the simulator, to the last digit.
+//! Recomputes prices in the background while the service is busy, and with less effort: decisions keep the old ones until then.
+//! While it is not busy, a decision recomputes them itself, so that a day that is dispatched alone ends as in the simulator, to
+//! the last digit.
 
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use vertifleet_policy::{Policy, PriceMemory};
 use vertifleet_sim::{Decision, Simulation};
 
+/// The service stays busy for so long after a decision has had to wait.
+const BUSY: Duration = Duration::from_secs(1);
+
 /// A thread that recomputes prices, one day after the other.
 #[derive(Debug)]
-pub(crate) struct Renewals(mpsc::Sender<Renewal>);
+pub(crate) struct Renewals {
+    queue: mpsc::Sender<Renewal>,
+    /// When a decision last had to wait for others.
+    awaited_at: Mutex<Option<Instant>>,
+}
 
 /// The prices of a day that are to be recomputed.
 struct Renewal {
@@ -25,12 +34,21 @@ impl Renewals {
         let (queue, asked) = mpsc::channel::<Renewal>();
         thread::spawn(move || {
             for Renewal { mut memory, day, decision, found } in asked {
-                memory.at(day.view(), &decision);
+                memory.refresh_briefly(day.view(), &decision);
                 // The policy may have found them itself meanwhile.
                 let _ = found.send(memory);
             }
         });
-        Self(queue)
+        Self { queue, awaited_at: Mutex::default() }
+    }
+
+    /// This, if the service is busy: a decision waits for others now, or has done so a moment ago.
+    pub(crate) fn if_busy(&self, is_awaited: bool) -> Option<&Self> {
+        let mut awaited_at = self.awaited_at.lock().unwrap_or_else(PoisonError::into_inner);
+        if is_awaited {
+            *awaited_at = Some(Instant::now());
+        }
+        awaited_at.filter(|at| at.elapsed() < BUSY).map(|_| self)
     }
 }
 
@@ -63,7 +81,7 @@ impl Renewing {
             let (found, pending) = mpsc::channel();
             let (memory, day, decision) = (memory.clone(), day.clone(), *decision);
             // Without the thread, which only a panic ends, the decision finds them.
-            if renewals.0.send(Renewal { memory, day, decision, found }).is_ok() {
+            if renewals.queue.send(Renewal { memory, day, decision, found }).is_ok() {
                 self.0 = Some(pending);
             }
         }

@@ -61,6 +61,8 @@ pub(crate) struct AllTurns {
     pub(crate) readings: Turns,
     /// For decisions.
     pub(crate) decisions: Turns,
+    /// For the first decision of a policy on a day, which searches for prices, so that later ones do not wait for it.
+    pub(crate) first_decisions: Turns,
     /// For the policy that answers when others are late, so that it never waits for them.
     pub(crate) quick_decisions: Turns,
 }
@@ -81,14 +83,19 @@ impl Service {
     pub(crate) async fn new(store: Store, limits: Limits) -> Result<Self, Error> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let turns = || Turns::new(cores);
-        let (outlooks, readings, decisions) = (turns(), turns(), turns());
-        let days = Days::new(store, limits.events, readings.clone());
+        let turns = AllTurns {
+            outlooks: turns(),
+            readings: turns(),
+            decisions: turns(),
+            first_decisions: turns(),
+            quick_decisions: turns(),
+        };
+        let days = Days::new(store, limits.events, turns.readings.clone());
         let stopping = watch::Sender::new(false);
         let access = Access::new(days.store().clone(), limits.requests_per_s);
         let policies = Policies::new(days.store().clone());
         let used = days.store().keys().await?;
         let keys = Keys::new(used.as_deref());
-        let turns = AllTurns { outlooks, readings, decisions, quick_decisions: turns() };
         let uploads = Semaphore::new(UPLOADS);
         let studies = Studies::default();
         let renewals = Arc::new(Renewals::start());

@@ -248,13 +248,18 @@ async fn ask(
     let scenario = Arc::clone(day.state().live().scenario());
     let decider = day.deciders.get(&policy, &scenario, &service.policies).await?;
     let mut decider = decider.lock_owned().await;
-    let is_quick = policy == QUICK_POLICY;
-    let turns = if is_quick { &service.turns.quick_decisions } else { &service.turns.decisions };
+    let turns = if policy == QUICK_POLICY {
+        &service.turns.quick_decisions
+    } else if decider.is_new() {
+        &service.turns.first_decisions
+    } else {
+        &service.turns.decisions
+    };
     let day = Arc::clone(day);
     let aircraft = aircraft.to_owned();
     let (others, renewals) = (turns.clone(), Arc::clone(&service.renewals));
     let ask = move |_: &Stop| {
-        let busy = others.are_awaited().then_some(&*renewals);
+        let busy = renewals.if_busy(others.are_awaited());
         decider.propose(&day, &aircraft, time.map(Moment::time), &policy, busy)
     };
     turns.work(actor, ask).await
