@@ -15,6 +15,7 @@ use serde::Serialize;
 use tokio::sync::{OnceCell, broadcast, oneshot, watch};
 use vertifleet_core::Scenario;
 
+pub(crate) use self::reading::replay;
 use crate::calendar::Calendar;
 use crate::committer::{Append, Committer};
 use crate::decide::Deciders;

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use serde::de::{MapAccess, Visitor};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{DeserializeSeed, IntoDeserializer as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, de};
-use serde_json::{Map, Value};
 use utoipa::ToSchema;
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 use vertifleet_sim::live::{Booking, Report, Routes};
@@ -25,47 +25,66 @@ pub(crate) struct Event {
 }
 
 impl<'de> Deserialize<'de> for Event {
-    /// Reads in two steps, because a flattened member would let unknown members pass.
+    /// Reads the members one by one, because a flattened member would let unknown members pass.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let Members(mut members) = Members::deserialize(deserializer)?;
-        let time = members.remove("time").map(Option::<Moment>::deserialize);
-        // A variant without members would let any pass.
-        let is_clock = members.get("type").is_some_and(|kind| kind == "clock");
-        if let Some(unknown) = members.keys().find(|&name| is_clock && name != "type") {
-            return Err(de::Error::custom(format!("unknown member `{unknown}` of a clock")));
-        }
-        let what = EventKind::deserialize(Value::Object(members)).map_err(de::Error::custom)?;
-        Ok(Self { time: time.transpose().map_err(de::Error::custom)?.flatten(), what })
-    }
-}
-
-/// The members of an event, each of which is there once.
-struct Members(Map<String, Value>);
-
-impl<'de> Deserialize<'de> for Members {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Each;
-        impl<'de> Visitor<'de> for Each {
-            type Value = Members;
+        struct Members;
+        impl<'de> Visitor<'de> for Members {
+            type Value = Event;
 
             fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
                 formatter.write_str("an object")
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Members, A::Error> {
-                let mut members = Map::new();
-                while let Some(name) = map.next_key::<String>()? {
-                    if members.contains_key(&name) {
-                        return Err(de::Error::custom(format!(
-                            "the member `{name}` is there twice"
-                        )));
-                    }
-                    members.insert(name, map.next_value()?);
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Event, A::Error> {
+                let (mut time, mut other) = (None, None);
+                let members = WithoutTime { map, time: &mut time, other: &mut other };
+                let what = EventKind::deserialize(MapAccessDeserializer::new(members))?;
+                // A variant without members would let any pass.
+                if what == EventKind::Clock
+                    && let Some(unknown) = other
+                {
+                    let rule = format!("unknown member `{unknown}` of a clock");
+                    return Err(de::Error::custom(rule));
                 }
-                Ok(Members(members))
+                Ok(Event { time, what })
             }
         }
-        deserializer.deserialize_map(Each)
+        deserializer.deserialize_map(Members)
+    }
+}
+
+/// The members of an event without its time.
+struct WithoutTime<'a, A> {
+    map: A,
+    time: &'a mut Option<Moment>,
+    /// The name of the first member that is neither the time nor the type.
+    other: &'a mut Option<String>,
+}
+
+impl<'de, A: MapAccess<'de>> MapAccess<'de> for WithoutTime<'_, A> {
+    type Error = A::Error;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, A::Error> {
+        while let Some(name) = self.map.next_key::<String>()? {
+            if name != "time" {
+                if name != "type" && self.other.is_none() {
+                    *self.other = Some(name.clone());
+                }
+                return seed.deserialize(name.into_deserializer()).map(Some);
+            }
+            if self.time.is_some() {
+                return Err(de::Error::duplicate_field("time"));
+            }
+            *self.time = self.map.next_value()?;
+        }
+        Ok(None)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, A::Error> {
+        self.map.next_value_seed(seed)
     }
 }
 

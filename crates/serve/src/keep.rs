@@ -9,6 +9,7 @@ use serde_json::value::RawValue;
 use tokio::runtime::Runtime;
 use vertifleet_core::Scenario;
 
+use crate::days::replay;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::store::{
@@ -125,7 +126,7 @@ impl Keeper {
             Ok(scenario) => DispatchDay::new(Arc::new(scenario)),
             Err(error) => return Ok(check(0, Some(error.to_string()))),
         };
-        let replayed = self.store.replay(id, &mut state, u64::MAX).await;
+        let replayed = replay(&self.store, id, &mut state, u64::MAX).await;
         match replayed.and_then(|()| state.check_head(head)) {
             Ok(()) => Ok(check(state.seq(), None)),
             Err(_) if self.store.head(id).await?.is_none() => Ok(None),

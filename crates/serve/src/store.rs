@@ -4,50 +4,34 @@
 //! missing, changed or torn is found when a day is read.
 
 mod append;
+mod events;
 mod heads;
 mod library;
 mod notices;
 mod open;
+mod server;
 mod tokens;
 
-use std::fmt;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::time::Duration;
 
-use futures_util::TryStreamExt as _;
 use serde::{Deserialize, Serialize};
 use sqlx::any::AnyRow;
 use sqlx::{Any, AnyPool, Row as _, Transaction, query, query_scalar};
 
-use self::append::insert_answers;
 pub(crate) use self::append::{AppendId, NewEvent};
+pub(crate) use self::events::{PAGE, Page};
 pub(crate) use self::heads::Head;
 pub(crate) use self::library::{Kind, StoredNetwork, StoredPolicy, Uploaded};
 pub(crate) use self::notices::DayNotice;
 pub(crate) use self::open::make_folder;
+use self::server::Server;
 pub use self::tokens::AuditRecord;
 use crate::days::now_ms;
-use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::mark::EventMark;
 
 /// The name of the database in the folder of the data.
 pub(crate) const DATABASE: &str = "vertifleet.db";
-/// A store that does not answer for so long has failed.
-const STORE_TIMEOUT: Duration = Duration::from_secs(5);
-/// Rows that are read at once.
-pub(crate) const PAGE: u32 = 10_000;
-/// About so many bytes of events are read at once, so that neither long events nor many readers fill the memory.
-const PAGE_BYTES: usize = 4 << 20;
-
-/// Events of a day that follow each other.
-#[derive(Debug)]
-pub(crate) struct Page {
-    pub(crate) events: Vec<StoredEvent>,
-    /// Whether no event follows them.
-    pub(crate) is_last: bool,
-}
 /// The version of the tables. A store of a newer version is refused.
 const VERSION: &str = "5";
 
@@ -64,18 +48,8 @@ pub enum Location {
 #[derive(Debug, Clone)]
 pub(crate) struct Store {
     pool: AnyPool,
-    /// The address of the database, if other processes may use it too.
-    shared: Option<SharedUrl>,
-}
-
-/// The address of a database, which may have a password in it.
-#[derive(Clone)]
-struct SharedUrl(Arc<str>);
-
-impl fmt::Debug for SharedUrl {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("SharedUrl")
-    }
+    /// The server of the database, if other processes may use it too.
+    server: Option<Server>,
 }
 
 /// A day as it is stored, without its scenario.
@@ -168,28 +142,11 @@ impl Store {
 
     /// Whether other processes may use it too.
     pub(crate) fn is_shared(&self) -> bool {
-        self.shared.is_some()
+        self.server.is_some()
     }
 
     fn pool(&self) -> &AnyPool {
         &self.pool
-    }
-
-    /// The outcome of a question to the database. A server may hang and keep its connections open, which nothing else notices.
-    ///
-    /// # Errors
-    /// Returns [`Error::StoreHangs`] if a server has not answered for [`STORE_TIMEOUT`]. It may still do what it was asked for.
-    async fn in_time<T, E>(&self, outcome: impl Future<Output = Result<T, E>>) -> Result<T, Error>
-    where
-        Error: From<E>,
-    {
-        if !self.is_shared() {
-            return Ok(outcome.await?);
-        }
-        match tokio::time::timeout(STORE_TIMEOUT, outcome).await {
-            Ok(outcome) => Ok(outcome?),
-            Err(_) => Err(Error::StoreHangs { s: STORE_TIMEOUT.as_secs() }),
-        }
     }
 
     /// Adds a day.
@@ -229,7 +186,7 @@ impl Store {
         .execute(&mut *transaction)
         .await?;
         if let Some(answer) = answer {
-            insert_answers(&mut transaction, &[answer], day.created_ms).await?;
+            self.insert_answers(&mut transaction, &[answer], day.created_ms).await?;
         }
         Ok(transaction.commit().await?)
     }
@@ -330,62 +287,6 @@ impl Store {
         Ok(transaction.commit().await?)
     }
 
-    /// The events of a day after number `after`, at most `limit`, and fewer where they are long.
-    pub(crate) async fn events(&self, day: &str, after: u64, limit: u32) -> Result<Page, Error> {
-        self.in_time(self.read_events(day, after, limit)).await
-    }
-
-    async fn read_events(&self, day: &str, after: u64, limit: u32) -> Result<Page, Error> {
-        let mut rows = query(
-            "SELECT seq, at_ms, actor, body, notices, chain FROM events
-             WHERE day = $1 AND seq > $2 ORDER BY seq LIMIT $3",
-        )
-        .bind(day)
-        .bind(as_i64(after))
-        .bind(i64::from(limit))
-        .fetch(&self.pool);
-        let (mut events, mut bytes) = (Vec::new(), 0);
-        while let Some(row) = rows.try_next().await? {
-            let event = stored_event(&row)?;
-            bytes += event.body.len() + event.notices.len();
-            events.push(event);
-            if bytes >= PAGE_BYTES {
-                return Ok(Page { events, is_last: false });
-            }
-        }
-        let is_last = events.len() < limit as usize;
-        Ok(Page { events, is_last })
-    }
-
-    /// Replays the events of a day that follow those of a state, up to a number or to the last one that is stored.
-    ///
-    /// # Errors
-    /// Returns the errors of [`DispatchDay::replay`]; the events before the one that is wrong have been replayed then.
-    pub(crate) async fn replay(
-        &self,
-        day: &str,
-        state: &mut DispatchDay,
-        until: u64,
-    ) -> Result<(), Error> {
-        let read = |after: u64| {
-            let (store, day) = (self.clone(), day.to_owned());
-            let most = u32::try_from(until - after).unwrap_or(PAGE).min(PAGE);
-            tokio::spawn(async move { store.events(&day, after, most).await })
-        };
-        let mut reading = (state.seq() < until).then(|| read(state.seq()));
-        while let Some(page) = reading {
-            let died = |error| Error::Internal { cause: format!("{error}") };
-            let page = page.await.map_err(died)??;
-            // The next page is read while this one is replayed.
-            let last = page.events.last().map(|event| event.seq);
-            reading = last.filter(|last| !page.is_last && *last < until).map(read);
-            for event in &page.events {
-                state.replay(event)?;
-            }
-        }
-        Ok(())
-    }
-
     /// The answer that was given to a request with this key.
     pub(crate) async fn answer(&self, key: &str) -> Result<Option<StoredAnswer>, Error> {
         let select = query("SELECT request, answer FROM answers WHERE idempotency_key = $1");
@@ -454,18 +355,5 @@ fn stored_day(row: &AnyRow) -> Result<StoredDay, Error> {
         policy: row.try_get("policy")?,
         date: row.try_get("date")?,
         time_zone: row.try_get("time_zone")?,
-    })
-}
-
-fn stored_event(row: &AnyRow) -> Result<StoredEvent, Error> {
-    let number = |name: &str| -> Result<i64, Error> { Ok(row.try_get(name)?) };
-    let bad = |name: &str| Error::BadData { rule: format!("an event with an impossible {name}") };
-    Ok(StoredEvent {
-        seq: u64::try_from(number("seq")?).map_err(|_| bad("number"))?,
-        at_ms: number("at_ms")?,
-        actor: row.try_get("actor")?,
-        body: row.try_get("body")?,
-        notices: row.try_get("notices")?,
-        chain: u32::try_from(number("chain")?).map_err(|_| bad("sum"))?,
     })
 }

@@ -46,7 +46,7 @@ impl Days {
         let (store, id) = (self.store.clone(), day.id().to_owned());
         let replay = async move {
             let mut state = DispatchDay::new(scenario);
-            store.replay(&id, &mut state, seq).await?;
+            replay(&store, &id, &mut state, seq).await?;
             if state.seq() < seq {
                 return Err(Error::NoSuchEvent { asked: seq, last: state.seq() });
             }
@@ -63,11 +63,39 @@ async fn read(store: &Store, id: &str) -> Result<Arc<DayCell>, Error> {
     let head = store.head(id).await?.ok_or_else(|| Error::not_found("day", id))?;
     let scenario = Scenario::from_json(scenario.as_bytes(), id)?;
     let mut state = DispatchDay::new(Arc::new(scenario));
-    let replayed = store.replay(id, &mut state, u64::MAX).await;
+    let replayed = replay(store, id, &mut state, u64::MAX).await;
     if let Err(damaged) = replayed.and_then(|()| state.check_head(head)) {
         // A day that was deleted meanwhile is not damaged.
         store.head(id).await?.ok_or_else(|| Error::not_found("day", id))?;
         return Err(damaged.of_day(id));
     }
     Ok(Arc::new(DayCell::new(stored, state)?))
+}
+
+/// Replays the events of a day that follow those of a state, up to a number or to the last one that is stored.
+///
+/// # Errors
+/// Returns the errors of [`DispatchDay::replay`]; the events before the one that is wrong have been replayed then.
+pub(crate) async fn replay(
+    store: &Store,
+    day: &str,
+    state: &mut DispatchDay,
+    until: u64,
+) -> Result<(), Error> {
+    let read = |after: u64| {
+        let (store, day) = (store.clone(), day.to_owned());
+        tokio::spawn(async move { store.events_to_replay(&day, after, until).await })
+    };
+    let mut reading = (state.seq() < until).then(|| read(state.seq()));
+    while let Some(page) = reading {
+        let died = |error| Error::Internal { cause: format!("{error}") };
+        let page = page.await.map_err(died)??;
+        // The next page is read while this one is replayed.
+        let last = page.last().map(|event| event.seq);
+        reading = last.filter(|last| *last < until).map(read);
+        for event in &page {
+            state.replay(event)?;
+        }
+    }
+    Ok(())
 }

@@ -58,7 +58,7 @@ impl Store {
         // A statement has at most 32,766 parameters in SQLite.
         for events in events.chunks(4_000) {
             let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain, append_id) VALUES ";
-            let sql = sql.to_owned() + &rows(events.len(), 8);
+            let sql = sql.to_owned() + &rows(self, events.len(), 8);
             let mut insert = query(AssertSqlSafe(sql));
             for NewEvent { day, append: AppendId(append), event } in events {
                 insert = insert
@@ -74,11 +74,29 @@ impl Store {
             insert.execute(&mut *transaction).await?;
         }
         let at_ms = events.first().map_or(0, |new| new.event.at_ms);
-        insert_answers(&mut transaction, answers, at_ms).await?;
+        self.insert_answers(&mut transaction, answers, at_ms).await?;
         let notice = |(day, seq): (&str, u64)| DayNotice { day: day.to_owned(), seq: Some(seq) };
         let notices: Vec<DayNotice> = heads.into_iter().map(notice).collect();
         self.notify(&mut transaction, &notices).await?;
         Ok(transaction.commit().await?)
+    }
+
+    pub(super) async fn insert_answers(
+        &self,
+        transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
+        answers: &[&StoredAnswer],
+        at_ms: i64,
+    ) -> Result<(), Error> {
+        for answers in answers.chunks(4_000) {
+            let sql = "INSERT INTO answers (idempotency_key, request, answer, at_ms) VALUES ";
+            let mut insert = query(AssertSqlSafe(sql.to_owned() + &rows(self, answers.len(), 4)));
+            for answer in answers {
+                insert =
+                    insert.bind(&answer.key).bind(&answer.request).bind(&answer.answer).bind(at_ms);
+            }
+            insert.execute(&mut **transaction).await?;
+        }
+        Ok(())
     }
 
     /// Whether the event with a number was stored by this append. An equal event may be there that another service stored,
@@ -96,28 +114,13 @@ impl Store {
     }
 }
 
-pub(super) async fn insert_answers(
-    transaction: &mut sqlx::Transaction<'_, sqlx::Any>,
-    answers: &[&StoredAnswer],
-    at_ms: i64,
-) -> Result<(), Error> {
-    for answers in answers.chunks(4_000) {
-        let sql = "INSERT INTO answers (idempotency_key, request, answer, at_ms) VALUES ";
-        let mut insert = query(AssertSqlSafe(sql.to_owned() + &rows(answers.len(), 4)));
-        for answer in answers {
-            insert =
-                insert.bind(&answer.key).bind(&answer.request).bind(&answer.answer).bind(at_ms);
-        }
-        insert.execute(&mut **transaction).await?;
-    }
-    Ok(())
-}
-
-/// The places of the values of some rows, `($1, $2), ($3, $4)`, as both databases read them.
-pub(super) fn rows(rows: usize, columns: usize) -> String {
+/// The places of the values of some rows, `(?, ?), (?, ?)`; `PostgreSQL` has numbers in them. `SQLite` would compare each number
+/// with all others.
+pub(super) fn rows(store: &Store, rows: usize, columns: usize) -> String {
+    let place = |at: usize| if store.is_shared() { format!("${at}") } else { "?".to_owned() };
     let row = |row: usize| {
         let places: Vec<String> =
-            (1..=columns).map(|column| format!("${}", row * columns + column)).collect();
+            (1..=columns).map(|column| place(row * columns + column)).collect();
         format!("({})", places.join(", "))
     };
     (0..rows).map(row).collect::<Vec<_>>().join(", ")

@@ -7,7 +7,8 @@ use std::time::Duration;
 use sqlx::postgres::{PgConnectOptions, PgListener, PgPoolOptions};
 use sqlx::{Any, AssertSqlSafe, Transaction, query};
 
-use super::{STORE_TIMEOUT, Store};
+use super::Store;
+use super::server::TIMEOUT;
 use crate::error::Error;
 
 /// The channel of the database.
@@ -85,11 +86,11 @@ impl Store {
     /// # Errors
     /// Returns [`Error::Store`] if the database cannot be reached.
     pub(crate) async fn listener(&self) -> Result<Option<Listener>, Error> {
-        let Some(url) = &self.shared else { return Ok(None) };
+        let Some(server) = &self.server else { return Ok(None) };
         let pool = PgPoolOptions::new()
             .max_connections(1)
-            .acquire_timeout(STORE_TIMEOUT)
-            .connect_with(PgConnectOptions::from_str(&url.0)?)
+            .acquire_timeout(TIMEOUT)
+            .connect_with(PgConnectOptions::from_str(&server.url)?)
             .await?;
         let mut listener = PgListener::connect_with(&pool).await?;
         listener.ignore_pool_close_event(true);

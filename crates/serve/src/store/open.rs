@@ -7,7 +7,8 @@ use sqlx::any::{AnyPoolOptions, install_default_drivers};
 use sqlx::{Any, AnyConnection, Connection as _, Executor as _, Transaction, query, query_scalar};
 use tokio::time::sleep;
 
-use super::{DATABASE, Location, STORE_TIMEOUT, SharedUrl, Store, VERSION};
+use super::server::{Server, TIMEOUT};
+use super::{DATABASE, Location, Store, VERSION};
 use crate::error::Error;
 
 /// Between two tries to reach a server.
@@ -86,7 +87,7 @@ async fn connect(url: &str, is_shared: bool) -> Result<AnyConnection, sqlx::Erro
     let begun = Instant::now();
     loop {
         match AnyConnection::connect(url).await {
-            Err(_) if is_shared && begun.elapsed() < STORE_TIMEOUT => sleep(PAUSE).await,
+            Err(_) if is_shared && begun.elapsed() < TIMEOUT => sleep(PAUSE).await,
             outcome => return outcome,
         }
     }
@@ -158,7 +159,8 @@ impl Store {
         // the transaction by itself, and all that came after would be part of one that is never committed.
         let mut options = AnyPoolOptions::new()
             .max_connections(8)
-            .acquire_timeout(STORE_TIMEOUT)
+            // Longer than a question may take, which then ends first.
+            .acquire_timeout(2 * TIMEOUT)
             .before_acquire(|connection, _| {
                 let is_free = !connection.is_in_transaction();
                 Box::pin(async move { Ok(is_free) })
@@ -175,11 +177,11 @@ impl Store {
             }
             Location::Postgres(url) => url.clone(),
         };
-        let shared = match location {
+        let server = match location {
             Location::Folder(_) => None,
-            Location::Postgres(url) => Some(SharedUrl(url.as_str().into())),
+            Location::Postgres(url) => Some(Server::at(url)),
         };
-        let is_shared = shared.is_some();
+        let is_shared = server.is_some();
         let mut first = connect(&url, is_shared).await.map_err(of_opening)?;
         if !is_shared {
             first.execute(SQLITE).await.map_err(of_opening)?;
@@ -189,7 +191,7 @@ impl Store {
         query(ONE_NAME).execute(&mut *transaction).await?;
         transaction.commit().await?;
         first.close().await?;
-        Ok(Self { pool: options.connect(&url).await?, shared })
+        Ok(Self { pool: options.connect(&url).await?, server })
     }
 
     /// Opens a store that must be there.

@@ -95,6 +95,32 @@ fn a_page_of_long_events_ends_before_it_fills_the_memory() {
         after = next;
     }
     assert_eq!((seen, pages > 1), (6, true), "{pages} pages");
+    let state = service.get(&format!("{day}/state?seq=5"));
+    assert_eq!(state.json["seq"], 5, "long events can be replayed");
+}
+
+#[test]
+fn an_event_has_each_member_once_and_no_other() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let answer = |body: &str| {
+        let answer = service.send("POST", &format!("{day}/events"), &[], body.as_bytes());
+        (answer.status, answer.json["detail"].to_string())
+    };
+    for (body, rule) in [
+        (r#"{"type": "clock", "type": "clock"}"#, "duplicate member `type`"),
+        (r#"{"time": "07:00:00", "type": "clock", "time": "08:00:00"}"#, "duplicate member `time`"),
+        (
+            r#"{"type": "ready", "aircraft": "A01", "aircraft": "A02"}"#,
+            "duplicate member `aircraft`",
+        ),
+        (r#"{"type": "clock", "aircraft": "A01"}"#, "unknown member `aircraft` of a clock"),
+        (r#"{"type": "ready", "aircraft": "A01", "at": "V1"}"#, "unknown member `at`"),
+    ] {
+        let (status, detail) = answer(body);
+        assert!(status == 400 && detail.contains(rule), "{body}: {status} {detail}");
+    }
+    assert_eq!(answer(r#"{"type": "clock", "time": null}"#).0, 201);
 }
 
 #[test]

@@ -1,0 +1,66 @@
+//! The server of a database that other processes may use too. It may hang and keep its connections open, which nothing else
+//! notices.
+
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::Store;
+use crate::error::Error;
+
+/// A server that does not answer for so long hangs.
+pub(super) const TIMEOUT: Duration = Duration::from_secs(5);
+/// For so long after that it is asked nothing, so that a request with several questions waits for one of them only.
+const PAUSE: Duration = Duration::from_secs(1);
+
+#[derive(Clone)]
+pub(super) struct Server {
+    /// Its address, which may have a password in it.
+    pub(super) url: Arc<str>,
+    /// When it last failed to answer in time.
+    hung_at: Arc<Mutex<Option<Instant>>>,
+}
+
+impl fmt::Debug for Server {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Server")
+    }
+}
+
+impl Server {
+    pub(super) fn at(url: &str) -> Self {
+        Self { url: url.into(), hung_at: Arc::default() }
+    }
+
+    async fn in_time<T>(&self, outcome: impl Future<Output = T>) -> Result<T, Error> {
+        let hangs = Error::StoreHangs { s: TIMEOUT.as_secs() };
+        let hung_at = || self.hung_at.lock().unwrap_or_else(PoisonError::into_inner);
+        if hung_at().is_some_and(|at| at.elapsed() < PAUSE) {
+            return Err(hangs);
+        }
+        let outcome = tokio::time::timeout(TIMEOUT, outcome).await;
+        outcome.map_err(|_| {
+            *hung_at() = Some(Instant::now());
+            hangs
+        })
+    }
+}
+
+impl Store {
+    /// The outcome of a question to the database.
+    ///
+    /// # Errors
+    /// Returns [`Error::StoreHangs`] if a server has not answered for [`TIMEOUT`]. It may still do what it was asked for.
+    pub(super) async fn in_time<T, E>(
+        &self,
+        outcome: impl Future<Output = Result<T, E>>,
+    ) -> Result<T, Error>
+    where
+        Error: From<E>,
+    {
+        match &self.server {
+            None => Ok(outcome.await?),
+            Some(server) => Ok(server.in_time(outcome).await??),
+        }
+    }
+}
